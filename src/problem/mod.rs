@@ -1,0 +1,95 @@
+//! The problem: points, a sketch, distances to meet, and how to get there.
+//!
+//! A [`Problem`] is plain data, checked: whatever builds one from a file or from code has made
+//! sure that the system of equations is square and that its parts are neither over- nor
+//! under-constrained. Numbers are [`Decimal`]s, exactly what the file says.
+
+mod decimal;
+
+pub use decimal::{Decimal, DecimalError};
+
+/// A Point Distance Satisfaction Problem with its sketch (RR 8705, section 2.1).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// A short name, used in results.
+    pub name: String,
+    /// 2 for the plane, 3 for space.
+    pub dimension: usize,
+    /// Where the numbers come from.
+    pub source: String,
+    /// The points, with their places in the sketch.
+    pub points: Vec<Point>,
+    /// The distances to meet. There are as many as free coordinates.
+    pub distances: Vec<Distance>,
+    /// How the sketch is led to the target dimensions.
+    pub homotopy: HomotopyChoices,
+}
+
+/// A point and its place in the sketch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The name used in constraints and results.
+    pub name: String,
+    /// Coordinates in the sketch; the third is zero in the plane.
+    pub sketch: [Decimal; 3],
+}
+
+/// The constraint that two points are at a given distance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distance {
+    /// Indices into [`Problem::points`].
+    pub points: [usize; 2],
+    /// The distance wanted.
+    pub target: Target,
+}
+
+/// A target dimension, in the form in which it is known exactly.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// The length itself.
+    Length(Decimal),
+    /// The square of the length.
+    SquaredLength(Decimal),
+}
+
+/// What defines the homotopy beside points and distances (RR 8705, sections 2.2 and 3.1).
+#[derive(Debug, Clone, PartialEq)]
+pub struct HomotopyChoices {
+    /// Indices of the reference points, two in the plane and three in space: the first at the
+    /// origin, the second on the positive x axis, the third in the upper half of the xy plane.
+    pub reference: Vec<usize>,
+    /// Index of the distance whose length is interpolated by `-c t² + (a_so - a_sk + c) t + a_sk`.
+    pub bend: usize,
+    /// The coefficient c.
+    pub bend_coefficient: Decimal,
+}
+
+impl Problem {
+    /// The number m of free coordinates, and of distances: `2n - 3` in the plane, `3n - 6` in space.
+    pub fn free_coordinates(&self) -> usize {
+        free_coordinates(self.dimension, self.points.len())
+    }
+
+    /// The distance as people read it, `p1-p2`.
+    pub fn distance_name(&self, index: usize) -> String {
+        let [a, b] = self.distances[index].points;
+        format!("{}-{}", self.points[a].name, self.points[b].name)
+    }
+
+    /// Whether two points are joined by a distance.
+    pub fn are_joined(&self, a: usize, b: usize) -> bool {
+        self.distances
+            .iter()
+            .any(|d| d.points == [a, b] || d.points == [b, a])
+    }
+}
+
+/// Coordinates left free for `points` points once rigid motions are taken out.
+///
+/// ```
+/// assert_eq!(krawl::problem::free_coordinates(2, 6), 9);
+/// assert_eq!(krawl::problem::free_coordinates(3, 6), 12);
+/// ```
+pub fn free_coordinates(dimension: usize, points: usize) -> usize {
+    (dimension * points).saturating_sub(dimension * (dimension + 1) / 2)
+}

@@ -1,0 +1,108 @@
+//! The reference: which coordinates are fixed, and the sketch seen from it.
+
+use crate::interval::{Interval, enclose, point};
+use crate::problem::{Problem, free_coordinates};
+
+/// The coordinates that rigid motions leave: the first reference point at the origin, the second
+/// on the x axis, the third (in space) in the xy plane (RR 8705, sections 2.1 and 6).
+#[derive(Debug, Clone)]
+pub struct Gauge {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The reference points.
+    pub reference: Vec<usize>,
+    /// For each free coordinate its place `point * dimension + axis`.
+    pub place: Vec<usize>,
+    /// For each place its free coordinate, or the number m of them where the coordinate is fixed.
+    pub variable: Vec<usize>,
+}
+
+/// Why the sketch cannot be seen from the reference.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GaugeError {
+    /// The first two reference points cannot be told apart.
+    #[error("the reference points {0} and {1} coincide in the sketch")]
+    Coincident(String, String),
+    /// The three reference points cannot be told from points of a line.
+    #[error("the reference points {0}, {1} and {2} are collinear in the sketch")]
+    Collinear(String, String, String),
+}
+
+impl Gauge {
+    /// The gauge of a problem.
+    pub fn new(problem: &Problem) -> Self {
+        let dimension = problem.dimension;
+        let reference = problem.homotopy.reference.clone();
+        let m = free_coordinates(dimension, problem.points.len());
+        let mut place = Vec::with_capacity(m);
+        let mut variable = vec![m; problem.points.len() * dimension];
+        for p in 0..problem.points.len() {
+            // The k-th reference point has its first k coordinates free.
+            let free = reference.iter().position(|&r| r == p).unwrap_or(dimension);
+            for axis in 0..free {
+                variable[p * dimension + axis] = place.len();
+                place.push(p * dimension + axis);
+            }
+        }
+        debug_assert_eq!(place.len(), m);
+        Gauge { dimension, reference, place, variable }
+    }
+
+    /// Encloses the coordinates of the sketch in the gauge, point by point.
+    ///
+    /// The sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
+    /// p₁ to p₂, perpendicular to it towards p₃, and their cross product.
+    pub fn sketch(&self, problem: &Problem) -> Result<Vec<[Interval; 3]>, GaugeError> {
+        let name = |k: usize| problem.points[self.reference[k]].name.clone();
+        let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
+        let origin = coordinates(self.reference[0]);
+        let from_origin = |p: usize| sub(coordinates(p), origin);
+
+        let along = from_origin(self.reference[1]);
+        let e1 = unit(along).ok_or_else(|| GaugeError::Coincident(name(0), name(1)))?;
+        let zero = point(0.0);
+        let (e2, e3) = if self.dimension == 2 {
+            ([-e1[1], e1[0], zero], [zero, zero, point(1.0)])
+        } else {
+            // The normal first: two cross products lose less than a projection.
+            let collinear = || GaugeError::Collinear(name(0), name(1), name(2));
+            let e3 = unit(cross(e1, from_origin(self.reference[2]))).ok_or_else(collinear)?;
+            (cross(e3, e1), e3)
+        };
+        Ok((0..problem.points.len())
+            .map(|p| {
+                let v = from_origin(p);
+                let mut out = [dot(e1, v), dot(e2, v), dot(e3, v)];
+                for (axis, x) in out.iter_mut().enumerate() {
+                    let fixed = axis >= self.dimension
+                        || self.variable[p * self.dimension + axis] == self.place.len();
+                    if fixed {
+                        *x = zero;
+                    }
+                }
+                out
+            })
+            .collect())
+    }
+}
+
+fn sub(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [Interval; 3], b: [Interval; 3]) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(v: [Interval; 3]) -> Option<[Interval; 3]> {
+    let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
+    (length.inf() > 0.0).then(|| v.map(|x| x / length))
+}

@@ -1,0 +1,127 @@
+//! H(X, t), as the trackers see it.
+
+use super::{Gauge, GaugeError, Length};
+use crate::interval::{Interval, enclose, enclose_rational, point};
+use crate::problem::{Problem, Target};
+
+/// Two points at a given distance, as places: `point * dimension` of either.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// First point and second point.
+    pub points: [usize; 2],
+}
+
+/// The homotopy H(X, t) = F(X, a(t)) = 0 of a problem (RR 8705, section 2.2), m equations in the
+/// m free coordinates and t.
+///
+/// All lengths and coordinates in here are divided by [`Homotopy::unit`], a power of two near the
+/// problem's typical length, so that results do not depend on the scale of the input. A *figure*
+/// is a vector of `points * dimension` places, in which fixed coordinates are zero.
+#[derive(Debug, Clone)]
+pub struct Homotopy {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The number of points.
+    pub points: usize,
+    /// The number m of equations and of free coordinates.
+    pub equations: usize,
+    /// The length that 1 stands for in here: a power of two.
+    pub unit: f64,
+    /// Which coordinates are free.
+    pub gauge: Gauge,
+    /// The distances, in the problem's order.
+    pub edges: Vec<Edge>,
+    /// Their lengths, in the same order.
+    pub lengths: Vec<Length>,
+    /// An enclosure of the sketch, all places.
+    pub sketch_box: Vec<Interval>,
+    /// Its middle.
+    pub sketch: Vec<f64>,
+}
+
+impl Homotopy {
+    /// Sets up the homotopy of a checked problem.
+    ///
+    /// Fails where the sketch cannot be seen from the reference.
+    pub fn new(problem: &Problem) -> Result<Self, GaugeError> {
+        Self::with_unit(problem, typical_length(problem))
+    }
+
+    /// The same, with a unit of one's own choice.
+    ///
+    /// # Panics
+    /// If `unit` is not a power of two: only divisions by such are exact.
+    pub fn with_unit(problem: &Problem, unit: f64) -> Result<Self, GaugeError> {
+        assert!(
+            unit.is_normal() && unit > 0.0 && unit.to_bits() << 12 == 0,
+            "the unit {unit} is not a power of two"
+        );
+        let gauge = Gauge::new(problem);
+        let per_unit = point(1.0 / unit);
+        let sketch_box: Vec<Interval> = gauge
+            .sketch(problem)?
+            .into_iter()
+            .flat_map(|p| p.into_iter().take(problem.dimension))
+            .map(|x| x * per_unit)
+            .collect();
+        let lengths = problem
+            .distances
+            .iter()
+            .enumerate()
+            .map(|(index, distance)| {
+                let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+                let squared = (0..3).fold(num_rational::BigRational::from_integer(0.into()), |sum, k| {
+                    let d = a[k].value() - b[k].value();
+                    sum + &d * &d
+                });
+                let sketch = enclose_rational(&squared).sqrt();
+                let target = match &distance.target {
+                    Target::Length(length) => enclose(length),
+                    Target::SquaredLength(squared) => enclose(squared).sqrt(),
+                };
+                let bend = (index == problem.homotopy.bend)
+                    .then(|| enclose(&problem.homotopy.bend_coefficient) * per_unit);
+                Length::new(sketch * per_unit, target * per_unit, bend)
+            })
+            .collect();
+        Ok(Homotopy {
+            dimension: problem.dimension,
+            points: problem.points.len(),
+            equations: gauge.place.len(),
+            unit,
+            edges: problem.distances.iter().map(|d| Edge { points: d.points }).collect(),
+            lengths,
+            sketch: sketch_box.iter().map(|x| x.mid()).collect(),
+            sketch_box,
+            gauge,
+        })
+    }
+
+    /// F_e = ½(|p_i − p_j|² − a_e(t)²) for all distances, in floats.
+    pub fn residual(&self, figure: &[f64], t: f64, out: &mut [f64]) {
+        let d = self.dimension;
+        for ((edge, length), f) in self.edges.iter().zip(&self.lengths).zip(out) {
+            let [i, j] = edge.points.map(|p| p * d);
+            let squared: f64 = (0..d).map(|k| (figure[i + k] - figure[j + k]).powi(2)).sum();
+            *f = 0.5 * (squared - length.value(t).powi(2));
+        }
+    }
+
+    /// Spreads a vector of free coordinates over the places of a figure.
+    pub fn scatter(&self, free: &[f64], figure: &mut [f64]) {
+        figure.fill(0.0);
+        for (&place, &x) in self.gauge.place.iter().zip(free) {
+            figure[place] = x;
+        }
+    }
+}
+
+/// The power of two nearest to the mean target length.
+fn typical_length(problem: &Problem) -> f64 {
+    let lengths = problem.distances.iter().map(|d| match &d.target {
+        Target::Length(length) => length.to_f64(),
+        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+    });
+    let mean = lengths.sum::<f64>() / problem.distances.len().max(1) as f64;
+    2f64.powi(mean.log2().round() as i32)
+}

@@ -1,0 +1,75 @@
+//! Tuning and limits of a run.
+
+use super::{Mode, Space};
+
+/// What to do, how carefully, and when to give up.
+///
+/// ```
+/// use krawl::track::{Mode, Options, Space};
+/// let options = Options::float(Space::Full).with_max_step(0.05).reversed();
+/// assert_eq!(options.mode, Mode::Float);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Certified or float.
+    pub mode: Mode,
+    /// Full or reduced.
+    pub space: Space,
+    /// How float mode steps.
+    pub preset: Preset,
+    /// Steps are never longer than this, in arc length with lengths in the homotopy's unit.
+    /// `None`: as long as the step control allows.
+    pub max_step: Option<f64>,
+    /// Follow the loop the other way round.
+    pub reverse: bool,
+    /// The threshold α on the distance to a boundary configuration (RR 8705, section 4.2) at
+    /// which the construction plan is changed. Between 0 and ½.
+    pub alpha: f64,
+    /// The run ends `stopped` after so many steps.
+    pub max_steps: usize,
+}
+
+/// How float mode steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Preset {
+    /// High-order predictor, steps chosen from the predictor's error, exact derivatives.
+    Default,
+    /// As in RR 8705, sections 7.1 to 7.3: Euler predictor, finite differences, steps doubled and
+    /// halved in [1e-10, δmax] with δmax 0.1 (full) and 0.05 (reduced), lengths unscaled.
+    Paper,
+}
+
+impl Options {
+    /// Certified mode in the full space.
+    pub fn certified() -> Self {
+        Options {
+            mode: Mode::Certified,
+            space: Space::Full,
+            preset: Preset::Default,
+            max_step: None,
+            reverse: false,
+            alpha: 0.1,
+            max_steps: 10_000_000,
+        }
+    }
+
+    /// Float mode in the given space.
+    pub fn float(space: Space) -> Self {
+        Options { mode: Mode::Float, space, ..Self::certified() }
+    }
+
+    /// Float mode as in the paper.
+    pub fn paper(space: Space) -> Self {
+        Options { preset: Preset::Paper, ..Self::float(space) }
+    }
+
+    /// With a bound on the step.
+    pub fn with_max_step(self, max_step: f64) -> Self {
+        Options { max_step: Some(max_step), ..self }
+    }
+
+    /// In the other direction.
+    pub fn reversed(self) -> Self {
+        Options { reverse: !self.reverse, ..self }
+    }
+}

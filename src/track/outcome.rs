@@ -1,0 +1,80 @@
+//! What a run reports.
+
+use crate::interval::Interval;
+
+/// Whether steps are proved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// Every step is proved by a Krawczyk test.
+    Certified,
+    /// Plain floating-point tracking: results are observations.
+    Float,
+}
+
+/// Where the path is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Space {
+    /// In all free coordinates.
+    Full,
+    /// In the driving parameters of a construction plan.
+    Reduced,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Status {
+    /// The path came back to the sketch. In certified mode that is proved.
+    Closed,
+    /// The run ended before; the text says where and why.
+    Stopped(String),
+}
+
+/// A figure on the path that meets the dimensions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Coordinates of every point in the gauge, in the units of the problem. Certified: boxes
+    /// that hold exactly one solution. Float: `[x, x]`.
+    pub points: Vec<[Interval; 3]>,
+    /// Solutions with the same class are congruent up to reflection.
+    pub class: usize,
+    /// The widest coordinate's width, divided by the size (largest coordinate) of the figure.
+    pub width: f64,
+}
+
+/// Numbers of driving parameters over a run in the reduced space (RR 8705, table 2).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Driving {
+    /// Mean over the steps.
+    pub average: f64,
+    /// The largest.
+    pub max: usize,
+}
+
+/// The result of following a path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Certified or float.
+    pub mode: Mode,
+    /// Full or reduced.
+    pub space: Space,
+    /// Closed, or stopped and why.
+    pub status: Status,
+    /// The solutions, in the order in which the path meets them.
+    pub solutions: Vec<Solution>,
+    /// Accepted steps (certified: tubes).
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Changes of the construction plan.
+    pub plan_changes: usize,
+    /// Driving parameters.
+    pub driving: Driving,
+    /// Length of the path, Euclidean in the free coordinates (units of the problem) and t.
+    pub length: f64,
+    /// The least and the largest t met; certified: an enclosure of the range.
+    pub t_range: (f64, f64),
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// What was switched on beyond the plain run, and why.
+    pub switched_on: Vec<String>,
+}
