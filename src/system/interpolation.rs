@@ -10,6 +10,7 @@ use crate::interval::point;
 pub struct Length {
     coefficients: [Interval; 3],
     half_square: [Interval; 5],
+    target: Interval,
     /// The middles of the coefficients of a(t), for float use.
     pub a: [f64; 3],
     /// The middles of the coefficients of E(t).
@@ -35,6 +36,7 @@ impl Length {
         Length {
             coefficients: [a0, a1, a2],
             half_square,
+            target,
             a: [a0.mid(), a1.mid(), a2.mid()],
             e: half_square.map(|x| x.mid()),
             e_radius: half_square.map(|x| x.rad()),
@@ -64,6 +66,11 @@ impl Length {
     /// Enclosures of the coefficients of E(t).
     pub fn half_square(&self) -> &[Interval; 5] {
         &self.half_square
+    }
+
+    /// An enclosure of E(1), straight from the target length.
+    pub fn target_half_square(&self) -> Interval {
+        self.target.sqr() * crate::interval::point(0.5)
     }
 
     /// a(t) in floats.

@@ -3,13 +3,15 @@
 mod control;
 mod options;
 mod outcome;
+pub mod certified;
+pub mod full;
 
 pub use control::{Control, Progress};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
 
 use crate::problem::Problem;
-use crate::system::GaugeError;
+use crate::system::{GaugeError, Homotopy};
 
 /// Why a run could not even start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -26,6 +28,10 @@ pub enum StartError {
 ///
 /// Never panics on a checked problem; a run that cannot go on ends [`Status::Stopped`].
 pub fn solve(problem: &Problem, options: &Options, control: &mut Control) -> Result<Outcome, StartError> {
-    let _ = (problem, options, control);
-    Err(StartError::Unsupported("not built yet".into()))
+    let homotopy = Homotopy::new(problem)?;
+    match (options.mode, options.space, problem.dimension) {
+        (Mode::Certified, Space::Full, 2) => Ok(certified::track::<2>(&homotopy, options, control)),
+        (Mode::Certified, Space::Full, _) => Ok(certified::track::<3>(&homotopy, options, control)),
+        _ => Err(StartError::Unsupported("not built yet".into())),
+    }
 }
