@@ -3,5 +3,6 @@
 
 pub mod interval;
 pub mod problem;
+pub mod report;
 pub mod system;
 pub mod track;

@@ -25,7 +25,7 @@ pub struct FileError {
     /// The line, counted from 1, where there is one.
     pub line: Option<usize>,
     /// What is wrong.
-    pub fault: FileFault,
+    pub fault: Box<FileFault>,
 }
 
 /// What is wrong with a file.
@@ -98,7 +98,7 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match &self.fault {
+        match &*self.fault {
             FileFault::Unreadable(error) => Some(error),
             FileFault::Number { source, .. } => Some(source),
             FileFault::Problem { error, .. } => Some(error),
@@ -118,26 +118,23 @@ impl Problem {
     pub fn read(path: impl AsRef<Path>) -> Result<Problem, FileError> {
         let path = path.as_ref();
         let file = path.display().to_string();
-        let fail = |fault| FileError {
+        let fail = |line, fault| FileError {
             file: file.clone(),
-            line: None,
-            fault,
+            line,
+            fault: Box::new(fault),
         };
         let mut bytes = Vec::new();
         std::fs::File::open(path)
             // One byte more than allowed tells that the file is too large, however large it is.
             .and_then(|open| open.take(MAX_FILE_SIZE + 1).read_to_end(&mut bytes))
-            .map_err(|error| fail(FileFault::Unreadable(error)))?;
+            .map_err(|error| fail(None, FileFault::Unreadable(error)))?;
         if bytes.len() as u64 > MAX_FILE_SIZE {
-            return Err(fail(FileFault::TooLarge));
+            return Err(fail(None, FileFault::TooLarge));
         }
         let text = String::from_utf8(bytes).map_err(|error| {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
-            FileError {
-                line: Some(line),
-                ..fail(FileFault::NotUtf8)
-            }
+            fail(Some(line), FileFault::NotUtf8)
         })?;
         Problem::parse(&text, &file)
     }
@@ -384,13 +381,14 @@ impl Reader<'_> {
             return Err(self.wrong(line, key, "a decimal number", format!("`{text}`")));
         }
         // TOML allows underscores between digits, and has checked that they are.
-        text.replace('_', "").parse().map_err(|source| FileError {
-            file: self.file.to_owned(),
-            line,
-            fault: FileFault::Number {
-                key: key.to_owned(),
-                source,
-            },
+        text.replace('_', "").parse().map_err(|source| {
+            self.fail(
+                line,
+                FileFault::Number {
+                    key: key.to_owned(),
+                    source,
+                },
+            )
         })
     }
 
@@ -439,14 +437,13 @@ impl Reader<'_> {
         for (name, _) in table.iter() {
             if !known.contains(&name) {
                 let shown: String = name.chars().take(60).collect();
-                return Err(FileError {
-                    file: self.file.to_owned(),
-                    line: self.line(table.key(name).and_then(Key::span)),
-                    fault: FileFault::UnknownKey {
+                return Err(self.fail(
+                    self.line(table.key(name).and_then(Key::span)),
+                    FileFault::UnknownKey {
                         key: format!("{prefix}{shown}"),
                         nearest: nearest(name, known.iter().copied()),
                     },
-                });
+                ));
             }
         }
         Ok(())
@@ -475,10 +472,14 @@ impl Reader<'_> {
             ),
         };
         let fault = FileFault::Syntax(message);
+        self.fail(self.line(error.span()), fault)
+    }
+
+    fn fail(&self, line: Line, fault: FileFault) -> FileError {
         FileError {
             file: self.file.to_owned(),
-            line: self.line(error.span()),
-            fault,
+            line,
+            fault: Box::new(fault),
         }
     }
 
@@ -487,11 +488,7 @@ impl Reader<'_> {
             key: key.to_owned(),
             example,
         };
-        FileError {
-            file: self.file.to_owned(),
-            line: None,
-            fault,
-        }
+        self.fail(None, fault)
     }
 
     fn wrong_kind(&self, line: Line, key: &str, wanted: &str, found: &Item) -> FileError {
@@ -512,15 +509,14 @@ impl Reader<'_> {
     }
 
     fn wrong(&self, line: Line, key: &str, wanted: &str, found: String) -> FileError {
-        FileError {
-            file: self.file.to_owned(),
+        self.fail(
             line,
-            fault: FileFault::WrongKind {
+            FileFault::WrongKind {
                 key: key.to_owned(),
                 wanted: wanted.to_owned(),
                 found,
             },
-        }
+        )
     }
 
     fn in_problem(&self, places: &Places, error: ProblemError) -> FileError {
@@ -544,10 +540,6 @@ impl Reader<'_> {
             key: key.to_owned(),
             error,
         };
-        FileError {
-            file: self.file.to_owned(),
-            line,
-            fault,
-        }
+        self.fail(line, fault)
     }
 }
