@@ -261,7 +261,7 @@ fn count_message(
     let parts = if parts.is_empty() {
         String::new()
     } else {
-        format!(". {parts}")
+        format!("; {parts}")
     };
     format!(
         "{points} points in {space} need {formula} = {needed} distances, and there are {given}: \

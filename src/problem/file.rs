@@ -463,6 +463,10 @@ impl Reader<'_> {
         let at: String = at.trim().chars().take(40).collect();
         let message = match error.message().trim() {
             "duplicate key" => format!("`{at}` is there twice: rename or remove one"),
+            // Whole numbers beyond 64 bits; with a point they are read, exactly.
+            "integer number overflowed" => {
+                format!("`{at}` is too large without a decimal point: write {at}.0")
+            }
             // Some of the parser's messages have two lines; krawl's have one.
             message if at.is_empty() => message.replace('\n', ", "),
             message => format!(

@@ -27,7 +27,7 @@ pub(super) fn check_structure(
     }
     let parts: Vec<String> = [
         over_constrained(&found, points, &edges),
-        under_constrained(&found, needed, points),
+        under_constrained(&found, dimension, needed, points),
     ]
     .into_iter()
     .flatten()
@@ -74,7 +74,12 @@ fn over_constrained(found: &Rigidity, points: &[Point], edges: &[[usize; 2]]) ->
     ))
 }
 
-fn under_constrained(found: &Rigidity, needed: usize, points: &[Point]) -> Option<String> {
+fn under_constrained(
+    found: &Rigidity,
+    dimension: usize,
+    needed: usize,
+    points: &[Point],
+) -> Option<String> {
     let freedoms = match needed - found.rank {
         0 => return None,
         1 => "1 degree of freedom".to_owned(),
@@ -84,8 +89,8 @@ fn under_constrained(found: &Rigidity, needed: usize, points: &[Point]) -> Optio
     let names = |part: &[usize]| part.iter().map(name).collect::<Vec<_>>();
     Some(match found.bodies.as_slice() {
         [] => format!(
-            "under-constrained ({freedoms}): no part of the figure is rigid, all of the points {} \
-             can move against each other",
+            "under-constrained ({freedoms}): no part of more than {dimension} points is rigid, \
+             all of the points {} can move against each other",
             list(&names(&(0..points.len()).collect::<Vec<_>>()), LISTED)
         ),
         [largest, others @ ..] => {
