@@ -4,5 +4,6 @@
 pub mod interval;
 pub mod linalg;
 pub mod problem;
+pub mod report;
 pub mod system;
 pub mod track;
