@@ -21,7 +21,11 @@ pub struct Inverter {
 impl Inverter {
     /// For matrices of order `n`.
     pub fn new(n: usize) -> Self {
-        Inverter { work: Matrix::zeros(n, n), multipliers: Vector::zeros(n), pivot: vec![0; n] }
+        Inverter {
+            work: Matrix::zeros(n, n),
+            multipliers: Vector::zeros(n),
+            pivot: vec![0; n],
+        }
     }
 
     /// The matrix to be inverted: fill it, then call [`Inverter::invert_into`].
@@ -44,7 +48,16 @@ impl Inverter {
     pub fn invert_into(&mut self, out: &mut Matrix) -> Result<(), Singular> {
         let n = self.work.rows();
         let lanes = self.work.lanes();
-        with_lanes!(lanes, exchange(lanes, n, self.work.data_mut(), &mut self.multipliers, &mut self.pivot))?;
+        with_lanes!(
+            lanes,
+            exchange(
+                lanes,
+                n,
+                self.work.data_mut(),
+                &mut self.multipliers,
+                &mut self.pivot
+            )
+        )?;
         // Row `pivot[k]` now stands for unknown k, column k for equation `pivot[k]`.
         for k in 0..n {
             let from = self.work.column(k);
@@ -137,12 +150,18 @@ mod tests {
         for n in [1, 2, 4, 9, 19, 31, 32, 33, 50] {
             let entry = |i: usize, j: usize| {
                 // Sparse, with zeros on the diagonal, so that pivoting is needed.
-                if (i + 2 * j).is_multiple_of(3) && i == j { 0.0 } else { ((i * 29 + j * 13) as f64).sin() }
+                if (i + 2 * j).is_multiple_of(3) && i == j {
+                    0.0
+                } else {
+                    ((i * 29 + j * 13) as f64).sin()
+                }
             };
             let mut inverter = Inverter::new(n);
             for j in 0..n {
                 for i in 0..n {
-                    inverter.input().set(i, j, if n == 1 { 2.0 } else { entry(i, j) });
+                    inverter
+                        .input()
+                        .set(i, j, if n == 1 { 2.0 } else { entry(i, j) });
                 }
             }
             let a = nalgebra::DMatrix::from_fn(n, n, |i, j| inverter.work.get(i, j));
@@ -158,6 +177,9 @@ mod tests {
     fn a_singular_matrix_is_refused() {
         let mut inverter = Inverter::new(3);
         inverter.input().set(0, 0, 1.0);
-        assert_eq!(inverter.invert_into(&mut Matrix::zeros(3, 3)), Err(Singular));
+        assert_eq!(
+            inverter.invert_into(&mut Matrix::zeros(3, 3)),
+            Err(Singular)
+        );
     }
 }

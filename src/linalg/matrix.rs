@@ -18,7 +18,10 @@ pub struct Vector {
 impl Vector {
     /// A vector of `len` zeros.
     pub fn zeros(len: usize) -> Self {
-        Vector { len, lanes: vec![[0.0; LANE]; len.div_ceil(LANE)] }
+        Vector {
+            len,
+            lanes: vec![[0.0; LANE]; len.div_ceil(LANE)],
+        }
     }
 }
 
@@ -69,7 +72,12 @@ impl Matrix {
     /// A matrix of zeros.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         let lanes = rows.div_ceil(LANE);
-        Matrix { rows, columns, lanes, data: vec![[0.0; LANE]; lanes * columns] }
+        Matrix {
+            rows,
+            columns,
+            lanes,
+            data: vec![[0.0; LANE]; lanes * columns],
+        }
     }
 
     /// The number of rows.
@@ -85,10 +93,6 @@ impl Matrix {
     /// Lanes in a column.
     pub(super) fn lanes(&self) -> usize {
         self.lanes
-    }
-
-    pub(super) fn data(&self) -> &[[f64; LANE]] {
-        &self.data
     }
 
     pub(super) fn data_mut(&mut self) -> &mut [[f64; LANE]] {
@@ -124,12 +128,18 @@ impl Matrix {
 
     /// `y = A x`, each entry a fused sum of `x.len()` products, x being no longer than a row.
     pub fn multiply(&self, x: &[f64], y: &mut Vector) {
-        with_lanes!(self.lanes, combine(self.lanes, &self.data, x, &mut y.lanes, |a| a));
+        with_lanes!(
+            self.lanes,
+            combine(self.lanes, &self.data, x, &mut y.lanes, |a| a)
+        );
     }
 
     /// `y = |A| x`, the same with the entries' absolute values.
     pub fn multiply_abs(&self, x: &[f64], y: &mut Vector) {
-        with_lanes!(self.lanes, combine(self.lanes, &self.data, x, &mut y.lanes, f64::abs));
+        with_lanes!(
+            self.lanes,
+            combine(self.lanes, &self.data, x, &mut y.lanes, f64::abs)
+        );
     }
 
     /// Adds `factor` times a column of `source` to one of this matrix's columns.
@@ -148,7 +158,10 @@ impl Matrix {
     /// `y = |A A − B| u`, the matrices square of the same size. Each entry of A A is a fused sum of n products,
     /// then one subtraction, one product and n sums.
     pub fn square_minus_abs(&self, b: &Matrix, u: &[f64], y: &mut Vector) {
-        with_lanes!(self.lanes, square_minus(self.lanes, self.rows, &self.data, &b.data, u, &mut y.lanes));
+        with_lanes!(
+            self.lanes,
+            square_minus(self.lanes, self.rows, &self.data, &b.data, u, &mut y.lanes)
+        );
     }
 }
 
@@ -269,7 +282,10 @@ mod tests {
             let mut y = Vector::zeros(n);
             let close = |y: &Vector, expected: nalgebra::DVector<f64>| {
                 for (got, want) in y.iter().zip(expected.iter()) {
-                    assert!((got - want).abs() <= 1e-12 * (1.0 + want.abs()), "{n}: {got} {want}");
+                    assert!(
+                        (got - want).abs() <= 1e-12 * (1.0 + want.abs()),
+                        "{n}: {got} {want}"
+                    );
                 }
             };
             a.multiply(&u, &mut y);

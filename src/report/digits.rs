@@ -89,7 +89,10 @@ mod tests {
     fn shows_what_is_certain() {
         assert_eq!(certain_digits(point(0.1)), "0.1");
         assert_eq!(certain_digits(point(-1e300)), "-1e300");
-        assert_eq!(certain_digits(hull(-3.541592704, -3.541592696)), "-3.54159270");
+        assert_eq!(
+            certain_digits(hull(-3.541592704, -3.541592696)),
+            "-3.54159270"
+        );
         assert_eq!(certain_digits(hull(1.0e-9, 1.0004e-9)), "1.000e-9");
         assert_eq!(
             certain_digits(hull(123456789.0, 123456790.0)),

@@ -70,10 +70,13 @@ impl Homotopy {
             .enumerate()
             .map(|(index, distance)| {
                 let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
-                let squared = (0..3).fold(num_rational::BigRational::from_integer(0.into()), |sum, k| {
-                    let d = a[k].value() - b[k].value();
-                    sum + &d * &d
-                });
+                let squared = (0..3).fold(
+                    num_rational::BigRational::from_integer(0.into()),
+                    |sum, k| {
+                        let d = a[k].value() - b[k].value();
+                        sum + &d * &d
+                    },
+                );
                 let sketch = enclose_rational(&squared).sqrt();
                 let target = match &distance.target {
                     Target::Length(length) => enclose(length),
@@ -89,7 +92,11 @@ impl Homotopy {
             points: problem.points.len(),
             equations: gauge.place.len(),
             unit,
-            edges: problem.distances.iter().map(|d| Edge { points: d.points }).collect(),
+            edges: problem
+                .distances
+                .iter()
+                .map(|d| Edge { points: d.points })
+                .collect(),
             lengths,
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
@@ -102,7 +109,9 @@ impl Homotopy {
         let d = self.dimension;
         for ((edge, length), f) in self.edges.iter().zip(&self.lengths).zip(out) {
             let [i, j] = edge.points.map(|p| p * d);
-            let squared: f64 = (0..d).map(|k| (figure[i + k] - figure[j + k]).powi(2)).sum();
+            let squared: f64 = (0..d)
+                .map(|k| (figure[i + k] - figure[j + k]).powi(2))
+                .sum();
             *f = 0.5 * (squared - length.value(t).powi(2));
         }
     }

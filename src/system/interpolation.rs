@@ -29,7 +29,13 @@ impl Length {
         let [a0, a1, a2] = [sketch, target - sketch + c, -c];
         let half = |x: Interval| x * crate::interval::point(0.5);
         let half_square = if bend.is_some() {
-            [half(a0.sqr()), a0 * a1, half(a1.sqr()) + a0 * a2, a1 * a2, half(a2.sqr())]
+            [
+                half(a0.sqr()),
+                a0 * a1,
+                half(a1.sqr()) + a0 * a2,
+                a1 * a2,
+                half(a2.sqr()),
+            ]
         } else {
             [half(a0.sqr()), a0 * a1, half(a1.sqr()), zero, zero]
         };
@@ -94,7 +100,10 @@ mod tests {
         assert_eq!(bend.enclose(point(0.0)), point(1.5));
         assert_eq!(bend.enclose(point(1.0)), point(2.0));
         assert_eq!(bend.value(0.5), 1.5 + 2.5 * 0.5 - 2.0 * 0.25);
-        assert!(bend.enclose_half_square(point(0.5)).contains(0.5 * bend.value(0.5).powi(2)));
+        assert!(
+            bend.enclose_half_square(point(0.5))
+                .contains(0.5 * bend.value(0.5).powi(2))
+        );
         let straight = Length::new(point(1.5), point(2.0), None);
         assert_eq!(straight.degree, 2);
         assert_eq!(straight.enclose(point(0.5)), point(1.75));

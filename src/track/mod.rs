@@ -1,10 +1,10 @@
 //! Following the path: predictor, corrector, step control, events.
 
+pub mod certified;
 mod control;
+pub mod full;
 mod options;
 mod outcome;
-pub mod certified;
-pub mod full;
 
 pub use control::{Control, Progress};
 pub use options::{Options, Preset};
@@ -27,7 +27,11 @@ pub enum StartError {
 /// Follows the path through the sketch of `problem`.
 ///
 /// Never panics on a checked problem; a run that cannot go on ends [`Status::Stopped`].
-pub fn solve(problem: &Problem, options: &Options, control: &mut Control) -> Result<Outcome, StartError> {
+pub fn solve(
+    problem: &Problem,
+    options: &Options,
+    control: &mut Control,
+) -> Result<Outcome, StartError> {
     let homotopy = Homotopy::new(problem)?;
     match (options.mode, options.space, problem.dimension) {
         (Mode::Certified, Space::Full, 2) => Ok(certified::track::<2>(&homotopy, options, control)),

@@ -67,7 +67,10 @@ impl TimeAlong {
         TimeAlong {
             coefficients,
             band: round_up(proof.distance * tube.weights[t] + rounding * size, 40),
-            slope_band: round_up(proof.slope_distance * tube.weights[t] + rounding * slope, 40),
+            slope_band: round_up(
+                proof.slope_distance * tube.weights[t] + rounding * slope,
+                40,
+            ),
             curvature: round_up(curvature, 40),
             h,
         }
@@ -100,7 +103,11 @@ impl TimeAlong {
         }
         let (from, above_at_start) = self.clear_end(from, -1.0)?;
         let (to, above_at_end) = self.clear_end(to, 1.0)?;
-        let mut scan = Scan { above: above_at_start, open: None, out };
+        let mut scan = Scan {
+            above: above_at_start,
+            open: None,
+            out,
+        };
         self.split(from, to, 0, &mut scan)?;
         scan.certain(above_at_end)
     }
@@ -117,7 +124,11 @@ impl TimeAlong {
             if low > 0.0 || high < 0.0 {
                 return Ok((at, low > 0.0));
             }
-            step = if step == 0.0 { 1e-12 * self.h } else { 2.0 * step };
+            step = if step == 0.0 {
+                1e-12 * self.h
+            } else {
+                2.0 * step
+            };
         }
     }
 
@@ -177,7 +188,10 @@ impl Scan<'_> {
             if above != rising {
                 return Err(Undecided);
             }
-            self.out.push(Crossing { between: (start, end), rising });
+            self.out.push(Crossing {
+                between: (start, end),
+                rising,
+            });
         }
         self.above = above;
         Ok(())

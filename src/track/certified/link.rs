@@ -35,7 +35,10 @@ pub struct Ball {
 impl Ball {
     /// Room for a box of the problem's points.
     pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
-        Ball { centre: equations.vector(), radius: equations.vector() }
+        Ball {
+            centre: equations.vector(),
+            radius: equations.vector(),
+        }
     }
 }
 
@@ -62,7 +65,10 @@ impl<const D: usize> Tube<D> {
             weights: Vector::zeros(0),
             proof: Proof::default(),
             exit_at: 0.0,
-            exit: Ball { centre: Vector::zeros(0), radius: Vector::zeros(0) },
+            exit: Ball {
+                centre: Vector::zeros(0),
+                radius: Vector::zeros(0),
+            },
             entry: (0.0, 0.0),
         }
     }
@@ -77,16 +83,24 @@ impl<const D: usize> Tube<D> {
         let n = self.weights.len() - 1;
         let (local, proof) = (&self.local, &self.proof);
         let c = &local.normal[..n];
-        let s = ball.centre[..n].iter().zip(&local.z[0][..n]).zip(c).map(|((b, z), c)| c * (b - z)).sum::<f64>();
+        let s = ball.centre[..n]
+            .iter()
+            .zip(&local.z[0][..n])
+            .zip(c)
+            .map(|((b, z), c)| c * (b - z))
+            .sum::<f64>();
         if s.is_nan() || s.abs() > proof.h {
             return None;
         }
         let (mut along, mut along_error) = (0.0, 0.0);
         let mut widest = 0.0f64;
         for i in 0..n {
-            let z = (0..=ORDER).rev().fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
+            let z = (0..=ORDER)
+                .rev()
+                .fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
             let away = ball.centre[i] - z;
-            let error = evaluation_error(local, i, s) + ball.radius[i] + 2.0 * f64::EPSILON * away.abs();
+            let error =
+                evaluation_error(local, i, s) + ball.radius[i] + 2.0 * f64::EPSILON * away.abs();
             along += c[i] * away;
             along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
             let ratio = (away.abs() + error) / self.weights[i];
@@ -146,13 +160,16 @@ impl<const D: usize> Tube<D> {
     /// is in `next` too, and both are followed the same way. Encloses the point's parameter in `next`.
     pub fn leads_to(&self, next: &Tube<D>) -> Option<(f64, f64)> {
         let entry = next.locate(&self.exit)?;
-        self.goes_along((self.exit_at, self.exit_at), &next.local.normal).then_some(entry)
+        self.goes_along((self.exit_at, self.exit_at), &next.local.normal)
+            .then_some(entry)
     }
 }
 
 /// How far ẑ(s)_i in floats may be from the exact value.
 pub fn evaluation_error<const D: usize>(local: &Local<D>, i: usize, s: f64) -> f64 {
     let s = s.abs();
-    let size = (0..=ORDER).rev().fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
+    let size = (0..=ORDER)
+        .rev()
+        .fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
     round_up(gamma(EVALUATION) * size, EVALUATION)
 }

@@ -49,7 +49,11 @@ impl<const D: usize> SolutionProver<D> {
             defect: Matrix::zeros(n, n + 1),
             f: equations.vector(),
             v: equations.vector(),
-            half_squares: homotopy.lengths.iter().map(|l| l.target_half_square()).collect(),
+            half_squares: homotopy
+                .lengths
+                .iter()
+                .map(|l| l.target_half_square())
+                .collect(),
         }
     }
 
@@ -75,10 +79,17 @@ impl<const D: usize> SolutionProver<D> {
         // Newton's method as far as it goes, with the preconditioner of the refined point.
         for _ in 0..3 {
             local.z[0][m] = 1.0;
-            local.refine(equations, inverter, 1e-13, 20).or_else(|e| {
-                // At the limit of precision corrections stop shrinking; the proof will tell.
-                if local.first_correction < 1e-9 { Ok(()) } else { Err(e) }
-            }).ok()?;
+            local
+                .refine(equations, inverter, 1e-13, 20)
+                .or_else(|e| {
+                    // At the limit of precision corrections stop shrinking; the proof will tell.
+                    if local.first_correction < 1e-9 {
+                        Ok(())
+                    } else {
+                        Err(e)
+                    }
+                })
+                .ok()?;
         }
         local.z[0][m] = 1.0;
         equations.differences(&local.z[0], &mut local.d[0]);
@@ -114,7 +125,12 @@ impl<const D: usize> SolutionProver<D> {
         rounding[m] = per_entry;
         width[m] = 0.0;
         let ones = vec![1.0; n];
-        let largest = |v: &Vector| v[..n].iter().fold(0.0f64, |max, &x| if x > max || x.is_nan() { x } else { max });
+        let largest = |v: &Vector| {
+            v[..n].iter().fold(
+                0.0f64,
+                |max, &x| if x > max || x.is_nan() { x } else { max },
+            )
+        };
         self.defect.multiply_abs(&ones, &mut self.v);
         let defect = largest(&self.v);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
@@ -149,7 +165,12 @@ impl<const D: usize> SolutionProver<D> {
         for (r, v) in radius[..m].iter_mut().zip(self.v.iter()) {
             *r = round_up(v + near, n + 8);
         }
-        Some(SolutionBox { centre: local.z[0].clone(), radius, alone_within, rising })
+        Some(SolutionBox {
+            centre: local.z[0].clone(),
+            radius,
+            alone_within,
+            rising,
+        })
     }
 }
 
@@ -160,7 +181,11 @@ impl SolutionBox {
         let m = self.centre.len() - 2;
         let (mut inside, mut apart) = (true, false);
         for i in 0..m {
-            let x = if mirror(i) { -self.centre[i] } else { self.centre[i] };
+            let x = if mirror(i) {
+                -self.centre[i]
+            } else {
+                self.centre[i]
+            };
             let distance = (x - other.centre[i]).abs();
             // The subtraction and the sums are rounded: a factor covers it.
             let slack = 4.0 * f64::EPSILON * (x.abs() + distance);

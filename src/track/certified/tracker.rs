@@ -23,7 +23,11 @@ const POINT_TOLERANCE: f64 = 1e-9;
 const SMALLEST_STEP: f64 = 1e-11;
 
 /// Follows the path in the full space and proves every step.
-pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
     let clock = Instant::now();
     let mut tracker = Tracker::<D>::new(homotopy);
     let mut status = match tracker.run(options, control) {
@@ -148,7 +152,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), String> {
-        let max_h = options.max_step.map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
+        let max_h = options
+            .max_step
+            .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
         self.start(options.reverse, max_h)?;
         // A prediction of the next half length, and how much of it has been believed lately.
         let mut before = self.now.proof.h;
@@ -185,7 +191,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
                 }
             }
             if self.steps >= options.max_steps {
-                return Err(format!("the limit of {} tubes was reached {}", options.max_steps, self.place()));
+                return Err(format!(
+                    "the limit of {} tubes was reached {}",
+                    options.max_steps,
+                    self.place()
+                ));
             }
             let progress = Progress {
                 t: self.now.local.z[0][self.equations.m],
@@ -213,12 +223,22 @@ impl<'a, const D: usize> Tracker<'a, D> {
         local.expand(equations, ORDER);
         self.first_normal.copy_from_slice(&local.normal);
         // The first rounds find the weights, the last one proves.
-        let unproved = |tracker: &Self| format!("at the sketch, {}{}", Rejection::Unproved.in_words(), tracker.condition());
+        let unproved = |tracker: &Self| {
+            format!(
+                "at the sketch, {}{}",
+                Rejection::Unproved.in_words(),
+                tracker.condition()
+            )
+        };
         let mut proof = None;
         for _ in 0..4 {
-            proof = self.test.prove(equations, &mut self.now.local, &mut self.weights, max_h);
+            proof = self
+                .test
+                .prove(equations, &mut self.now.local, &mut self.weights, max_h);
         }
-        let Some(proof) = proof else { return Err(unproved(self)) };
+        let Some(proof) = proof else {
+            return Err(unproved(self));
+        };
         self.now.proof = proof;
         self.now.weights.copy_from_slice(self.test.weights());
         self.now.exit_at = EXIT * proof.h;
@@ -240,7 +260,12 @@ impl<'a, const D: usize> Tracker<'a, D> {
     fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
         let equations = &self.equations;
         let (now, next) = (&self.now, &mut self.next);
-        self.now.local.predict(advance, self.previous.as_deref(), &mut next.local.z[0], &mut next.local.normal);
+        self.now.local.predict(
+            advance,
+            self.previous.as_deref(),
+            &mut next.local.z[0],
+            &mut next.local.normal,
+        );
         next.local
             .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
             .map_err(Rejection::Refine)?;
@@ -252,7 +277,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .ok_or(Rejection::Unproved)?;
         next.weights.copy_from_slice(self.test.weights());
         next.exit_at = EXIT * next.proof.h;
-        self.test.enclose_exit(equations, next).ok_or(Rejection::Unproved)?;
+        self.test
+            .enclose_exit(equations, next)
+            .ok_or(Rejection::Unproved)?;
         next.entry = now.leads_to(next).ok_or(Rejection::Unlinked)?;
         if next.entry.1 >= next.exit_at {
             return Err(Rejection::Unlinked);
@@ -287,7 +314,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
     fn account(&mut self, tube: &Tube<D>, closing: Option<(f64, f64)>) -> Result<(), Rejection> {
         let time = TimeAlong::new(tube);
         let from = tube.entry.0.max(-tube.proof.h);
-        let to = closing.map_or(tube.exit_at, |at| at.1.max(tube.exit_at)).min(tube.proof.h);
+        let to = closing
+            .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))
+            .min(tube.proof.h);
         let mut crossings = std::mem::take(&mut self.crossings);
         let found = time
             .crossings(from, to, &mut crossings)
@@ -296,14 +325,21 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.crossings = crossings;
         found?;
         let until = closing.map_or(tube.exit_at, |at| at.1);
-        self.length += path_length(&tube.local, from, until, self.homotopy.unit, &mut self.scratch);
+        self.length += path_length(
+            &tube.local,
+            from,
+            until,
+            self.homotopy.unit,
+            &mut self.scratch,
+        );
         self.widen_t_range(&time, from, to);
         Ok(())
     }
 
     fn prove_crossings(&mut self, tube: &Tube<D>, crossings: &[Crossing]) -> Result<(), Rejection> {
         let known = self.found.len();
-        let all = (0..crossings.len()).try_for_each(|index| self.prove_crossing(tube, crossings, index));
+        let all =
+            (0..crossings.len()).try_for_each(|index| self.prove_crossing(tube, crossings, index));
         if all.is_err() {
             self.found.truncate(known);
         }
@@ -312,18 +348,36 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
     /// in this stretch of it, since it lies in no other.
-    fn prove_crossing(&mut self, tube: &Tube<D>, crossings: &[Crossing], index: usize) -> Result<(), Rejection> {
+    fn prove_crossing(
+        &mut self,
+        tube: &Tube<D>,
+        crossings: &[Crossing],
+        index: usize,
+    ) -> Result<(), Rejection> {
         let crossing = crossings[index];
         let (a, b) = crossing.between;
         tube.local.at(0.5 * (a + b), ORDER, &mut self.scratch);
         let found = self
             .prover
-            .prove(&self.equations, &mut self.inverter, &self.scratch, crossing.rising)
+            .prove(
+                &self.equations,
+                &mut self.inverter,
+                &self.scratch,
+                crossing.rising,
+            )
             .ok_or(Rejection::Undecided)?;
-        let ball = Ball { centre: found.centre.clone(), radius: found.radius.clone() };
+        let ball = Ball {
+            centre: found.centre.clone(),
+            radius: found.radius.clone(),
+        };
         let at = tube.locate(&ball).ok_or(Rejection::Undecided)?;
         let meets = |c: &Crossing| at.0 <= c.between.1 && c.between.0 <= at.1;
-        if !meets(&crossing) || crossings.iter().enumerate().any(|(k, c)| k != index && meets(c)) {
+        if !meets(&crossing)
+            || crossings
+                .iter()
+                .enumerate()
+                .any(|(k, c)| k != index && meets(c))
+        {
             return Err(Rejection::Undecided);
         }
         for other in &self.found {
@@ -357,7 +411,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
     fn lengths_are_positive(&self) -> Result<(), String> {
         let range = hull(self.t_range.0, self.t_range.1);
         for (index, length) in self.homotopy.lengths.iter().enumerate() {
-            if length.enclose(range).inf() <= 0.0 && !positive_in_pieces(|t| length.enclose(t), range) {
+            if length.enclose(range).inf() <= 0.0
+                && !positive_in_pieces(|t| length.enclose(t), range)
+            {
                 return Err(format!(
                     "the length of constraint {} could not be proved positive for t from {:.6} to {:.6}",
                     index + 1,
@@ -398,7 +454,10 @@ impl<'a, const D: usize> Tracker<'a, D> {
             for (rank, &p) in gauge.reference.iter().enumerate().skip(1) {
                 let i = gauge.variable[p * d + rank - 1];
                 if found.centre[i] - found.radius[i] <= 0.0 {
-                    reason = Some(format!("in solution {} the reference is degenerate or turned over", k + 1));
+                    reason = Some(format!(
+                        "in solution {} the reference is degenerate or turned over",
+                        k + 1
+                    ));
                 }
             }
         }
@@ -409,7 +468,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .map(|(found, class)| {
                 let points = found.points(self.homotopy);
                 let width = relative_width(&points);
-                Solution { points, class, width }
+                Solution {
+                    points,
+                    class,
+                    width,
+                }
             })
             .collect();
         match reason {
@@ -419,7 +482,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     fn figure_size(&self) -> f64 {
-        self.now.local.z[0].iter().fold(1.0, |max: f64, x| max.max(x.abs()))
+        self.now.local.z[0]
+            .iter()
+            .fold(1.0, |max: f64, x| max.max(x.abs()))
     }
 
     fn place(&self) -> String {
@@ -439,7 +504,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     fn stuck(&self, rejection: Rejection) -> String {
-        format!("{} at the smallest step, {}", rejection.in_words(), self.place())
+        format!(
+            "{} at the smallest step, {}",
+            rejection.in_words(),
+            self.place()
+        )
     }
 
     fn switched_on(&self) -> Vec<String> {

@@ -157,7 +157,9 @@ impl KrawczykTest {
         let (mut along, mut error) = (0.0, 0.0);
         let mut offset = 0.0f64;
         for i in 0..n {
-            let z = (0..=ORDER).rev().fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
+            let z = (0..=ORDER)
+                .rev()
+                .fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
             let w = out.centre[i] - z;
             let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
             along += c[i] * w;
@@ -176,7 +178,10 @@ impl KrawczykTest {
         let computed = norm_of(&self.v, u, n);
         local.y.multiply_abs(&self.g[0][..n], &mut self.v);
         let hidden = norm_of(&self.v, u, n);
-        let defect = round_up((computed + hidden) * (1.0 + s.abs() * proof.moving), 2 * n + 20);
+        let defect = round_up(
+            (computed + hidden) * (1.0 + s.abs() * proof.moving),
+            2 * n + 20,
+        );
         let radius = round_up(defect / (1.0 - proof.q), 400);
         if !(round_up(offset, 40) < proof.r && radius < proof.r) {
             return None;
@@ -196,7 +201,9 @@ impl KrawczykTest {
     /// matrix is smallest.
     fn improve(&self, weights: &mut Vector) {
         let n = self.square_u.len() - 1;
-        let largest = self.square_u[..n].iter().fold(f64::MIN_POSITIVE, |max: f64, v| max.max(*v));
+        let largest = self.square_u[..n]
+            .iter()
+            .fold(f64::MIN_POSITIVE, |max: f64, v| max.max(*v));
         let mut top = 0.0f64;
         for (w, v) in weights[..n].iter_mut().zip(self.square_u.iter()) {
             *w = (*w * (v / largest)).sqrt().max(MIN_WEIGHT);
@@ -270,7 +277,9 @@ impl KrawczykTest {
                 slope_size += far * far * (3.0 * e_abs[3].abs() + 4.0 * far * e_abs[4].abs());
                 slope_radius += far * far * (3.0 * e_rad[3] + 4.0 * far * e_rad[4]);
                 let wide = far + 1.0;
-                curvature += wide * (6.0 * (e_abs[3].abs() + e_rad[3]) + 12.0 * wide * (e_abs[4].abs() + e_rad[4]));
+                curvature += wide
+                    * (6.0 * (e_abs[3].abs() + e_rad[3])
+                        + 12.0 * wide * (e_abs[4].abs() + e_rad[4]));
                 let c = &local.lengths[e];
                 for k in 3..=(MAX_DEGREE - 1) * ORDER {
                     let entry = 2.0 * c[2] * local.powers[0][k]
@@ -294,10 +303,16 @@ impl KrawczykTest {
             let top = if edge.bend { DEGREE } else { 2 * ORDER };
             // With k/(ORDER + 2) ≥ 1, so that it bounds the derivative by s as well, see `proof`.
             high[e] = (ORDER + 2..=top)
-                .map(|k| local.coefficient(e, k, ORDER).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64))
+                .map(|k| {
+                    local.coefficient(e, k, ORDER).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64)
+                })
                 .sum();
         }
-        let normal: f64 = local.normal[..n].iter().zip(&u[..n]).map(|(c, u)| c.abs() * u).sum();
+        let normal: f64 = local.normal[..n]
+            .iter()
+            .zip(&u[..n])
+            .map(|(c, u)| c.abs() * u)
+            .sum();
         rounding[m] = per_entry * normal;
 
         let bound = |g: &Vector, len: usize, v: &mut Vector| {
@@ -317,10 +332,30 @@ impl KrawczykTest {
         local.y.multiply(&f[..m], &mut self.v);
         let middle = round_up(norm_of(&self.v, u, n) * hs[ORDER + 1], n + 20);
         low = round_up(low + bound(&self.g[0], m, &mut self.v) * hs[ORDER + 1], 20);
-        let slope_of = |i: usize| (1..=ORDER).map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1]).sum::<f64>();
-        let slope = round_up((0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i])), 40);
+        let slope_of = |i: usize| {
+            (1..=ORDER)
+                .map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1])
+                .sum::<f64>()
+        };
+        let slope = round_up(
+            (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i])),
+            40,
+        );
         let slope_of_t = round_up(slope_of(m), 40);
-        let norms = Norms { a, a2, square, r0, higher, width, low, middle, high, slope, slope_of_t, h };
+        let norms = Norms {
+            a,
+            a2,
+            square,
+            r0,
+            higher,
+            width,
+            low,
+            middle,
+            high,
+            slope,
+            slope_of_t,
+            h,
+        };
         norms.is_in_range().then_some(norms)
     }
 
@@ -347,7 +382,9 @@ impl KrawczykTest {
             }
             let c = &local.lengths[e];
             let slope = |k: usize| {
-                2.0 * c[2] * local.powers[0][k] + 3.0 * c[3] * local.powers[1][k] + 4.0 * c[4] * local.powers[2][k]
+                2.0 * c[2] * local.powers[0][k]
+                    + 3.0 * c[3] * local.powers[1][k]
+                    + 4.0 * c[4] * local.powers[2][k]
             };
             self.r0.add_column(m, c[1], y, e);
             self.a.add_column(m, -slope(1), y, e);
@@ -379,9 +416,22 @@ fn powers_of(h: f64) -> [f64; DEGREE + 1] {
 
 impl Norms {
     fn is_in_range(&self) -> bool {
-        [self.a, self.a2, self.square, self.r0, self.higher, self.width, self.low, self.middle, self.high, self.slope, self.slope_of_t, self.h]
-            .into_iter()
-            .all(in_range)
+        [
+            self.a,
+            self.a2,
+            self.square,
+            self.r0,
+            self.higher,
+            self.width,
+            self.low,
+            self.middle,
+            self.high,
+            self.slope,
+            self.slope_of_t,
+            self.h,
+        ]
+        .into_iter()
+        .all(in_range)
     }
 
     /// The contraction without the width, the factor of the width, and the defect, at `h`.
@@ -391,8 +441,8 @@ impl Norms {
         let x = h / self.h;
         let x3 = x * x * x;
         let x6 = x3 * x3;
-        let contraction = moving * (self.r0 + self.higher * x3)
-            + h * h * (self.square + h * (self.a * self.a2));
+        let contraction =
+            moving * (self.r0 + self.higher * x3) + h * h * (self.square + h * (self.a * self.a2));
         let defect = moving * (self.low + self.middle * x6 + self.high * (x6 * x));
         (
             round_up(contraction, 60),
@@ -403,14 +453,23 @@ impl Norms {
 
     /// The largest provable h: by bisection on a logarithmic scale, as any h that passes will do.
     fn longest(&self, weight_of_t: f64) -> Option<Proof> {
-        const { assert!(ORDER + 1 == 6, "the powers in `at` are those of the Taylor order") };
+        const {
+            assert!(
+                ORDER + 1 == 6,
+                "the powers in `at` are those of the Taylor order"
+            )
+        };
         if let Some(proof) = self.proof(self.h, weight_of_t) {
             return Some(proof);
         }
         let (mut lo, mut hi) = (0.0, self.h);
         let mut best = None;
         for _ in 0..40 {
-            let h = if lo == 0.0 { hi / 2.0 } else { (lo * hi).sqrt() };
+            let h = if lo == 0.0 {
+                hi / 2.0
+            } else {
+                (lo * hi).sqrt()
+            };
             match self.proof(h, weight_of_t) {
                 Some(proof) => {
                     best = Some(proof);
@@ -452,8 +511,17 @@ impl Norms {
             orders[0] * self.low + x3 * x3 * (orders[1] * self.middle + orders[2] * self.high * x);
         let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[3] * self.higher * x3;
         let slope = moving
-            * (defect_slope + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
+            * (defect_slope
+                + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
         let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
-        Some(Proof { h, r, distance, slope_distance, q, slope: self.slope, moving: self.a })
+        Some(Proof {
+            h,
+            r,
+            distance,
+            slope_distance,
+            q,
+            slope: self.slope,
+            moving: self.a,
+        })
     }
 }

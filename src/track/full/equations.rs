@@ -44,7 +44,9 @@ impl<const D: usize> Equations<D> {
             .iter()
             .zip(&homotopy.lengths)
             .map(|(edge, length)| EdgeTerm {
-                at: edge.points.map(|p| std::array::from_fn(|axis| entry(p, axis))),
+                at: edge
+                    .points
+                    .map(|p| std::array::from_fn(|axis| entry(p, axis))),
                 e: length.e,
                 e_radius: length.e_radius,
                 bend: length.degree > 2,
@@ -89,7 +91,13 @@ impl<const D: usize> Equations<D> {
                     e[4],
                 ];
             } else {
-                *out = [e[0] + t * (e[1] + t * e[2]), e[1] + 2.0 * t * e[2], e[2], 0.0, 0.0];
+                *out = [
+                    e[0] + t * (e[1] + t * e[2]),
+                    e[1] + 2.0 * t * e[2],
+                    e[2],
+                    0.0,
+                    0.0,
+                ];
             }
         }
     }
@@ -121,10 +129,17 @@ impl<const D: usize> Equations<D> {
     }
 
     /// Writes the Jacobian at the given differences, and `normal` as its last row.
-    pub fn jacobian(&self, differences: &[[f64; D]], lengths: &[[f64; 5]], normal: &[f64], out: &mut Matrix) {
+    pub fn jacobian(
+        &self,
+        differences: &[[f64; D]],
+        lengths: &[[f64; 5]],
+        normal: &[f64],
+        out: &mut Matrix,
+    ) {
         let (m, n) = (self.m, self.n());
         out.clear();
-        for (e, ((edge, d), length)) in self.edges.iter().zip(differences).zip(lengths).enumerate() {
+        for (e, ((edge, d), length)) in self.edges.iter().zip(differences).zip(lengths).enumerate()
+        {
             for k in 0..D {
                 let [i, j] = edge.at.map(|at| at[k]);
                 if i < n {

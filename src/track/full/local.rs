@@ -90,7 +90,9 @@ impl<const D: usize> Local<D> {
         equations.differences(&self.z[0], &mut self.d[0]);
         equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
         equations.jacobian(&self.d[0], &self.lengths, &self.normal, inverter.input());
-        inverter.invert_into(&mut self.y).map_err(|_| RefineError::Singular)?;
+        inverter
+            .invert_into(&mut self.y)
+            .map_err(|_| RefineError::Singular)?;
         let mut last = f64::INFINITY;
         self.contraction = 0.0;
         for iteration in 0..max_iterations {
@@ -241,14 +243,22 @@ impl<const D: usize> Local<D> {
         self.at(s, ORDER, z);
         self.slope(s, ORDER, normal);
         if let Some(previous) = previous {
-            let back: f64 =
-                (0..n).map(|i| self.normal[i] * (previous[i] - self.z[0][i])).sum();
+            let back: f64 = (0..n)
+                .map(|i| self.normal[i] * (previous[i] - self.z[0][i]))
+                .sum();
             let ratio = s / back;
             let square = ratio * ratio;
             let factor = square * square * square;
-            const { assert!(ORDER == 5, "the factor is the (ORDER + 1)-st power of the ratio") };
+            const {
+                assert!(
+                    ORDER == 5,
+                    "the factor is the (ORDER + 1)-st power of the ratio"
+                )
+            };
             for i in 0..n {
-                let there = (0..=ORDER).rev().fold(0.0f64, |sum, k| sum.mul_add(back, self.z[k][i]));
+                let there = (0..=ORDER)
+                    .rev()
+                    .fold(0.0f64, |sum, k| sum.mul_add(back, self.z[k][i]));
                 let away = factor * (previous[i] - there);
                 z[i] += away;
                 normal[i] += (ORDER + 1) as f64 / s * away;

@@ -31,7 +31,11 @@ pub fn first_normal<const D: usize>(
         if !(size.is_finite() && size < LARGEST) {
             continue;
         }
-        let sign = if (tangent[m] < 0.0) == reverse { 1.0 } else { -1.0 };
+        let sign = if (tangent[m] < 0.0) == reverse {
+            1.0
+        } else {
+            -1.0
+        };
         for (c, x) in local.normal[..n].iter_mut().zip(local.y.column(m)) {
             *c = sign * x / size;
         }
@@ -42,7 +46,13 @@ pub fn first_normal<const D: usize>(
 
 /// The length of ẑ between two parameters, the coordinates counted in units of `unit`: Gauss's
 /// rule with two points.
-pub fn path_length<const D: usize>(local: &Local<D>, from: f64, to: f64, unit: f64, scratch: &mut Vector) -> f64 {
+pub fn path_length<const D: usize>(
+    local: &Local<D>,
+    from: f64,
+    to: f64,
+    unit: f64,
+    scratch: &mut Vector,
+) -> f64 {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let t = scratch.len() - 2;
     let mut speed = |s: f64| {
