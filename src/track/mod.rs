@@ -1,11 +1,15 @@
 //! Following the path: predictor, corrector, step control, events.
 
 pub mod certified;
+mod congruence;
 mod control;
+mod events;
+pub mod float;
 pub mod full;
 mod options;
 mod outcome;
 
+pub use congruence::congruence_classes;
 pub use control::{Control, Progress};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
@@ -32,10 +36,30 @@ pub fn solve(
     options: &Options,
     control: &mut Control,
 ) -> Result<Outcome, StartError> {
-    let homotopy = Homotopy::new(problem)?;
-    match (options.mode, options.space, problem.dimension) {
-        (Mode::Certified, Space::Full, 2) => Ok(certified::track::<2>(&homotopy, options, control)),
-        (Mode::Certified, Space::Full, _) => Ok(certified::track::<3>(&homotopy, options, control)),
-        _ => Err(StartError::Unsupported("not built yet".into())),
+    if options.mode == Mode::Certified && options.space == Space::Reduced {
+        let message = "certified mode works in the full space; use --space full, or --mode float";
+        return Err(StartError::Unsupported(message.into()));
+    }
+    let homotopy = match options.preset {
+        Preset::Default => Homotopy::new(problem)?,
+        // The paper's step sizes are in the lengths of the problem.
+        Preset::Paper => Homotopy::with_unit(problem, 1.0)?,
+    };
+    match problem.dimension {
+        2 => solve_in::<2>(&homotopy, options, control),
+        _ => solve_in::<3>(&homotopy, options, control),
+    }
+}
+
+fn solve_in<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Result<Outcome, StartError> {
+    match (options.mode, options.space, options.preset) {
+        (Mode::Certified, ..) => Ok(certified::track::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Full, Preset::Default) => Ok(float::track::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Full, Preset::Paper) => Ok(float::track_paper::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Reduced, _) => Err(StartError::Unsupported("not built yet".into())),
     }
 }

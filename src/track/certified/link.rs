@@ -3,6 +3,7 @@
 use super::tube::Proof;
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
+use crate::track::events::TimeAlong;
 use crate::track::full::{Equations, Local, ORDER, dot};
 
 /// A proved tube: for every |s| ≤ h exactly one point of the path in the cross-section through
@@ -154,6 +155,18 @@ impl<const D: usize> Tube<D> {
             error += normal[i].abs() * (away + gamma(EVALUATION + n) * size);
         }
         along > round_up(error, n + EVALUATION)
+    }
+
+    /// t along the tube.
+    pub fn time(&self) -> TimeAlong {
+        let (t, proof) = (self.weights.len() - 2, &self.proof);
+        // One rounding each, within what `TimeAlong` adds for its own.
+        TimeAlong::new(
+            std::array::from_fn(|k| self.local.z[k][t]),
+            proof.h,
+            round_up(proof.distance * self.weights[t], 1),
+            round_up(proof.slope_distance * self.weights[t], 1),
+        )
     }
 
     /// Proves that the path goes on from this tube into `next`: the point at `exit` of this tube

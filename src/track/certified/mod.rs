@@ -1,6 +1,5 @@
 //! Every step a theorem: tubes proved by a Krawczyk test, linked without a gap.
 
-mod events;
 mod link;
 mod solution;
 mod tracker;

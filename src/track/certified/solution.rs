@@ -71,27 +71,8 @@ impl<const D: usize> SolutionProver<D> {
     ) -> Option<SolutionBox> {
         let (m, n) = (equations.m, equations.n());
         let local = &mut self.local;
-        local.normal.fill(0.0);
-        local.normal[m] = 1.0;
         local.z[0].copy_from_slice(guess);
-        local.z[0][m] = 1.0;
-        local.refine(equations, inverter, 1e-6, 20).ok()?;
-        // Newton's method as far as it goes, with the preconditioner of the refined point.
-        for _ in 0..3 {
-            local.z[0][m] = 1.0;
-            local
-                .refine(equations, inverter, 1e-13, 20)
-                .or_else(|e| {
-                    // At the limit of precision corrections stop shrinking; the proof will tell.
-                    if local.first_correction < 1e-9 {
-                        Ok(())
-                    } else {
-                        Err(e)
-                    }
-                })
-                .ok()?;
-        }
-        local.z[0][m] = 1.0;
+        local.polish_at(equations, inverter, 1.0)?;
         equations.differences(&local.z[0], &mut local.d[0]);
         equations.expand_lengths(1.0, &mut local.lengths);
 

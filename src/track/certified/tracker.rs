@@ -1,12 +1,12 @@
 //! The chain of tubes from the sketch back to the sketch.
 
-use super::events::{Crossing, TimeAlong};
 use super::link::{Ball, Tube};
 use super::solution::{Same, SolutionBox, SolutionProver};
 use super::tube::KrawczykTest;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
+use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{Equations, ORDER, RefineError, first_normal, path_length};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Solution, Space, Status};
 use std::time::Instant;
@@ -312,7 +312,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     /// Looks for solutions in a linked tube, and keeps count of the path.
     fn account(&mut self, tube: &Tube<D>, closing: Option<(f64, f64)>) -> Result<(), Rejection> {
-        let time = TimeAlong::new(tube);
+        let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
         let to = closing
             .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))

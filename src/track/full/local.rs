@@ -131,6 +131,26 @@ impl<const D: usize> Local<D> {
         }
     }
 
+    /// Corrects `z[0]` in X at a fixed t, as far as floats go.
+    pub fn polish_at(&mut self, equations: &Equations<D>, inverter: &mut Inverter, t: f64) -> Option<()> {
+        let m = equations.m;
+        self.normal.fill(0.0);
+        self.normal[m] = 1.0;
+        self.z[0][m] = t;
+        self.refine(equations, inverter, 1e-6, 20).ok()?;
+        // Newton's method with the preconditioner of the refined point: the first correction
+        // tells how near it was, further ones stop shrinking at the limit of precision.
+        for _ in 0..3 {
+            self.z[0][m] = t;
+            let refined = self.refine(equations, inverter, 1e-13, 20);
+            if refined.is_err() && self.first_correction.is_nan() || self.first_correction > 1e-5 {
+                return None;
+            }
+        }
+        self.z[0][m] = t;
+        Some(())
+    }
+
     /// Computes the coefficients z₁ … z_order by differentiating F(ẑ(s)) = 0: each solves the
     /// same linear system, with what the earlier ones leave as its right-hand side.
     pub fn expand(&mut self, equations: &Equations<D>, order: usize) {

@@ -1,13 +1,13 @@
-//! Where the path in a tube meets t = 1, completely.
+//! Where a piece of path meets t = 1, completely.
 //!
-//! The path's t is ẑ_t(s) up to `band`, its slope ẑ_t'(s) up to `slope_band`. The range of s is
-//! split until on every piece either t ≠ 1 is certain or the sign of t' is.
+//! The path's t is a polynomial ẑ_t(s) up to a distance, its slope ẑ_t'(s) up to another. The
+//! range of s is split until on every piece either t ≠ 1 is certain or the sign of t' is. In
+//! certified mode the distances are proved; in float mode they are estimates.
 
-use super::link::Tube;
 use crate::interval::rounding::{gamma, round_up};
 use crate::track::full::ORDER;
 
-/// t along a tube, as a polynomial with error bounds.
+/// t along a piece of path, as a polynomial with error bounds.
 #[derive(Debug, Clone, Copy)]
 pub struct TimeAlong {
     /// Coefficients of ẑ_t(s) − 1, the first rounded.
@@ -21,7 +21,7 @@ pub struct TimeAlong {
     h: f64,
 }
 
-/// A stretch of a tube in which the path crosses t = 1 exactly once.
+/// A stretch in which the path crosses t = 1 exactly once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
     /// The crossing is at a parameter between these.
@@ -46,11 +46,8 @@ enum Piece {
 const MAX_DEPTH: usize = 40;
 
 impl TimeAlong {
-    /// Of the path in a proved tube, whose last entry is t.
-    pub fn new<const D: usize>(tube: &Tube<D>) -> Self {
-        let t = tube.weights.len() - 2;
-        let (proof, h) = (&tube.proof, tube.proof.h);
-        let z: [f64; ORDER + 1] = std::array::from_fn(|k| tube.local.z[k][t]);
+    /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
+    pub fn new(z: [f64; ORDER + 1], h: f64, distance: f64, slope_distance: f64) -> Self {
         let (mut curvature, mut size, mut slope, mut power) = (0.0, z[0].abs() + 1.0, 0.0, 1.0);
         for k in 1..=ORDER {
             slope += k as f64 * z[k].abs() * power;
@@ -66,11 +63,8 @@ impl TimeAlong {
         coefficients[0] -= 1.0;
         TimeAlong {
             coefficients,
-            band: round_up(proof.distance * tube.weights[t] + rounding * size, 40),
-            slope_band: round_up(
-                proof.slope_distance * tube.weights[t] + rounding * slope,
-                40,
-            ),
+            band: round_up(distance + rounding * size, 40),
+            slope_band: round_up(slope_distance + rounding * slope, 40),
             curvature: round_up(curvature, 40),
             h,
         }
@@ -94,7 +88,7 @@ impl TimeAlong {
     }
 
     /// All crossings of t = 1 with parameters from `from` to `to`, and perhaps some a little
-    /// outside, within the tube.
+    /// outside, with |s| ≤ h.
     pub fn crossings(&self, from: f64, to: f64, out: &mut Vec<Crossing>) -> Result<(), Undecided> {
         out.clear();
         let ((low, high), _) = self.bounds(from, to);
