@@ -1,6 +1,6 @@
 //! The inverse of a small matrix, for use as a preconditioner.
 
-use super::matrix::{LANE, Matrix, Vector, with_lanes};
+use super::matrix::{LANE, Lane, Matrix, Vector, with_block};
 
 /// No pivot of any size was left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub struct Singular;
 pub struct Inverter {
     work: Matrix,
     multipliers: Vector,
+    /// 1 for rows that have not been pivot rows yet, otherwise 0.
+    free: Vector,
     /// The pivot row of each column.
     pivot: Vec<usize>,
 }
@@ -24,6 +26,7 @@ impl Inverter {
         Inverter {
             work: Matrix::zeros(n, n),
             multipliers: Vector::zeros(n),
+            free: Vector::zeros(n),
             pivot: vec![0; n],
         }
     }
@@ -48,15 +51,9 @@ impl Inverter {
     pub fn invert_into(&mut self, out: &mut Matrix) -> Result<(), Singular> {
         let n = self.work.rows();
         let lanes = self.work.lanes();
-        with_lanes!(
+        with_block!(
             lanes,
-            exchange(
-                lanes,
-                n,
-                self.work.data_mut(),
-                &mut self.multipliers,
-                &mut self.pivot
-            )
+            exchange((lanes, n), self.work.data_mut(), &mut self.multipliers, &mut self.free, &mut self.pivot)
         )?;
         // Row `pivot[k]` now stands for unknown k, column k for equation `pivot[k]`.
         for k in 0..n {
@@ -71,74 +68,68 @@ impl Inverter {
 }
 
 fn exchange<const L: usize>(
-    lanes: usize,
-    n: usize,
-    data: &mut [[f64; LANE]],
+    (lanes, n): (usize, usize),
+    data: &mut [Lane],
     multipliers: &mut Vector,
+    free: &mut Vector,
     pivot: &mut [usize],
 ) -> Result<(), Singular> {
-    let lanes = if L == 0 { lanes } else { L };
-    // 1 where a row has not been a pivot row yet, so that used rows lose every comparison.
-    let mut free = [[0.0f64; LANE]; 8];
-    let mut free_long = Vec::new();
-    let free: &mut [f64] = if L == 0 {
-        free_long.resize(lanes * LANE, 0.0);
-        &mut free_long
-    } else {
-        &mut free.as_flattened_mut()[..L * LANE]
-    };
-    free[..n].fill(1.0);
+    free.fill(1.0);
     for k in 0..n {
-        let column = data[k * lanes..(k + 1) * lanes].as_flattened_mut();
-        let (mut p, mut best) = (usize::MAX, 0.0);
-        for (row, (&x, &f)) in column.iter().zip(free.iter()).enumerate().take(n) {
-            let size = x.abs() * f;
-            if size > best {
-                (p, best) = (row, size);
-            }
-        }
-        if p == usize::MAX || !best.is_finite() {
-            return Err(Singular);
-        }
+        let column = &mut data[k * lanes..(k + 1) * lanes];
+        let p = largest(column, free.lanes()).ok_or(Singular)?;
         pivot[k] = p;
         free[p] = 0.0;
-        let inverse = 1.0 / column[p];
-        column[p] = 0.0;
-        for (m, x) in multipliers.iter_mut().zip(column.iter_mut()) {
-            *x *= inverse;
-            *m = -*x;
-        }
-        column[p] = inverse;
-        if L == 0 {
-            for j in (0..n).filter(|&j| j != k) {
-                let column = data[j * lanes..(j + 1) * lanes].as_flattened_mut();
-                let c = column[p];
-                if c != 0.0 {
-                    for (x, m) in column.iter_mut().zip(multipliers.iter()) {
-                        *x = m.mul_add(c, *x);
-                    }
-                    column[p] = -c * inverse;
-                }
+        let inverse = 1.0 / column[p / LANE][p % LANE];
+        column[p / LANE][p % LANE] = 0.0;
+        for (m, x) in multipliers.lanes_mut().iter_mut().zip(column.iter_mut()) {
+            for i in 0..LANE {
+                x[i] *= inverse;
+                m[i] = -x[i];
             }
-        } else {
-            let mut m = [[0.0; LANE]; L];
-            m.as_flattened_mut()[..n].copy_from_slice(multipliers);
-            let (columns, _) = data.as_chunks_mut::<L>();
-            for (j, column) in columns.iter_mut().enumerate().take(n) {
-                let c = column.as_flattened()[p];
+        }
+        column[p / LANE][p % LANE] = inverse;
+        for offset in (0..lanes).step_by(L) {
+            let m: [Lane; L] = multipliers.lanes()[offset..offset + L].try_into().expect("L lanes");
+            for (j, column) in data.chunks_exact_mut(lanes).enumerate().take(n) {
+                let c = column[p / LANE][p % LANE];
+                // The Jacobians are sparse, and stay so for a while.
                 if j == k || c == 0.0 {
                     continue;
                 }
+                let block: &mut [Lane; L] = (&mut column[offset..offset + L]).try_into().expect("L lanes");
                 for l in 0..L {
                     for i in 0..LANE {
-                        column[l][i] = m[l][i].mul_add(c, column[l][i]);
+                        block[l][i] = m[l][i].mul_add(c, block[l][i]);
                     }
                 }
-                column.as_flattened_mut()[p] = -c * inverse;
+            }
+        }
+        // The pivot's row last, as all blocks read it; its multiplier was zero.
+        for (j, column) in data.chunks_exact_mut(lanes).enumerate().take(n) {
+            if j != k {
+                column[p / LANE][p % LANE] *= -inverse;
             }
         }
     }
     Ok(())
+}
+
+/// The row of the largest entry among the free ones; none if they are zero or not finite.
+fn largest(column: &[Lane], free: &[Lane]) -> Option<usize> {
+    let mut best = [0.0; LANE];
+    for (x, f) in column.iter().zip(free) {
+        for i in 0..LANE {
+            // A NaN loses every comparison.
+            let size = x[i].abs() * f[i];
+            best[i] = if size > best[i] { size } else { best[i] };
+        }
+    }
+    let best = best.into_iter().fold(0.0f64, f64::max);
+    if best == 0.0 || !best.is_finite() {
+        return None;
+    }
+    column.as_flattened().iter().zip(free.as_flattened()).position(|(x, f)| x.abs() * f == best)
 }
 
 #[cfg(test)]

@@ -7,4 +7,4 @@ mod inverse;
 mod matrix;
 
 pub use inverse::{Inverter, Singular};
-pub use matrix::{LANE, Matrix, Vector, padded};
+pub use matrix::{LANE, Matrix, Sparse, Vector};

@@ -33,6 +33,8 @@ pub struct Homotopy {
     pub edges: Vec<Edge>,
     /// Their lengths, in the same order.
     pub lengths: Vec<Length>,
+    /// Which of them bends.
+    pub bend: usize,
     /// An enclosure of the sketch, all places.
     pub sketch_box: Vec<Interval>,
     /// Its middle.
@@ -98,6 +100,7 @@ impl Homotopy {
                 .map(|d| Edge { points: d.points })
                 .collect(),
             lengths,
+            bend: problem.homotopy.bend,
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
             gauge,

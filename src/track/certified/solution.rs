@@ -2,7 +2,7 @@
 
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
-use crate::linalg::{Inverter, Matrix, Vector};
+use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, Local};
 
@@ -34,7 +34,10 @@ pub enum Same {
 #[derive(Debug)]
 pub struct SolutionProver<const D: usize> {
     local: Local<D>,
-    defect: Matrix,
+    jacobian: Vec<f64>,
+    ones: Vec<f64>,
+    rounding: Vector,
+    width: Vector,
     f: Vector,
     v: Vector,
     half_squares: Vec<Interval>,
@@ -46,7 +49,10 @@ impl<const D: usize> SolutionProver<D> {
         let n = equations.n();
         SolutionProver {
             local: Local::new(equations),
-            defect: Matrix::zeros(n, n + 1),
+            jacobian: vec![0.0; equations.bordered_pattern().entries()],
+            ones: vec![1.0; n],
+            rounding: equations.vector(),
+            width: equations.vector(),
             f: equations.vector(),
             v: equations.vector(),
             half_squares: homotopy
@@ -73,50 +79,33 @@ impl<const D: usize> SolutionProver<D> {
         let local = &mut self.local;
         local.z[0].copy_from_slice(guess);
         local.polish_at(equations, inverter, 1.0)?;
-        equations.differences(&local.z[0], &mut local.d[0]);
-        equations.expand_lengths(1.0, &mut local.lengths);
 
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
-        self.defect.clear();
-        for i in 0..n {
-            self.defect.set(i, i, 1.0);
-        }
         let per_entry = gamma(m + 12);
-        let mut rounding = self.f.clone();
-        let mut width = self.f.clone();
-        for (e, edge) in equations.edges.iter().enumerate() {
-            let (mut size, mut change) = (0.0, 0.0);
-            for k in 0..D {
-                let [i, j] = edge.at.map(|at| at[k]);
-                let d = local.d[0][e][k];
-                self.defect.add_column(i, -d, &local.y, e);
-                self.defect.add_column(j, d, &local.y, e);
-                let free = (i < n) as usize + (j < n) as usize;
-                size += d.abs() * free as f64;
+        let (rounding, width) = (&mut self.rounding, &mut self.width);
+        for e in 0..m {
+            let slope = local.lengths.terms[1][e].abs();
+            let (mut size, mut change) = (slope, 0.0);
+            for axis in 0..D {
+                let free = equations.ends[axis][e].iter().filter(|&&end| (end as usize) < n).count() as f64;
+                size += local.d[0][axis][e].abs() * free;
                 // |w_i − w_j| times the row sum of the entry's two columns.
-                change += (free * free) as f64;
+                change += free * free;
             }
-            // The entry of t belongs to the exact problem's row as little as any: in the
-            // cross-section t = 1 it multiplies zero. It is taken as the float it is.
-            self.defect.add_column(m, local.lengths[e][1], &local.y, e);
-            rounding[e] = per_entry * (size + local.lengths[e][1].abs());
+            rounding[e] = per_entry * size;
             width[e] = change;
         }
-        self.defect.add_column(m, -1.0, &local.y, m);
         rounding[m] = per_entry;
-        width[m] = 0.0;
-        let ones = vec![1.0; n];
-        let largest = |v: &Vector| {
-            v[..n].iter().fold(
-                0.0f64,
-                |max, &x| if x > max || x.is_nan() { x } else { max },
-            )
-        };
-        self.defect.multiply_abs(&ones, &mut self.v);
+        // The entries of t multiply zero in the cross-section t = 1, whatever they are.
+        equations.bordered_values(&local.d[0], &local.lengths, &local.normal, &mut self.jacobian);
+        let pattern = equations.bordered_pattern();
+        local.y.identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
+        let largest =
+            |v: &Vector| v[..n].iter().fold(0.0f64, |max, &x| if x > max || x.is_nan() { x } else { max });
         let defect = largest(&self.v);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
         let q0 = round_up(defect + largest(&self.v), 2 * n + 40);
-        local.y.multiply_abs(&width[..n], &mut self.v);
+        local.y.multiply_abs(&width[..m], &mut self.v);
         let kappa = round_up(largest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {
             return None;
@@ -124,10 +113,10 @@ impl<const D: usize> SolutionProver<D> {
         let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
 
         // The residual in intervals: its width is what limits the box.
-        for (e, edge) in equations.edges.iter().enumerate() {
-            let [i, j] = edge.at;
-            let squared = (0..D).fold(point(0.0), |sum, k| {
-                sum + (point(local.z[0][i[k]]) - point(local.z[0][j[k]])).sqr()
+        for e in 0..m {
+            let squared = (0..D).fold(point(0.0), |sum, axis| {
+                let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
+                sum + (i - j).sqr()
             });
             self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
         }

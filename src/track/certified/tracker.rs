@@ -7,7 +7,7 @@ use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
-use crate::track::full::{Equations, ORDER, RefineError, first_normal, path_length};
+use crate::track::full::{Equations, RefineError, first_normal, path_length};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Solution, Space, Status};
 use std::time::Instant;
 
@@ -92,7 +92,7 @@ struct Tracker<'a, const D: usize> {
     homotopy: &'a Homotopy,
     equations: Equations<D>,
     inverter: Inverter,
-    test: KrawczykTest,
+    test: KrawczykTest<D>,
     prover: SolutionProver<D>,
     now: Tube<D>,
     next: Tube<D>,
@@ -220,7 +220,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         local
             .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
             .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
-        local.expand(equations, ORDER);
+        local.expand(equations);
         self.first_normal.copy_from_slice(&local.normal);
         // The first rounds find the weights, the last one proves.
         let unproved = |tracker: &Self| {
@@ -234,7 +234,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         for _ in 0..4 {
             proof = self
                 .test
-                .prove(equations, &mut self.now.local, &mut self.weights, max_h);
+                .prove(equations, &self.now.local, &mut self.weights, max_h);
         }
         let Some(proof) = proof else {
             return Err(unproved(self));
@@ -269,11 +269,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
         next.local
             .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
             .map_err(Rejection::Refine)?;
-        next.local.expand(equations, ORDER);
+        next.local.expand(equations);
         self.kept_weights.copy_from_slice(&self.weights);
         next.proof = self
             .test
-            .prove(equations, &mut next.local, &mut self.weights, limit)
+            .prove(equations, &next.local, &mut self.weights, limit)
             .ok_or(Rejection::Unproved)?;
         next.weights.copy_from_slice(self.test.weights());
         next.exit_at = EXIT * next.proof.h;
@@ -356,7 +356,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
     ) -> Result<(), Rejection> {
         let crossing = crossings[index];
         let (a, b) = crossing.between;
-        tube.local.at(0.5 * (a + b), ORDER, &mut self.scratch);
+        tube.local.at(0.5 * (a + b), &mut self.scratch);
         let found = self
             .prover
             .prove(

@@ -18,11 +18,9 @@
 
 use super::link::{Tube, evaluation_error};
 use crate::interval::rounding::{gamma, in_range, round_up};
-use crate::linalg::{Matrix, Vector};
-use crate::track::full::{Equations, Local, MAX_DEGREE, ORDER};
+use crate::linalg::{LANE, Matrix, Vector};
+use crate::track::full::{DEGREE, Equations, Lengths, Local, MAX_DEGREE, ORDER};
 
-/// The largest power of s in F(ẑ(s)).
-const DEGREE: usize = MAX_DEGREE * ORDER;
 /// At most so much of the contraction may be used up by the length of the tube.
 const MAX_CONTRACTION: f64 = 0.85;
 /// The smallest weight of an entry beside the largest, 1.
@@ -49,11 +47,19 @@ pub struct Proof {
 
 /// Work space of the test.
 #[derive(Debug, Clone)]
-pub struct KrawczykTest {
+pub struct KrawczykTest<const D: usize> {
     a: Matrix,
-    a2: Matrix,
-    r0: Matrix,
-    g: [Vector; 5],
+    /// Values of the sparse matrices J₁, J₂ and [J₀; c].
+    j1: Vec<f64>,
+    j2: Vec<f64>,
+    j0: Vec<f64>,
+    bounds: [Vector; 5],
+    /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
+    near: [Vector; D],
+    far: [Vector; D],
+    sums: [Vector; D],
+    coefficient: Vector,
+    lengths: Lengths,
     v: Vector,
     f: Vector,
     u: Vector,
@@ -84,17 +90,23 @@ struct Norms {
     h: f64,
 }
 
-impl KrawczykTest {
+impl<const D: usize> KrawczykTest<D> {
     /// Room for the tubes of a problem.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations<D>) -> Self {
         let n = equations.n();
-        // One spare column takes the entries of fixed coordinates.
-        let matrix = || Matrix::zeros(n, n + 1);
+        let per_axis = || std::array::from_fn(|_| equations.per_edge());
+        let entries = equations.pattern().entries();
         KrawczykTest {
-            a: matrix(),
-            a2: matrix(),
-            r0: matrix(),
-            g: std::array::from_fn(|_| equations.vector()),
+            a: Matrix::zeros(n, n),
+            j1: vec![0.0; entries],
+            j2: vec![0.0; entries],
+            j0: vec![0.0; equations.bordered_pattern().entries()],
+            bounds: std::array::from_fn(|_| equations.vector()),
+            near: per_axis(),
+            far: per_axis(),
+            sums: per_axis(),
+            coefficient: equations.per_edge(),
+            lengths: Lengths::new(equations.m),
             v: equations.vector(),
             f: equations.vector(),
             u: equations.vector(),
@@ -106,14 +118,13 @@ impl KrawczykTest {
     /// `weights` are u; they are replaced by better ones for the next tube.
     ///
     /// `None`: nothing can be proved here, however short.
-    pub fn prove<const D: usize>(
+    pub fn prove(
         &mut self,
         equations: &Equations<D>,
-        local: &mut Local<D>,
+        local: &Local<D>,
         weights: &mut Vector,
         max_h: f64,
     ) -> Option<Proof> {
-        local.complete_powers(ORDER);
         let norms = self.norms(equations, local, weights, max_h)?;
         let proof = norms.longest(weights[equations.m]);
         self.improve(weights);
@@ -125,7 +136,7 @@ impl KrawczykTest {
     ///
     /// A few steps w ← w − Ỹ(s) G_s(w) come near it. As that map is a contraction by q, the zero
     /// is at most |Ỹ(s) G_s(w)|_u / (1 − q) from any w in the box.
-    pub fn enclose_exit<const D: usize>(
+    pub fn enclose_exit(
         &mut self,
         equations: &Equations<D>,
         tube: &mut Tube<D>,
@@ -134,13 +145,14 @@ impl KrawczykTest {
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let out = &mut tube.exit;
         let c = &local.normal[..n];
-        local.at(s, ORDER, &mut out.centre);
+        local.at(s, &mut out.centre);
         let goal = 1e-3 * proof.r;
         let mut step = f64::INFINITY;
         for _ in 0..6 {
-            equations.residual(&out.centre, &mut self.f);
-            self.f[m] = 0.0;
-            local.y.multiply(&self.f[..n], &mut self.v);
+            equations.differences(&out.centre, &mut self.near);
+            equations.expand_lengths(out.centre[m], &mut self.lengths);
+            equations.residual(&self.near, &self.lengths, &mut self.f);
+            local.y.multiply(&self.f[..m], &mut self.v);
             self.a.multiply(&self.v[..n], &mut self.f);
             for i in 0..n {
                 self.v[i] -= s * self.f[i];
@@ -153,7 +165,11 @@ impl KrawczykTest {
             }
         }
         // The defect at the point reached, with what rounding may hide of it.
-        equations.residual_with_error(&out.centre, &mut self.f, &mut self.g[0]);
+        equations.differences(&out.centre, &mut self.near);
+        equations.expand_lengths(out.centre[m], &mut self.lengths);
+        equations.residual(&self.near, &self.lengths, &mut self.f);
+        let hidden = &mut self.bounds[0];
+        equations.residual_error(&self.near, out.centre[m], hidden);
         let (mut along, mut error) = (0.0, 0.0);
         let mut offset = 0.0f64;
         for i in 0..n {
@@ -170,13 +186,13 @@ impl KrawczykTest {
             }
         }
         self.f[m] = along;
-        self.g[0][m] = error;
+        hidden[m] = error;
         for i in 0..n {
-            self.g[0][i] += gamma(n + 2) * self.f[i].abs();
+            hidden[i] += gamma(n + 2) * self.f[i].abs();
         }
         local.y.multiply(&self.f[..n], &mut self.v);
         let computed = norm_of(&self.v, u, n);
-        local.y.multiply_abs(&self.g[0][..n], &mut self.v);
+        local.y.multiply_abs(&hidden[..n], &mut self.v);
         let hidden = norm_of(&self.v, u, n);
         let defect = round_up(
             (computed + hidden) * (1.0 + s.abs() * proof.moving),
@@ -215,7 +231,7 @@ impl KrawczykTest {
     }
 
     /// The bounds that do not depend on the final h, and the others at the largest h worth trying.
-    fn norms<const D: usize>(
+    fn norms(
         &mut self,
         equations: &Equations<D>,
         local: &Local<D>,
@@ -224,175 +240,178 @@ impl KrawczykTest {
     ) -> Option<Norms> {
         let (m, n) = (equations.m, equations.n());
         self.u.copy_from_slice(weights);
-        self.products(equations, local);
-        let u = &self.u;
-        let norm = |v: &[f64]| norm_of(v, u, n);
         // Differences, sums over a column, and the powers of t(s): fewer roundings than this.
         let per_entry = gamma(m + 120);
-        self.a.multiply_abs(&u[..n], &mut self.v);
-        let a = round_up(norm(&self.v), n + 2);
-        self.a2.multiply_abs(&u[..n], &mut self.v);
-        let a2 = round_up(norm(&self.v), n + 2);
-        self.a.square_minus_abs(&self.a2, &u[..n], &mut self.v);
-        let square = round_up(norm(&self.v) + gamma(n + 4) * (a * a + a2), n + 8);
+        let [a, a2, square, r0] = self.products(equations, local);
+        let a = round_up(a, n + 2);
+        let a2 = round_up(a2, n + 2);
+        let square = round_up(square + gamma(n + m + 8) * (a * a + a2), n + 8);
         if !(in_range(a) && in_range(a2) && in_range(square)) {
             return None;
         }
-        self.square_u.copy_from_slice(&self.v);
-        let h = max_h.min((MAX_CONTRACTION / square).sqrt());
-        self.r0.multiply_abs(&u[..n], &mut self.v);
-        let mut r0 = round_up(norm(&self.v), n + 2);
-
-        // Per equation: rounding of the products; the Jacobian's higher terms; its change over
-        // the width; the residual's orders ≤ ORDER with rounding, and > ORDER + 1.
-        let ut = u[m];
-        let t = local.z[0][m].abs();
+        let h = max_h.min((MAX_CONTRACTION / square.max(f64::MIN_POSITIVE)).sqrt());
         let hs = powers_of(h);
-        let reach: f64 = (1..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
-        let [rounding, higher, width, low, high] = &mut self.g;
-        for (e, edge) in equations.edges.iter().enumerate() {
-            let (mut j_low, mut j_high, mut j_width, mut size) = (0.0, 0.0, 0.0, 0.0);
-            for k in 0..D {
-                let sum = u[edge.at[0][k]] + u[edge.at[1][k]];
-                let d = |order: usize| local.d[order][e][k].abs() * hs[order];
-                let first = d(0) + d(1) + d(2);
-                let rest: f64 = (3..=ORDER).map(d).sum();
-                j_low += first * sum;
-                j_high += rest * sum;
-                j_width += sum * sum;
-                size += (first + rest).powi(2);
-            }
-            let far = t + reach;
-            let (e_abs, e_rad) = (&edge.e, &edge.e_radius);
-            let mut length_size = e_abs[0].abs() + far * (e_abs[1].abs() + far * e_abs[2].abs());
-            let mut length_radius = e_rad[0] + far * (e_rad[1] + far * e_rad[2]);
-            let mut slope_size = e_abs[1].abs() + 2.0 * far * e_abs[2].abs();
-            let mut slope_radius = e_rad[1] + 2.0 * far * e_rad[2];
-            let mut curvature = 2.0 * (e_abs[2].abs() + e_rad[2]);
-            if edge.bend {
-                // The width may add its share to t: |w_t| ≤ r u_t ≤ 1 is checked at the end.
-                let far3 = far * far * far;
-                length_size += far3 * (e_abs[3].abs() + far * e_abs[4].abs());
-                length_radius += far3 * (e_rad[3] + far * e_rad[4]);
-                slope_size += far * far * (3.0 * e_abs[3].abs() + 4.0 * far * e_abs[4].abs());
-                slope_radius += far * far * (3.0 * e_rad[3] + 4.0 * far * e_rad[4]);
-                let wide = far + 1.0;
-                curvature += wide
-                    * (6.0 * (e_abs[3].abs() + e_rad[3])
-                        + 12.0 * wide * (e_abs[4].abs() + e_rad[4]));
-                let c = &local.lengths[e];
-                for k in 3..=(MAX_DEGREE - 1) * ORDER {
-                    let entry = 2.0 * c[2] * local.powers[0][k]
-                        + 3.0 * c[3] * local.powers[1][k]
-                        + 4.0 * c[4] * local.powers[2][k];
-                    j_high += entry.abs() * hs[k] * ut;
-                }
-            } else {
-                let t_rest: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
-                j_high += 2.0 * e_abs[2].abs() * t_rest * ut;
-            }
-            rounding[e] = per_entry * (j_low + slope_size * ut) + slope_radius * ut;
-            higher[e] = j_high;
-            width[e] = j_width + curvature * ut * ut;
-            let mut f_low = gamma(200) * (size + length_size) + length_radius;
-            for k in 0..=ORDER {
-                f_low += local.coefficient(e, k, ORDER).abs() * hs[k];
-            }
-            low[e] = f_low;
-            self.f[e] = local.coefficient(e, ORDER + 1, ORDER);
-            let top = if edge.bend { DEGREE } else { 2 * ORDER };
-            // With k/(ORDER + 2) ≥ 1, so that it bounds the derivative by s as well, see `proof`.
-            high[e] = (ORDER + 2..=top)
-                .map(|k| {
-                    local.coefficient(e, k, ORDER).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64)
-                })
-                .sum();
-        }
-        let normal: f64 = local.normal[..n]
-            .iter()
-            .zip(&u[..n])
-            .map(|(c, u)| c.abs() * u)
-            .sum();
-        rounding[m] = per_entry * normal;
+        self.bound_equations(equations, local, &hs, per_entry);
 
-        let bound = |g: &Vector, len: usize, v: &mut Vector| {
-            local.y.multiply_abs(&g[..len], v);
-            round_up(norm(v), n + 200)
+        let u = &self.u;
+        let y = &local.y;
+        let mut bound = |g: &Vector, len: usize| {
+            y.multiply_abs(&g[..len], &mut self.v);
+            round_up(norm_of(&self.v, u, n), n + 200)
         };
-        r0 = round_up(r0 + bound(&self.g[0], n, &mut self.v), 2);
-        let higher = bound(&self.g[1], m, &mut self.v);
-        let width = bound(&self.g[2], m, &mut self.v);
-        let mut low = bound(&self.g[3], m, &mut self.v);
-        let high = bound(&self.g[4], m, &mut self.v);
-        // The leading term keeps its signs: Y first, absolute values after.
-        let (size, f) = (&mut self.g[0], &self.f);
-        for (size, f) in size[..m].iter_mut().zip(f.iter()) {
-            *size = gamma(n + 2) * f.abs();
-        }
-        local.y.multiply(&f[..m], &mut self.v);
+        let [rounding, higher, width, low, high] = &self.bounds;
+        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n), 2);
+        let higher = bound(higher, m);
+        let width = bound(width, m);
+        let low = bound(low, m);
+        let high = bound(high, m);
+        // The leading term keeps its signs: Y first, absolute values after. Its rounding is in `low`.
+        y.multiply(&self.f[..m], &mut self.v);
         let middle = round_up(norm_of(&self.v, u, n) * hs[ORDER + 1], n + 20);
-        low = round_up(low + bound(&self.g[0], m, &mut self.v) * hs[ORDER + 1], 20);
-        let slope_of = |i: usize| {
-            (1..=ORDER)
-                .map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1])
-                .sum::<f64>()
-        };
-        let slope = round_up(
-            (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i])),
-            40,
-        );
+        let slope_of = |i: usize| (1..=ORDER).map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1]).sum::<f64>();
+        let slope = (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i]));
+        let slope = round_up(slope, 40);
         let slope_of_t = round_up(slope_of(m), 40);
-        let norms = Norms {
-            a,
-            a2,
-            square,
-            r0,
-            higher,
-            width,
-            low,
-            middle,
-            high,
-            slope,
-            slope_of_t,
-            h,
-        };
+        let norms = Norms { a, a2, square, r0, higher, width, low, middle, high, slope, slope_of_t, h };
         norms.is_in_range().then_some(norms)
     }
 
-    /// A ≈ Y J₁, A₂ ≈ Y J₂ and R₀ ≈ I − Y [J₀; c]: sums of columns of Y, as the J_k are sparse.
-    fn products<const D: usize>(&mut self, equations: &Equations<D>, local: &Local<D>) {
+    /// Bounds per equation, into `bounds`: the rounding of J's products; the Jacobian's terms of
+    /// order ≥ 3 in s; its change over the width; F's orders ≤ ORDER with all of its rounding;
+    /// and > ORDER + 1. Order ORDER + 1, with its sign, into `f`.
+    fn bound_equations(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        hs: &[f64; DEGREE + 1],
+        per_entry: f64,
+    ) {
         let (m, n) = (equations.m, equations.n());
-        let y = &local.y;
-        self.a.clear();
-        self.a2.clear();
-        self.r0.clear();
-        for i in 0..n {
-            self.r0.set(i, i, 1.0);
-        }
-        for (e, edge) in equations.edges.iter().enumerate() {
-            for k in 0..D {
-                let [i, j] = edge.at.map(|at| at[k]);
-                let [d0, d1, d2] = [0, 1, 2].map(|order| local.d[order][e][k]);
-                self.r0.add_column(i, -d0, y, e);
-                self.r0.add_column(j, d0, y, e);
-                self.a.add_column(i, d1, y, e);
-                self.a.add_column(j, -d1, y, e);
-                self.a2.add_column(i, d2, y, e);
-                self.a2.add_column(j, -d2, y, e);
+        let u = &self.u;
+        equations.sums(u, &mut self.sums);
+        for axis in 0..D {
+            let d = std::array::from_fn::<_, { ORDER + 1 }, _>(|k| local.d[k][axis].lanes());
+            let (near, far) = (self.near[axis].lanes_mut(), self.far[axis].lanes_mut());
+            for l in 0..near.len() {
+                for i in 0..LANE {
+                    let size = |k: usize| d[k][l][i].abs();
+                    near[l][i] = size(0) + (size(1) * hs[1] + size(2) * hs[2]);
+                    far[l][i] = (3..=ORDER).fold(0.0, |sum: f64, k| size(k).mul_add(hs[k], sum));
+                }
             }
-            let c = &local.lengths[e];
-            let slope = |k: usize| {
-                2.0 * c[2] * local.powers[0][k]
-                    + 3.0 * c[3] * local.powers[1][k]
-                    + 4.0 * c[4] * local.powers[2][k]
-            };
-            self.r0.add_column(m, c[1], y, e);
-            self.a.add_column(m, -slope(1), y, e);
-            self.a2.add_column(m, -slope(2), y, e);
         }
-        for (column, &c) in local.normal[..n].iter().enumerate() {
-            self.r0.add_column(column, -c, y, m);
+        // What t can be along the tube, and its higher terms.
+        let ut = u[m];
+        let reach: f64 = (1..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
+        let t = local.z[0][m].abs() + reach;
+        let t_higher: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
+        let [rounding, higher, width, low, _] = &mut self.bounds;
+        let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
+        let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        for l in 0..e0.len() {
+            for i in 0..LANE {
+                let (mut j_near, mut j_far, mut j_width, mut size) = (0.0, 0.0, 0.0, 0.0);
+                for axis in 0..D {
+                    let sum = self.sums[axis].lanes()[l][i];
+                    let (near, far) = (self.near[axis].lanes()[l][i], self.far[axis].lanes()[l][i]);
+                    j_near += near * sum;
+                    j_far += far * sum;
+                    j_width += sum * sum;
+                    size += (near + far) * (near + far);
+                }
+                let [e0, e1, e2] = [e0[l][i], e1[l][i], e2[l][i]].map(f64::abs);
+                let [r0, r1, r2] = [r0[l][i], r1[l][i], r2[l][i]];
+                let slope_size = e1 + 2.0 * t * e2;
+                let slope_radius = r1 + 2.0 * t * r2;
+                rounding.lanes_mut()[l][i] = per_entry * (j_near + slope_size * ut) + slope_radius * ut;
+                higher.lanes_mut()[l][i] = j_far + 2.0 * e2 * t_higher * ut;
+                width.lanes_mut()[l][i] = j_width + 2.0 * (e2 + r2) * (ut * ut);
+                let length_size = e0 + t * (e1 + t * e2);
+                let length_radius = r0 + t * (r1 + t * r2);
+                low.lanes_mut()[l][i] = gamma(200) * (size + length_size) + length_radius;
+            }
         }
+        self.bound_bend(local, equations, t, ut, hs, per_entry);
+
+        // The coefficients of F along the tube.
+        let [_, _, _, low, high] = &mut self.bounds;
+        high.fill(0.0);
+        for k in 0..=2 * ORDER {
+            if k == ORDER + 1 {
+                local.coefficient(equations, k, 0, &mut self.f);
+                continue;
+            }
+            local.coefficient(equations, k, 0, &mut self.coefficient);
+            // With k/(ORDER + 2) ≥ 1 above, so that it bounds the derivative by s too, see `proof`.
+            let (sum, factor) =
+                if k <= ORDER { (&mut *low, hs[k]) } else { (&mut *high, hs[k] * (k as f64 / (ORDER + 2) as f64)) };
+            for (sum, c) in sum.lanes_mut().iter_mut().zip(self.coefficient.lanes()) {
+                for i in 0..LANE {
+                    sum[i] = c[i].abs().mul_add(factor, sum[i]);
+                }
+            }
+        }
+        let beyond = 2 * ORDER + 1..=DEGREE;
+        high[equations.bend.edge] += beyond
+            .map(|k| local.bend_excess(equations, k).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64))
+            .sum::<f64>();
+        // Rounding in Y f_{ORDER + 1}, a fused sum of m products; relative to its terms.
+        for (low, f) in low[..m].iter_mut().zip(self.f.iter()) {
+            *low += gamma(n + 2) * f.abs() * hs[ORDER + 1];
+        }
+        let rounding = &mut self.bounds[0];
+        let normal: f64 = local.normal[..n].iter().zip(&self.u[..n]).map(|(c, u)| c.abs() * u).sum();
+        rounding[m] = per_entry * normal;
+    }
+
+    /// Adds to the bounds of the distance that bends what its terms of degree > 2 in t bring.
+    fn bound_bend(
+        &mut self,
+        local: &Local<D>,
+        equations: &Equations<D>,
+        t: f64,
+        ut: f64,
+        hs: &[f64; DEGREE + 1],
+        per_entry: f64,
+    ) {
+        let [rounding, higher, width, low, _] = &mut self.bounds;
+        let bend = &equations.bend;
+        let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
+        let cube = t * t * t;
+        low[at] += gamma(200) * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
+        let slope_size = t * t * (3.0 * e[3] + 4.0 * t * e[4]);
+        let slope_radius = t * t * (3.0 * r[3] + 4.0 * t * r[4]);
+        rounding[at] += per_entry * slope_size * ut + slope_radius * ut;
+        // The width may add its share to t: |w_t| ≤ r u_t ≤ 1, as `proof` takes care.
+        let wide = t + 1.0;
+        width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
+        // All of the bend's terms, though the ones of e₂ are counted already.
+        let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER).map(|k| local.bend_slope(k).abs() * hs[k]).sum();
+        higher[at] += terms * ut;
+    }
+
+    /// A ≈ Y J₁, kept; and |A|_u, |A₂|_u with A₂ ≈ Y J₂, |A² − A₂|_u, |I − Y [J₀; c]|_u, as computed.
+    fn products(&mut self, equations: &Equations<D>, local: &Local<D>) -> [f64; 4] {
+        let (m, n) = (equations.m, equations.n());
+        let (y, u) = (&local.y, &self.u);
+        let pattern = equations.pattern();
+        // The entry of t in J_k is E'(t(s)) at sᵏ: 2 e₂ t_k but for the bend.
+        for (k, values) in [(1, &mut self.j1), (2, &mut self.j2)] {
+            let slope = 2.0 * local.z[k][m];
+            for (time, e2) in self.f[..m].iter_mut().zip(equations.e[2].iter()) {
+                *time = e2 * slope;
+            }
+            self.f[equations.bend.edge] = local.bend_slope(k);
+            equations.pattern_values(&local.d[k], &self.f[..m], values);
+        }
+        equations.bordered_values(&local.d[0], &local.lengths, &local.normal, &mut self.j0);
+        y.multiply_sparse(pattern, &self.j1, &mut self.a);
+        y.identity_minus_sparse_abs(equations.bordered_pattern(), &self.j0, &u[..n], &mut self.v);
+        let r0 = norm_of(&self.v, u, n);
+        self.a.multiply_abs(&u[..n], &mut self.v);
+        let a = norm_of(&self.v, u, n);
+        self.a.square_minus_sparse_abs((y, pattern, &self.j2), &u[..n], &mut self.square_u, &mut self.v);
+        [a, norm_of(&self.v, u, n), norm_of(&self.square_u, u, n), r0]
     }
 }
 

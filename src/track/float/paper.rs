@@ -66,9 +66,12 @@ impl<'a, const D: usize> Paper<'a, D> {
     /// c_i = |p_j − p_k| − a_i(t), equation (1) of the paper.
     fn residual(homotopy: &Homotopy, equations: &Equations<D>, z: &[f64], out: &mut [f64]) {
         let t = z[equations.m];
-        for ((edge, length), f) in equations.edges.iter().zip(&homotopy.lengths).zip(out) {
-            let [i, j] = edge.at;
-            let squared: f64 = (0..D).map(|k| (z[i[k]] - z[j[k]]).powi(2)).sum();
+        for (e, (length, f)) in homotopy.lengths.iter().zip(out).enumerate() {
+            let difference = |axis: usize| {
+                let [i, j] = equations.ends[axis][e];
+                z[i as usize] - z[j as usize]
+            };
+            let squared: f64 = (0..D).map(|axis| difference(axis).powi(2)).sum();
             *f = squared.sqrt() - length.value(t);
         }
     }

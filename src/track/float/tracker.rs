@@ -56,7 +56,7 @@ fn run<const D: usize>(
     now.z[0].copy_from_slice(&sketch);
     now.refine(equations, &mut inverter, POINT_TOLERANCE, 8)
         .map_err(|_| "the sketch could not be corrected onto its path".to_owned())?;
-    now.expand(equations, ORDER);
+    now.expand(equations);
     let direction = now.normal.clone();
 
     let longest = options.max_step.map_or(f64::INFINITY, |step| step / homotopy.unit);
@@ -74,7 +74,7 @@ fn run<const D: usize>(
         let refined = next.refine(equations, &mut inverter, POINT_TOLERANCE, 6).is_ok()
             && next.contraction <= LARGEST_CONTRACTION;
         if refined {
-            next.expand(equations, ORDER);
+            next.expand(equations);
         }
         let turned = crate::track::full::dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
         let seen = refined && !turned && events.between(equations, &mut inverter, &now, &next, step, record).is_some();
@@ -147,7 +147,7 @@ impl Events {
             time.crossings(from, to, &mut self.crossings).ok()?;
             for k in 0..self.crossings.len() {
                 let (a, b) = self.crossings[k].between;
-                local.at(0.5 * (a + b), ORDER, &mut self.scratch);
+                local.at(0.5 * (a + b), &mut self.scratch);
                 record.solution(equations, inverter, &self.scratch)?;
             }
             if let ((low, high), (slope_low, slope_high)) = time.bounds(from, to)
@@ -175,7 +175,7 @@ impl Events {
         if !(at <= 0.0 && at >= -step) || crate::track::full::dot(c, &direction[..n]) <= 0.0 {
             return None;
         }
-        next.at(at, ORDER, &mut self.scratch);
+        next.at(at, &mut self.scratch);
         let away = (0..n).fold(0.0, |max: f64, i| max.max((self.scratch[i] - sketch[i]).abs()));
         (away <= 10.0 * next.first_correction + 1e-6).then_some(at)
     }

@@ -1,12 +1,12 @@
 //! A point of the path with its preconditioner and the path's Taylor expansion there.
 
-use super::{Equations, MAX_DEGREE};
-use crate::linalg::{Inverter, Matrix, Vector};
+use super::equations::{Equations, Lengths, MAX_DEGREE};
+use crate::linalg::{Inverter, LANE, Matrix, Vector};
 
 /// Degree of the Taylor polynomials.
 pub const ORDER: usize = 5;
-/// One more than the largest power of s that F has along such a polynomial.
-const POWERS: usize = MAX_DEGREE * ORDER + 1;
+/// The largest power of s in F(ẑ(s)).
+pub const DEGREE: usize = MAX_DEGREE * ORDER;
 
 /// Why a predicted point could not be brought onto the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,16 +23,16 @@ pub enum RefineError {
 pub struct Local<const D: usize> {
     /// Coefficients z₀ … of ẑ.
     pub z: [Vector; ORDER + 1],
-    /// Their differences p_i − p_j, per distance.
-    pub d: [Vec<[f64; D]>; ORDER + 1],
-    /// E⁽ʲ⁾(t₀)/j! per distance.
-    pub lengths: Vec<[f64; 5]>,
+    /// Their differences p_i − p_j, per axis and distance.
+    pub d: [[Vector; D]; ORDER + 1],
+    /// Taylor coefficients of the lengths at t₀.
+    pub lengths: Lengths,
     /// The normal c.
     pub normal: Vector,
     /// The preconditioner.
     pub y: Matrix,
     /// Powers of t(s) − t₀: `powers[j - 1][k]` is the coefficient of sᵏ in its j-th power.
-    pub powers: [[f64; POWERS]; MAX_DEGREE],
+    pub powers: [[f64; DEGREE + 1]; MAX_DEGREE],
     /// The size of the first correction: how far the prediction was from the path.
     pub first_correction: f64,
     /// How much the corrections shrank at the first iteration, or zero if one was enough.
@@ -48,11 +48,11 @@ impl<const D: usize> Local<D> {
         let vector = || equations.vector();
         Local {
             z: std::array::from_fn(|_| vector()),
-            d: std::array::from_fn(|_| vec![[0.0; D]; m]),
-            lengths: vec![[0.0; 5]; m],
+            d: std::array::from_fn(|_| std::array::from_fn(|_| equations.per_edge())),
+            lengths: Lengths::new(m),
             normal: vector(),
             y: Matrix::zeros(n, n),
-            powers: [[0.0; POWERS]; MAX_DEGREE],
+            powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
             f: vector(),
@@ -65,16 +65,30 @@ impl<const D: usize> Local<D> {
         let none = || Vector::zeros(0);
         Local {
             z: std::array::from_fn(|_| none()),
-            d: std::array::from_fn(|_| Vec::new()),
-            lengths: Vec::new(),
+            d: std::array::from_fn(|_| std::array::from_fn(|_| none())),
+            lengths: Lengths::new(0),
             normal: none(),
             y: Matrix::zeros(0, 0),
-            powers: [[0.0; POWERS]; MAX_DEGREE],
+            powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
             f: none(),
             delta: none(),
         }
+    }
+
+    /// Brings differences and lengths up to date with `z[0]`.
+    #[inline(always)]
+    fn look(&mut self, equations: &Equations<D>) {
+        equations.differences(&self.z[0], &mut self.d[0]);
+        equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
+    }
+
+    /// Makes the preconditioner at `z[0]`.
+    pub fn precondition(&mut self, equations: &Equations<D>, inverter: &mut Inverter) -> Result<(), RefineError> {
+        self.look(equations);
+        equations.jacobian(&self.d[0], &self.lengths, &self.normal, inverter.input());
+        inverter.invert_into(&mut self.y).map_err(|_| RefineError::Singular)
     }
 
     /// Corrects `z[0]` onto the path with the preconditioner made at the prediction, moving in
@@ -86,25 +100,20 @@ impl<const D: usize> Local<D> {
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<(), RefineError> {
-        let n = equations.n();
-        equations.differences(&self.z[0], &mut self.d[0]);
-        equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
-        equations.jacobian(&self.d[0], &self.lengths, &self.normal, inverter.input());
-        inverter
-            .invert_into(&mut self.y)
-            .map_err(|_| RefineError::Singular)?;
+        let (m, n) = (equations.m, equations.n());
+        self.precondition(equations, inverter)?;
         let mut last = f64::INFINITY;
         self.contraction = 0.0;
         for iteration in 0..max_iterations {
-            self.residual();
-            self.y.multiply(&self.f[..equations.m], &mut self.delta);
+            equations.residual(&self.d[0], &self.lengths, &mut self.f);
+            self.y.multiply(&self.f[..m], &mut self.delta);
             let mut size = 0.0f64;
             for (z, delta) in self.z[0][..n].iter_mut().zip(self.delta.iter()) {
                 *z -= delta;
-                size = size.max(delta.abs());
+                // A NaN must not be lost in the comparison.
+                size = if size >= delta.abs() { size } else { delta.abs() };
             }
-            equations.differences(&self.z[0], &mut self.d[0]);
-            equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
+            self.look(equations);
             match iteration {
                 0 => self.first_correction = size,
                 1 => self.contraction = size / last,
@@ -122,15 +131,6 @@ impl<const D: usize> Local<D> {
         Err(RefineError::Diverged)
     }
 
-    /// F at z₀, from the differences.
-    #[inline(always)]
-    fn residual(&mut self) {
-        for ((f, d), length) in self.f.iter_mut().zip(&self.d[0]).zip(&self.lengths) {
-            let squared: f64 = (0..D).map(|k| d[k] * d[k]).sum();
-            *f = 0.5 * squared - length[0];
-        }
-    }
-
     /// Corrects `z[0]` in X at a fixed t, as far as floats go.
     pub fn polish_at(&mut self, equations: &Equations<D>, inverter: &mut Inverter, t: f64) -> Option<()> {
         let m = equations.m;
@@ -143,115 +143,128 @@ impl<const D: usize> Local<D> {
         for _ in 0..3 {
             self.z[0][m] = t;
             let refined = self.refine(equations, inverter, 1e-13, 20);
-            if refined.is_err() && self.first_correction.is_nan() || self.first_correction > 1e-5 {
+            if refined.is_err() && (self.first_correction.is_nan() || self.first_correction > 1e-5) {
                 return None;
             }
         }
         self.z[0][m] = t;
+        self.look(equations);
         Some(())
     }
 
-    /// Computes the coefficients z₁ … z_order by differentiating F(ẑ(s)) = 0: each solves the
+    /// Computes the coefficients z₁ … by differentiating F(ẑ(s)) = 0: each solves the
     /// same linear system, with what the earlier ones leave as its right-hand side.
-    pub fn expand(&mut self, equations: &Equations<D>, order: usize) {
+    pub fn expand(&mut self, equations: &Equations<D>) {
         let (m, n) = (equations.m, equations.n());
-        for p in &mut self.powers {
-            p.fill(0.0);
-        }
-        for k in 1..=order {
+        for k in 1..=ORDER {
             // The terms of order k without z_k; the last row asks c·z₁ = 1, c·z_k = 0.
-            self.set_powers(k, 0.0);
-            for e in 0..m {
-                self.f[e] = -self.coefficient_without_top(e, k);
+            self.set_power(k, 0.0);
+            let mut f = std::mem::take(&mut self.f);
+            self.coefficient(equations, k, 1, &mut f);
+            for lane in f.lanes_mut() {
+                *lane = lane.map(|x| -x);
             }
-            self.f[m] = if k == 1 { 1.0 } else { 0.0 };
-            self.y.multiply(&self.f[..n], &mut self.delta);
-            self.z[k][..n].copy_from_slice(&self.delta[..n]);
+            f[m] = if k == 1 { 1.0 } else { 0.0 };
+            self.y.multiply(&f[..n], &mut self.delta);
+            self.z[k].copy_from_slice(&self.delta);
             // One step of iterative refinement, as Y was made at the prediction.
             equations.differences(&self.z[k], &mut self.d[k]);
-            let t = self.z[k][m];
-            for e in 0..m {
-                let product: f64 = (0..D).map(|a| self.d[0][e][a] * self.d[k][e][a]).sum();
-                self.f[e] -= product - self.lengths[e][1] * t;
-            }
-            self.f[m] -= dot(&self.normal[..n], &self.z[k][..n]);
-            self.y.multiply(&self.f[..n], &mut self.delta);
-            for (z, delta) in self.z[k][..n].iter_mut().zip(self.delta.iter()) {
-                *z += delta;
+            self.subtract_jacobian_times(k, m, &mut f);
+            f[m] -= dot(&self.normal[..n], &self.z[k][..n]);
+            self.y.multiply(&f[..n], &mut self.delta);
+            for (z, delta) in self.z[k].lanes_mut().iter_mut().zip(self.delta.lanes()) {
+                for i in 0..LANE {
+                    z[i] += delta[i];
+                }
             }
             equations.differences(&self.z[k], &mut self.d[k]);
-            let t = self.z[k][m];
-            self.set_powers(k, t);
+            self.set_power(k, self.z[k][m]);
+            self.f = f;
         }
-        for k in order + 1..=ORDER {
-            self.z[k].fill(0.0);
-            self.d[k].fill([0.0; D]);
+        for k in ORDER + 1..=DEGREE {
+            self.set_power(k, 0.0);
+        }
+    }
+
+    /// `f −= J z_k` in the first m rows.
+    #[inline(always)]
+    fn subtract_jacobian_times(&self, k: usize, m: usize, f: &mut Vector) {
+        let t = self.z[k][m];
+        let slope = self.lengths.terms[1].lanes();
+        let (d0, dk) = (self.d[0].each_ref().map(|d| d.lanes()), self.d[k].each_ref().map(|d| d.lanes()));
+        for (l, f) in f.lanes_mut().iter_mut().enumerate().take(slope.len()) {
+            for i in 0..LANE {
+                let product: f64 = (0..D).map(|axis| d0[axis][l][i] * dk[axis][l][i]).sum();
+                f[i] -= product - slope[l][i] * t;
+            }
         }
     }
 
     /// Brings the powers of t(s) − t₀ up to date at order k, t_k being `t`.
-    fn set_powers(&mut self, k: usize, t: f64) {
+    fn set_power(&mut self, k: usize, t: f64) {
         let [p1, p2, p3, p4] = &mut self.powers;
         p1[k] = t;
-        p2[k] = (1..k).map(|a| p1[a] * p1[k - a]).sum();
-        p3[k] = (1..k).map(|a| p1[a] * p2[k - a]).sum();
-        p4[k] = (1..k).map(|a| p1[a] * p3[k - a]).sum();
-    }
-
-    /// Extends the powers of t(s) − t₀ beyond the order of the expansion.
-    pub fn complete_powers(&mut self, order: usize) {
-        let [p1, p2, p3, p4] = &mut self.powers;
-        for k in order + 1..=MAX_DEGREE * order {
-            p1[k] = 0.0;
-            p2[k] = (1..=order.min(k)).map(|a| p1[a] * p1[k - a]).sum();
-            p3[k] = (1..=order.min(k)).map(|a| p1[a] * p2[k - a]).sum();
-            p4[k] = (1..=order.min(k)).map(|a| p1[a] * p3[k - a]).sum();
+        let (mut s2, mut s3, mut s4) = (0.0, 0.0, 0.0);
+        for a in 1..k.min(ORDER + 1) {
+            s2 += p1[a] * p1[k - a];
+            s3 += p1[a] * p2[k - a];
+            s4 += p1[a] * p3[k - a];
         }
+        (p2[k], p3[k], p4[k]) = (s2, s3, s4);
     }
 
-    /// The coefficient of sᵏ in F_e(ẑ(s)) but for the terms J z_k.
+    /// The coefficients of sᵏ in F(ẑ(s)), for all distances, from products of z_a with a ≥ `least`:
+    /// 0 for all of them, 1 for those without J z_k.
     #[inline(always)]
-    fn coefficient_without_top(&self, e: usize, k: usize) -> f64 {
-        let mut sum = 0.0;
-        for a in 1..=(k - 1) / 2 {
-            let (x, y) = (&self.d[a][e], &self.d[k - a][e]);
-            sum += (0..D).map(|i| x[i] * y[i]).sum::<f64>();
-        }
-        if k.is_multiple_of(2) {
-            sum += 0.5 * self.d[k / 2][e].iter().map(|x| x * x).sum::<f64>();
-        }
-        let t = &self.lengths[e];
-        sum -= t[2] * self.powers[1][k];
-        if t[4] != 0.0 || t[3] != 0.0 {
-            sum -= t[3] * self.powers[2][k] + t[4] * self.powers[3][k];
-        }
-        sum
-    }
-
-    /// The coefficient of sᵏ in F_e(ẑ(s)), ẑ being of degree `order`. For k beyond `order`,
-    /// [`Local::complete_powers`] must have been called.
-    #[inline(always)]
-    pub fn coefficient(&self, e: usize, k: usize, order: usize) -> f64 {
-        let mut sum = 0.0;
-        for a in k.saturating_sub(order)..=(k.saturating_sub(1) / 2).min(order) {
-            if k == 0 {
-                break;
+    pub fn coefficient(&self, equations: &Equations<D>, k: usize, least: usize, out: &mut Vector) {
+        let least = least.max(k.saturating_sub(ORDER));
+        let e2 = equations.e[2].lanes();
+        let (square, linear) = (self.powers[1][k], if least == 0 { self.powers[0][k] } else { 0.0 });
+        let slope = self.lengths.terms[1].lanes();
+        let lanes = e2.len();
+        let out_lanes = &mut out.lanes_mut()[..lanes];
+        for (l, out) in out_lanes.iter_mut().enumerate() {
+            for i in 0..LANE {
+                out[i] = -(e2[l][i].mul_add(square, slope[l][i] * linear));
             }
-            let (x, y) = (&self.d[a][e], &self.d[k - a][e]);
-            sum += (0..D).map(|i| x[i] * y[i]).sum::<f64>();
         }
-        if k.is_multiple_of(2) && k / 2 <= order {
-            sum += 0.5 * self.d[k / 2][e].iter().map(|x| x * x).sum::<f64>();
+        for a in least..=k / 2 {
+            let b = k - a;
+            if b > ORDER {
+                continue;
+            }
+            let factor = if a == b { 0.5 } else { 1.0 };
+            for axis in 0..D {
+                let (x, y) = (self.d[a][axis].lanes(), self.d[b][axis].lanes());
+                for ((out, x), y) in out_lanes.iter_mut().zip(x).zip(y) {
+                    for i in 0..LANE {
+                        out[i] = (factor * x[i]).mul_add(y[i], out[i]);
+                    }
+                }
+            }
         }
-        let t = &self.lengths[e];
         if k == 0 {
-            return sum - t[0];
+            let t0 = self.lengths.terms[0].lanes();
+            for (out, t0) in out_lanes.iter_mut().zip(t0) {
+                for i in 0..LANE {
+                    out[i] -= t0[i];
+                }
+            }
+        } else {
+            out[equations.bend.edge] -= self.bend_excess(equations, k);
         }
-        sum -= t[1] * self.powers[0][k] + t[2] * self.powers[1][k];
-        if t[4] != 0.0 || t[3] != 0.0 {
-            sum -= t[3] * self.powers[2][k] + t[4] * self.powers[3][k];
-        }
-        sum
+    }
+
+    /// What the bend's E(t(s)) has at sᵏ beyond E' t_k and e₂ (t(s) − t₀)².
+    pub fn bend_excess(&self, equations: &Equations<D>, k: usize) -> f64 {
+        let c = &self.lengths.bend;
+        (c[2] - equations.bend.e[2]) * self.powers[1][k] + c[3] * self.powers[2][k] + c[4] * self.powers[3][k]
+    }
+
+    /// The coefficient of sᵏ, k ≥ 1, in the bend's E'(t(s)).
+    pub fn bend_slope(&self, k: usize) -> f64 {
+        let c = &self.lengths.bend;
+        2.0 * c[2] * self.powers[0][k] + 3.0 * c[3] * self.powers[1][k] + 4.0 * c[4] * self.powers[2][k]
     }
 
     /// Predicts the path's point and unit tangent at `s`, beyond the range of this expansion.
@@ -260,26 +273,16 @@ impl<const D: usize> Local<D> {
     /// of the path where the expansion before was made: that costs no linear algebra.
     pub fn predict(&self, s: f64, previous: Option<&[f64]>, z: &mut Vector, normal: &mut Vector) {
         let n = self.y.rows();
-        self.at(s, ORDER, z);
-        self.slope(s, ORDER, normal);
+        self.at(s, z);
+        self.slope(s, normal);
         if let Some(previous) = previous {
-            let back: f64 = (0..n)
-                .map(|i| self.normal[i] * (previous[i] - self.z[0][i]))
-                .sum();
+            let back: f64 = (0..n).map(|i| self.normal[i] * (previous[i] - self.z[0][i])).sum();
             let ratio = s / back;
             let square = ratio * ratio;
             let factor = square * square * square;
-            const {
-                assert!(
-                    ORDER == 5,
-                    "the factor is the (ORDER + 1)-st power of the ratio"
-                )
-            };
+            const { assert!(ORDER == 5, "the factor is the (ORDER + 1)-st power of the ratio") };
             for i in 0..n {
-                let there = (0..=ORDER)
-                    .rev()
-                    .fold(0.0f64, |sum, k| sum.mul_add(back, self.z[k][i]));
-                let away = factor * (previous[i] - there);
+                let away = factor * (previous[i] - self.entry_at(i, back));
                 z[i] += away;
                 normal[i] += (ORDER + 1) as f64 / s * away;
             }
@@ -305,28 +308,43 @@ impl<const D: usize> Local<D> {
         condition.is_finite().then_some(condition)
     }
 
+    /// ẑ(s)_i.
+    #[inline(always)]
+    pub fn entry_at(&self, i: usize, s: f64) -> f64 {
+        (0..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, self.z[k][i]))
+    }
+
     /// ẑ(s).
-    pub fn at(&self, s: f64, order: usize, out: &mut Vector) {
-        out.copy_from_slice(&self.z[order]);
-        for k in (0..order).rev() {
-            for (x, z) in out.iter_mut().zip(self.z[k].iter()) {
-                *x = x.mul_add(s, *z);
+    pub fn at(&self, s: f64, out: &mut Vector) {
+        let z = self.z.each_ref().map(|z| z.lanes());
+        for (l, out) in out.lanes_mut().iter_mut().enumerate() {
+            for i in 0..LANE {
+                out[i] = (0..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, z[k][l][i]));
             }
         }
     }
 
     /// ẑ'(s).
-    pub fn slope(&self, s: f64, order: usize, out: &mut Vector) {
-        out.fill(0.0);
-        for k in (1..=order).rev() {
-            for (x, z) in out.iter_mut().zip(self.z[k].iter()) {
-                *x = x.mul_add(s, k as f64 * z);
+    pub fn slope(&self, s: f64, out: &mut Vector) {
+        let z = self.z.each_ref().map(|z| z.lanes());
+        for (l, out) in out.lanes_mut().iter_mut().enumerate() {
+            for i in 0..LANE {
+                out[i] = (1..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, k as f64 * z[k][l][i]));
             }
         }
     }
 }
 
-/// a·b.
+/// a·b, in four interleaved sums.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    let (a4, a1) = a.as_chunks::<LANE>();
+    let (b4, b1) = b.as_chunks::<LANE>();
+    let mut sums = [0.0; LANE];
+    for (a, b) in a4.iter().zip(b4) {
+        for i in 0..LANE {
+            sums[i] = a[i].mul_add(b[i], sums[i]);
+        }
+    }
+    let rest: f64 = a1.iter().zip(b1).map(|(x, y)| x * y).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }

@@ -7,6 +7,6 @@ mod equations;
 mod local;
 mod start;
 
-pub use equations::{Equations, MAX_DEGREE};
-pub use local::{Local, ORDER, RefineError, dot};
+pub use equations::{Equations, Lengths, MAX_DEGREE};
+pub use local::{DEGREE, Local, ORDER, RefineError, dot};
 pub use start::{first_normal, path_length};

@@ -1,6 +1,6 @@
 //! Setting out from the sketch, and measuring what was travelled.
 
-use super::{Equations, Local, ORDER, dot};
+use super::{Equations, Local, dot};
 use crate::linalg::{Inverter, Singular, Vector};
 
 /// Finds the path's unit tangent at `local.z[0]` and sets it as normal: with t rising, or falling
@@ -20,10 +20,7 @@ pub fn first_normal<const D: usize>(
     for k in (0..n).rev() {
         local.normal.fill(0.0);
         local.normal[k] = 1.0;
-        equations.differences(&local.z[0], &mut local.d[0]);
-        equations.expand_lengths(local.z[0][m], &mut local.lengths);
-        equations.jacobian(&local.d[0], &local.lengths, &local.normal, inverter.input());
-        if inverter.invert_into(&mut local.y).is_err() {
+        if local.precondition(equations, inverter).is_err() {
             continue;
         }
         let tangent = local.y.column(m);
@@ -56,7 +53,7 @@ pub fn path_length<const D: usize>(
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let t = scratch.len() - 2;
     let mut speed = |s: f64| {
-        local.slope(s, ORDER, scratch);
+        local.slope(s, scratch);
         let x = dot(&scratch[..t], &scratch[..t]);
         (unit * unit * x + scratch[t] * scratch[t]).sqrt()
     };
