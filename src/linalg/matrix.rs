@@ -214,9 +214,22 @@ impl Sparse {
         self.starts[column + 1] - self.starts[column]
     }
 
+    /// The rows of a column's entries.
+    pub fn rows_of(&self, column: usize) -> impl Iterator<Item = usize> + '_ {
+        self.rows[self.starts[column]..self.starts[column + 1]].iter().map(|&row| row as usize)
+    }
+
+    /// The sum of absolute values in each row.
+    pub fn row_sums_abs(&self, values: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        for (&row, value) in self.rows.iter().zip(values) {
+            out[row as usize] += value.abs();
+        }
+    }
+
     /// The rows and values of a column's entries.
     #[inline(always)]
-    fn column<'a>(&'a self, values: &'a [f64], column: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
+    pub(super) fn column<'a>(&'a self, values: &'a [f64], column: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
         let range = self.starts[column]..self.starts[column + 1];
         self.rows[range.clone()].iter().zip(&values[range]).map(|(&row, &value)| (row as usize, value))
     }

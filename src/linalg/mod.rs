@@ -5,6 +5,7 @@
 
 mod inverse;
 mod matrix;
+mod pivots;
 
 pub use inverse::{Inverter, Singular};
 pub use matrix::{LANE, Matrix, Sparse, Vector};

@@ -129,7 +129,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         weights[..n].fill(1.0);
         Tracker {
             homotopy,
-            inverter: Inverter::new(n),
+            inverter: equations.inverter(),
             test: KrawczykTest::new(&equations),
             prover: SolutionProver::new(homotopy, &equations),
             now: Tube::new(&equations),

@@ -37,6 +37,7 @@ struct Paper<'a, const D: usize> {
     equations: &'a Equations<D>,
     inverter: Inverter,
     inverse: Matrix,
+    values: Vec<f64>,
     f: Vector,
     shifted: Vector,
     z: Vector,
@@ -52,8 +53,9 @@ impl<'a, const D: usize> Paper<'a, D> {
         Paper {
             homotopy,
             equations,
-            inverter: Inverter::new(n),
+            inverter: equations.inverter(),
             inverse: Matrix::zeros(n, n),
+            values: vec![0.0; equations.bordered_pattern().entries()],
             f: vector(),
             shifted: vector(),
             z: vector(),
@@ -80,20 +82,21 @@ impl<'a, const D: usize> Paper<'a, D> {
     fn differentiate(&mut self) -> Option<()> {
         let (m, n) = (self.equations.m, self.equations.n());
         Self::residual(self.homotopy, self.equations, &self.next, &mut self.f);
-        let jacobian = self.inverter.input();
+        let pattern = self.equations.bordered_pattern();
+        let mut at = 0;
         for k in 0..n {
             let kept = self.next[k];
             self.next[k] = kept + DIFFERENCE;
             let h = self.next[k] - kept;
             Self::residual(self.homotopy, self.equations, &self.next, &mut self.shifted);
             self.next[k] = kept;
-            let column = jacobian.column_mut(k);
-            for e in 0..m {
-                column[e] = (self.shifted[e] - self.f[e]) / h;
+            for e in pattern.rows_of(k) {
+                self.values[at] =
+                    if e < m { (self.shifted[e] - self.f[e]) / h } else { self.tangent[k] };
+                at += 1;
             }
-            column[m] = self.tangent[k];
         }
-        self.inverter.invert_into(&mut self.inverse).ok()
+        self.inverter.invert(&self.values, &mut self.inverse).ok()
     }
 
     fn run(&mut self, options: &Options, control: &mut Control, record: &mut Record<D>) -> Result<(), String> {

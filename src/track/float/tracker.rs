@@ -44,7 +44,7 @@ fn run<const D: usize>(
     record: &mut Record<D>,
 ) -> Result<(), String> {
     let (m, n) = (equations.m, equations.n());
-    let mut inverter = Inverter::new(n);
+    let mut inverter = equations.inverter();
     let (mut now, mut next) = (Local::new(equations), Local::new(equations));
     let mut sketch = equations.vector();
     for (x, &place) in sketch.iter_mut().zip(&homotopy.gauge.place) {

@@ -1,7 +1,7 @@
 //! H(X, t) laid out for the inner loops: one vector over all distances for each quantity.
 
 use crate::interval::rounding::{gamma, round_up};
-use crate::linalg::{LANE, Matrix, Sparse, Vector};
+use crate::linalg::{Inverter, LANE, Sparse, Vector};
 use crate::system::Homotopy;
 
 /// The degree of F in t: 4 for the bend, otherwise 2. In X it is 2.
@@ -189,24 +189,9 @@ impl<const D: usize> Equations<D> {
         }
     }
 
-    /// Writes the Jacobian at the given differences, and `normal` as its last row.
-    pub fn jacobian(&self, d: &[Vector; D], lengths: &Lengths, normal: &[f64], out: &mut Matrix) {
-        let (m, n) = (self.m, self.n());
-        out.clear();
-        let mut at = 0;
-        for column in 0..m {
-            let column_out = out.column_mut(column);
-            for source in &self.sources[at..at + self.pattern.entries_of(column)] {
-                column_out[source.edge as usize] = source.sign * d[source.axis as usize][source.edge as usize];
-            }
-            at += self.pattern.entries_of(column);
-            column_out[m] = normal[column];
-        }
-        let time = out.column_mut(m);
-        for (to, slope) in time[..m].iter_mut().zip(lengths.terms[1].iter()) {
-            *to = -slope;
-        }
-        time[m] = normal[n - 1];
+    /// An inverter for the Jacobian with its last row.
+    pub fn inverter(&self) -> Inverter {
+        Inverter::new(&self.bordered)
     }
 
     /// The pattern of the Jacobian's derivatives along a curve, whose last row is zero.

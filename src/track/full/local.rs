@@ -37,6 +37,8 @@ pub struct Local<const D: usize> {
     pub first_correction: f64,
     /// How much the corrections shrank at the first iteration, or zero if one was enough.
     pub contraction: f64,
+    /// Values of the sparse matrix [J; c].
+    values: Vec<f64>,
     f: Vector,
     delta: Vector,
 }
@@ -55,6 +57,7 @@ impl<const D: usize> Local<D> {
             powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
+            values: vec![0.0; equations.bordered_pattern().entries()],
             f: vector(),
             delta: vector(),
         }
@@ -72,6 +75,7 @@ impl<const D: usize> Local<D> {
             powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
+            values: Vec::new(),
             f: none(),
             delta: none(),
         }
@@ -87,8 +91,8 @@ impl<const D: usize> Local<D> {
     /// Makes the preconditioner at `z[0]`.
     pub fn precondition(&mut self, equations: &Equations<D>, inverter: &mut Inverter) -> Result<(), RefineError> {
         self.look(equations);
-        equations.jacobian(&self.d[0], &self.lengths, &self.normal, inverter.input());
-        inverter.invert_into(&mut self.y).map_err(|_| RefineError::Singular)
+        equations.bordered_values(&self.d[0], &self.lengths, &self.normal, &mut self.values);
+        inverter.invert(&self.values, &mut self.y).map_err(|_| RefineError::Singular)
     }
 
     /// Corrects `z[0]` onto the path with the preconditioner made at the prediction, moving in
@@ -296,15 +300,12 @@ impl<const D: usize> Local<D> {
     /// A float estimate of the condition of [J; c], |·|_∞ of both factors.
     pub fn condition(&self, equations: &Equations<D>) -> Option<f64> {
         let n = equations.n();
-        let mut jacobian = Matrix::zeros(n, n);
-        equations.jacobian(&self.d[0], &self.lengths, &self.normal, &mut jacobian);
-        let ones = vec![1.0; n];
         let mut sums = equations.vector();
-        let mut norm = |a: &Matrix| {
-            a.multiply_abs(&ones, &mut sums);
-            sums.iter().fold(0.0, |max: f64, &x| max.max(x))
-        };
-        let condition = norm(&jacobian) * norm(&self.y);
+        let largest = |sums: &[f64]| sums.iter().fold(0.0, |max: f64, &x| max.max(x));
+        equations.bordered_pattern().row_sums_abs(&self.values, &mut sums);
+        let jacobian = largest(&sums);
+        self.y.multiply_abs(&vec![1.0; n], &mut sums);
+        let condition = jacobian * largest(&sums);
         condition.is_finite().then_some(condition)
     }
 
