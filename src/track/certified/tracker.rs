@@ -15,7 +15,10 @@ use std::time::Instant;
 /// exit for a crossing of t = 1 that falls on it.
 const EXIT: f64 = 0.97;
 /// The next tube is expected to reach back over this fraction of its predicted half length.
-const REACH: f64 = 0.9;
+const REACH: f64 = 0.85;
+/// How a rejection changes what is expected, and each accepted tube after it.
+const DISTRUST: f64 = 0.8;
+const RECOVERY: f64 = 1.02;
 /// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
@@ -156,36 +159,46 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .max_step
             .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
         self.start(options.reverse, max_h)?;
-        // A prediction of the next half length, and how much of it has been believed lately.
+        // How far back the next tube is expected to reach, from the half lengths of the last two.
         let mut before = self.now.proof.h;
+        // How much of the expectation to believe: less after a rejection, then more again.
         let mut trust = 1.0;
+        // What a rejection taught about this tube.
+        let mut shorter = f64::INFINITY;
         // A bound on the half length where t = 1 is hard to separate; it grows back.
         let mut limit = max_h;
         loop {
             let h = self.now.proof.h;
-            let estimate = (h * (h / before).sqrt().clamp(0.5, 1.5)).min(limit);
-            let advance = self.now.exit_at + REACH * trust * estimate;
-            match self.step(advance, limit) {
+            let estimate = h * (h / before).sqrt().clamp(0.5, 1.5);
+            let reach = (REACH * trust * estimate.min(limit)).min(shorter);
+            match self.step(self.now.exit_at + reach, limit) {
                 Ok(closed) => {
                     self.steps += 1;
                     if closed {
                         return Ok(());
                     }
                     before = h;
-                    trust = (trust * 1.1).min(1.0);
+                    shorter = f64::INFINITY;
+                    trust = (RECOVERY * trust).min(1.0);
                     limit = (2.0 * limit).min(max_h);
                 }
                 Err(rejection) => {
                     self.rejected += 1;
                     self.weights.copy_from_slice(&self.kept_weights);
-                    if rejection == Rejection::Undecided {
-                        self.shortened += 1;
-                        limit = 0.25 * self.next.proof.h.min(limit);
-                    } else {
-                        trust *= 0.6;
+                    if shorter.is_infinite() {
+                        trust *= DISTRUST;
+                    }
+                    match rejection {
+                        Rejection::Undecided => {
+                            self.shortened += 1;
+                            limit = 0.25 * self.next.proof.h.min(limit);
+                        }
+                        // The tube is known but for a little shift of its middle.
+                        Rejection::Unlinked => shorter = (REACH * self.next.proof.h).min(0.6 * reach),
+                        Rejection::Refine(_) | Rejection::Unproved => shorter = 0.5 * reach,
                     }
                     let smallest = SMALLEST_STEP * self.figure_size();
-                    if limit < smallest || trust * h.min(limit) < smallest {
+                    if limit < smallest || shorter < smallest {
                         return Err(self.stuck(rejection));
                     }
                 }

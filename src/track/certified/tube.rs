@@ -24,7 +24,7 @@ use crate::track::full::{DEGREE, Equations, Lengths, Local, MAX_DEGREE, ORDER};
 /// At most so much of the contraction may be used up by the length of the tube.
 const MAX_CONTRACTION: f64 = 0.85;
 /// The smallest weight of an entry beside the largest, 1.
-const MIN_WEIGHT: f64 = 0.02;
+const MIN_WEIGHT: f64 = 0.1;
 
 /// What is proved of a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -86,6 +86,8 @@ struct Norms {
     /// |ẑ'(s)|_u for |s| ≤ `h`, and the bound on |ẑ_t'(s)| in it.
     slope: f64,
     slope_of_t: f64,
+    /// Σ |c_i| u_i.
+    normal: f64,
     /// Where the bounds that depend on s were taken; they hold below.
     h: f64,
 }
@@ -272,7 +274,8 @@ impl<const D: usize> KrawczykTest<D> {
         let slope = (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i]));
         let slope = round_up(slope, 40);
         let slope_of_t = round_up(slope_of(m), 40);
-        let norms = Norms { a, a2, square, r0, higher, width, low, middle, high, slope, slope_of_t, h };
+        let normal = local.normal[..n].iter().zip(&u[..n]).map(|(c, u)| c.abs() * u).sum();
+        let norms = Norms { a, a2, square, r0, higher, width, low, middle, high, slope, slope_of_t, normal, h };
         norms.is_in_range().then_some(norms)
     }
 
@@ -533,6 +536,10 @@ impl Norms {
             * (defect_slope
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
         let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
+        // Otherwise no tube after this one could be proved to go the same way.
+        if slope_distance * self.normal > 0.5 {
+            return None;
+        }
         Some(Proof {
             h,
             r,
