@@ -2,6 +2,7 @@
 //! that meet the dimensions.
 
 pub mod interval;
+pub mod plan;
 pub mod problem;
 pub mod system;
 pub mod track;

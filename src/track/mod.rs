@@ -1,9 +1,12 @@
 //! Following the path: predictor, corrector, step control, events.
 
+mod congruence;
 mod control;
 mod options;
 mod outcome;
+pub mod reduced;
 
+pub use congruence::congruence_classes;
 pub use control::{Control, Progress};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
