@@ -128,7 +128,11 @@ impl Graph {
                 if partial.order.len() == n {
                     break 'search partial.order;
                 }
-                for p in (0..n).filter(|&p| !partial.placed.has(p)) {
+                // With a neighbour at least, so that no intersection is of added distances only
+                // (definition 3, condition (i)); in a connected graph there always is one.
+                let joined = |p: usize| self.neighbours[p].iter().any(|(q, _)| partial.placed.has(*q));
+                let any_joined = (0..n).any(|p| !partial.placed.has(p) && joined(p));
+                for p in (0..n).filter(|&p| !partial.placed.has(p) && (!any_joined || joined(p))) {
                     let missing = self.missing(&partial.placed, p);
                     let mut next = partial.clone();
                     self.extend(&mut next, p);

@@ -10,19 +10,20 @@ pub(super) struct Corrector {
     pub q: Vec<f64>,
     step: Vec<Lanes>,
     sizes: Vec<Lanes>,
-    /// The matrix at the current station, and the one at the station to come.
-    here: Elimination,
     there: Elimination,
     /// For refining, beside the path's own matrices.
     apart: Elimination,
     apart_sizes: Vec<Lanes>,
+    /// The sign of the determinant of the Jacobian with the tangent as last row, which stays the
+    /// same as long as plan and branch do.
+    orientation: f64,
     places: usize,
 }
 
 /// How a correction went.
 pub(super) enum Correction {
-    /// At a point of the path; the size of the last but one correction, in the figure and t.
-    Done(f64),
+    /// At a point of the path.
+    Done,
     /// It did not converge.
     Failed,
 }
@@ -30,6 +31,9 @@ pub(super) enum Correction {
 /// A correction no larger than this (in the figure, homotopy's unit) is the last: what remains is
 /// of the order of its square.
 const SMALL: f64 = 1e-6;
+
+/// Matrix and tangent may be those of a point as far as this from the station.
+const NEAR: f64 = 1e-3;
 
 /// Each correction must be smaller than the one before by this factor.
 const CONTRACTION: f64 = 0.3;
@@ -40,32 +44,42 @@ impl Corrector {
             q: Vec::new(),
             step: Vec::new(),
             sizes: Vec::new(),
-            here: Elimination::default(),
             there: Elimination::default(),
             apart: Elimination::default(),
             apart_sizes: Vec::new(),
+            orientation: 1.0,
             places,
         }
     }
 
-    /// Parameters, derivatives and matrix at a point of the path, for a new plan.
-    pub fn settle<const D: usize>(&mut self, evaluation: &mut Evaluation<D>, z: &[f64]) -> bool {
+    /// Takes over a plan at the point `z` of the path: parameters, derivatives, and the tangent,
+    /// which is written to `tangent`. It keeps the direction that `tangent` has. (RR 8705, section
+    /// 7.1, translates the last tangent with ϕ'; here it is at hand in the full space.)
+    pub fn settle<const D: usize>(
+        &mut self,
+        evaluation: &mut Evaluation<D>,
+        z: &[f64],
+        tangent: &mut [f64],
+        fresh: &mut [f64],
+    ) -> bool {
         self.q.resize(evaluation.driving() + 1, 0.0);
         self.step.resize(evaluation.chunks(), Lanes::ZERO);
         self.sizes.resize(evaluation.chunks(), Lanes::ZERO);
         let (figure, t) = (&z[..self.places], z[self.places]);
         evaluation.parameters(figure, t, &mut self.q);
-        if !evaluation.evaluate(&self.q) {
+        if !evaluation.evaluate(&self.q) || !self.differentiate(evaluation) {
             return false;
         }
-        let done = self.differentiate(evaluation);
-        self.accept();
-        done
-    }
-
-    /// The matrix just computed is that of the current station from now on.
-    pub fn accept(&mut self) {
-        std::mem::swap(&mut self.here, &mut self.there);
+        let parity = self.there.null(&mut self.step);
+        if lift_unit(evaluation, &self.step, self.places, 1.0, fresh).is_none() {
+            return false;
+        }
+        let same = if super::station::dot(fresh, tangent) < 0.0 { -1.0 } else { 1.0 };
+        self.orientation = parity * same;
+        for (out, x) in tangent.iter_mut().zip(fresh) {
+            *out = same * *x;
+        }
+        true
     }
 
     /// Derivatives and factorization at the last evaluation.
@@ -73,12 +87,6 @@ impl Corrector {
         evaluation.differentiate();
         evaluation.column_sizes(&mut self.sizes);
         self.there.factorize(evaluation.driving(), evaluation.jacobian(), &self.sizes)
-    }
-
-    /// The unit tangent in the full space at the station accepted last, either way round.
-    pub fn tangent<const D: usize>(&mut self, evaluation: &mut Evaluation<D>, out: &mut [f64]) -> Option<()> {
-        self.here.null(&mut self.step);
-        lift_unit(evaluation, &self.step, self.places, out)
     }
 
     /// q −= step, and the figure that goes with it to first order.
@@ -97,60 +105,63 @@ impl Corrector {
         squared.sqrt()
     }
 
-    /// From `q`, already evaluated, to the path. Writes the station's point and its tangent, which
-    /// points the way `forward` does.
+    /// From `q`, already evaluated, to the path. Writes the point and its tangent. `h` is the
+    /// length of the step, against which the corrections are measured.
     ///
-    /// The first correction uses the matrix of the current station, all others that of the point
-    /// which it leads to.
+    /// A correction that finds the derivatives changed since they were computed computes them
+    /// anew; otherwise matrix and tangent are those of the first point.
     pub fn correct<const D: usize>(
         &mut self,
         evaluation: &mut Evaluation<D>,
-        forward: &[f64],
+        h: f64,
         z: &mut [f64],
         tangent: &mut [f64],
     ) -> Correction {
-        self.here.solve(evaluation.residual(), &mut self.step);
-        for (j, q) in self.q.iter_mut().enumerate() {
-            *q -= lane(&self.step, j);
-        }
-        let mut first = 0.0;
-        for (step, size) in self.step.iter().zip(&self.sizes) {
-            for k in 0..4 {
-                first += step.0[k] * step.0[k] * size.0[k];
-            }
-        }
-        let first = f64::sqrt(first);
-        if !evaluation.evaluate(&self.q) || !self.differentiate(evaluation) {
+        if !self.differentiate(evaluation) {
             return Correction::Failed;
         }
         self.there.solve(evaluation.residual(), &mut self.step);
         let mut size = self.move_by_step(evaluation, z);
-        self.there.null(&mut self.step);
-        if lift_unit(evaluation, &self.step, self.places, tangent).is_none() {
-            return Correction::Failed;
-        }
-        if super::station::dot(tangent, forward) < 0.0 {
-            tangent.iter_mut().for_each(|x| *x = -*x);
-        }
-        let second = size;
-        if !(second <= CONTRACTION.max(SMALL) * first || second <= SMALL) {
-            return Correction::Failed;
-        }
-        for _ in 0..4 {
-            if size <= SMALL {
-                return Correction::Done(second);
+        let small = (1e-4 * h).clamp(1e-12, 1e-6);
+        for _ in 0..5 {
+            if size <= small {
+                break;
             }
             if !evaluation.evaluate(&self.q) {
                 return Correction::Failed;
             }
             self.there.solve(evaluation.residual(), &mut self.step);
-            let smaller = self.move_by_step(evaluation, z);
-            if !(smaller <= CONTRACTION * size || smaller <= SMALL) {
+            let smaller = self.step_size();
+            if !(smaller <= CONTRACTION * size || smaller <= small) {
                 return Correction::Failed;
             }
-            size = smaller;
+            // How much derivatives have changed on the way, and with them the tangent.
+            let bent = super::station::distance(evaluation.figure(), &z[..self.places]);
+            if smaller.max(2.0 * bent) > *super::steps::NEAR * size {
+                if !self.differentiate(evaluation) {
+                    return Correction::Failed;
+                }
+                self.there.solve(evaluation.residual(), &mut self.step);
+            }
+            size = self.move_by_step(evaluation, z);
         }
-        Correction::Failed
+        if !(size <= small) {
+            return Correction::Failed;
+        }
+        let way = self.there.null(&mut self.step) * self.orientation;
+        match lift_unit(evaluation, &self.step, self.places, way, tangent) {
+            Some(()) => Correction::Done,
+            None => Correction::Failed,
+        }
+    }
+
+    /// About the size of the step in the figure and t.
+    fn step_size(&self) -> f64 {
+        let mut sum = Lanes::ZERO;
+        for (step, &size) in self.step.iter().zip(&self.sizes) {
+            sum = sum.plus_product(Lanes(step.0.map(|x| x * x)), size);
+        }
+        sum.sum().sqrt()
     }
 
     /// Newton's method to the end of precision, from the guess `z`, with one parameter fixed: t
@@ -167,21 +178,23 @@ impl Corrector {
         self.apart_sizes.resize(evaluation.chunks(), Lanes::ZERO);
         let mut best = f64::INFINITY;
         let mut idle = 0;
-        for turn in 0..20 {
+        let mut fixed = at.is_none().then_some(0);
+        for _ in 0..20 {
             if !evaluation.evaluate(&self.q) {
                 return false;
             }
             evaluation.differentiate();
             evaluation.column_sizes(&mut self.apart_sizes);
-            if at.is_none() {
-                // The last choice for a pivot.
-                self.apart_sizes[0].0[0] = 1e300;
+            if let Some(free) = fixed {
+                // Never a pivot, then.
+                self.apart_sizes[free / 4].0[free % 4] = 1e300;
             }
             if !self.apart.factorize(d, evaluation.jacobian(), &self.apart_sizes) {
                 return false;
             }
-            if let (Some(at), 0) = (at, turn) {
+            if let (Some(at), None) = (at, fixed) {
                 let free = self.apart.free();
+                fixed = Some(free);
                 let mut wanted = vec![0.0; d + 1];
                 evaluation.parameters(&at[..self.places], at[self.places], &mut wanted);
                 self.q[free] = wanted[free];
@@ -206,16 +219,18 @@ impl Corrector {
     }
 }
 
-/// Lifts a vector of the null space to the full space and makes it a unit vector there.
+/// Lifts a vector of the null space to the full space and makes it a unit vector there, pointing
+/// this way (1) or the other (-1).
 fn lift_unit<const D: usize>(
     evaluation: &Evaluation<D>,
     direction: &[Lanes],
     places: usize,
+    way: f64,
     out: &mut [f64],
 ) -> Option<()> {
     evaluation.lift(direction, &mut out[..places]);
     out[places] = lane(direction, 0);
-    let per_size = 1.0 / super::station::dot(out, out).sqrt();
+    let per_size = way / super::station::dot(out, out).sqrt();
     out.iter_mut().for_each(|x| *x *= per_size);
-    (per_size > 0.0 && per_size.is_finite()).then_some(())
+    (per_size != 0.0 && per_size.is_finite()).then_some(())
 }

@@ -18,6 +18,7 @@ pub(super) struct Elimination {
     scale: Vec<f64>,
     per_pivot: Vec<f64>,
     work: Vec<f64>,
+    parity: f64,
 }
 
 impl Elimination {
@@ -40,6 +41,7 @@ impl Elimination {
                 *x = jacobian[j / 4].0[j % 4] * scale;
             }
         }
+        self.parity = 1.0;
         for k in 0..d {
             let (mut best, mut at) = (0.0, (k, k));
             for i in k..d {
@@ -57,16 +59,19 @@ impl Elimination {
                 let (upper, lower) = self.lu.split_at_mut(at.0 * width);
                 upper[k * width..][..width].swap_with_slice(&mut lower[..width]);
                 self.rows.swap(k, at.0);
+                self.parity = -self.parity;
             }
             if at.1 != k {
                 for row in self.lu.chunks_exact_mut(width) {
                     row.swap(k, at.1);
                 }
                 self.columns.swap(k, at.1);
+                self.parity = -self.parity;
             }
             let (upper, lower) = self.lu.split_at_mut((k + 1) * width);
             let pivot_row = &upper[k * width..];
             let per_pivot = 1.0 / pivot_row[k];
+            self.parity = self.parity.copysign(self.parity * per_pivot);
             self.per_pivot[k] = per_pivot;
             for row in lower.chunks_exact_mut(width) {
                 let factor = row[k] * per_pivot;
@@ -98,14 +103,19 @@ impl Elimination {
         self.back(out);
     }
 
-    /// A vector of the null space.
-    pub fn null(&mut self, out: &mut [Lanes]) {
+    /// A vector of the null space, and the sign of the determinant of J with it as last row.
+    ///
+    /// Along a regular curve J = 0 the determinant does not change its sign if the vector always
+    /// points the same way: this tells directions apart where the angle to an earlier tangent,
+    /// across a hairpin, does not.
+    pub fn null(&mut self, out: &mut [Lanes]) -> f64 {
         let width = self.d + 1;
         for k in 0..self.d {
             self.work[k] = -self.lu[k * width + self.d];
         }
         self.work[self.d] = 1.0;
         self.back(out);
+        self.parity
     }
 
     fn back(&mut self, out: &mut [Lanes]) {
@@ -136,8 +146,12 @@ mod tests {
         assert!(elimination.factorize(2, &jacobian, &sizes));
         let mut out = [Lanes::ZERO];
         let product = |x: Lanes| jacobian.map(|row| Lanes::ZERO.plus_product(row, x).sum());
-        elimination.null(&mut out);
+        let sign = elimination.null(&mut out);
         assert!(product(out[0]).iter().all(|x| x.abs() < 1e-14));
+        let rows = [jacobian[0].0, jacobian[1].0, out[0].0].map(|x| [x[0], x[1], x[2]]);
+        let minor = |i: usize, j: usize| rows[1][i] * rows[2][j] - rows[1][j] * rows[2][i];
+        let determinant = rows[0][0] * minor(1, 2) - rows[0][1] * minor(0, 2) + rows[0][2] * minor(0, 1);
+        assert_eq!(sign, determinant.signum());
         elimination.solve(&[3.0, -2.0], &mut out);
         let y = product(out[0]);
         assert!((y[0] - 3.0).abs() < 1e-14 && (y[1] + 2.0).abs() < 1e-14);

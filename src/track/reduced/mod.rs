@@ -63,6 +63,8 @@ struct Tracker<'a, const D: usize> {
     length: f64,
     steps: usize,
     rejected: usize,
+    /// Rejected steps since the last accepted one.
+    failures: usize,
     plan_changes: usize,
     driving_sum: usize,
     driving_max: usize,
@@ -94,6 +96,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
             length: 0.0,
             steps: 0,
             rejected: 0,
+            failures: 0,
             plan_changes: 0,
             driving_sum: 0,
             driving_max: 0,
@@ -116,15 +119,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.current.z[..places].copy_from_slice(&self.homotopy.sketch);
         self.change_plan(false, self.options.alpha);
         self.plan_changes = 0;
+        self.current.tangent[places] = if self.options.reverse { -1.0 } else { 1.0 };
         if !self.settle() {
-            return Err("the construction plan cannot be evaluated on the sketch".into());
-        }
-        let Some(()) = self.corrector.tangent(&mut self.evaluation, &mut self.current.tangent) else {
-            return Err("the sketch is a singular point of the path".into());
-        };
-        let forward = (self.current.slope() >= 0.0) != self.options.reverse;
-        if !forward {
-            self.current.tangent.iter_mut().for_each(|x| *x = -*x);
+            return Err("the path has no tangent at the sketch, or the plan no figure".into());
         }
         self.start.clone_from(&self.current);
         Ok(())
@@ -150,11 +147,12 @@ impl<'a, const D: usize> Tracker<'a, D> {
         changed
     }
 
-    /// Takes over the plan at the current station: parameters, branch, derivatives there.
+    /// Takes over the plan at the current station: parameters, branch, tangent.
     fn settle(&mut self) -> bool {
         self.evaluation.rebuild(self.homotopy, &self.plan);
         self.evaluation.recover_branch(self.current.figure());
-        self.corrector.settle(&mut self.evaluation, &self.current.z)
+        let Station { z, tangent } = &mut self.current;
+        self.corrector.settle(&mut self.evaluation, z, tangent, &mut self.next.tangent)
     }
 
     fn progress(&self) -> Progress {

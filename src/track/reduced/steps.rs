@@ -6,20 +6,26 @@ use super::station::{Piece, distance, dot};
 use super::{SMALLEST_STEP, Tracker};
 use crate::track::{Control, Status};
 
+pub static mut ST:[usize;6]=[0;6];
 /// The first step from the sketch, while there is no history.
 const FIRST_STEP: f64 = 0.01;
 
 /// A station may be off its prediction by this part of the step.
-const ERROR: f64 = 0.02;
+use std::sync::LazyLock as L; fn ev(n:&str,d:f64)->f64{std::env::var(n).ok().map_or(d,|x|x.parse().unwrap())}
+pub static ERROR: L<f64> = L::new(||ev("ERROR",0.02));
 
 /// And its tangent off the prediction's, as an angle in radians.
-const TURN: f64 = 0.2;
+pub static NEAR: L<f64> = L::new(||ev("NEAR",0.01));
+pub static TURN: L<f64> = L::new(||ev("TURN",0.2));
 
 /// Changes of plan in one step because of what is ahead, at most.
 const LOOKS_AHEAD: usize = 3;
 
 /// Original instructions come back when their γ is this many times alpha.
 const RESTORE: f64 = 2.0;
+
+/// After so many failures in a row the current tangent is computed anew.
+const RENEW_AFTER: usize = 4;
 
 /// Steps between two looks for instructions to restore.
 const RESTORE_EVERY: usize = 4;
@@ -50,13 +56,13 @@ impl<const D: usize> Tracker<'_, D> {
                     let out_of_order = self.evaluation.is_out_of_order();
                     match self.look_between(length, margin) {
                         Events::None => {}
-                        Events::Closed(s) => {
+                        Events::Closed(s) => { #[allow(static_mut_refs)] unsafe{if std::env::var("V").is_ok(){eprintln!("corr {} err {} turn {} bnd {} unclear {}",ST[0],ST[1],ST[2],ST[3],ST[4]);}ST=[0;6];}
                             self.measure(length, s);
-                            self.corrector.accept();
+                            
                             self.advance(length);
                             return Status::Closed;
                         }
-                        Events::Unclear => {
+                        Events::Unclear => { unsafe{ST[4]+=1;} dbg_(h,"unclear");
                             if let Some(status) = self.reject(&mut h) {
                                 return status;
                             }
@@ -64,7 +70,7 @@ impl<const D: usize> Tracker<'_, D> {
                         }
                     }
                     self.measure(length, length);
-                    self.corrector.accept();
+                    
                     self.advance(length);
                     if near || out_of_order || self.steps.is_multiple_of(RESTORE_EVERY) && self.plan_is_restorable() {
                         self.change_plan(false, RESTORE * self.options.alpha);
@@ -102,8 +108,11 @@ impl<const D: usize> Tracker<'_, D> {
                 return Status::Stopped("interrupted".into());
             }
             looks = 0;
+            self.failures = 0;
             // The predictor's error grows like h³ relative to the step.
-            let growth = (0.5 * ERROR * length / error.max(1e-300)).cbrt().clamp(0.5, 2.0);
+            let growth = (0.5 * *ERROR * length / error.max(1e-300)).cbrt().clamp(0.5, 2.0);
+            let turn = distance(&self.current.tangent, &self.previous.tangent);
+            let growth = growth.min(0.8 * *TURN / turn.max(1e-300));
             h = (h * growth).min(longest);
         }
     }
@@ -111,6 +120,11 @@ impl<const D: usize> Tracker<'_, D> {
     fn reject(&mut self, h: &mut f64) -> Option<Status> {
         self.rejected += 1;
         *h *= 0.5;
+        self.failures += 1;
+        if self.failures == RENEW_AFTER {
+            // The station's own tangent may be what is wrong.
+            self.settle();
+        }
         (*h < SMALLEST_STEP)
             .then(|| Status::Stopped(format!("no step of {SMALLEST_STEP:e} succeeds {}", self.place())))
     }
@@ -129,19 +143,22 @@ impl<const D: usize> Tracker<'_, D> {
         let (figure, t) = (&self.predicted[..places], self.predicted[places]);
         self.evaluation.parameters(figure, t, &mut self.corrector.q);
         if !self.evaluation.evaluate(&self.corrector.q) || self.evaluation.is_near_boundary() {
+            unsafe{ST[3]+=1;} dbg_(h,&format!("bnd {} {}",self.evaluation.gamma(),self.evaluation.is_near_boundary()));
             return Attempt::Boundary;
         }
         let next = &mut self.next;
         let correction =
-            self.corrector.correct(&mut self.evaluation, &self.current.tangent, &mut next.z, &mut next.tangent);
-        let Correction::Done(_) = correction else { return Attempt::Failed };
+            self.corrector.correct(&mut self.evaluation, h, &mut next.z, &mut next.tangent);
+        let Correction::Done = correction else { unsafe{ST[0]+=1;} dbg_(h,"corr"); return Attempt::Failed };
         let error = distance(&next.z, &self.predicted);
-        if !(error <= ERROR * h) {
+        if !(error <= *ERROR * h) {
+            unsafe{ST[1]+=1;} dbg_(h,&format!("err {error:e}"));
             return Attempt::Failed;
         }
         // How the tangent turned; with history, compared with how it was turning before.
         let turn = dot(&next.tangent, &self.current.tangent);
-        if !(turn >= 1.0 - 0.5 * TURN * TURN) {
+        if !(turn >= 1.0 - 0.5 * *TURN * *TURN) {
+            unsafe{ST[2]+=1;} dbg_(h,&format!("turn {turn}"));
             return Attempt::Failed;
         }
         Attempt::Station { error }
@@ -189,3 +206,5 @@ impl<const D: usize> Tracker<'_, D> {
         }
     }
 }
+
+fn dbg_(h:f64,s:&str){ if h<1e-7 && std::env::var("V").is_ok(){eprintln!("{h:e} {s}");}}
