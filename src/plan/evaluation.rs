@@ -238,48 +238,51 @@ impl<const D: usize> Evaluation<D> {
         for ((k, slope), _) in q[1..].iter().zip(&mut self.slope[self.lengths.len()..]).zip(&self.driven) {
             *slope = *k;
         }
-        // How far hh (the square of the distance of the two intersections' halves) is above 0,
-        // and above α² times the square of the larger radius.
+        // How far the square of half the distance of the two intersections is above 0, and how
+        // far γ² is above α² (times something positive).
         let (mut domain, mut clear) = (f64::INFINITY, f64::INFINITY);
         let alpha = self.alpha_squared;
         for row in &self.rows {
             let place = match row.arity {
                 3 => {
-                    let [c1, c2, c3] = row.centres.map(|c| spatial(self.places[c]));
-                    let [r1, r2, r3] = row.radii.map(|r| self.squared[r]);
+                    let c1 = spatial(self.places[row.centres[0]]);
+                    let c2 = spatial(self.places[row.centres[1]]);
+                    let c3 = spatial(self.places[row.centres[2]]);
+                    let r1 = self.squared[row.radii[0]];
+                    let r2 = self.squared[row.radii[1]];
+                    let r3 = self.squared[row.radii[2]];
                     let (e, f) = (sub(c2, c1), sub(c3, c1));
-                    let l2 = dot(e, e);
-                    let per_l2 = 1.0 / l2;
-                    // interSS: the circle's centre is c1 + x e, its squared radius rho.
-                    let x = (0.5 * (r1 - r2)).mul_add(per_l2, 0.5);
-                    let rho = (-x * x).mul_add(l2, r1);
-                    // interCS, in the circle's plane, where c3 projects to c1 + x e + g.
-                    let fe = dot(e, f) * per_l2;
-                    let g = add_scaled(f, -fe, e);
-                    let g2 = dot(g, g);
-                    let per_g2 = 1.0 / g2;
-                    let dx = x - fe;
-                    let y = 0.5 * ((dx * dx).mul_add(l2, rho) + g2 - r3) * per_g2;
-                    let hh = (-y * y).mul_add(g2, rho);
+                    let (ee, ef, ff) = (dot(e, e), dot(e, f), dot(f, f));
+                    // p = c1 + x e + y f + z e × f, from p·e and p·f (seen from c1).
+                    let pe = 0.5 * (r1 - r2 + ee);
+                    let pf = 0.5 * (r1 - r3 + ff);
+                    let per_det = 1.0 / ee.mul_add(ff, -(ef * ef));
+                    let x = ff.mul_add(pe, -(ef * pf)) * per_det;
+                    let y = ee.mul_add(pf, -(ef * pe)) * per_det;
+                    // Squares: the height above the plane of the centres; ee times the radius
+                    // of the circle of interSS.
+                    let hh = x.mul_add(-pe, y.mul_add(-pf, r1));
+                    let circle = r1.mul_add(ee, -(pe * pe));
                     domain = domain.min(hh);
                     clear = clear
-                        .min((-alpha).mul_add(rho.max(r3), hh))
-                        .min((-alpha).mul_add(r1.max(r2), rho));
-                    let z = row.sign * (hh * per_l2 * per_g2).sqrt();
-                    let p = add_scaled(add_scaled(c1, x, e), y, g);
-                    narrow(add_scaled(p, z, cross(e, g)))
+                        .min((-alpha).mul_add(circle.max(r3 * ee), hh * ee))
+                        .min((-alpha * ee).mul_add(r1.max(r2), circle));
+                    let z = row.sign * (hh * per_det).sqrt();
+                    let p = add_scaled(add_scaled(c1, x, e), y, f);
+                    narrow(add_scaled(p, z, cross(e, f)))
                 }
                 2 => {
-                    let [c1, c2] = [self.places[row.centres[0]], self.places[row.centres[1]]];
-                    let [r1, r2] = [self.squared[row.radii[0]], self.squared[row.radii[1]]];
+                    let (c1, c2) = (self.places[row.centres[0]], self.places[row.centres[1]]);
+                    let (r1, r2) = (self.squared[row.radii[0]], self.squared[row.radii[1]]);
                     let e = [c2[0] - c1[0], c2[1] - c1[1]];
-                    let l2 = dot(e, e);
-                    let per_l2 = 1.0 / l2;
-                    let x = (0.5 * (r1 - r2)).mul_add(per_l2, 0.5);
-                    let hh = (-x * x).mul_add(l2, r1);
+                    let ee = dot(e, e);
+                    let pe = 0.5 * (r1 - r2 + ee);
+                    let per_ee = 1.0 / ee;
+                    let x = pe * per_ee;
+                    let hh = (-pe).mul_add(x, r1);
                     domain = domain.min(hh);
                     clear = clear.min((-alpha).mul_add(r1.max(r2), hh));
-                    let z = row.sign * (hh * per_l2).sqrt();
+                    let z = row.sign * (hh * per_ee).sqrt();
                     let p = add_scaled(add_scaled([c1[0], c1[1]], x, e), z, [-e[1], e[0]]);
                     std::array::from_fn(|k| if k < 2 { p[k] } else { 0.0 })
                 }
@@ -316,10 +319,17 @@ impl<const D: usize> Evaluation<D> {
             let at = row.point * chunks;
             match row.arity {
                 3 => {
-                    let u = row.centres.map(|c| spatial(sub(p, self.places[c])));
-                    let w = [cross(u[1], u[2]), cross(u[2], u[0]), cross(u[0], u[1])];
-                    let per_det = 1.0 / dot(u[0], w[0]);
-                    let w = w.map(|w| scale(per_det, w));
+                    let u0 = spatial(sub(p, self.places[row.centres[0]]));
+                    let u1 = spatial(sub(p, self.places[row.centres[1]]));
+                    let u2 = spatial(sub(p, self.places[row.centres[2]]));
+                    let w0 = cross(u1, u2);
+                    let per_det = 1.0 / dot(u0, w0);
+                    let u = [u0, u1, u2];
+                    let w = [
+                        scale(per_det, w0),
+                        scale(per_det, cross(u2, u0)),
+                        scale(per_det, cross(u0, u1)),
+                    ];
                     for chunk in 0..row.chunks {
                         let mut out = [Lanes::ZERO; D];
                         for k in 0..3 {
@@ -401,7 +411,9 @@ impl<const D: usize> Evaluation<D> {
                     sum[axis] = sum[axis].plus_product(s[axis], x);
                 }
             }
-            *out = sum.map(Lanes::sum);
+            for (out, sum) in out.iter_mut().zip(&sum) {
+                *out = sum.sum();
+            }
         }
     }
 

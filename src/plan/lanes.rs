@@ -20,25 +20,39 @@ impl Lanes {
     /// self + s x.
     #[inline(always)]
     pub fn plus(self, s: f64, x: Lanes) -> Lanes {
-        Lanes(std::array::from_fn(|k| s.mul_add(x.0[k], self.0[k])))
+        let (a, b) = (&self.0, &x.0);
+        Lanes([
+            s.mul_add(b[0], a[0]),
+            s.mul_add(b[1], a[1]),
+            s.mul_add(b[2], a[2]),
+            s.mul_add(b[3], a[3]),
+        ])
     }
 
     /// self + x y, lane by lane.
     #[inline(always)]
     pub fn plus_product(self, x: Lanes, y: Lanes) -> Lanes {
-        Lanes(std::array::from_fn(|k| x.0[k].mul_add(y.0[k], self.0[k])))
+        let (a, x, y) = (&self.0, &x.0, &y.0);
+        Lanes([
+            x[0].mul_add(y[0], a[0]),
+            x[1].mul_add(y[1], a[1]),
+            x[2].mul_add(y[2], a[2]),
+            x[3].mul_add(y[3], a[3]),
+        ])
     }
 
     /// s self.
     #[inline(always)]
     pub fn times(self, s: f64) -> Lanes {
-        Lanes(self.0.map(|x| s * x))
+        let a = &self.0;
+        Lanes([s * a[0], s * a[1], s * a[2], s * a[3]])
     }
 
     /// self − x.
     #[inline(always)]
     pub fn minus(self, x: Lanes) -> Lanes {
-        Lanes(std::array::from_fn(|k| self.0[k] - x.0[k]))
+        let (a, b) = (&self.0, &x.0);
+        Lanes([a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]])
     }
 
     /// The sum over the lanes.

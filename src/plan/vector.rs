@@ -15,7 +15,7 @@ pub(super) fn add_scaled<const D: usize>(a: [f64; D], s: f64, b: [f64; D]) -> [f
 
 #[inline(always)]
 pub(super) fn scale<const D: usize>(s: f64, a: [f64; D]) -> [f64; D] {
-    a.map(|x| s * x)
+    std::array::from_fn(|k| s * a[k])
 }
 
 #[inline(always)]

@@ -67,18 +67,25 @@ impl Piece<'_> {
     /// The length of the piece up to `s`, with figures stretched by `unit` (Simpson's rule).
     pub fn length(&self, s: f64, unit: f64) -> f64 {
         let places = self.from.z.len() - 1;
+        // The derivative of the cubic, as weights of values and slopes.
         let speed = |u: f64| {
-            // Derivatives of the weights.
             let a = 6.0 * u * (u - 1.0) / self.h;
             let (c, d) = ((u - 1.0) * (3.0 * u - 1.0), u * (3.0 * u - 2.0));
-            let at = |k: usize| {
-                a * (self.from.z[k] - self.to.z[k]) + c * self.from.tangent[k] + d * self.to.tangent[k]
-            };
-            let squared: f64 = (0..places).map(|k| at(k) * at(k)).sum();
-            (unit * unit * squared + at(places) * at(places)).sqrt()
+            let (x, y) = (&self.from.z[..places], &self.to.z[..places]);
+            let (v, w) = (&self.from.tangent[..places], &self.to.tangent[..places]);
+            let mut squared = 0.0;
+            for k in 0..places {
+                let slope = a * (x[k] - y[k]) + c * v[k] + d * w[k];
+                squared += slope * slope;
+            }
+            let t = a * (self.from.t() - self.to.t()) + c * self.from.slope() + d * self.to.slope();
+            (unit * unit * squared + t * t).sqrt()
         };
+        // At the ends the tangents are unit vectors.
+        let end = |slope: f64| (unit * unit * (1.0 - slope * slope).max(0.0) + slope * slope).sqrt();
         let u = s / self.h;
-        s / 6.0 * (speed(0.0) + 4.0 * speed(0.5 * u) + speed(u))
+        let last = if u == 1.0 { end(self.to.slope()) } else { speed(u) };
+        s / 6.0 * (end(self.from.slope()) + 4.0 * speed(0.5 * u) + last)
     }
 }
 
