@@ -256,7 +256,8 @@ impl<const D: usize> Evaluation<D> {
                     // p = c1 + x e + y f + z e × f, from p·e and p·f (seen from c1).
                     let pe = 0.5 * (r1 - r2 + ee);
                     let pf = 0.5 * (r1 - r3 + ff);
-                    let per_det = 1.0 / ee.mul_add(ff, -(ef * ef));
+                    let det = ee.mul_add(ff, -(ef * ef));
+                    let per_det = 1.0 / det;
                     let x = ff.mul_add(pe, -(ef * pf)) * per_det;
                     let y = ee.mul_add(pf, -(ef * pe)) * per_det;
                     // Squares: the height above the plane of the centres; ee times the radius
@@ -265,8 +266,9 @@ impl<const D: usize> Evaluation<D> {
                     let circle = r1.mul_add(ee, -(pe * pe));
                     domain = domain.min(hh);
                     clear = clear
+                        .min((-alpha).mul_add(r1.max(r2) * ee.max(r1.min(r2)), circle))
                         .min((-alpha).mul_add(circle.max(r3 * ee), hh * ee))
-                        .min((-alpha * ee).mul_add(r1.max(r2), circle));
+                        .min((-alpha).mul_add(r3 * circle, hh * det));
                     let z = row.sign * (hh * per_det).sqrt();
                     let p = add_scaled(add_scaled(c1, x, e), y, f);
                     narrow(add_scaled(p, z, cross(e, f)))
@@ -281,7 +283,7 @@ impl<const D: usize> Evaluation<D> {
                     let x = pe * per_ee;
                     let hh = (-pe).mul_add(x, r1);
                     domain = domain.min(hh);
-                    clear = clear.min((-alpha).mul_add(r1.max(r2), hh));
+                    clear = clear.min((-alpha).mul_add(r1.max(r2) * ee.max(r1.min(r2)), hh * ee));
                     let z = row.sign * (hh * per_ee).sqrt();
                     let p = add_scaled(add_scaled([c1[0], c1[1]], x, e), z, [-e[1], e[0]]);
                     std::array::from_fn(|k| if k < 2 { p[k] } else { 0.0 })

@@ -1,26 +1,23 @@
 //! New places for reference points (RR 8705, Algorithm 4 and section 6).
 
-use super::vector::{V3, add_scaled, cross, dot, norm, perpendicular, scale, sub, unit};
+use super::vector::{V3, add_scaled, cross, dot, norm, perpendicular, sub, unit};
 
 /// Algorithm 4: a new reference point for a driven interCC or interSSP, from the point `p`
-/// constructed, the other centre `c1` and the former centre `c2`.
+/// constructed, the other centre `c1` and the former centre `c2`. All are in the xy plane.
 ///
-/// It lies at the distance `|p − c1|` from `p`, straight away from it towards the line through the
-/// two centres. By proposition 2 γ is then at least √½. All three points are in the xy plane, and
-/// so is the result.
+/// It lies at the distance `|p − c1|` from `p`, at a right angle from `c1`, on the side of the line
+/// through the two centres. γ is √½. (The paper takes the perpendicular to that line, which near
+/// a boundary configuration is almost the same; this one also helps where `c1` and `c2` are near
+/// each other.)
 pub(super) fn shift_in_plane(p: V3, c1: V3, c2: V3) -> V3 {
-    let radius = norm(sub(p, c1));
     let u = sub(p, c1);
-    let along = unit(sub(c2, c1)).unwrap_or([1.0, 0.0, 0.0]);
-    let foot = add_scaled(c1, dot(u, along), along);
+    let across = [-u[1], u[0], 0.0];
+    let line = sub(c2, c1);
+    let along = dot(u, line) / dot(line, line);
+    let foot = add_scaled(c1, along, line);
     // Where p is on the line to within rounding, either side serves.
-    let towards = sub(foot, p);
-    let direction = if norm(towards) > 1e-9 * radius {
-        scale(1.0 / norm(towards), towards)
-    } else {
-        [-along[1], along[0], 0.0]
-    };
-    add_scaled(p, radius, direction)
+    let side = if dot(across, sub(foot, p)) < 0.0 { -1.0 } else { 1.0 };
+    add_scaled(p, side, across)
 }
 
 /// The same for interSS, whose circle is then met by a sphere around `c3`.

@@ -2,6 +2,7 @@
 
 use super::elimination::Elimination;
 use super::lane;
+use super::station::{distance, dot};
 use crate::plan::{Evaluation, Lanes};
 
 /// Work space: parameters, corrections, factorizations.
@@ -28,12 +29,11 @@ pub(super) enum Correction {
     Failed,
 }
 
-/// A correction no larger than this (in the figure, homotopy's unit) is the last: what remains is
-/// of the order of its square.
+/// A station is at most about this far from the path (in the figure, homotopy's unit).
 const SMALL: f64 = 1e-6;
 
-/// Matrix and tangent may be those of a point as far as this from the station.
-const NEAR: f64 = 1e-3;
+/// Corrections in a step, at most, beside the first.
+const MOST: usize = 4;
 
 /// Each correction must be smaller than the one before by this factor.
 const CONTRACTION: f64 = 0.3;
@@ -74,7 +74,7 @@ impl Corrector {
         if lift_unit(evaluation, &self.step, self.places, 1.0, fresh).is_none() {
             return false;
         }
-        let same = if super::station::dot(fresh, tangent) < 0.0 { -1.0 } else { 1.0 };
+        let same = if dot(fresh, tangent) < 0.0 { -1.0 } else { 1.0 };
         self.orientation = parity * same;
         for (out, x) in tangent.iter_mut().zip(fresh) {
             *out = same * *x;
@@ -86,6 +86,10 @@ impl Corrector {
     fn differentiate<const D: usize>(&mut self, evaluation: &mut Evaluation<D>) -> bool {
         evaluation.differentiate();
         evaluation.column_sizes(&mut self.sizes);
+        self.factorize(evaluation)
+    }
+
+    fn factorize<const D: usize>(&mut self, evaluation: &Evaluation<D>) -> bool {
         self.there.factorize(evaluation.driving(), evaluation.jacobian(), &self.sizes)
     }
 
@@ -122,9 +126,11 @@ impl Corrector {
         }
         self.there.solve(evaluation.residual(), &mut self.step);
         let mut size = self.move_by_step(evaluation, z);
-        let small = (1e-4 * h).clamp(1e-12, 1e-6);
-        for _ in 0..5 {
-            if size <= small {
+        let small = (1e-4 * h).clamp(1e-12, SMALL);
+        // About what is left to correct.
+        let mut left = size;
+        for _ in 0..MOST {
+            if left <= small {
                 break;
             }
             if !evaluation.evaluate(&self.q) {
@@ -136,16 +142,21 @@ impl Corrector {
                 return Correction::Failed;
             }
             // How much derivatives have changed on the way, and with them the tangent.
-            let bent = super::station::distance(evaluation.figure(), &z[..self.places]);
-            if smaller.max(2.0 * bent) > *super::steps::NEAR * size {
-                if !self.differentiate(evaluation) {
+            let bent = distance(evaluation.figure(), &z[..self.places]);
+            let change = smaller.max(2.0 * bent) / size;
+            let renew = change > *super::steps::NEAR;
+            if renew {
+                evaluation.differentiate();
+                if !self.factorize(evaluation) {
                     return Correction::Failed;
                 }
                 self.there.solve(evaluation.residual(), &mut self.step);
             }
+            let before = size;
             size = self.move_by_step(evaluation, z);
+            left = change * size * if renew { size / before } else { 1.0 };
         }
-        if !(size <= small) {
+        if !(left <= small) {
             return Correction::Failed;
         }
         let way = self.there.null(&mut self.step) * self.orientation;
@@ -230,7 +241,7 @@ fn lift_unit<const D: usize>(
 ) -> Option<()> {
     evaluation.lift(direction, &mut out[..places]);
     out[places] = lane(direction, 0);
-    let per_size = way / super::station::dot(out, out).sqrt();
+    let per_size = way / dot(out, out).sqrt();
     out.iter_mut().for_each(|x| *x *= per_size);
     (per_size != 0.0 && per_size.is_finite()).then_some(())
 }

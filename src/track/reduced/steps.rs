@@ -109,8 +109,8 @@ impl<const D: usize> Tracker<'_, D> {
             }
             looks = 0;
             self.failures = 0;
-            // The predictor's error grows like h³ relative to the step.
-            let growth = (0.5 * *ERROR * length / error.max(1e-300)).cbrt().clamp(0.5, 2.0);
+            // The predictor's error grows like h⁴.
+            let growth = (0.5 * *ERROR * length / error.max(1e-300)).sqrt().sqrt().clamp(0.5, 2.0);
             let turn = distance(&self.current.tangent, &self.previous.tangent);
             let growth = growth.min(0.8 * *TURN / turn.max(1e-300));
             h = (h * growth).min(longest);
@@ -149,7 +149,7 @@ impl<const D: usize> Tracker<'_, D> {
         let next = &mut self.next;
         let correction =
             self.corrector.correct(&mut self.evaluation, h, &mut next.z, &mut next.tangent);
-        let Correction::Done = correction else { unsafe{ST[0]+=1;} dbg_(h,"corr"); return Attempt::Failed };
+        let Correction::Done = correction else { unsafe{ST[0]+=1;} dbg_(h,&format!("corr gamma {} d {}",self.evaluation.gamma(),self.evaluation.driving())); return Attempt::Failed };
         let error = distance(&next.z, &self.predicted);
         if !(error <= *ERROR * h) {
             unsafe{ST[1]+=1;} dbg_(h,&format!("err {error:e}"));
