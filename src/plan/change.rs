@@ -73,16 +73,20 @@ impl Plan {
     /// The figure stays what it is: afterwards γ > alpha holds at the current figure.
     pub fn change(&mut self, at: &Lookout) -> bool {
         let dimension = self.dimension;
-        self.instructions.iter_mut().fold(false, |changed, instruction| {
-            (0..instruction.elementary())
-                .fold(changed, |changed, k| instruction.change(dimension, k, at) | changed)
-        })
+        self.instructions
+            .iter_mut()
+            .fold(false, |changed, instruction| {
+                (0..instruction.elementary()).fold(changed, |changed, k| {
+                    instruction.change(dimension, k, at) | changed
+                })
+            })
     }
 
     /// Whether an original instruction could come back (RR 8705, Algorithm 2, line 15).
     pub fn restorable(&self, at: &Lookout) -> bool {
         self.instructions.iter().any(|i| {
-            (0..i.elementary()).any(|k| i.original[k].is_some_and(|arm| i.restores(self.dimension, k, arm, at)))
+            (0..i.elementary())
+                .any(|k| i.original[k].is_some_and(|arm| i.restores(self.dimension, k, arm, at)))
         })
     }
 
@@ -139,8 +143,9 @@ impl Instruction {
         let mut arms = self.arms;
         arms[k + 1] = original;
         // What comes after must stay good as well: interCS depends on the circle.
-        let good = |n: usize| at.gamma(dimension, (self.point, self.arity), &arms[..n]) > at.restore;
-        (k + 2..=self.arity).all(|n| good(n))
+        let good =
+            |n: usize| at.gamma(dimension, (self.point, self.arity), &arms[..n]) > at.restore;
+        (k + 2..=self.arity).all(good)
     }
 
     /// Makes arm `k + 1` a driving one with a well placed reference point.
@@ -150,7 +155,13 @@ impl Instruction {
             Arm::Edge { centre, .. } => place(figure, dimension, *centre),
             Arm::Driving { place } => *place,
         };
-        let c: [V3; 3] = std::array::from_fn(|j| if j < self.arity { centre(&self.arms[j]) } else { [0.0; 3] });
+        let c: [V3; 3] = std::array::from_fn(|j| {
+            if j < self.arity {
+                centre(&self.arms[j])
+            } else {
+                [0.0; 3]
+            }
+        });
         let place = match (self.arity, k) {
             (2, _) => shift_in_plane(p, c[0], c[1]),
             (_, 0) => shift_in_space(p, c[0], c[2]),

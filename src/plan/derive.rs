@@ -20,9 +20,10 @@ impl Plan {
     /// and the reference points of driving parameters are placed to suit the sketch.
     pub fn derive(homotopy: &Homotopy) -> Plan {
         let graph = Graph::new(homotopy);
-        let instructions = graph.order().into_iter().map(|(point, arity, earlier)| {
-            graph.instruction(homotopy, point, arity, &earlier)
-        });
+        let instructions = graph
+            .order()
+            .into_iter()
+            .map(|(point, arity, earlier)| graph.instruction(homotopy, point, arity, &earlier));
         let mut plan = Plan {
             dimension: homotopy.dimension,
             points: homotopy.points,
@@ -55,6 +56,10 @@ struct Partial {
     order: Vec<usize>,
 }
 
+/// A point to be constructed, the number of its arms, and its neighbours among the earlier
+/// points with the distances to them.
+type Placed = (usize, usize, Vec<(usize, usize)>);
+
 struct Graph {
     dimension: usize,
     /// For each point its neighbours and the distances to them.
@@ -70,12 +75,19 @@ impl Graph {
             neighbours[a].push((b, e));
             neighbours[b].push((a, e));
         }
-        Graph { dimension: homotopy.dimension, neighbours, reference: homotopy.gauge.reference.clone() }
+        Graph {
+            dimension: homotopy.dimension,
+            neighbours,
+            reference: homotopy.gauge.reference.clone(),
+        }
     }
 
     /// How many distances a point lacks to be constructed from the points placed.
     fn missing(&self, placed: &Set, p: usize) -> usize {
-        let known = self.neighbours[p].iter().filter(|(q, _)| placed.has(*q)).count();
+        let known = self.neighbours[p]
+            .iter()
+            .filter(|(q, _)| placed.has(*q))
+            .count();
         self.dimension.saturating_sub(known)
     }
 
@@ -99,10 +111,13 @@ impl Graph {
 
     /// The points in an order of construction, each with the number of its arms and its
     /// neighbours among the earlier ones. The first reference point needs no construction.
-    fn order(&self) -> Vec<(usize, usize, Vec<(usize, usize)>)> {
+    fn order(&self) -> Vec<Placed> {
         let n = self.neighbours.len();
         let beam = (SEARCH / (n * n)).max(10);
-        let mut start = Partial { placed: Set(vec![0; n.div_ceil(64)]), order: Vec::new() };
+        let mut start = Partial {
+            placed: Set(vec![0; n.div_ceil(64)]),
+            order: Vec::new(),
+        };
         for &p in &self.reference {
             start.placed.add(p);
             start.order.push(p);
@@ -130,7 +145,11 @@ impl Graph {
                 }
                 // With a neighbour at least, so that no intersection is of added distances only
                 // (definition 3, condition (i)); in a connected graph there always is one.
-                let joined = |p: usize| self.neighbours[p].iter().any(|(q, _)| partial.placed.has(*q));
+                let joined = |p: usize| {
+                    self.neighbours[p]
+                        .iter()
+                        .any(|(q, _)| partial.placed.has(*q))
+                };
                 let any_joined = (0..n).any(|p| !partial.placed.has(p) && joined(p));
                 for p in (0..n).filter(|&p| !partial.placed.has(p) && (!any_joined || joined(p))) {
                     let missing = self.missing(&partial.placed, p);
@@ -159,7 +178,11 @@ impl Graph {
         order[1..]
             .iter()
             .map(|&p| {
-                let earlier = self.neighbours[p].iter().copied().filter(|(q, _)| rank[*q] < rank[p]).collect();
+                let earlier = self.neighbours[p]
+                    .iter()
+                    .copied()
+                    .filter(|(q, _)| rank[*q] < rank[p])
+                    .collect();
                 (p, rank[p].min(self.dimension), earlier)
             })
             .collect()
@@ -167,7 +190,13 @@ impl Graph {
 
     /// The instruction for a point with its neighbours among the earlier points: among all
     /// choices of arms the one with the largest γ in the sketch.
-    fn instruction(&self, homotopy: &Homotopy, point: usize, arity: usize, earlier: &[(usize, usize)]) -> Instruction {
+    fn instruction(
+        &self,
+        homotopy: &Homotopy,
+        point: usize,
+        arity: usize,
+        earlier: &[(usize, usize)],
+    ) -> Instruction {
         let at = |p: usize| place(&homotopy.sketch, self.dimension, p);
         let p = at(point);
         let mut best = earlier.iter().copied().take(arity).collect::<Vec<_>>();
@@ -202,6 +231,11 @@ impl Graph {
         for (arm, &(centre, edge)) in arms.iter_mut().zip(&best) {
             *arm = Arm::Edge { centre, edge };
         }
-        Instruction { point, arity, arms, original: [None; 2] }
+        Instruction {
+            point,
+            arity,
+            arms,
+            original: [None; 2],
+        }
     }
 }

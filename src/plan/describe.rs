@@ -27,11 +27,17 @@ impl Plan {
                 .arms()
                 .iter()
                 .map(|arm| match *arm {
-                    Arm::Edge { centre, edge } => format!("{}, a({})", name(centre), problem.distance_name(edge)),
+                    Arm::Edge { centre, edge } => {
+                        format!("{}, a({})", name(centre), problem.distance_name(edge))
+                    }
                     Arm::Driving { .. } => {
                         driving += 1;
                         primes.push('\'');
-                        let centre = if instruction.arity == 1 { first.to_owned() } else { format!("{p}{primes}") };
+                        let centre = if instruction.arity == 1 {
+                            first.to_owned()
+                        } else {
+                            format!("{p}{primes}")
+                        };
                         format!("{centre}, k{driving}")
                     }
                 })
@@ -44,15 +50,32 @@ impl Plan {
                 (_, [a, b]) => writeln!(text, "{p} = interSSP({a}, {b}, pl1)"),
                 (_, [a, b, c]) => {
                     circles += 1;
-                    writeln!(text, "c{circles} = interSS({a}, {b})\n{p} = interCS(c{circles}, {c})")
+                    writeln!(
+                        text,
+                        "c{circles} = interSS({a}, {b})\n{p} = interCS(c{circles}, {c})"
+                    )
                 }
                 _ => Ok(()),
             };
         }
-        let list = |items: Vec<String>| if items.is_empty() { "none".to_owned() } else { items.join(", ") };
+        let list = |items: Vec<String>| {
+            if items.is_empty() {
+                "none".to_owned()
+            } else {
+                items.join(", ")
+            }
+        };
         let parameters = list((1..=driving).map(|k| format!("k{k}")).collect());
-        let removed = list(self.removed().into_iter().map(|e| problem.distance_name(e)).collect());
-        let _ = write!(text, "driving parameters: {parameters}\nremoved constraints: {removed}\n");
+        let removed = list(
+            self.removed()
+                .into_iter()
+                .map(|e| problem.distance_name(e))
+                .collect(),
+        );
+        let _ = write!(
+            text,
+            "driving parameters: {parameters}\nremoved constraints: {removed}\n"
+        );
         text
     }
 }

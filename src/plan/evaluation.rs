@@ -13,11 +13,11 @@ use crate::system::Homotopy;
 /// figure by [`Evaluation::recover_branch`].
 #[derive(Debug, Clone)]
 pub struct Evaluation<const D: usize> {
-    points: usize,
-    driving: usize,
+    pub(super) points: usize,
+    pub(super) driving: usize,
     /// Groups of four parameters.
-    chunks: usize,
-    rows: Vec<Row>,
+    pub(super) chunks: usize,
+    pub(super) rows: Vec<Row>,
     removed: Vec<Removed>,
     /// For each driving parameter the point it drives (its reference point is
     /// `places[points + j]`).
@@ -29,28 +29,28 @@ pub struct Evaluation<const D: usize> {
     alpha_squared: f64,
     t: f64,
     /// The points, then the reference points.
-    places: Vec<[f64; D]>,
+    pub(super) places: Vec<[f64; D]>,
     /// Squares of the lengths, then of the driving parameters.
     squared: Vec<f64>,
     /// Half the derivatives of the squares: a a' by t, k by k.
     slope: Vec<f64>,
-    residual: Vec<f64>,
+    pub(super) residual: Vec<f64>,
     /// ∂(point)/∂q, `chunks` to a point and to a reference point (those are zero).
-    sensitivity: Vec<[Lanes; D]>,
+    pub(super) sensitivity: Vec<[Lanes; D]>,
     /// ∂(residual)/∂q, `chunks` to a removed constraint.
-    jacobian: Vec<Lanes>,
+    pub(super) jacobian: Vec<Lanes>,
     near: bool,
 }
 
 /// An instruction with everything as indices.
 #[derive(Debug, Clone)]
-struct Row {
-    point: usize,
+pub(super) struct Row {
+    pub(super) point: usize,
     arity: usize,
     centres: [usize; 3],
     radii: [usize; 3],
     /// The parameter of each radius: 0 for t.
-    lanes: [usize; 3],
+    pub(super) lanes: [usize; 3],
     /// Groups of parameters that this point or an earlier one depends on.
     chunks: usize,
     sign: f64,
@@ -137,19 +137,21 @@ impl<const D: usize> Evaluation<D> {
             self.rows.push(row);
         }
         self.removed.clear();
-        self.removed.extend(
-            (0..m)
-                .filter(|&e| !used[e])
-                .map(|edge| Removed { points: homotopy.edges[edge].points, edge }),
-        );
+        self.removed
+            .extend((0..m).filter(|&e| !used[e]).map(|edge| Removed {
+                points: homotopy.edges[edge].points,
+                edge,
+            }));
         self.squared.resize(m + d, 0.0);
         self.slope.resize(m + d, 0.0);
         self.residual.clear();
         self.residual.resize(self.removed.len(), 0.0);
         self.sensitivity.clear();
-        self.sensitivity.resize((plan.points + d) * self.chunks, [Lanes::ZERO; D]);
+        self.sensitivity
+            .resize((plan.points + d) * self.chunks, [Lanes::ZERO; D]);
         self.jacobian.clear();
-        self.jacobian.resize(self.removed.len() * self.chunks, Lanes::ZERO);
+        self.jacobian
+            .resize(self.removed.len() * self.chunks, Lanes::ZERO);
     }
 
     /// The number d of driving parameters, which is that of removed constraints.
@@ -190,7 +192,9 @@ impl<const D: usize> Evaluation<D> {
     /// Condition (sc1): whether a replaced distance has become longer than the one that was kept
     /// (RR 8705, section 4.3.2), at the last evaluation.
     pub fn is_out_of_order(&self) -> bool {
-        self.ordered.iter().any(|&(kept, replaced)| self.squared[replaced] > self.squared[kept])
+        self.ordered
+            .iter()
+            .any(|&(kept, replaced)| self.squared[replaced] > self.squared[kept])
     }
 
     /// ϕ' of RR 8705, (4): the parameters of a figure. Written to `q[..=d]`.
@@ -206,7 +210,9 @@ impl<const D: usize> Evaluation<D> {
     /// Reads the branch off a figure, that is, on which side of the line or plane of the centres
     /// each point is (RR 8705, Algorithm 1, steps 2 and 13).
     pub fn recover_branch(&mut self, figure: &[f64]) {
-        self.places[..self.points].as_flattened_mut().copy_from_slice(figure);
+        self.places[..self.points]
+            .as_flattened_mut()
+            .copy_from_slice(figure);
         for row in &mut self.rows {
             let p = self.places[row.point];
             let c = row.centres.map(|c| self.places[c]);
@@ -225,24 +231,36 @@ impl<const D: usize> Evaluation<D> {
     /// Evaluates figure and removed constraints at `q`. False where the figure does not exist:
     /// `q` is outside the branch's domain.
     pub fn evaluate(&mut self, q: &[f64]) -> bool {
-        let t = q[0];
+        self.set_time(q[0]);
+        for (j, &k) in q[1..=self.driving].iter().enumerate() {
+            self.set_driving(j, k);
+        }
+        self.construct(0)
+    }
+
+    /// Sets t, and with it all lengths.
+    pub(super) fn set_time(&mut self, t: f64) {
         self.t = t;
-        let (edges, driving) = self.squared.split_at_mut(self.lengths.len());
-        for (a, squared) in self.lengths.iter().zip(edges) {
+        for (a, squared) in self.lengths.iter().zip(&mut self.squared) {
             let length = t.mul_add(t.mul_add(a[2], a[1]), a[0]);
             *squared = length * length;
         }
-        for (k, squared) in q[1..].iter().zip(driving) {
-            *squared = k * k;
-        }
-        for ((k, slope), _) in q[1..].iter().zip(&mut self.slope[self.lengths.len()..]).zip(&self.driven) {
-            *slope = *k;
-        }
+    }
+
+    /// Sets driving parameter `j`, counted from 0.
+    pub(super) fn set_driving(&mut self, j: usize, k: f64) {
+        let at = self.lengths.len() + j;
+        self.squared[at] = k * k;
+        self.slope[at] = k;
+    }
+
+    /// Carries out the instructions from the given one on, and evaluates the removed constraints.
+    pub(super) fn construct(&mut self, from: usize) -> bool {
         // How far the square of half the distance of the two intersections is above 0, and how
         // far γ² is above α² (times something positive).
         let (mut domain, mut clear) = (f64::INFINITY, f64::INFINITY);
         let alpha = self.alpha_squared;
-        for row in &self.rows {
+        for row in &self.rows[from..] {
             let place = match row.arity {
                 3 => {
                     let c1 = spatial(self.places[row.centres[0]]);
@@ -296,7 +314,10 @@ impl<const D: usize> Evaluation<D> {
             self.places[row.point] = place;
         }
         for (removed, residual) in self.removed.iter().zip(&mut self.residual) {
-            let u = sub(self.places[removed.points[0]], self.places[removed.points[1]]);
+            let u = sub(
+                self.places[removed.points[0]],
+                self.places[removed.points[1]],
+            );
             *residual = 0.5 * (dot(u, u) - self.squared[removed.edge]);
         }
         self.near = clear <= 0.0;
@@ -375,11 +396,18 @@ impl<const D: usize> Evaluation<D> {
                 }
             }
         }
-        for (removed, jacobian) in self.removed.iter().zip(self.jacobian.chunks_exact_mut(chunks)) {
+        for (removed, jacobian) in self
+            .removed
+            .iter()
+            .zip(self.jacobian.chunks_exact_mut(chunks))
+        {
             let [i, j] = removed.points;
             let u = sub(self.places[i], self.places[j]);
             for (chunk, out) in jacobian.iter_mut().enumerate() {
-                let (si, sj) = (&self.sensitivity[i * chunks + chunk], &self.sensitivity[j * chunks + chunk]);
+                let (si, sj) = (
+                    &self.sensitivity[i * chunks + chunk],
+                    &self.sensitivity[j * chunks + chunk],
+                );
                 let mut sum = radius(0, -self.slope[removed.edge], chunk);
                 for axis in 0..D {
                     sum = sum.plus(u[axis], si[axis].minus(sj[axis]));
@@ -397,7 +425,9 @@ impl<const D: usize> Evaluation<D> {
             match row.arity {
                 1 => least,
                 2 => least.min(gamma_two(p, c[0], c[1])),
-                _ => least.min(gamma_two(p, c[0], c[1])).min(gamma_three(p, c[0], c[1], c[2])),
+                _ => least
+                    .min(gamma_two(p, c[0], c[1]))
+                    .min(gamma_three(p, c[0], c[1], c[2])),
             }
         })
     }
@@ -406,7 +436,10 @@ impl<const D: usize> Evaluation<D> {
     /// d): ∂I/∂(A+, t) · direction, written to `out`, `points * D` places.
     pub fn lift(&self, direction: &[Lanes], out: &mut [f64]) {
         let out = out.as_chunks_mut::<D>().0;
-        for (out, sensitivity) in out.iter_mut().zip(self.sensitivity.chunks_exact(self.chunks)) {
+        for (out, sensitivity) in out
+            .iter_mut()
+            .zip(self.sensitivity.chunks_exact(self.chunks))
+        {
             let mut sum = [Lanes::ZERO; D];
             for (s, &x) in sensitivity.iter().zip(direction) {
                 for axis in 0..D {
@@ -436,7 +469,11 @@ impl<const D: usize> Evaluation<D> {
 /// The right-hand side r dr of one arm, in the lane of its parameter.
 #[inline(always)]
 fn radius(lane: usize, slope: f64, chunk: usize) -> Lanes {
-    if lane / 4 == chunk { Lanes::UNIT[lane % 4].times(slope) } else { Lanes::ZERO }
+    if lane / 4 == chunk {
+        Lanes::UNIT[lane % 4].times(slope)
+    } else {
+        Lanes::ZERO
+    }
 }
 
 /// A vector of the plane or of space, in space.

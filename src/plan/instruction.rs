@@ -77,7 +77,16 @@ pub struct Plan {
 impl Plan {
     /// The number d of driving parameters.
     pub fn driving(&self) -> usize {
-        self.instructions.iter().flat_map(|i| i.arms()).filter(|arm| arm.is_driving()).count()
+        self.instructions
+            .iter()
+            .flat_map(|i| i.arms())
+            .filter(|arm| arm.is_driving())
+            .count()
+    }
+
+    /// Whether no instruction is replaced at present: the table T is empty.
+    pub fn is_original(&self) -> bool {
+        self.instructions.iter().all(|i| i.original == [None; 2])
     }
 
     /// The removed constraints C⁻: as many as driving parameters.

@@ -18,6 +18,7 @@ pub mod boundary;
 mod change;
 mod derive;
 mod describe;
+mod differences;
 mod evaluation;
 mod instruction;
 mod lanes;
@@ -25,6 +26,7 @@ mod shift;
 mod vector;
 
 pub use change::Lookout;
+pub use differences::Differences;
 pub use evaluation::Evaluation;
 pub use instruction::{Arm, Instruction, Plan};
 pub use lanes::Lanes;

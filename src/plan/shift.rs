@@ -16,7 +16,11 @@ pub(super) fn shift_in_plane(p: V3, c1: V3, c2: V3) -> V3 {
     let along = dot(u, line) / dot(line, line);
     let foot = add_scaled(c1, along, line);
     // Where p is on the line to within rounding, either side serves.
-    let side = if dot(across, sub(foot, p)) < 0.0 { -1.0 } else { 1.0 };
+    let side = if dot(across, sub(foot, p)) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
     add_scaled(p, side, across)
 }
 
@@ -28,7 +32,9 @@ pub(super) fn shift_in_space(p: V3, c1: V3, c3: V3) -> V3 {
     let u = sub(p, c1);
     let across = cross(u, sub(p, c3));
     let clear = norm(across) > 1e-3 * norm(u) * norm(sub(p, c3));
-    let direction = unit(across).filter(|_| clear).unwrap_or_else(|| perpendicular(u));
+    let direction = unit(across)
+        .filter(|_| clear)
+        .unwrap_or_else(|| perpendicular(u));
     add_scaled(p, norm(u), direction)
 }
 

@@ -45,7 +45,9 @@ pub(super) fn unit<const D: usize>(a: [f64; D]) -> Option<[f64; D]> {
 
 /// Some direction perpendicular to `a` (any, where `a` is zero).
 pub(super) fn perpendicular(a: V3) -> V3 {
-    let axis = (0..3).min_by(|&i, &j| a[i].abs().total_cmp(&a[j].abs())).unwrap_or(0);
+    let axis = (0..3)
+        .min_by(|&i, &j| a[i].abs().total_cmp(&a[j].abs()))
+        .unwrap_or(0);
     let mut e = [0.0; 3];
     e[axis] = 1.0;
     unit(cross(a, e)).unwrap_or([1.0, 0.0, 0.0])

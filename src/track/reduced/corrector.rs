@@ -2,14 +2,15 @@
 
 use super::elimination::Elimination;
 use super::lane;
-use super::station::{distance, dot};
-use crate::plan::{Evaluation, Lanes};
+use super::station::{Station, distance, dot};
+use crate::plan::{Differences, Evaluation, Lanes};
 
 /// Work space: parameters, corrections, factorizations.
 pub(super) struct Corrector {
     /// `[t, k1, …, kd]`.
     pub q: Vec<f64>,
     step: Vec<Lanes>,
+    null: Vec<Lanes>,
     sizes: Vec<Lanes>,
     there: Elimination,
     /// For refining, beside the path's own matrices.
@@ -21,19 +22,20 @@ pub(super) struct Corrector {
     places: usize,
 }
 
-/// How a correction went.
-pub(super) enum Correction {
-    /// At a point of the path.
-    Done,
-    /// It did not converge.
-    Failed,
-}
-
 /// A station is at most about this far from the path (in the figure, homotopy's unit).
 const SMALL: f64 = 1e-6;
 
 /// Corrections in a step, at most, beside the first.
 const MOST: usize = 4;
+
+/// As in RR 8705: the step of finite differences, Newton iterations, and when they have converged.
+/// The paper gives no numbers for these.
+const DIFFERENCE: f64 = 1e-7;
+const TURNS: usize = 5;
+const CONVERGED: f64 = 1e-8;
+
+/// Derivatives that have changed by more than this, relatively, are computed anew.
+const CHANGE: f64 = 0.01;
 
 /// Each correction must be smaller than the one before by this factor.
 const CONTRACTION: f64 = 0.3;
@@ -43,6 +45,7 @@ impl Corrector {
         Corrector {
             q: Vec::new(),
             step: Vec::new(),
+            null: Vec::new(),
             sizes: Vec::new(),
             there: Elimination::default(),
             apart: Elimination::default(),
@@ -90,7 +93,8 @@ impl Corrector {
     }
 
     fn factorize<const D: usize>(&mut self, evaluation: &Evaluation<D>) -> bool {
-        self.there.factorize(evaluation.driving(), evaluation.jacobian(), &self.sizes)
+        self.there
+            .factorize(evaluation.driving(), evaluation.jacobian(), &self.sizes)
     }
 
     /// q −= step, and the figure that goes with it to first order.
@@ -109,7 +113,7 @@ impl Corrector {
         squared.sqrt()
     }
 
-    /// From `q`, already evaluated, to the path. Writes the point and its tangent. `h` is the
+    /// From `q`, already evaluated, to the path. Writes the station; false if there is none. `h` is the
     /// length of the step, against which the corrections are measured.
     ///
     /// A correction that finds the derivatives changed since they were computed computes them
@@ -118,11 +122,11 @@ impl Corrector {
         &mut self,
         evaluation: &mut Evaluation<D>,
         h: f64,
-        z: &mut [f64],
-        tangent: &mut [f64],
-    ) -> Correction {
+        next: &mut Station,
+    ) -> bool {
+        let Station { z, tangent } = next;
         if !self.differentiate(evaluation) {
-            return Correction::Failed;
+            return false;
         }
         self.there.solve(evaluation.residual(), &mut self.step);
         let mut size = self.move_by_step(evaluation, z);
@@ -134,21 +138,21 @@ impl Corrector {
                 break;
             }
             if !evaluation.evaluate(&self.q) {
-                return Correction::Failed;
+                return false;
             }
             self.there.solve(evaluation.residual(), &mut self.step);
             let smaller = self.step_size();
             if !(smaller <= CONTRACTION * size || smaller <= small) {
-                return Correction::Failed;
+                return false;
             }
             // How much derivatives have changed on the way, and with them the tangent.
             let bent = distance(evaluation.figure(), &z[..self.places]);
             let change = smaller.max(2.0 * bent) / size;
-            let renew = change > *super::steps::NEAR;
+            let renew = change > CHANGE;
             if renew {
                 evaluation.differentiate();
                 if !self.factorize(evaluation) {
-                    return Correction::Failed;
+                    return false;
                 }
                 self.there.solve(evaluation.residual(), &mut self.step);
             }
@@ -156,14 +160,11 @@ impl Corrector {
             size = self.move_by_step(evaluation, z);
             left = change * size * if renew { size / before } else { 1.0 };
         }
-        if !(left <= small) {
-            return Correction::Failed;
+        if left > small || left.is_nan() {
+            return false;
         }
         let way = self.there.null(&mut self.step) * self.orientation;
-        match lift_unit(evaluation, &self.step, self.places, way, tangent) {
-            Some(()) => Correction::Done,
-            None => Correction::Failed,
-        }
+        lift_unit(evaluation, &self.step, self.places, way, tangent).is_some()
     }
 
     /// About the size of the step in the figure and t.
@@ -173,6 +174,70 @@ impl Corrector {
             sum = sum.plus_product(Lanes(step.0.map(|x| x * x)), size);
         }
         sum.sum().sqrt()
+    }
+
+    /// A step as in RR 8705, section 7.1, of length `delta` in the driving parameters and t, from the
+    /// point `z`. Derivatives are finite differences. Returns the distance of the figure found from
+    /// the one on the tangent, or none where Newton's method does not converge.
+    pub fn predict_and_correct<const D: usize>(
+        &mut self,
+        evaluation: &mut Evaluation<D>,
+        z: &[f64],
+        delta: f64,
+        next: &mut Station,
+        differences: &mut Differences<D>,
+    ) -> Option<f64> {
+        evaluation.parameters(&z[..self.places], z[self.places], &mut self.q);
+        let mut tangent = |this: &mut Self, evaluation: &mut Evaluation<D>| {
+            let inside = evaluation.difference(&this.q, DIFFERENCE, differences);
+            evaluation.column_sizes(&mut this.sizes);
+            (inside && this.factorize(evaluation)).then_some(())
+        };
+        tangent(self, evaluation)?;
+        let way = self.there.null(&mut self.step) * self.orientation;
+        let size = self
+            .step
+            .iter()
+            .fold(Lanes::ZERO, |sum, &x| sum.plus_product(x, x))
+            .sum()
+            .sqrt();
+        for (j, q) in self.q.iter_mut().enumerate() {
+            *q += delta * way / size * lane(&self.step, j);
+        }
+        // The figure on the tangent, for the error.
+        evaluation.lift(&self.step, &mut next.tangent[..self.places]);
+        next.tangent[self.places] = lane(&self.step, 0);
+        for (x, z) in next.tangent.iter_mut().zip(z) {
+            *x = z + delta * way / size * *x;
+        }
+        for _ in 0..TURNS {
+            tangent(self, evaluation)?;
+            self.there.solve(evaluation.residual(), &mut self.step);
+            // The smallest correction: nothing along the path.
+            let (mut along, mut square) = (0.0, 0.0);
+            self.null.resize(self.step.len(), Lanes::ZERO);
+            let way = self.there.null(&mut self.null) * self.orientation;
+            for (x, y) in self.step.iter().zip(&self.null) {
+                along += Lanes::ZERO.plus_product(*x, *y).sum();
+                square += Lanes::ZERO.plus_product(*y, *y).sum();
+            }
+            for (x, y) in self.step.iter_mut().zip(&self.null) {
+                *x = x.plus(-along / square, *y);
+            }
+            let size = self
+                .step
+                .iter()
+                .fold(Lanes::ZERO, |sum, &x| sum.plus_product(x, x))
+                .sum()
+                .sqrt();
+            self.move_by_step(evaluation, &mut next.z);
+            if size <= CONVERGED {
+                let error = distance(&next.z, &next.tangent);
+                lift_unit(evaluation, &self.null, self.places, way, &mut next.tangent)?;
+                return Some(error);
+            }
+        }
+        None
     }
 
     /// Newton's method to the end of precision, from the guess `z`, with one parameter fixed: t
@@ -200,7 +265,10 @@ impl Corrector {
                 // Never a pivot, then.
                 self.apart_sizes[free / 4].0[free % 4] = 1e300;
             }
-            if !self.apart.factorize(d, evaluation.jacobian(), &self.apart_sizes) {
+            if !self
+                .apart
+                .factorize(d, evaluation.jacobian(), &self.apart_sizes)
+            {
                 return false;
             }
             if let (Some(at), None) = (at, fixed) {

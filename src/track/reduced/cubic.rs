@@ -20,7 +20,12 @@ pub(super) enum Passages {
 /// Weights of values and slopes (times h) of both ends, at u = s / h; also beyond the ends.
 pub(super) fn weights(u: f64) -> [f64; 4] {
     let v = u - 1.0;
-    [v * v * (1.0 + 2.0 * u), u * u * (3.0 - 2.0 * u), u * v * v, u * u * v]
+    [
+        v * v * (1.0 + 2.0 * u),
+        u * u * (3.0 - 2.0 * u),
+        u * v * v,
+        u * u * v,
+    ]
 }
 
 impl Cubic {
@@ -35,7 +40,11 @@ impl Cubic {
         // x'(u) = a u² + b u + c
         let [m0, m1] = self.slope.map(|m| m * self.h);
         let rise = self.x[1] - self.x[0];
-        let (a, b, c) = (3.0 * (m0 + m1 - 2.0 * rise), 2.0 * (3.0 * rise - 2.0 * m0 - m1), m0);
+        let (a, b, c) = (
+            3.0 * (m0 + m1 - 2.0 * rise),
+            2.0 * (3.0 * rise - 2.0 * m0 - m1),
+            m0,
+        );
         let discriminant = b * b - 4.0 * a * c;
         let (mut out, mut count) = ([0.0; 2], 0);
         if discriminant > 0.0 {
@@ -60,17 +69,11 @@ impl Cubic {
         let (turns, count) = self.turning_points();
         let (mut out, mut found) = ([0.0; 3], 0);
         let mut from = (0.0, self.x[0] - value);
-        for k in 0..=count {
-            let to = if k < count {
-                let s = turns[k];
-                let y = self.value(s) - value;
-                if y.abs() <= margin {
-                    return Passages::Unclear;
-                }
-                (s, y)
-            } else {
-                (self.h, self.x[1] - value)
-            };
+        let inner = turns[..count].iter().map(|&s| (s, self.value(s) - value));
+        for (k, to) in inner.chain([(self.h, self.x[1] - value)]).enumerate() {
+            if k < count && to.1.abs() <= margin {
+                return Passages::Unclear;
+            }
             if (from.1 >= 0.0) != (to.1 >= 0.0) {
                 out[found] = self.bisect(value, from, to);
                 found += 1;
@@ -102,10 +105,17 @@ mod tests {
     fn finds_passages() {
         // (s - 0.25)(s - 0.5)(s - 1.5) on [0, 1]
         let x = |s: f64| (s - 0.25) * (s - 0.5) * (s - 1.5);
-        let slope = |s: f64| (s - 0.5) * (s - 1.5) + (s - 0.25) * (s - 1.5) + (s - 0.25) * (s - 0.5);
-        let cubic = Cubic { h: 1.0, x: [x(0.0), x(1.0)], slope: [slope(0.0), slope(1.0)] };
+        let slope =
+            |s: f64| (s - 0.5) * (s - 1.5) + (s - 0.25) * (s - 1.5) + (s - 0.25) * (s - 0.5);
+        let cubic = Cubic {
+            h: 1.0,
+            x: [x(0.0), x(1.0)],
+            slope: [slope(0.0), slope(1.0)],
+        };
         assert!((cubic.value(0.7) - x(0.7)).abs() < 1e-15);
-        let Passages::At(at, 2) = cubic.passages(0.0, 1e-6) else { panic!("two passages") };
+        let Passages::At(at, 2) = cubic.passages(0.0, 1e-6) else {
+            panic!("two passages")
+        };
         assert!((at[0] - 0.25).abs() < 1e-12 && (at[1] - 0.5).abs() < 1e-12);
         let top = cubic.value(cubic.turning_points().0[0]);
         assert_eq!(cubic.passages(top, 1e-6), Passages::Unclear);
@@ -114,7 +124,11 @@ mod tests {
 
     #[test]
     fn an_end_counts_once() {
-        let piece = |a: f64, b: f64| Cubic { h: b - a, x: [a, b], slope: [1.0, 1.0] };
+        let piece = |a: f64, b: f64| Cubic {
+            h: b - a,
+            x: [a, b],
+            slope: [1.0, 1.0],
+        };
         let count = |c: Cubic| matches!(c.passages(1.0, 1e-9), Passages::At(_, 1)) as usize;
         assert_eq!(count(piece(0.5, 1.0)) + count(piece(1.0, 1.5)), 1);
         assert_eq!(count(piece(0.5, 1.0)) + count(piece(1.0, 0.5)), 2);

@@ -35,8 +35,13 @@ impl Elimination {
         self.columns.clear();
         self.columns.extend(0..width);
         self.scale.clear();
-        self.scale.extend((0..width).map(|j| 1.0 / sizes[j / 4].0[j % 4].sqrt()));
-        for (row, jacobian) in self.lu.chunks_exact_mut(width).zip(jacobian.chunks_exact(chunks)) {
+        self.scale
+            .extend((0..width).map(|j| 1.0 / sizes[j / 4].0[j % 4].sqrt()));
+        for (row, jacobian) in self
+            .lu
+            .chunks_exact_mut(width)
+            .zip(jacobian.chunks_exact(chunks))
+        {
             for (j, (x, scale)) in row.iter_mut().zip(&self.scale).enumerate() {
                 *x = jacobian[j / 4].0[j % 4] * scale;
             }
@@ -122,7 +127,10 @@ impl Elimination {
         let width = self.d + 1;
         for k in (0..self.d).rev() {
             let mut sum = self.work[k];
-            for (u, x) in self.lu[k * width + k + 1..][..self.d - k - 1].iter().zip(&self.work[k + 1..]) {
+            for (u, x) in self.lu[k * width + k + 1..][..self.d - k - 1]
+                .iter()
+                .zip(&self.work[k + 1..])
+            {
                 sum = (-u).mul_add(*x, sum);
             }
             self.work[k] = sum * self.per_pivot[k];
@@ -150,7 +158,8 @@ mod tests {
         assert!(product(out[0]).iter().all(|x| x.abs() < 1e-14));
         let rows = [jacobian[0].0, jacobian[1].0, out[0].0].map(|x| [x[0], x[1], x[2]]);
         let minor = |i: usize, j: usize| rows[1][i] * rows[2][j] - rows[1][j] * rows[2][i];
-        let determinant = rows[0][0] * minor(1, 2) - rows[0][1] * minor(0, 2) + rows[0][2] * minor(0, 1);
+        let determinant =
+            rows[0][0] * minor(1, 2) - rows[0][1] * minor(0, 2) + rows[0][2] * minor(0, 1);
         assert_eq!(sign, determinant.signum());
         elimination.solve(&[3.0, -2.0], &mut out);
         let y = product(out[0]);

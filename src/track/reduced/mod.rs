@@ -15,12 +15,14 @@ mod station;
 mod steps;
 
 use super::congruence_classes;
-use super::{Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, StartError, Status};
+use super::{
+    Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, StartError, Status,
+};
 use crate::interval::point;
 use crate::plan::{Evaluation, Lanes, Lookout, Plan};
 use crate::system::Homotopy;
 use corrector::Corrector;
-use station::Station;
+use station::{Piece, Station, distance};
 use std::time::Instant;
 
 /// Steps below this end the run.
@@ -34,11 +36,17 @@ const CONGRUENT: f64 = 1e-8;
 /// For [`Preset::Paper`] the homotopy should be in the problem's own unit
 /// ([`Homotopy::with_unit`] with 1). What comes out is an observation: nothing is proved. A run
 /// that cannot go on ends [`Status::Stopped`], with what it has found.
-pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Result<Outcome, StartError> {
+pub fn track(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Result<Outcome, StartError> {
     match homotopy.dimension {
         2 => Ok(Tracker::<2>::new(homotopy, options).run(control)),
         3 => Ok(Tracker::<3>::new(homotopy, options).run(control)),
-        other => Err(StartError::Unsupported(format!("no construction plans in dimension {other}"))),
+        other => Err(StartError::Unsupported(format!(
+            "no construction plans in dimension {other}"
+        ))),
     }
 }
 
@@ -63,8 +71,6 @@ struct Tracker<'a, const D: usize> {
     length: f64,
     steps: usize,
     rejected: usize,
-    /// Rejected steps since the last accepted one.
-    failures: usize,
     plan_changes: usize,
     driving_sum: usize,
     driving_max: usize,
@@ -96,7 +102,6 @@ impl<'a, const D: usize> Tracker<'a, D> {
             length: 0.0,
             steps: 0,
             rejected: 0,
-            failures: 0,
             plan_changes: 0,
             driving_sum: 0,
             driving_max: 0,
@@ -108,51 +113,74 @@ impl<'a, const D: usize> Tracker<'a, D> {
         let status = match self.set_off() {
             Ok(()) if self.options.preset == Preset::Paper => self.follow_as_in_the_paper(control),
             Ok(()) => self.follow(control),
-            Err(reason) => Status::Stopped(reason),
+            Err(status) => status,
         };
         self.finish(status)
     }
 
     /// Algorithm 1, steps 1 and 2, and the orientation: t increases first, or decreases first.
-    fn set_off(&mut self) -> Result<(), String> {
+    fn set_off(&mut self) -> Result<(), Status> {
         let places = self.homotopy.sketch.len();
         self.current.z[..places].copy_from_slice(&self.homotopy.sketch);
-        self.change_plan(false, self.options.alpha);
-        self.plan_changes = 0;
         self.current.tangent[places] = if self.options.reverse { -1.0 } else { 1.0 };
-        if !self.settle() {
-            return Err("the path has no tangent at the sketch, or the plan no figure".into());
+        // The sketch may well present a boundary configuration of the plan.
+        if !self.change_plan(false, 1.0)? {
+            self.settle()?;
         }
+        self.plan_changes = 0;
         self.start.clone_from(&self.current);
         Ok(())
     }
 
-    /// Algorithm 2 at the current station, and what is ahead if that is to be looked at. Returns
-    /// whether the plan changed; [`Tracker::settle`] is then due.
-    fn change_plan(&mut self, look_ahead: bool, restore: f64) -> bool {
-        let t = self.current.t();
-        for (out, length) in self.lengths.iter_mut().zip(&self.homotopy.lengths) {
-            *out = length.value(t);
-        }
-        let places = self.homotopy.sketch.len();
-        let at = Lookout {
+    /// Algorithm 2 at the current station, with a look at what is ahead if wanted. Original
+    /// instructions come back where their γ is more than `restore` times alpha. Returns whether
+    /// the plan changed.
+    fn change_plan(&mut self, look_ahead: bool, restore: f64) -> Result<bool, Status> {
+        measure_lengths(self.homotopy, self.current.t(), &mut self.lengths);
+        let alpha = self.options.alpha;
+        let changed = self.plan.change(&Lookout {
             figure: self.current.figure(),
-            ahead: look_ahead.then(|| &self.predicted[..places]),
+            ahead: look_ahead.then(|| &self.predicted[..self.homotopy.sketch.len()]),
             lengths: &self.lengths,
-            alpha: self.options.alpha,
-            restore,
-        };
-        let changed = self.plan.change(&at);
-        self.plan_changes += changed as usize;
-        changed
+            alpha,
+            restore: restore * alpha,
+        });
+        if changed {
+            self.plan_changes += 1;
+            self.evaluation.rebuild(self.homotopy, &self.plan);
+            self.settle()?;
+        }
+        Ok(changed)
     }
 
-    /// Takes over the plan at the current station: parameters, branch, tangent.
-    fn settle(&mut self) -> bool {
-        self.evaluation.rebuild(self.homotopy, &self.plan);
+    /// Whether Algorithm 2 would restore an original instruction.
+    fn plan_is_restorable(&mut self, restore: f64) -> bool {
+        if self.plan.is_original() {
+            return false;
+        }
+        measure_lengths(self.homotopy, self.current.t(), &mut self.lengths);
+        let alpha = self.options.alpha;
+        self.plan.restorable(&Lookout {
+            figure: self.current.figure(),
+            ahead: None,
+            lengths: &self.lengths,
+            alpha,
+            restore: restore * alpha,
+        })
+    }
+
+    /// Takes over the plan at the current station: branch, parameters, tangent.
+    fn settle(&mut self) -> Result<(), Status> {
         self.evaluation.recover_branch(self.current.figure());
         let Station { z, tangent } = &mut self.current;
-        self.corrector.settle(&mut self.evaluation, z, tangent, &mut self.next.tangent)
+        if self
+            .corrector
+            .settle(&mut self.evaluation, z, tangent, &mut self.next.tangent)
+        {
+            Ok(())
+        } else {
+            Err(self.stopped("the construction plan has no figure or no tangent"))
+        }
     }
 
     fn progress(&self) -> Progress {
@@ -164,8 +192,26 @@ impl<'a, const D: usize> Tracker<'a, D> {
         }
     }
 
-    /// Makes `next` the current station.
-    fn advance(&mut self, h: f64) {
+    /// Makes `next`, which is `h` away, the current station. The path is measured up to the arc
+    /// length `s`, less than `h` only where it ends.
+    fn advance(&mut self, h: f64, s: f64) {
+        let piece = Piece {
+            from: &self.current,
+            to: &self.next,
+            h,
+        };
+        self.length += piece.length(s, self.homotopy.unit);
+        let t = piece.t();
+        let (turns, count) = t.turning_points();
+        for at in turns[..count]
+            .iter()
+            .copied()
+            .filter(|&at| at < s)
+            .chain([s])
+        {
+            let t = t.value(at);
+            self.t_range = (self.t_range.0.min(t), self.t_range.1.max(t));
+        }
         std::mem::swap(&mut self.previous, &mut self.current);
         std::mem::swap(&mut self.current, &mut self.next);
         self.behind = Some(h);
@@ -175,8 +221,19 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.driving_max = self.driving_max.max(d);
     }
 
-    fn place(&self) -> String {
-        format!("at t = {}, step {}", self.current.t(), self.steps)
+    /// The arc length from the current station to the next, from chord and turn.
+    fn arc_length(&self) -> f64 {
+        let chord = distance(&self.current.z, &self.next.z);
+        let turn = distance(&self.current.tangent, &self.next.tangent);
+        chord * (1.0 + turn * turn / 24.0)
+    }
+
+    fn stopped(&self, why: &str) -> Status {
+        Status::Stopped(format!(
+            "{why} at t = {}, step {}",
+            self.current.t(),
+            self.steps
+        ))
     }
 
     fn finish(self, status: Status) -> Outcome {
@@ -186,7 +243,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .iter()
             .map(|figure| {
                 let points = figure.as_chunks::<D>().0.iter();
-                points.map(|p| std::array::from_fn(|k| if k < D { p[k] * unit } else { 0.0 })).collect()
+                points
+                    .map(|p| std::array::from_fn(|k| if k < D { p[k] * unit } else { 0.0 }))
+                    .collect()
             })
             .collect();
         let classes = congruence_classes(&figures, CONGRUENT);
@@ -216,6 +275,13 @@ impl<'a, const D: usize> Tracker<'a, D> {
             seconds: self.started.elapsed().as_secs_f64(),
             switched_on: Vec::new(),
         }
+    }
+}
+
+/// a(t) of all distances.
+fn measure_lengths(homotopy: &Homotopy, t: f64, out: &mut [f64]) {
+    for (out, length) in out.iter_mut().zip(&homotopy.lengths) {
+        *out = length.value(t);
     }
 }
 

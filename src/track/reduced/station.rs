@@ -13,7 +13,10 @@ pub(super) struct Station {
 
 impl Station {
     pub fn new(places: usize) -> Self {
-        Station { z: vec![0.0; places + 1], tangent: vec![0.0; places + 1] }
+        Station {
+            z: vec![0.0; places + 1],
+            tangent: vec![0.0; places + 1],
+        }
     }
 
     pub fn figure(&self) -> &[f64] {
@@ -51,7 +54,11 @@ impl Piece<'_> {
 
     /// t along the piece.
     pub fn t(&self) -> Cubic {
-        Cubic { h: self.h, x: [self.from.t(), self.to.t()], slope: [self.from.slope(), self.to.slope()] }
+        Cubic {
+            h: self.h,
+            x: [self.from.t(), self.to.t()],
+            slope: [self.from.slope(), self.to.slope()],
+        }
     }
 
     /// `normal · (z − point)` along the piece.
@@ -60,7 +67,10 @@ impl Piece<'_> {
         Cubic {
             h: self.h,
             x: [height(&self.from.z), height(&self.to.z)],
-            slope: [dot(normal, &self.from.tangent), dot(normal, &self.to.tangent)],
+            slope: [
+                dot(normal, &self.from.tangent),
+                dot(normal, &self.to.tangent),
+            ],
         }
     }
 
@@ -82,9 +92,14 @@ impl Piece<'_> {
             (unit * unit * squared + t * t).sqrt()
         };
         // At the ends the tangents are unit vectors.
-        let end = |slope: f64| (unit * unit * (1.0 - slope * slope).max(0.0) + slope * slope).sqrt();
+        let end =
+            |slope: f64| (unit * unit * (1.0 - slope * slope).max(0.0) + slope * slope).sqrt();
         let u = s / self.h;
-        let last = if u == 1.0 { end(self.to.slope()) } else { speed(u) };
+        let last = if u == 1.0 {
+            end(self.to.slope())
+        } else {
+            speed(u)
+        };
         s / 6.0 * (end(self.from.slope()) + 4.0 * speed(0.5 * u) + last)
     }
 }
@@ -98,7 +113,11 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn dot_difference(normal: &[f64], a: &[f64], b: &[f64]) -> f64 {
-    normal.iter().zip(a.iter().zip(b)).map(|(n, (x, y))| n * (x - y)).sum()
+    normal
+        .iter()
+        .zip(a.iter().zip(b))
+        .map(|(n, (x, y))| n * (x - y))
+        .sum()
 }
 
 /// A sum in four strands, which the compiler turns into vector instructions.
