@@ -2,7 +2,9 @@
 //! that meet the dimensions.
 
 pub mod interval;
+pub mod linalg;
 pub mod plan;
 pub mod problem;
+pub mod report;
 pub mod system;
 pub mod track;

@@ -23,7 +23,10 @@ pub fn enclose(decimal: &Decimal) -> Interval {
 /// # Panics
 /// If the value is beyond the range of floats.
 pub fn enclose_rational(value: &BigRational) -> Interval {
-    let near = value.to_f64().filter(|x| x.is_finite()).expect("a ratio within the floats' range");
+    let near = value
+        .to_f64()
+        .filter(|x| x.is_finite())
+        .expect("a ratio within the floats' range");
     enclose_near(value, near)
 }
 

@@ -24,6 +24,9 @@ pub fn point(value: f64) -> Interval {
 /// If the bounds are not finite or in the wrong order: no proof may go on with an empty or an
 /// undefined interval.
 pub fn hull(lo: f64, hi: f64) -> Interval {
-    assert!(lo.is_finite() && hi.is_finite(), "an interval's bounds must be finite: [{lo}, {hi}]");
+    assert!(
+        lo.is_finite() && hi.is_finite(),
+        "an interval's bounds must be finite: [{lo}, {hi}]"
+    );
     inari::interval!(lo, hi).expect("an interval's lower bound must not exceed its upper bound")
 }

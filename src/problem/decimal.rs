@@ -76,7 +76,10 @@ impl FromStr for Decimal {
             Some(b'+') => (false, &text[1..]),
             _ => (false, text),
         };
-        if matches!(unsigned.to_ascii_lowercase().as_str(), "inf" | "infinity" | "nan") {
+        if matches!(
+            unsigned.to_ascii_lowercase().as_str(),
+            "inf" | "infinity" | "nan"
+        ) {
             return Err(DecimalError::NotFinite(shown()));
         }
         let (mantissa, exponent) = match unsigned.find(['e', 'E']) {
@@ -95,11 +98,15 @@ impl FromStr for Decimal {
         if whole.len() + fraction.len() > MAX_DIGITS {
             return Err(DecimalError::TooLong(whole.len() + fraction.len()));
         }
-        let digits: BigInt = format!("{whole}{fraction}").parse().map_err(|_| not_a_number())?;
+        let digits: BigInt = format!("{whole}{fraction}")
+            .parse()
+            .map_err(|_| not_a_number())?;
         let value = if digits.is_zero() {
             BigRational::zero()
         } else {
-            let exponent: i64 = exponent.parse().map_err(|_| DecimalError::OutOfRange(shown()))?;
+            let exponent: i64 = exponent
+                .parse()
+                .map_err(|_| DecimalError::OutOfRange(shown()))?;
             if exponent.abs() > MAX_EXPONENT + MAX_DIGITS as i64 {
                 return Err(DecimalError::OutOfRange(shown()));
             }
@@ -116,7 +123,11 @@ impl FromStr for Decimal {
             }
             if negative { -size } else { size }
         };
-        let text = if value.is_zero() { "0".to_owned() } else { text.to_owned() };
+        let text = if value.is_zero() {
+            "0".to_owned()
+        } else {
+            text.to_owned()
+        };
         Ok(Decimal { text, value })
     }
 }
@@ -135,7 +146,40 @@ impl fmt::Display for Decimal {
 
 impl From<i32> for Decimal {
     fn from(value: i32) -> Self {
-        Decimal { text: value.to_string(), value: BigRational::from(BigInt::from(value)) }
+        Decimal {
+            text: value.to_string(),
+            value: BigRational::from(BigInt::from(value)),
+        }
+    }
+}
+
+impl TryFrom<&str> for Decimal {
+    type Error = DecimalError;
+
+    /// Exactly what the text says.
+    fn try_from(text: &str) -> Result<Self, DecimalError> {
+        text.parse()
+    }
+}
+
+impl TryFrom<f64> for Decimal {
+    type Error = DecimalError;
+
+    /// The shortest decimal that reads as the float.
+    ///
+    /// ```
+    /// use krawl::problem::Decimal;
+    /// assert_eq!(Decimal::try_from(0.1).unwrap(), "0.1".parse().unwrap());
+    /// assert!(Decimal::try_from(f64::NAN).is_err());
+    /// ```
+    fn try_from(value: f64) -> Result<Self, DecimalError> {
+        format!("{value:e}").parse()
+    }
+}
+
+impl From<std::convert::Infallible> for DecimalError {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
     }
 }
 
@@ -154,20 +198,37 @@ mod tests {
         assert_eq!(*read("-0.5e1").unwrap().value(), ratio(-5, 1));
         assert_eq!(*read("+.25").unwrap().value(), ratio(1, 4));
         assert_eq!(*read("3.").unwrap().value(), ratio(3, 1));
-        assert_eq!(*read("0e999999999999999999999").unwrap().value(), ratio(0, 1));
+        assert_eq!(
+            *read("0e999999999999999999999").unwrap().value(),
+            ratio(0, 1)
+        );
     }
 
     #[test]
     fn says_what_is_wrong() {
-        for text in ["", "-", ".", "1e", "1e+", "0x10", "1..2", "1_0", "one", "1.2.3", "--1"] {
-            assert!(matches!(read(text), Err(DecimalError::NotANumber(_))), "{text}");
+        for text in [
+            "", "-", ".", "1e", "1e+", "0x10", "1..2", "1_0", "one", "1.2.3", "--1",
+        ] {
+            assert!(
+                matches!(read(text), Err(DecimalError::NotANumber(_))),
+                "{text}"
+            );
         }
         for text in ["inf", "-inf", "nan", "NaN", "+Infinity"] {
-            assert!(matches!(read(text), Err(DecimalError::NotFinite(_))), "{text}");
+            assert!(
+                matches!(read(text), Err(DecimalError::NotFinite(_))),
+                "{text}"
+            );
         }
         for text in ["1e61", "1e-61", "1e400", "1e-400", "1e99999999999999999999"] {
-            assert!(matches!(read(text), Err(DecimalError::OutOfRange(_))), "{text}");
+            assert!(
+                matches!(read(text), Err(DecimalError::OutOfRange(_))),
+                "{text}"
+            );
         }
-        assert!(matches!(read(&"1".repeat(201)), Err(DecimalError::TooLong(201))));
+        assert!(matches!(
+            read(&"1".repeat(201)),
+            Err(DecimalError::TooLong(201))
+        ));
     }
 }

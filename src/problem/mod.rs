@@ -4,9 +4,20 @@
 //! sure that the system of equations is square and that its parts are neither over- nor
 //! under-constrained. Numbers are [`Decimal`]s, exactly what the file says.
 
+mod builder;
+mod check;
 mod decimal;
+mod error;
+mod file;
+mod names;
+mod reference;
+mod write;
 
+pub use builder::ProblemBuilder;
+pub use check::{Rigidity, rigidity};
 pub use decimal::{Decimal, DecimalError};
+pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
+pub use file::{FileError, FileFault, MAX_FILE_SIZE};
 
 /// A Point Distance Satisfaction Problem with its sketch (RR 8705, section 2.1).
 #[derive(Debug, Clone, PartialEq)]

@@ -45,7 +45,12 @@ impl Gauge {
             }
         }
         debug_assert_eq!(place.len(), m);
-        Gauge { dimension, reference, place, variable }
+        Gauge {
+            dimension,
+            reference,
+            place,
+            variable,
+        }
     }
 
     /// Encloses the coordinates of the sketch in the gauge, point by point.

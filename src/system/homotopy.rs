@@ -33,6 +33,8 @@ pub struct Homotopy {
     pub edges: Vec<Edge>,
     /// Their lengths, in the same order.
     pub lengths: Vec<Length>,
+    /// Which of them bends.
+    pub bend: usize,
     /// An enclosure of the sketch, all places.
     pub sketch_box: Vec<Interval>,
     /// Its middle.
@@ -70,10 +72,13 @@ impl Homotopy {
             .enumerate()
             .map(|(index, distance)| {
                 let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
-                let squared = (0..3).fold(num_rational::BigRational::from_integer(0.into()), |sum, k| {
-                    let d = a[k].value() - b[k].value();
-                    sum + &d * &d
-                });
+                let squared = (0..3).fold(
+                    num_rational::BigRational::from_integer(0.into()),
+                    |sum, k| {
+                        let d = a[k].value() - b[k].value();
+                        sum + &d * &d
+                    },
+                );
                 let sketch = enclose_rational(&squared).sqrt();
                 let target = match &distance.target {
                     Target::Length(length) => enclose(length),
@@ -89,8 +94,13 @@ impl Homotopy {
             points: problem.points.len(),
             equations: gauge.place.len(),
             unit,
-            edges: problem.distances.iter().map(|d| Edge { points: d.points }).collect(),
+            edges: problem
+                .distances
+                .iter()
+                .map(|d| Edge { points: d.points })
+                .collect(),
             lengths,
+            bend: problem.homotopy.bend,
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
             gauge,
@@ -102,7 +112,9 @@ impl Homotopy {
         let d = self.dimension;
         for ((edge, length), f) in self.edges.iter().zip(&self.lengths).zip(out) {
             let [i, j] = edge.points.map(|p| p * d);
-            let squared: f64 = (0..d).map(|k| (figure[i + k] - figure[j + k]).powi(2)).sum();
+            let squared: f64 = (0..d)
+                .map(|k| (figure[i + k] - figure[j + k]).powi(2))
+                .sum();
             *f = 0.5 * (squared - length.value(t).powi(2));
         }
     }

@@ -10,6 +10,7 @@ use crate::interval::point;
 pub struct Length {
     coefficients: [Interval; 3],
     half_square: [Interval; 5],
+    target: Interval,
     /// The middles of the coefficients of a(t), for float use.
     pub a: [f64; 3],
     /// The middles of the coefficients of E(t).
@@ -28,13 +29,20 @@ impl Length {
         let [a0, a1, a2] = [sketch, target - sketch + c, -c];
         let half = |x: Interval| x * crate::interval::point(0.5);
         let half_square = if bend.is_some() {
-            [half(a0.sqr()), a0 * a1, half(a1.sqr()) + a0 * a2, a1 * a2, half(a2.sqr())]
+            [
+                half(a0.sqr()),
+                a0 * a1,
+                half(a1.sqr()) + a0 * a2,
+                a1 * a2,
+                half(a2.sqr()),
+            ]
         } else {
             [half(a0.sqr()), a0 * a1, half(a1.sqr()), zero, zero]
         };
         Length {
             coefficients: [a0, a1, a2],
             half_square,
+            target,
             a: [a0.mid(), a1.mid(), a2.mid()],
             e: half_square.map(|x| x.mid()),
             e_radius: half_square.map(|x| x.rad()),
@@ -66,6 +74,11 @@ impl Length {
         &self.half_square
     }
 
+    /// An enclosure of E(1), straight from the target length.
+    pub fn target_half_square(&self) -> Interval {
+        self.target.sqr() * crate::interval::point(0.5)
+    }
+
     /// a(t) in floats.
     pub fn value(&self, t: f64) -> f64 {
         self.a[0] + t * (self.a[1] + t * self.a[2])
@@ -87,7 +100,10 @@ mod tests {
         assert_eq!(bend.enclose(point(0.0)), point(1.5));
         assert_eq!(bend.enclose(point(1.0)), point(2.0));
         assert_eq!(bend.value(0.5), 1.5 + 2.5 * 0.5 - 2.0 * 0.25);
-        assert!(bend.enclose_half_square(point(0.5)).contains(0.5 * bend.value(0.5).powi(2)));
+        assert!(
+            bend.enclose_half_square(point(0.5))
+                .contains(0.5 * bend.value(0.5).powi(2))
+        );
         let straight = Length::new(point(1.5), point(2.0), None);
         assert_eq!(straight.degree, 2);
         assert_eq!(straight.enclose(point(0.5)), point(1.75));

@@ -1,7 +1,11 @@
 //! Following the path: predictor, corrector, step control, events.
 
+pub mod certified;
 mod congruence;
 mod control;
+mod events;
+pub mod float;
+pub mod full;
 mod options;
 mod outcome;
 pub mod reduced;
@@ -12,7 +16,7 @@ pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
 
 use crate::problem::Problem;
-use crate::system::GaugeError;
+use crate::system::{GaugeError, Homotopy};
 
 /// Why a run could not even start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -28,7 +32,35 @@ pub enum StartError {
 /// Follows the path through the sketch of `problem`.
 ///
 /// Never panics on a checked problem; a run that cannot go on ends [`Status::Stopped`].
-pub fn solve(problem: &Problem, options: &Options, control: &mut Control) -> Result<Outcome, StartError> {
-    let _ = (problem, options, control);
-    Err(StartError::Unsupported("not built yet".into()))
+pub fn solve(
+    problem: &Problem,
+    options: &Options,
+    control: &mut Control,
+) -> Result<Outcome, StartError> {
+    if options.mode == Mode::Certified && options.space == Space::Reduced {
+        let message = "certified mode works in the full space; use --space full, or --mode float";
+        return Err(StartError::Unsupported(message.into()));
+    }
+    let homotopy = match options.preset {
+        Preset::Default => Homotopy::new(problem)?,
+        // The paper's step sizes are in the lengths of the problem.
+        Preset::Paper => Homotopy::with_unit(problem, 1.0)?,
+    };
+    match problem.dimension {
+        2 => solve_in::<2>(&homotopy, options, control),
+        _ => solve_in::<3>(&homotopy, options, control),
+    }
+}
+
+fn solve_in<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Result<Outcome, StartError> {
+    match (options.mode, options.space, options.preset) {
+        (Mode::Certified, ..) => Ok(certified::track::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Full, Preset::Default) => Ok(float::track::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Full, Preset::Paper) => Ok(float::track_paper::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Reduced, _) => Ok(reduced::track::<D>(homotopy, options, control)),
+    }
 }

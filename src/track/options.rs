@@ -55,21 +55,34 @@ impl Options {
 
     /// Float mode in the given space.
     pub fn float(space: Space) -> Self {
-        Options { mode: Mode::Float, space, ..Self::certified() }
+        Options {
+            mode: Mode::Float,
+            space,
+            ..Self::certified()
+        }
     }
 
     /// Float mode as in the paper.
     pub fn paper(space: Space) -> Self {
-        Options { preset: Preset::Paper, ..Self::float(space) }
+        Options {
+            preset: Preset::Paper,
+            ..Self::float(space)
+        }
     }
 
     /// With a bound on the step.
     pub fn with_max_step(self, max_step: f64) -> Self {
-        Options { max_step: Some(max_step), ..self }
+        Options {
+            max_step: Some(max_step),
+            ..self
+        }
     }
 
     /// In the other direction.
     pub fn reversed(self) -> Self {
-        Options { reverse: !self.reverse, ..self }
+        Options {
+            reverse: !self.reverse,
+            ..self
+        }
     }
 }

@@ -16,7 +16,7 @@ mod steps;
 
 use super::congruence_classes;
 use super::{
-    Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, StartError, Status,
+    Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, Status,
 };
 use crate::interval::point;
 use crate::plan::{Evaluation, Lanes, Lookout, Plan};
@@ -31,23 +31,14 @@ const SMALLEST_STEP: f64 = 1e-10;
 /// Figures are taken for congruent if their distances agree to this, relative to their size.
 const CONGRUENT: f64 = 1e-8;
 
-/// Follows the path through the sketch in the reduced space.
+/// Follows the path through the sketch in the reduced space; `D` is the homotopy's dimension.
 ///
 /// For [`Preset::Paper`] the homotopy should be in the problem's own unit
 /// ([`Homotopy::with_unit`] with 1). What comes out is an observation: nothing is proved. A run
 /// that cannot go on ends [`Status::Stopped`], with what it has found.
-pub fn track(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Result<Outcome, StartError> {
-    match homotopy.dimension {
-        2 => Ok(Tracker::<2>::new(homotopy, options).run(control)),
-        3 => Ok(Tracker::<3>::new(homotopy, options).run(control)),
-        other => Err(StartError::Unsupported(format!(
-            "no construction plans in dimension {other}"
-        ))),
-    }
+pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+    debug_assert_eq!(homotopy.dimension, D);
+    Tracker::<D>::new(homotopy, options).run(control)
 }
 
 /// What moves while the path is followed.

@@ -1,0 +1,107 @@
+//! `krawl check`: reads a problem and prints what it understood.
+
+use super::{BAD_INPUT, CLOSED, output};
+use krawl::plan::Plan;
+use krawl::problem::{Problem, Target};
+use krawl::system::Homotopy;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Check a problem file and print what is in it
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    let problem = match Problem::read(&arguments.file) {
+        Ok(problem) => problem,
+        Err(error) => {
+            output::complain(&error.to_string());
+            return BAD_INPUT;
+        }
+    };
+    let mut text = describe(&problem);
+    if let Some(plan) = construction_plan(&problem) {
+        text += &plan;
+    }
+    if output::print(&text) {
+        CLOSED
+    } else {
+        BAD_INPUT
+    }
+}
+
+/// The construction plan with its driving parameters and removed constraints, as lines of text.
+fn construction_plan(problem: &Problem) -> Option<String> {
+    let homotopy = Homotopy::new(problem).ok()?;
+    let plan = Plan::derive(&homotopy).describe(problem);
+    let indented: String = plan.lines().map(|line| format!("  {line}\n")).collect();
+    Some(format!("construction plan\n{indented}"))
+}
+
+fn describe(problem: &Problem) -> String {
+    let mut rows: Vec<(&str, String)> = Vec::new();
+    if !problem.source.is_empty() {
+        rows.push(("source", problem.source.clone()));
+    }
+    let space = if problem.dimension == 2 {
+        "2, the plane"
+    } else {
+        "3, space"
+    };
+    rows.push(("dimension", space.to_owned()));
+    rows.push(("points", problem.points.len().to_string()));
+    let squared = problem
+        .distances
+        .iter()
+        .filter(|d| matches!(d.target, Target::SquaredLength(_)))
+        .count();
+    let distances = problem.distances.len();
+    rows.push((
+        "distances",
+        match squared {
+            0 => distances.to_string(),
+            _ => format!("{distances}, {squared} of them given by their squares"),
+        },
+    ));
+    let free = problem.free_coordinates();
+    rows.push(("free coordinates", free.to_string()));
+    rows.push((
+        "degrees of freedom",
+        format!("0 ({free} free coordinates, {distances} independent distances)"),
+    ));
+    let homotopy = &problem.homotopy;
+    let reference = &homotopy.reference;
+    let names: Vec<&str> = reference
+        .iter()
+        .map(|&p| problem.points[p].name.as_str())
+        .collect();
+    let mutually = reference
+        .iter()
+        .enumerate()
+        .all(|(k, &a)| reference[..k].iter().all(|&b| problem.are_joined(a, b)));
+    let mutually = if mutually {
+        "mutually constrained"
+    } else {
+        "not mutually constrained: the coordinates may become singular where the figure is not"
+    };
+    rows.push(("reference", format!("{} ({mutually})", names.join(", "))));
+    let bend = problem.distance_name(homotopy.bend);
+    let c = &homotopy.bend_coefficient;
+    let remark = if c.is_positive() {
+        ""
+    } else {
+        " (not greater than zero: nothing makes the path turn back)"
+    };
+    rows.push(("bend", format!("{bend}, c = {c}{remark}")));
+
+    let mut text = format!("{}: the input is in order\n", problem.name);
+    for (label, value) in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {label:<20}{value}");
+    }
+    text
+}

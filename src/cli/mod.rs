@@ -1,0 +1,48 @@
+//! The command line: one file per verb.
+
+mod check;
+mod interrupt;
+mod output;
+mod processor;
+mod solve;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Exit code of a run that closed, and of a check that found nothing wrong.
+pub const CLOSED: u8 = 0;
+/// Exit code of a run that stopped before.
+pub const STOPPED: u8 = 1;
+/// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
+pub const BAD_INPUT: u8 = 2;
+
+/// Follows the real homotopy path through a sketch and finds, with proof, the figures on it that
+/// meet the dimensions.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Exit codes: 0 closed, 1 stopped, 2 bad input or results that could not be written."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Check(check::Arguments),
+    Solve(solve::Arguments),
+}
+
+/// Runs the program. The exit code is its result.
+pub fn run() -> ExitCode {
+    if let Err(message) = processor::check() {
+        output::complain(&message);
+        return ExitCode::from(BAD_INPUT);
+    }
+    let code = match Arguments::parse().verb {
+        Verb::Check(arguments) => check::run(&arguments),
+        Verb::Solve(arguments) => solve::run(&arguments),
+    };
+    ExitCode::from(code)
+}

@@ -1,0 +1,148 @@
+//! Writing, with no panic where nobody reads.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Prints one message on standard error. If that is closed there is nobody to tell.
+pub fn complain(message: &str) {
+    let _ = writeln!(io::stderr().lock(), "krawl: {message}");
+}
+
+/// Prints a text on standard output. A reader who left early has seen enough; any other failure
+/// is complained about. Returns whether all is well.
+pub fn print(text: &str) -> bool {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            complain(&format!("standard output cannot be written: {error}"));
+            false
+        }
+        _ => true,
+    }
+}
+
+/// Where a file of results goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Destination {
+    /// Standard output.
+    StandardOutput,
+    /// A regular file, whether it exists or not.
+    File(PathBuf),
+    /// A pipe or a device, which is written to as it is.
+    Device(PathBuf),
+}
+
+impl Destination {
+    /// From an argument, `-` being standard output. Says early, and without creating anything,
+    /// that a file cannot be where it is wanted.
+    pub fn new(argument: &Path) -> Result<Self, String> {
+        if argument == Path::new("-") {
+            return Ok(Destination::StandardOutput);
+        }
+        let shown = argument.display();
+        // What a link leads to is replaced, not the link.
+        let path = fs::canonicalize(argument).unwrap_or_else(|_| argument.to_owned());
+        match fs::metadata(&path) {
+            Ok(found) if found.is_dir() => return Err(format!("{shown}: is a directory")),
+            Ok(found) if !found.is_file() => return Ok(Destination::Device(path)),
+            _ => {}
+        }
+        if path.file_name().is_none() {
+            return Err(format!("{shown}: is not the name of a file"));
+        }
+        let folder = folder(&path);
+        match fs::metadata(folder) {
+            Ok(found) if found.is_dir() => Ok(Destination::File(path)),
+            Ok(_) => Err(format!("{shown}: {} is not a directory", folder.display())),
+            Err(error) => Err(format!("{shown}: {}: {error}", folder.display())),
+        }
+    }
+
+    /// Writes the text. A file is written beside and then renamed, so that there is never half a
+    /// file under its name. Returns whether all is well, having complained otherwise.
+    pub fn write(&self, text: &str) -> bool {
+        let (path, result) = match self {
+            Destination::StandardOutput => return print(text),
+            Destination::Device(path) => {
+                let open = fs::OpenOptions::new().write(true).open(path);
+                (
+                    path,
+                    open.and_then(|mut file| file.write_all(text.as_bytes())),
+                )
+            }
+            Destination::File(path) => (path, replace(path, text)),
+        };
+        match result {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+                complain(&format!("{}: cannot be written: {error}", path.display()));
+                false
+            }
+            _ => true,
+        }
+    }
+}
+
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = folder(path).join(format!(".{name}.{}.tmp", std::process::id()));
+    let written = fs::File::create_new(&beside)
+        .and_then(|mut file| {
+            file.write_all(text.as_bytes())
+                .and_then(|()| file.sync_all())
+        })
+        .and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replaces_files_and_leaves_nothing_beside() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.json");
+        for text in ["first", "second"] {
+            assert!(Destination::new(&path).unwrap().write(text));
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn refuses_impossible_places_without_creating_anything() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(Destination::new(folder.path()).is_err());
+        assert!(Destination::new(&folder.path().join("missing/out.json")).is_err());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn standard_output_is_a_dash() {
+        assert_eq!(
+            Destination::new(Path::new("-")),
+            Ok(Destination::StandardOutput)
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_stay_devices() {
+        let null = Path::new("/dev/null");
+        let destination = Destination::new(null).unwrap();
+        assert_eq!(destination, Destination::Device(null.to_owned()));
+        assert!(destination.write("gone"));
+        assert!(!fs::metadata(null).unwrap().is_file());
+    }
+}

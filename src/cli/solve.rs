@@ -1,0 +1,151 @@
+//! `krawl solve`: follows the path of a problem and prints the solutions.
+
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use clap::ValueEnum;
+use krawl::problem::Problem;
+use krawl::report::{ProgressLine, to_json, to_table};
+use krawl::track::{self, Control, Options, Progress, Status};
+use std::path::PathBuf;
+
+/// Follow the path through the sketch and list the figures on it that meet the dimensions
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+    /// Prove every step, or track in floating-point arithmetic
+    #[arg(long, value_enum, default_value_t = Mode::Certified)]
+    mode: Mode,
+    /// Track in all free coordinates, or in the driving parameters of a construction plan
+    /// [default: full for certified, reduced for float]
+    #[arg(long, value_enum)]
+    space: Option<Space>,
+    /// How float mode steps: well, or as in the paper (RR 8705, 7.1 to 7.3)
+    #[arg(long, value_enum, default_value_t = Preset::Default)]
+    preset: Preset,
+    /// Distance to a boundary configuration at which the plan is changed, between 0 and 0.5
+    #[arg(long, value_name = "X", default_value = "0.1", value_parser = alpha)]
+    alpha: f64,
+    /// Longest step allowed, in arc length
+    #[arg(long, value_name = "X", value_parser = max_step)]
+    max_step: Option<f64>,
+    /// Follow the loop the other way round
+    #[arg(long)]
+    reverse: bool,
+    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Print no table and no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Mode {
+    Certified,
+    Float,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Space {
+    Full,
+    Reduced,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Preset {
+    Default,
+    Paper,
+}
+
+fn alpha(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 0.5 => Ok(x),
+        _ => Err("must be a number greater than 0 and less than 0.5".to_owned()),
+    }
+}
+
+fn max_step(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("must be a finite number greater than 0".to_owned()),
+    }
+}
+
+impl Arguments {
+    fn options(&self) -> Result<Options, String> {
+        let space = match self.space.unwrap_or(match self.mode {
+            Mode::Certified => Space::Full,
+            Mode::Float => Space::Reduced,
+        }) {
+            Space::Full => track::Space::Full,
+            Space::Reduced => track::Space::Reduced,
+        };
+        if self.mode == Mode::Certified && space == track::Space::Reduced {
+            return Err(
+                "certified mode tracks in the full space only: leave out `--space reduced`, \
+                        or add `--mode float`"
+                    .to_owned(),
+            );
+        }
+        if self.mode == Mode::Certified && self.preset == Preset::Paper {
+            return Err("`--preset paper` is a way of float mode: add `--mode float`".to_owned());
+        }
+        let options = match (self.mode, self.preset) {
+            (Mode::Certified, _) => Options::certified(),
+            (Mode::Float, Preset::Default) => Options::float(space),
+            (Mode::Float, Preset::Paper) => Options::paper(space),
+        };
+        Ok(Options {
+            max_step: self.max_step,
+            reverse: self.reverse,
+            alpha: self.alpha,
+            ..options
+        })
+    }
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    match try_run(arguments) {
+        Ok(code) => code,
+        Err(message) => {
+            output::complain(&message);
+            BAD_INPUT
+        }
+    }
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let options = arguments.options()?;
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let json = arguments
+        .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
+
+    let mut line = ProgressLine::new(!arguments.quiet);
+    let mut show = |now: Progress| line.show(now);
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        progress: Some(&mut show),
+    };
+    let outcome = track::solve(&problem, &options, &mut control);
+    line.clear();
+    let outcome = outcome.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
+
+    // The file first: a table that nobody reads any more must not cost it.
+    let mut written = true;
+    if let Some(json) = &json {
+        written &= json.write(&(to_json(&problem, &outcome) + "\n"));
+    }
+    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+        written &= output::print(&to_table(&problem, &outcome));
+    }
+    Ok(match outcome.status {
+        _ if !written => BAD_INPUT,
+        Status::Closed => CLOSED,
+        Status::Stopped(_) => STOPPED,
+    })
+}

@@ -1,0 +1,454 @@
+//! Problems made in code, checked as those from files are.
+
+use super::check::{check_structure, coincide, collinear};
+use super::error::{MAX_NAME, MAX_POINTS, Place};
+use super::names::nearest;
+use super::{
+    Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target,
+    reference,
+};
+use std::collections::HashMap;
+
+/// Collects the parts of a problem; [`ProblemBuilder::finish`] checks them together.
+///
+/// Numbers may be [`Decimal`]s, texts (exactly what they say), whole numbers, or floats (the
+/// shortest decimal that reads as the float). A bad number is reported by `finish`, too.
+///
+/// ```
+/// use krawl::problem::Problem;
+/// let triangle = Problem::build("triangle", 2)
+///     .point("a", ["0", "0"])
+///     .point("b", ["1", "0"])
+///     .point("c", ["0.4", "1.1"])
+///     .distance("a", "b", "1")
+///     .distance("b", "c", "1.12")
+///     .squared_distance("c", "a", 2)
+///     .finish()
+///     .unwrap();
+/// assert_eq!(triangle.free_coordinates(), 3);
+/// assert_eq!(triangle.distance_name(triangle.homotopy.bend), "c-a");
+/// ```
+#[derive(Debug, Clone)]
+pub struct ProblemBuilder {
+    name: String,
+    dimension: usize,
+    source: String,
+    points: Vec<DraftPoint>,
+    lengths: Vec<DraftDistance>,
+    squared_lengths: Vec<DraftDistance>,
+    reference: Option<Vec<String>>,
+    bend: Option<Vec<String>>,
+    bend_coefficient: Option<Number>,
+}
+
+/// A number, or what is wrong with it.
+type Number = Result<Decimal, DecimalError>;
+
+#[derive(Debug, Clone)]
+struct DraftPoint {
+    name: String,
+    coordinates: Vec<Number>,
+}
+
+#[derive(Debug, Clone)]
+struct DraftDistance {
+    points: [String; 2],
+    target: Number,
+}
+
+fn number<N>(value: N) -> Number
+where
+    N: TryInto<Decimal>,
+    DecimalError: From<N::Error>,
+{
+    value.try_into().map_err(DecimalError::from)
+}
+
+impl Problem {
+    /// Starts a problem in the plane (`dimension` 2) or in space (3).
+    pub fn build(name: &str, dimension: usize) -> ProblemBuilder {
+        ProblemBuilder {
+            name: name.to_owned(),
+            dimension,
+            source: String::new(),
+            points: Vec::new(),
+            lengths: Vec::new(),
+            squared_lengths: Vec::new(),
+            reference: None,
+            bend: None,
+            bend_coefficient: None,
+        }
+    }
+
+    /// Checks a problem whose fields were set by hand. Those from files and from
+    /// [`Problem::build`] have been checked.
+    ///
+    /// ```
+    /// # use krawl::problem::Problem;
+    /// # let mut problem = Problem::build("bar", 2).point("a", [0, 0]).point("b", [1, 0])
+    /// #     .distance("a", "b", 2).finish().unwrap();
+    /// assert!(problem.check().is_ok());
+    /// problem.distances.clear();
+    /// assert!(problem.check().is_err());
+    /// ```
+    pub fn check(&self) -> Result<(), ProblemError> {
+        check_frame(&self.name, self.dimension, self.points.len())?;
+        let mut seen = HashMap::new();
+        for (index, point) in self.points.iter().enumerate() {
+            check_name(Place::Point(index), &point.name)?;
+            if seen.insert(point.name.as_str(), index).is_some() {
+                let name = point.name.clone();
+                return Err(ProblemError::RepeatedPoint { index, name });
+            }
+            let flat = self.dimension == 3 || point.sketch[2] == Decimal::from(0);
+            if !flat {
+                return Err(ProblemError::CoordinateCount {
+                    index,
+                    name: point.name.clone(),
+                    given: 3,
+                    wanted: 2,
+                });
+            }
+        }
+        let in_range = |place, what: &str, index: usize| {
+            if index < self.points.len() {
+                return Ok(());
+            }
+            Err(ProblemError::UnknownPoint {
+                place,
+                what: what.to_owned(),
+                name: format!("no. {index}"),
+                nearest: None,
+            })
+        };
+        for (index, distance) in self.distances.iter().enumerate() {
+            for point in distance.points {
+                in_range(Place::Distance(index), "a distance", point)?;
+            }
+        }
+        check_distances(&self.points, &self.distances)?;
+        check_structure(self.dimension, &self.points, &self.distances)?;
+        check_sketch(&self.points, &self.distances)?;
+        for &point in &self.homotopy.reference {
+            in_range(Place::Reference, "the reference", point)?;
+        }
+        if self.homotopy.bend >= self.distances.len() {
+            let name = format!("no. {}", self.homotopy.bend);
+            return Err(ProblemError::BendNotADistance(name));
+        }
+        check_reference(self.dimension, &self.points, &self.homotopy.reference)
+    }
+}
+
+impl ProblemBuilder {
+    /// Says where the numbers come from.
+    pub fn source(mut self, source: &str) -> Self {
+        self.source = source.to_owned();
+        self
+    }
+
+    /// Adds a point at its place in the sketch, with as many coordinates as dimensions.
+    pub fn point<N>(mut self, name: &str, coordinates: impl IntoIterator<Item = N>) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.points.push(DraftPoint {
+            name: name.to_owned(),
+            coordinates: coordinates.into_iter().map(number).collect(),
+        });
+        self
+    }
+
+    /// Adds a distance to meet.
+    pub fn distance<N>(mut self, a: &str, b: &str, length: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.lengths.push(DraftDistance {
+            points: [a.to_owned(), b.to_owned()],
+            target: number(length),
+        });
+        self
+    }
+
+    /// Adds a distance to meet, given by its square. In the finished problem these come after all
+    /// those given as lengths, as they do in files.
+    pub fn squared_distance<N>(mut self, a: &str, b: &str, square: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.squared_lengths.push(DraftDistance {
+            points: [a.to_owned(), b.to_owned()],
+            target: number(square),
+        });
+        self
+    }
+
+    /// Chooses the reference points. Left out, krawl chooses mutually constrained ones.
+    pub fn reference<S: AsRef<str>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.reference = Some(names.into_iter().map(|s| s.as_ref().to_owned()).collect());
+        self
+    }
+
+    /// Chooses the distance that is bent. Left out, it is the last one.
+    pub fn bend<S: AsRef<str>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.bend = Some(names.into_iter().map(|s| s.as_ref().to_owned()).collect());
+        self
+    }
+
+    /// Sets the bend's coefficient c. Left out, it is 2.
+    pub fn bend_coefficient<N>(mut self, c: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.bend_coefficient = Some(number(c));
+        self
+    }
+
+    /// Checks everything and makes the problem.
+    pub fn finish(self) -> Result<Problem, ProblemError> {
+        check_frame(&self.name, self.dimension, self.points.len())?;
+        let points = self.finished_points()?;
+        let index_of: HashMap<&str, usize> = points
+            .iter()
+            .enumerate()
+            .map(|(i, p)| (p.name.as_str(), i))
+            .collect();
+        let find = |place: Place, what: &str, name: &str| {
+            index_of
+                .get(name)
+                .copied()
+                .ok_or_else(|| ProblemError::UnknownPoint {
+                    place,
+                    what: what.to_owned(),
+                    name: name.chars().take(MAX_NAME).collect(),
+                    nearest: nearest(name, points.iter().map(|p| p.name.as_str())),
+                })
+        };
+
+        let distances = self.finished_distances(find)?;
+        check_distances(&points, &distances)?;
+        let reference = match &self.reference {
+            None => None,
+            Some(names) => {
+                let found = names
+                    .iter()
+                    .map(|name| find(Place::Reference, "the reference", name));
+                let found = found.collect::<Result<Vec<usize>, _>>()?;
+                check_reference(self.dimension, &points, &found)?;
+                Some(found)
+            }
+        };
+        let bend = match &self.bend {
+            None => distances.len().checked_sub(1),
+            Some(names) => {
+                let [a, b] = names.as_slice() else {
+                    return Err(ProblemError::BendCount(names.len()));
+                };
+                let (i, j) = (
+                    find(Place::Bend, "the bend", a)?,
+                    find(Place::Bend, "the bend", b)?,
+                );
+                let at = distances
+                    .iter()
+                    .position(|d| d.points == [i, j] || d.points == [j, i]);
+                let unknown = || ProblemError::BendNotADistance(format!("{a}-{b}"));
+                Some(at.ok_or_else(unknown)?)
+            }
+        };
+        let bend_coefficient = match self.bend_coefficient {
+            None => Decimal::from(2),
+            Some(c) => c.map_err(|source| ProblemError::Number {
+                place: Place::BendCoefficient,
+                what: "the bend's coefficient".to_owned(),
+                source,
+            })?,
+        };
+        check_structure(self.dimension, &points, &distances)?;
+        check_sketch(&points, &distances)?;
+        let bend = bend.ok_or(ProblemError::NoDistances)?;
+        let reference = match reference {
+            Some(reference) => reference,
+            None => reference::choose(self.dimension, &points, &distances, bend)
+                .ok_or(ProblemError::CollinearSketch)?,
+        };
+        Ok(Problem {
+            name: self.name,
+            dimension: self.dimension,
+            source: self.source,
+            homotopy: HomotopyChoices {
+                reference,
+                bend,
+                bend_coefficient,
+            },
+            points,
+            distances,
+        })
+    }
+
+    fn finished_points(&self) -> Result<Vec<Point>, ProblemError> {
+        let mut seen = HashMap::new();
+        let mut points = Vec::with_capacity(self.points.len());
+        for (index, draft) in self.points.iter().enumerate() {
+            let name = draft.name.clone();
+            check_name(Place::Point(index), &name)?;
+            if seen.insert(draft.name.as_str(), index).is_some() {
+                return Err(ProblemError::RepeatedPoint { index, name });
+            }
+            if draft.coordinates.len() != self.dimension {
+                return Err(ProblemError::CoordinateCount {
+                    index,
+                    name,
+                    given: draft.coordinates.len(),
+                    wanted: self.dimension,
+                });
+            }
+            let mut sketch = [Decimal::from(0), Decimal::from(0), Decimal::from(0)];
+            for (axis, (place, coordinate)) in sketch.iter_mut().zip(&draft.coordinates).enumerate()
+            {
+                *place = coordinate.clone().map_err(|source| ProblemError::Number {
+                    place: Place::Point(index),
+                    what: format!("the point `{name}`, coordinate {}", axis + 1),
+                    source,
+                })?;
+            }
+            points.push(Point { name, sketch });
+        }
+        Ok(points)
+    }
+
+    fn finished_distances(
+        &self,
+        find: impl Fn(Place, &str, &str) -> Result<usize, ProblemError>,
+    ) -> Result<Vec<Distance>, ProblemError> {
+        let lengths = self.lengths.iter().map(|draft| (draft, "distance"));
+        let squares = self
+            .squared_lengths
+            .iter()
+            .map(|draft| (draft, "squared distance"));
+        lengths
+            .chain(squares)
+            .enumerate()
+            .map(|(index, (draft, kind))| {
+                let place = Place::Distance(index);
+                let shown = |name: &str| name.chars().take(MAX_NAME).collect::<String>();
+                let [a, b] = &draft.points;
+                let what = format!("the {kind} {}-{}", shown(a), shown(b));
+                let points = [find(place, &what, a)?, find(place, &what, b)?];
+                let target = draft.target.clone();
+                let target = target.map_err(|source| ProblemError::Number {
+                    place,
+                    what,
+                    source,
+                })?;
+                let target = match kind {
+                    "distance" => Target::Length(target),
+                    _ => Target::SquaredLength(target),
+                };
+                Ok(Distance { points, target })
+            })
+            .collect()
+    }
+}
+
+fn check_frame(name: &str, dimension: usize, points: usize) -> Result<(), ProblemError> {
+    check_name(Place::Name, name)?;
+    if !matches!(dimension, 2 | 3) {
+        return Err(ProblemError::Dimension(dimension.to_string()));
+    }
+    if points > MAX_POINTS {
+        return Err(ProblemError::TooManyPoints(points));
+    }
+    if points < dimension {
+        return Err(ProblemError::TooFewPoints {
+            given: points,
+            dimension,
+        });
+    }
+    Ok(())
+}
+
+fn check_name(place: Place, name: &str) -> Result<(), ProblemError> {
+    let length = name.chars().count();
+    if name.trim().is_empty() || length > MAX_NAME || name.chars().any(char::is_control) {
+        let name = name.chars().take(MAX_NAME).collect();
+        return Err(ProblemError::BadName { place, name });
+    }
+    Ok(())
+}
+
+/// Lengths are positive, and no pair of points has two of them or is no pair.
+fn check_distances(points: &[Point], distances: &[Distance]) -> Result<(), ProblemError> {
+    let mut seen = HashMap::new();
+    for (index, distance) in distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        let name = format!("{}-{}", points[a].name, points[b].name);
+        if a == b {
+            return Err(ProblemError::SelfDistance { index, name });
+        }
+        if seen.insert([a.min(b), a.max(b)], index).is_some() {
+            return Err(ProblemError::RepeatedDistance { index, name });
+        }
+        let (kind, value) = match &distance.target {
+            Target::Length(length) => ("distance", length),
+            Target::SquaredLength(square) => ("squared distance", square),
+        };
+        if !value.is_positive() {
+            let value = value.to_string();
+            return Err(ProblemError::NotPositive {
+                index,
+                kind,
+                name,
+                value,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Every distance starts from a length greater than zero.
+fn check_sketch(points: &[Point], distances: &[Distance]) -> Result<(), ProblemError> {
+    for (index, distance) in distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        if coincide(&points[a], &points[b]) {
+            let name = format!("{}-{}", points[a].name, points[b].name);
+            return Err(ProblemError::Coincident { index, name });
+        }
+    }
+    Ok(())
+}
+
+/// The reference points span a line (in the plane) or a plane (in space).
+fn check_reference(
+    dimension: usize,
+    points: &[Point],
+    reference: &[usize],
+) -> Result<(), ProblemError> {
+    let name = |p: usize| points[p].name.clone();
+    if reference.len() != dimension {
+        return Err(ProblemError::ReferenceCount {
+            given: reference.len(),
+            wanted: dimension,
+        });
+    }
+    for (k, &a) in reference.iter().enumerate() {
+        for &b in &reference[..k] {
+            if a == b {
+                return Err(ProblemError::ReferenceRepeated(name(a)));
+            }
+            if coincide(&points[a], &points[b]) {
+                return Err(ProblemError::ReferenceCoincident(name(b), name(a)));
+            }
+        }
+    }
+    if let [a, b, c] = *reference
+        && collinear(&points[a], &points[b], &points[c])
+    {
+        return Err(ProblemError::ReferenceCollinear(name(a), name(b), name(c)));
+    }
+    Ok(())
+}

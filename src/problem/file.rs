@@ -1,0 +1,549 @@
+//! Reading problem files (TOML).
+//!
+//! Numbers are taken from the text of the file, never through a float, so that a decimal means
+//! exactly that decimal. Every message names the file, the line and the key.
+
+use super::builder::ProblemBuilder;
+use super::error::{Place, did_you_mean};
+use super::names::nearest;
+use super::{Decimal, DecimalError, Problem, ProblemError};
+use std::fmt;
+use std::io::Read;
+use std::ops::Range;
+use std::path::Path;
+use toml_edit::{Document, Item, Key, TableLike, Value};
+
+/// Most bytes of a problem file.
+pub const MAX_FILE_SIZE: u64 = 1 << 20;
+
+/// Why a file is no problem that krawl takes. Its text names file, line, key, and point or
+/// constraint.
+#[derive(Debug)]
+pub struct FileError {
+    /// The file, as it was named.
+    pub file: String,
+    /// The line, counted from 1, where there is one.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub fault: Box<FileFault>,
+}
+
+/// What is wrong with a file.
+#[derive(Debug, thiserror::Error)]
+pub enum FileFault {
+    /// It cannot be opened or read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::Error),
+    /// It is too big to be a problem.
+    #[error("is larger than the {} KiB that are read", MAX_FILE_SIZE >> 10)]
+    TooLarge,
+    /// It is not a text.
+    #[error("is not a text in UTF-8")]
+    NotUtf8,
+    /// It is not TOML.
+    #[error("{0}")]
+    Syntax(String),
+    /// A key has no meaning here.
+    #[error("{key}: there is no such key{}", did_you_mean(.nearest))]
+    UnknownKey {
+        /// The whole key, with the tables it is in.
+        key: String,
+        /// The most similar one that has a meaning.
+        nearest: Option<String>,
+    },
+    /// A key is needed.
+    #[error("{key}: is missing; write {example}")]
+    MissingKey {
+        /// The whole key.
+        key: String,
+        /// How it could look.
+        example: &'static str,
+    },
+    /// A value is of the wrong kind.
+    #[error("{key}: must be {wanted}, and is {found}")]
+    WrongKind {
+        /// The whole key.
+        key: String,
+        /// What belongs there.
+        wanted: String,
+        /// What is there.
+        found: String,
+    },
+    /// A number is not a finite decimal.
+    #[error("{key}: {source}")]
+    Number {
+        /// The whole key.
+        key: String,
+        /// What is wrong with it.
+        source: DecimalError,
+    },
+    /// Points, distances and homotopy do not fit together.
+    #[error("{key}{error}")]
+    Problem {
+        /// The whole key with a colon, or nothing where the file as a whole is meant.
+        key: String,
+        /// What is wrong.
+        error: ProblemError,
+    },
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}:{line}: {}", self.file, self.fault),
+            None => write!(f, "{}: {}", self.file, self.fault),
+        }
+    }
+}
+
+impl std::error::Error for FileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &*self.fault {
+            FileFault::Unreadable(error) => Some(error),
+            FileFault::Number { source, .. } => Some(source),
+            FileFault::Problem { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl Problem {
+    /// Reads and checks a problem file.
+    ///
+    /// ```no_run
+    /// let problem = krawl::problem::Problem::read("problems/disulfide.toml")?;
+    /// assert_eq!(problem.distances.len(), problem.free_coordinates());
+    /// # Ok::<(), krawl::problem::FileError>(())
+    /// ```
+    pub fn read(path: impl AsRef<Path>) -> Result<Problem, FileError> {
+        let path = path.as_ref();
+        let file = path.display().to_string();
+        let fail = |line, fault| FileError {
+            file: file.clone(),
+            line,
+            fault: Box::new(fault),
+        };
+        let mut bytes = Vec::new();
+        std::fs::File::open(path)
+            // One byte more than allowed tells that the file is too large, however large it is.
+            .and_then(|open| open.take(MAX_FILE_SIZE + 1).read_to_end(&mut bytes))
+            .map_err(|error| fail(None, FileFault::Unreadable(error)))?;
+        if bytes.len() as u64 > MAX_FILE_SIZE {
+            return Err(fail(None, FileFault::TooLarge));
+        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
+            fail(Some(line), FileFault::NotUtf8)
+        })?;
+        Problem::parse(&text, &file)
+    }
+
+    /// Reads and checks a problem from the text of a file. `file` is for messages, and its stem
+    /// names the problem where the text does not.
+    ///
+    /// ```
+    /// use krawl::problem::Problem;
+    /// let problem = Problem::parse(
+    ///     r#"
+    ///     name = "triangle"
+    ///     dimension = 2
+    ///     [points]
+    ///     a = [0, 0]
+    ///     b = [1, 0]
+    ///     c = [0.4, 1.1]
+    ///     [constraints]
+    ///     distances = [["a", "b", 1.0], ["b", "c", 1.12]]
+    ///     squared_distances = [["c", "a", 2]]
+    ///     "#,
+    ///     "triangle.toml",
+    /// )
+    /// .unwrap();
+    /// assert_eq!(problem.homotopy.bend, 2);
+    ///
+    /// let error = Problem::parse("dimension = 4", "bad.toml").unwrap_err();
+    /// assert!(error.to_string().starts_with("bad.toml:1: dimension: "));
+    /// ```
+    pub fn parse(text: &str, file: &str) -> Result<Problem, FileError> {
+        Reader { text, file }.problem()
+    }
+}
+
+/// A text and its name.
+struct Reader<'a> {
+    text: &'a str,
+    file: &'a str,
+}
+
+/// Where the parts of a problem stand in the file.
+#[derive(Default)]
+struct Places {
+    name: Option<usize>,
+    dimension: Option<usize>,
+    points: Vec<Option<usize>>,
+    points_table: Option<usize>,
+    constraints: Option<usize>,
+    /// Lengths first, then squares.
+    distances: Vec<(&'static str, Option<usize>)>,
+    reference: Option<usize>,
+    bend: Option<usize>,
+    bend_coefficient: Option<usize>,
+}
+
+type Line = Option<usize>;
+
+impl Reader<'_> {
+    fn problem(&self) -> Result<Problem, FileError> {
+        let document = Document::parse(self.text).map_err(|error| self.syntax(&error))?;
+        let root = document.as_table();
+        self.known_keys(
+            root,
+            "",
+            &[
+                "name",
+                "dimension",
+                "source",
+                "points",
+                "constraints",
+                "homotopy",
+            ],
+        )?;
+        let mut places = Places::default();
+
+        let dimension = match self.get(root, "dimension") {
+            None => return Err(self.missing("dimension", "dimension = 2 (plane) or 3 (space)")),
+            Some((line, item)) => {
+                places.dimension = line;
+                match item.as_value() {
+                    // Other numbers are the builder's to refuse; it cannot hold all of them.
+                    Some(Value::Integer(d)) if matches!(*d.value(), 2 | 3) => *d.value() as usize,
+                    Some(Value::Integer(d)) => {
+                        let error = ProblemError::Dimension(d.value().to_string());
+                        return Err(self.in_problem(&places, error));
+                    }
+                    _ => return Err(self.wrong_kind(line, "dimension", "2 or 3", item)),
+                }
+            }
+        };
+        let name = match self.get(root, "name") {
+            None => {
+                let stem = Path::new(self.file).file_stem();
+                stem.map_or("problem".into(), |stem| stem.to_string_lossy().into_owned())
+            }
+            Some((line, item)) => {
+                places.name = line;
+                self.string(line, "name", item)?
+            }
+        };
+        let mut builder = Problem::build(&name, dimension);
+        if let Some((line, item)) = self.get(root, "source") {
+            builder = builder.source(&self.string(line, "source", item)?);
+        }
+        builder = self.points(root, builder, &mut places)?;
+        builder = self.constraints(root, builder, &mut places)?;
+        builder = self.homotopy(root, builder, &mut places)?;
+        builder
+            .finish()
+            .map_err(|error| self.in_problem(&places, error))
+    }
+
+    fn points(
+        &self,
+        root: &dyn TableLike,
+        mut builder: ProblemBuilder,
+        places: &mut Places,
+    ) -> Result<ProblemBuilder, FileError> {
+        const EXAMPLE: &str = "[points] and below it a line p1 = [0.0, 0.0, 0.0] for each point";
+        let Some((line, item)) = self.get(root, "points") else {
+            return Err(self.missing("points", EXAMPLE));
+        };
+        places.points_table = line;
+        let table = self.table(line, "points", item)?;
+        for (name, item) in table.iter() {
+            let line = self.line(table.key(name).and_then(Key::span));
+            let key = format!("points.{name}");
+            let wanted = "coordinates in brackets";
+            let Some(array) = item.as_array() else {
+                return Err(self.wrong_kind(line, &key, wanted, item));
+            };
+            let coordinates = array.iter().map(|value| self.number(line, &key, value));
+            builder = builder.point(name, coordinates.collect::<Result<Vec<Decimal>, _>>()?);
+            places.points.push(line);
+        }
+        Ok(builder)
+    }
+
+    fn constraints(
+        &self,
+        root: &dyn TableLike,
+        mut builder: ProblemBuilder,
+        places: &mut Places,
+    ) -> Result<ProblemBuilder, FileError> {
+        const EXAMPLE: &str =
+            "[constraints] and below it distances = [[\"p1\", \"p2\", 1.12], ...]";
+        let Some((line, item)) = self.get(root, "constraints") else {
+            return Err(self.missing("constraints", EXAMPLE));
+        };
+        places.constraints = line;
+        let table = self.table(line, "constraints", item)?;
+        self.known_keys(table, "constraints.", &["distances", "squared_distances"])?;
+        for (name, key) in [
+            ("distances", "constraints.distances"),
+            ("squared_distances", "constraints.squared_distances"),
+        ] {
+            let Some((line, item)) = self.get(table, name) else {
+                continue;
+            };
+            let wanted = "a list of [\"point\", \"point\", number] in brackets";
+            let Some(array) = item.as_array() else {
+                return Err(self.wrong_kind(line, key, wanted, item));
+            };
+            for value in array {
+                let line = self.line(value.span());
+                let wanted = "[\"point\", \"point\", number]";
+                let Some(array) = value.as_array() else {
+                    return Err(self.wrong_value(line, key, wanted, value));
+                };
+                let parts: Vec<&Value> = array.iter().collect();
+                let [a, b, number] = parts.as_slice() else {
+                    let found = format!("a list of {}", parts.len());
+                    return Err(self.wrong(line, key, wanted, found));
+                };
+                let ends = [a, b].map(|end| {
+                    let name = end.as_str();
+                    name.ok_or_else(|| self.wrong_value(line, key, "a point's name in quotes", end))
+                });
+                let [a, b] = ends;
+                let (a, b) = (a?, b?);
+                let shown = |name: &str| name.chars().take(40).collect::<String>();
+                let here = format!("{key}: {}-{}", shown(a), shown(b));
+                let number = self.number(line, &here, number)?;
+                builder = if name == "distances" {
+                    builder.distance(a, b, number)
+                } else {
+                    builder.squared_distance(a, b, number)
+                };
+                places.distances.push((key, line));
+            }
+        }
+        Ok(builder)
+    }
+
+    fn homotopy(
+        &self,
+        root: &dyn TableLike,
+        mut builder: ProblemBuilder,
+        places: &mut Places,
+    ) -> Result<ProblemBuilder, FileError> {
+        let Some((line, item)) = self.get(root, "homotopy") else {
+            return Ok(builder);
+        };
+        let table = self.table(line, "homotopy", item)?;
+        self.known_keys(
+            table,
+            "homotopy.",
+            &["reference", "bend", "bend_coefficient"],
+        )?;
+        if let Some((line, item)) = self.get(table, "reference") {
+            places.reference = line;
+            builder = builder.reference(self.point_names(line, "homotopy.reference", item)?);
+        }
+        if let Some((line, item)) = self.get(table, "bend") {
+            places.bend = line;
+            builder = builder.bend(self.point_names(line, "homotopy.bend", item)?);
+        }
+        if let Some((line, item)) = self.get(table, "bend_coefficient") {
+            places.bend_coefficient = line;
+            let key = "homotopy.bend_coefficient";
+            let Some(value) = item.as_value() else {
+                return Err(self.wrong_kind(line, key, "a number", item));
+            };
+            builder = builder.bend_coefficient(self.number(line, key, value)?);
+        }
+        Ok(builder)
+    }
+
+    /// The exact number that the text of `value` says.
+    fn number(&self, line: Line, key: &str, value: &Value) -> Result<Decimal, FileError> {
+        let line = self.line(value.span()).or(line);
+        let text = match value {
+            Value::Integer(_) | Value::Float(_) => value.span().and_then(|s| self.text.get(s)),
+            _ => None,
+        };
+        let Some(text) = text else {
+            let wanted = match value.as_str() {
+                Some(text) if text.parse::<Decimal>().is_ok() => "a number without quotes",
+                _ => "a number",
+            };
+            return Err(self.wrong_value(line, key, wanted, value));
+        };
+        if text.starts_with("0x") || text.starts_with("0o") || text.starts_with("0b") {
+            return Err(self.wrong(line, key, "a decimal number", format!("`{text}`")));
+        }
+        // TOML allows underscores between digits, and has checked that they are.
+        text.replace('_', "").parse().map_err(|source| {
+            self.fail(
+                line,
+                FileFault::Number {
+                    key: key.to_owned(),
+                    source,
+                },
+            )
+        })
+    }
+
+    fn point_names(&self, line: Line, key: &str, item: &Item) -> Result<Vec<String>, FileError> {
+        let wanted = "names of points in brackets, each in quotes";
+        let Some(array) = item.as_array() else {
+            return Err(self.wrong_kind(line, key, wanted, item));
+        };
+        array
+            .iter()
+            .map(|value| match value.as_str() {
+                Some(name) => Ok(name.to_owned()),
+                None => Err(self.wrong_value(line, key, wanted, value)),
+            })
+            .collect()
+    }
+
+    fn string(&self, line: Line, key: &str, item: &Item) -> Result<String, FileError> {
+        match item.as_str() {
+            Some(text) => Ok(text.to_owned()),
+            None => Err(self.wrong_kind(line, key, "a text in quotes", item)),
+        }
+    }
+
+    fn table<'i>(
+        &self,
+        line: Line,
+        key: &str,
+        item: &'i Item,
+    ) -> Result<&'i dyn TableLike, FileError> {
+        let wrong = || self.wrong_kind(line, key, &format!("a table, [{key}]"), item);
+        item.as_table_like().ok_or_else(wrong)
+    }
+
+    fn get<'t>(&self, table: &'t dyn TableLike, name: &str) -> Option<(Line, &'t Item)> {
+        let (key, item) = table.get_key_value(name)?;
+        Some((self.line(key.span()), item))
+    }
+
+    fn known_keys(
+        &self,
+        table: &dyn TableLike,
+        prefix: &str,
+        known: &[&str],
+    ) -> Result<(), FileError> {
+        for (name, _) in table.iter() {
+            if !known.contains(&name) {
+                let shown: String = name.chars().take(60).collect();
+                return Err(self.fail(
+                    self.line(table.key(name).and_then(Key::span)),
+                    FileFault::UnknownKey {
+                        key: format!("{prefix}{shown}"),
+                        nearest: nearest(name, known.iter().copied()),
+                    },
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The line on which a span begins.
+    fn line(&self, span: Option<Range<usize>>) -> Line {
+        let before = self.text.as_bytes().get(..span?.start)?;
+        Some(1 + before.iter().filter(|&&byte| byte == b'\n').count())
+    }
+
+    fn syntax(&self, error: &toml_edit::TomlError) -> FileError {
+        let at = error
+            .span()
+            .and_then(|span| self.text.get(span))
+            .unwrap_or("");
+        let at: String = at.trim().chars().take(40).collect();
+        let message = match error.message().trim() {
+            "duplicate key" => format!("`{at}` is there twice: rename or remove one"),
+            // Whole numbers beyond 64 bits; with a point they are read, exactly.
+            "integer number overflowed" => {
+                format!("`{at}` is too large without a decimal point: write {at}.0")
+            }
+            // Some of the parser's messages have two lines; krawl's have one.
+            message if at.is_empty() => message.replace('\n', ", "),
+            message => format!(
+                "{} at `{}`",
+                message.replace('\n', ", "),
+                at.replace('\n', " ")
+            ),
+        };
+        let fault = FileFault::Syntax(message);
+        self.fail(self.line(error.span()), fault)
+    }
+
+    fn fail(&self, line: Line, fault: FileFault) -> FileError {
+        FileError {
+            file: self.file.to_owned(),
+            line,
+            fault: Box::new(fault),
+        }
+    }
+
+    fn missing(&self, key: &str, example: &'static str) -> FileError {
+        let fault = FileFault::MissingKey {
+            key: key.to_owned(),
+            example,
+        };
+        self.fail(None, fault)
+    }
+
+    fn wrong_kind(&self, line: Line, key: &str, wanted: &str, found: &Item) -> FileError {
+        match found.as_value() {
+            Some(value) => self.wrong_value(line, key, wanted, value),
+            None => self.wrong(line, key, wanted, format!("a {}", found.type_name())),
+        }
+    }
+
+    fn wrong_value(&self, line: Line, key: &str, wanted: &str, found: &Value) -> FileError {
+        let text = found.span().and_then(|span| self.text.get(span));
+        let text: String = text.unwrap_or("").chars().take(41).collect();
+        let found = match text.as_str() {
+            text if (1..=40).contains(&text.len()) && !text.contains('\n') => format!("`{text}`"),
+            _ => format!("a value of type {}", found.type_name()),
+        };
+        self.wrong(line, key, wanted, found)
+    }
+
+    fn wrong(&self, line: Line, key: &str, wanted: &str, found: String) -> FileError {
+        self.fail(
+            line,
+            FileFault::WrongKind {
+                key: key.to_owned(),
+                wanted: wanted.to_owned(),
+                found,
+            },
+        )
+    }
+
+    fn in_problem(&self, places: &Places, error: ProblemError) -> FileError {
+        let point = |i: usize| places.points.get(i).copied().flatten();
+        let (key, line) = match error.place() {
+            Place::Whole => ("", places.points_table),
+            Place::Name => ("name: ", places.name),
+            Place::Dimension => ("dimension: ", places.dimension),
+            Place::Point(i) => ("points: ", point(i)),
+            Place::Distances => ("constraints: ", places.constraints),
+            Place::Distance(i) => match places.distances.get(i) {
+                Some(&("constraints.distances", line)) => ("constraints.distances: ", line),
+                Some(&(_, line)) => ("constraints.squared_distances: ", line),
+                None => ("constraints: ", places.constraints),
+            },
+            Place::Reference => ("homotopy.reference: ", places.reference),
+            Place::Bend => ("homotopy.bend: ", places.bend),
+            Place::BendCoefficient => ("homotopy.bend_coefficient: ", places.bend_coefficient),
+        };
+        let fault = FileFault::Problem {
+            key: key.to_owned(),
+            error,
+        };
+        self.fail(line, fault)
+    }
+}

@@ -1,0 +1,108 @@
+//! Choosing the reference where the user does not.
+
+use super::check::collinear;
+use super::{Distance, Point};
+
+/// Chooses reference points, best-conditioned in the sketch among these, in this order of
+/// preference:
+///
+/// 1. mutually constrained points (an edge in the plane, a triangle in space) without the bend:
+///    with a free third coordinate the reference could become collinear on the path, and with the
+///    bend in it, it could shrink;
+/// 2. the same with the bend;
+/// 3. in space, two joined points and a third joined to one of them;
+/// 4. in space, two joined points and any third.
+///
+/// `None` if all points of the sketch lie on one line.
+pub(super) fn choose(
+    dimension: usize,
+    points: &[Point],
+    distances: &[Distance],
+    bend: usize,
+) -> Option<Vec<usize>> {
+    let place: Vec<[f64; 3]> = points
+        .iter()
+        .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+        .collect();
+    let n = points.len();
+    let mut joined = vec![Vec::new(); n];
+    for (index, distance) in distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        joined[a].push((b, index));
+        joined[b].push((a, index));
+    }
+    let edge = |a: usize, b: usize| joined[a].iter().find(|&&(c, _)| c == b).map(|&(_, e)| e);
+
+    // The better candidate: first by preference, then by shape; the first one on a tie.
+    let mut best: Option<(usize, f64, Vec<usize>)> = None;
+    let mut offer = |preference: usize, shape: f64, candidate: &[usize]| {
+        let better = best
+            .as_ref()
+            .is_none_or(|&(p, s, _)| preference < p || preference == p && shape > s);
+        let usable = || match *candidate {
+            [a, b, c] => !collinear(&points[a], &points[b], &points[c]),
+            _ => true,
+        };
+        if better && usable() {
+            best = Some((preference, shape, candidate.to_vec()));
+        }
+    };
+
+    if dimension == 2 {
+        for (index, distance) in distances.iter().enumerate() {
+            let [a, b] = distance.points;
+            let preference = if index == bend { 2 } else { 1 };
+            offer(preference, squared_length(place[a], place[b]), &[a, b]);
+        }
+    } else {
+        for (index, distance) in distances.iter().enumerate() {
+            let [a, b] = distance.points;
+            for c in (0..n).filter(|&c| c != a && c != b) {
+                let preference = match (edge(a, c), edge(b, c)) {
+                    // Every triangle would turn up three times: take it at its last edge.
+                    (Some(ac), Some(bc)) if ac < index && bc < index => {
+                        if [ac, bc, index].contains(&bend) {
+                            2
+                        } else {
+                            1
+                        }
+                    }
+                    (Some(_), Some(_)) => continue,
+                    (None, None) => 4,
+                    _ => 3,
+                };
+                offer(
+                    preference,
+                    roundness(place[a], place[b], place[c]),
+                    &[a, b, c],
+                );
+            }
+        }
+    }
+    best.map(|(_, _, mut reference)| {
+        // Joined points first, in the order in which people listed them.
+        if dimension == 2 || edge(reference[0], reference[2]).is_some() {
+            reference.sort_unstable();
+        }
+        reference
+    })
+}
+
+fn squared_length(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum()
+}
+
+/// Twice the area over the square of the longest side: 0 for a flat triangle, √3/2 at most.
+fn roundness(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    let u: [f64; 3] = std::array::from_fn(|k| b[k] - a[k]);
+    let v: [f64; 3] = std::array::from_fn(|k| c[k] - a[k]);
+    let normal = [
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ];
+    let longest = squared_length(a, b)
+        .max(squared_length(b, c))
+        .max(squared_length(c, a));
+    squared_length(normal, [0.0; 3]).sqrt() / longest
+}

@@ -1,0 +1,129 @@
+//! As many digits of a number as are certain.
+
+use crate::interval::Interval;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Signed;
+
+/// More digits than a float holds say nothing.
+const MOST_DIGITS: i32 = 17;
+
+/// A decimal from which every number of `x` differs by at most one unit of its last digit, with
+/// as many digits as that allows. It is decided exactly, so it may be read as part of a proof.
+///
+/// Where `x` is too wide for a single digit, the decimal is replaced by the bounds.
+///
+/// ```
+/// use krawl::interval::hull;
+/// use krawl::report::certain_digits;
+/// assert_eq!(certain_digits(hull(1.234567896, 1.234567904)), "1.23456790");
+/// assert_eq!(certain_digits(hull(0.0, 0.0)), "0");
+/// assert_eq!(certain_digits(hull(-1.0, 2.0)), "[-1e0, 2e0]");
+/// ```
+pub fn certain_digits(x: Interval) -> String {
+    // Adding zero turns -0 into 0.
+    let (lo, hi) = (x.inf() + 0.0, x.sup() + 0.0);
+    if lo == 0.0 && hi == 0.0 {
+        return "0".to_owned();
+    }
+    if lo == hi {
+        // One float: the shortest decimal that reads as it differs by far less.
+        return if fixed(lo) {
+            format!("{lo}")
+        } else {
+            format!("{lo:e}")
+        };
+    }
+    let bounds = || format!("[{lo:e}, {hi:e}]");
+    let exact = (BigRational::from_float(lo), BigRational::from_float(hi));
+    let (Some(exact_lo), Some(exact_hi)) = exact else {
+        return bounds();
+    };
+    let magnitude = x.mag().log10().floor() as i32;
+    let most = MOST_DIGITS - 1 - magnitude;
+    // A first guess that is too fine by a digit or two, then coarser until it is right.
+    let guess = (1.0 - x.wid().log10()).ceil();
+    let start = if guess < f64::from(most) {
+        guess as i32
+    } else {
+        most
+    };
+    for decimals in (-magnitude..=start).rev() {
+        let shown = if fixed(x.mag()) && decimals >= 0 {
+            format!("{:.*}", decimals as usize, x.mid())
+        } else {
+            format!("{:.*e}", (decimals + magnitude).max(0) as usize, x.mid())
+        };
+        let Some((value, unit)) = value_and_unit(&shown) else {
+            break;
+        };
+        if (&value - &exact_lo).abs() <= unit && (&exact_hi - &value).abs() <= unit {
+            return shown;
+        }
+    }
+    bounds()
+}
+
+/// Whether a number is readable without a power of ten.
+fn fixed(x: f64) -> bool {
+    (1e-4..1e7).contains(&x.abs())
+}
+
+/// The exact value of a decimal, and of a 1 in its last digit.
+fn value_and_unit(shown: &str) -> Option<(BigRational, BigRational)> {
+    let (mantissa, exponent) = shown.split_once('e').unwrap_or((shown, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: BigInt = format!("{whole}{fraction}").parse().ok()?;
+    let exponent = exponent.parse::<i32>().ok()? - i32::try_from(fraction.len()).ok()?;
+    let unit = BigRational::from(BigInt::from(10)).pow(exponent);
+    Some((BigRational::from(digits) * &unit, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::{hull, point};
+    use proptest::prelude::*;
+
+    #[test]
+    fn shows_what_is_certain() {
+        assert_eq!(certain_digits(point(0.1)), "0.1");
+        assert_eq!(certain_digits(point(-1e300)), "-1e300");
+        assert_eq!(
+            certain_digits(hull(-3.541592704, -3.541592696)),
+            "-3.54159270"
+        );
+        assert_eq!(certain_digits(hull(1.0e-9, 1.0004e-9)), "1.000e-9");
+        assert_eq!(
+            certain_digits(hull(123456789.0, 123456790.0)),
+            "1.23456790e8"
+        );
+        assert_eq!(certain_digits(hull(9.99, 10.01)), "10.00");
+        assert_eq!(
+            certain_digits(hull(0.0, f64::MAX)),
+            format!("[0e0, {:e}]", f64::MAX)
+        );
+        assert_eq!(certain_digits(Interval::ENTIRE), "[-inf, inf]");
+    }
+
+    proptest! {
+        #[test]
+        fn one_unit_of_the_last_digit_covers_all(middle in -1e3f64..1e3, scale in -12i32..12, width in -17i32..0) {
+            prop_assume!(middle != 0.0);
+            let middle = middle * 10f64.powi(scale);
+            let radius = middle.abs() * 10f64.powi(width);
+            let x = hull(middle - radius, middle + radius);
+            let shown = certain_digits(x);
+            if let Some((value, unit)) = value_and_unit(&shown) {
+                for end in [x.inf(), x.sup()] {
+                    prop_assert!((BigRational::from_float(end).unwrap() - &value).abs() <= unit);
+                }
+                // And no more than a factor of a few hundred is given away.
+                let wide = BigRational::from_float(x.wid().max(x.mag() * 1e-16)).unwrap();
+                prop_assert!(unit <= wide * BigRational::from(BigInt::from(100)), "{}", shown);
+            } else {
+                prop_assert!(width >= -2, "{}", shown);
+            }
+        }
+    }
+}

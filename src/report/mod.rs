@@ -1,0 +1,134 @@
+//! What people and programs get to see of a run.
+
+mod digits;
+mod json;
+mod progress;
+mod table;
+
+pub use digits::certain_digits;
+pub use json::to_json;
+pub use progress::ProgressLine;
+pub use table::to_table;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::{Interval, hull, point};
+    use crate::problem::Problem;
+    use crate::track::{Driving, Mode, Outcome, Solution, Space, Status};
+    use serde_json::Value;
+
+    fn triangle() -> Problem {
+        Problem::build("triangle", 2)
+            .point("a", ["0", "0"])
+            .point("b", ["1", "0"])
+            .point("apex", ["0.4", "1.1"])
+            .distance("a", "b", "1")
+            .distance("b", "apex", "1.12")
+            .distance("apex", "a", "1.3")
+            .finish()
+            .unwrap()
+    }
+
+    fn outcome(mode: Mode, status: Status) -> Outcome {
+        let zero = point(0.0);
+        let third = hull(1.0 / 3.0, (1.0f64 / 3.0).next_up());
+        let solution = |y: Interval, class| Solution {
+            points: vec![[zero; 3], [point(1.0), zero, zero], [third, y, zero]],
+            class,
+            width: 1.2e-16,
+        };
+        Outcome {
+            mode,
+            space: Space::Full,
+            status,
+            solutions: vec![solution(hull(1.25, 1.2500001), 0), solution(-third, 1)],
+            steps: 458,
+            rejected: 3,
+            plan_changes: 0,
+            driving: Driving::default(),
+            length: 12.5,
+            t_range: (-0.25, 1.0 + f64::EPSILON),
+            seconds: 0.0029,
+            switched_on: vec!["something".into()],
+        }
+    }
+
+    #[test]
+    fn json_has_the_schema_and_numbers_round_trip() {
+        let outcome = outcome(Mode::Certified, Status::Stopped("too hard".into()));
+        let json: Value = serde_json::from_str(&to_json(&triangle(), &outcome)).unwrap();
+        let keys: Vec<&String> = json.as_object().unwrap().keys().collect();
+        let mut wanted = vec![
+            "problem",
+            "mode",
+            "space",
+            "status",
+            "reason",
+            "solutions",
+            "steps",
+            "rejected",
+            "plan_changes",
+            "driving",
+            "length",
+            "t_range",
+            "seconds",
+            "switched_on",
+        ];
+        wanted.sort_unstable();
+        assert_eq!(keys, wanted);
+        assert_eq!(json["problem"], "triangle");
+        assert_eq!(
+            (&json["mode"], &json["space"]),
+            (&"certified".into(), &"full".into())
+        );
+        assert_eq!(
+            (&json["status"], &json["reason"]),
+            (&"stopped".into(), &"too hard".into())
+        );
+        assert_eq!(json["t_range"][1].as_f64(), Some(1.0 + f64::EPSILON));
+        let apex = &json["solutions"][0]["points"]["apex"];
+        assert_eq!(apex.as_array().unwrap().len(), 2);
+        assert_eq!(apex[0][0].as_f64(), Some(1.0 / 3.0));
+        assert_eq!(apex[0][1].as_f64(), Some((1.0f64 / 3.0).next_up()));
+        assert_eq!(json["solutions"][1]["class"], 1);
+        assert_eq!(json["driving"]["max"], 0);
+    }
+
+    #[test]
+    fn json_lists_points_in_the_problems_order_and_holds_no_infinity() {
+        let mut outcome = outcome(Mode::Float, Status::Closed);
+        outcome.length = f64::INFINITY;
+        let text = to_json(&triangle(), &outcome);
+        let at = |name: &str| text.find(name).unwrap();
+        assert!(at("\"a\"") < at("\"b\"") && at("\"b\"") < at("\"apex\""));
+        assert!(!text.to_ascii_lowercase().contains("inf") && text.contains("\"length\":null"));
+        assert!(text.contains("\"reason\":null") && text.contains("\"mode\":\"float\""));
+    }
+
+    #[test]
+    fn tables_claim_what_was_proved() {
+        let closed = to_table(&triangle(), &outcome(Mode::Certified, Status::Closed));
+        assert!(closed.starts_with(
+            "triangle: Closed, proved: the 2 solutions listed are exactly the points of the path \
+             through the sketch with t = 1. No two of them are congruent, even up to reflection.\n"
+        ));
+        assert!(
+            closed.contains("\n  apex  0.3333333333333334  1.2500001\n"),
+            "{closed}"
+        );
+        assert!(closed.contains("steps               458\n"));
+        let observed = to_table(&triangle(), &outcome(Mode::Float, Status::Closed));
+        assert!(observed.contains("Closed, observed") && observed.contains("not a proof"));
+        assert!(!observed.contains("proved"));
+        for mode in [Mode::Certified, Mode::Float] {
+            let stopped = to_table(
+                &triangle(),
+                &outcome(mode, Status::Stopped("too hard.".into())),
+            );
+            assert!(stopped.contains("Stopped: too hard. "), "{stopped}");
+            assert!(stopped.contains("there may be more"));
+            assert!(!stopped.contains("exactly the"));
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! A line that shows where a run is.
+
+use crate::track::Progress;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// One line on standard error, where that is a terminal: t, steps, solutions so far, length of
+/// the path. Elsewhere nothing at all.
+///
+/// How long a path is is known only at its end, so there is no bar that fills up.
+pub struct ProgressLine {
+    line: Option<ProgressBar>,
+    drawn: Instant,
+}
+
+/// Between two drawings; runs report far more often.
+const PAUSE: Duration = Duration::from_millis(80);
+
+impl ProgressLine {
+    /// The line, if standard error is a terminal and `wanted`.
+    pub fn new(wanted: bool) -> Self {
+        let line = (wanted && std::io::stderr().is_terminal()).then(|| {
+            let line = ProgressBar::new_spinner();
+            let style = ProgressStyle::with_template("{spinner} {elapsed:>4}  {msg}");
+            line.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            line
+        });
+        ProgressLine {
+            line,
+            drawn: Instant::now(),
+        }
+    }
+
+    /// Shows where the run is.
+    pub fn show(&mut self, now: Progress) {
+        if let Some(line) = &self.line
+            && self.drawn.elapsed() >= PAUSE
+        {
+            self.drawn = Instant::now();
+            line.set_message(text(now));
+            line.tick();
+        }
+    }
+
+    /// Takes the line away.
+    pub fn clear(self) {
+        if let Some(line) = &self.line {
+            line.finish_and_clear();
+        }
+    }
+}
+
+fn text(now: Progress) -> String {
+    let Progress {
+        t,
+        steps,
+        solutions,
+        length,
+    } = now;
+    format!("t {t:8.4}   steps {steps}   solutions {solutions}   path length {length:.2}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn says_where_the_run_is() {
+        let now = Progress {
+            t: 0.5,
+            steps: 64,
+            solutions: 2,
+            length: 3.25,
+        };
+        assert_eq!(
+            text(now),
+            "t   0.5000   steps 64   solutions 2   path length 3.25"
+        );
+    }
+}

@@ -1,0 +1,188 @@
+//! That two tubes hold the same piece of path, followed in the same direction.
+
+use super::tube::Proof;
+use crate::interval::rounding::{gamma, round_up};
+use crate::linalg::Vector;
+use crate::track::events::TimeAlong;
+use crate::track::full::{Equations, Local, ORDER, dot};
+
+/// A proved tube: for every |s| ≤ h exactly one point of the path in the cross-section through
+/// ẑ(s), within r of it.
+#[derive(Debug, Clone)]
+pub struct Tube<const D: usize> {
+    /// The polynomial ẑ with its normal and preconditioner.
+    pub local: Local<D>,
+    /// The weights u of the norm.
+    pub weights: Vector,
+    /// What is proved.
+    pub proof: Proof,
+    /// The path goes out at this parameter, at the point in this box.
+    pub exit_at: f64,
+    /// See `exit_at`.
+    pub exit: Ball,
+    /// The path comes in at a parameter in this range.
+    pub entry: (f64, f64),
+}
+
+/// A box: a point and how far the exact one may be away, entry by entry.
+#[derive(Debug, Clone)]
+pub struct Ball {
+    /// The middle.
+    pub centre: Vector,
+    /// The radius of each entry.
+    pub radius: Vector,
+}
+
+impl Ball {
+    /// Room for a box of the problem's points.
+    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+        Ball {
+            centre: equations.vector(),
+            radius: equations.vector(),
+        }
+    }
+}
+
+/// More roundings than there are in the evaluation of ẑ or ẑ' at a point.
+const EVALUATION: usize = 4 * ORDER;
+
+impl<const D: usize> Tube<D> {
+    /// Room for a tube.
+    pub fn new(equations: &Equations<D>) -> Self {
+        Tube {
+            local: Local::new(equations),
+            weights: equations.vector(),
+            proof: Proof::default(),
+            exit_at: 0.0,
+            exit: Ball::new(equations),
+            entry: (0.0, 0.0),
+        }
+    }
+
+    /// A placeholder without any room.
+    pub fn empty() -> Self {
+        Tube {
+            local: Local::empty(),
+            weights: Vector::zeros(0),
+            proof: Proof::default(),
+            exit_at: 0.0,
+            exit: Ball {
+                centre: Vector::zeros(0),
+                radius: Vector::zeros(0),
+            },
+            entry: (0.0, 0.0),
+        }
+    }
+
+    /// Proves that a point of H⁻¹(0) known to lie in `ball` is the path's point in one of this
+    /// tube's cross-sections, and encloses its parameter. `None`: it could not be proved.
+    ///
+    /// For the point z let g(s) = c·(z − ẑ(s)). Around the parameter s̃ of the ball's middle, g
+    /// changes sign within ω = |g(s̃)| / min c·ẑ'; there z is in a cross-section, and if its
+    /// distance from ẑ is below r it is the cross-section's only zero.
+    pub fn locate(&self, ball: &Ball) -> Option<(f64, f64)> {
+        let n = self.weights.len() - 1;
+        let (local, proof) = (&self.local, &self.proof);
+        let c = &local.normal[..n];
+        let s = ball.centre[..n]
+            .iter()
+            .zip(&local.z[0][..n])
+            .zip(c)
+            .map(|((b, z), c)| c * (b - z))
+            .sum::<f64>();
+        if s.is_nan() || s.abs() > proof.h {
+            return None;
+        }
+        let (mut along, mut along_error) = (0.0, 0.0);
+        let mut widest = 0.0f64;
+        for i in 0..n {
+            let z = (0..=ORDER)
+                .rev()
+                .fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
+            let away = ball.centre[i] - z;
+            let error =
+                evaluation_error(local, i, s) + ball.radius[i] + 2.0 * f64::EPSILON * away.abs();
+            along += c[i] * away;
+            along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
+            let ratio = (away.abs() + error) / self.weights[i];
+            // A NaN must not be lost in the comparison.
+            if ratio > widest || ratio.is_nan() {
+                widest = ratio;
+            }
+        }
+        let omega = round_up((along.abs() + along_error) / self.least_advance()?, n + 8);
+        let width = round_up(widest + omega * proof.slope, n + 8);
+        (round_up(s.abs() + omega, 2) <= proof.h && width < proof.r)
+            .then(|| ((s - omega).next_down(), (s + omega).next_up()))
+    }
+
+    /// A lower bound of c·ẑ'(s) on the tube. It is near 1; less than ½ is refused.
+    fn least_advance(&self) -> Option<f64> {
+        let n = self.weights.len() - 1;
+        let h = self.proof.h;
+        let c = &self.local.normal[..n];
+        let (mut power, mut least) = (1.0, 0.0);
+        for k in 1..=ORDER {
+            let z = &self.local.z[k][..n];
+            let size: f64 = c.iter().zip(z).map(|(c, z)| (c * z).abs()).sum();
+            let sideways = (dot(c, z) - if k == 1 { 1.0 } else { 0.0 }).abs() + gamma(n + 2) * size;
+            least += k as f64 * power * sideways;
+            power *= h;
+        }
+        let least = 1.0 - round_up(least, n + 40);
+        (least > 0.5).then_some(least)
+    }
+
+    /// Proves that the path's tangent, at some parameter between those given, taken in this tube's
+    /// direction, has a positive component along `normal`: a tube with that normal is followed
+    /// the same way.
+    pub fn goes_along(&self, between: (f64, f64), normal: &[f64]) -> bool {
+        let n = self.weights.len() - 1;
+        let s = 0.5 * (between.0 + between.1);
+        let off = (between.1 - between.0).abs();
+        // |ẑ''| ≤ (ORDER − 1)/h times the sum that bounds |ẑ'|, which is `slope` in the norm.
+        let turn = off * (ORDER as f64 / self.proof.h) * self.proof.slope;
+        let (mut along, mut error) = (0.0, 0.0);
+        for i in 0..n {
+            let (mut slope, mut size) = (0.0f64, 0.0f64);
+            for k in (1..=ORDER).rev() {
+                let z = k as f64 * self.local.z[k][i];
+                slope = slope.mul_add(s, z);
+                size = size.mul_add(s.abs(), z.abs());
+            }
+            along += normal[i] * slope;
+            let away = (self.proof.slope_distance + turn) * self.weights[i];
+            error += normal[i].abs() * (away + gamma(EVALUATION + n) * size);
+        }
+        along > round_up(error, n + EVALUATION)
+    }
+
+    /// t along the tube.
+    pub fn time(&self) -> TimeAlong {
+        let (t, proof) = (self.weights.len() - 2, &self.proof);
+        // One rounding each, within what `TimeAlong` adds for its own.
+        TimeAlong::new(
+            std::array::from_fn(|k| self.local.z[k][t]),
+            proof.h,
+            round_up(proof.distance * self.weights[t], 1),
+            round_up(proof.slope_distance * self.weights[t], 1),
+        )
+    }
+
+    /// Proves that the path goes on from this tube into `next`: the point at `exit` of this tube
+    /// is in `next` too, and both are followed the same way. Encloses the point's parameter in `next`.
+    pub fn leads_to(&self, next: &Tube<D>) -> Option<(f64, f64)> {
+        let entry = next.locate(&self.exit)?;
+        self.goes_along((self.exit_at, self.exit_at), &next.local.normal)
+            .then_some(entry)
+    }
+}
+
+/// How far ẑ(s)_i in floats may be from the exact value.
+pub fn evaluation_error<const D: usize>(local: &Local<D>, i: usize, s: f64) -> f64 {
+    let s = s.abs();
+    let size = (0..=ORDER)
+        .rev()
+        .fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
+    round_up(gamma(EVALUATION) * size, EVALUATION)
+}

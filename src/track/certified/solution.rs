@@ -1,0 +1,193 @@
+//! Boxes around the points of the path with t = 1.
+
+use crate::interval::rounding::{gamma, round_up};
+use crate::interval::{Interval, hull, point};
+use crate::linalg::{Inverter, Vector};
+use crate::system::Homotopy;
+use crate::track::full::{Equations, Local};
+
+/// A box around a figure that meets the dimensions, proved to hold exactly one.
+#[derive(Debug, Clone)]
+pub struct SolutionBox {
+    /// The middle: (X, 1) in the homotopy's unit.
+    pub centre: Vector,
+    /// How far the exact solution may be from it, entry by entry.
+    pub radius: Vector,
+    /// Within this distance of the middle, in every entry, there is no other solution.
+    pub alone_within: f64,
+    /// Whether t rises through 1 where the path meets it.
+    pub rising: bool,
+}
+
+/// Whether two boxes hold the same solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Same {
+    /// They do.
+    Yes,
+    /// They do not: the boxes are disjoint.
+    No,
+    /// Neither could be proved.
+    Unknown,
+}
+
+/// Work space for proving boxes.
+#[derive(Debug)]
+pub struct SolutionProver<const D: usize> {
+    local: Local<D>,
+    jacobian: Vec<f64>,
+    ones: Vec<f64>,
+    rounding: Vector,
+    width: Vector,
+    f: Vector,
+    v: Vector,
+    half_squares: Vec<Interval>,
+}
+
+impl<const D: usize> SolutionProver<D> {
+    /// For one problem.
+    pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+        let n = equations.n();
+        SolutionProver {
+            local: Local::new(equations),
+            jacobian: vec![0.0; equations.bordered_pattern().entries()],
+            ones: vec![1.0; n],
+            rounding: equations.vector(),
+            width: equations.vector(),
+            f: equations.vector(),
+            v: equations.vector(),
+            half_squares: homotopy
+                .lengths
+                .iter()
+                .map(|l| l.target_half_square())
+                .collect(),
+        }
+    }
+
+    /// Proves a box around the solution near `guess`, the equations being F(X, a(1)) = 0.
+    ///
+    /// Krawczyk's test with the norm max |w_i|: with Y the inverse at the middle x,
+    /// |I − Y J(x + w)| ≤ q₀ + κ |w|, so that there is at most one solution for |w| < (1 − q₀)/κ,
+    /// and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
+    pub fn prove(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        guess: &[f64],
+        rising: bool,
+    ) -> Option<SolutionBox> {
+        let (m, n) = (equations.m, equations.n());
+        let local = &mut self.local;
+        local.z[0].copy_from_slice(guess);
+        local.polish_at(equations, inverter, 1.0)?;
+
+        // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
+        let per_entry = gamma(m + 12);
+        let (rounding, width) = (&mut self.rounding, &mut self.width);
+        for e in 0..m {
+            let slope = local.lengths.terms[1][e].abs();
+            let (mut size, mut change) = (slope, 0.0);
+            for axis in 0..D {
+                let free = equations.ends[axis][e].iter().filter(|&&end| (end as usize) < n).count() as f64;
+                size += local.d[0][axis][e].abs() * free;
+                // |w_i − w_j| times the row sum of the entry's two columns.
+                change += free * free;
+            }
+            rounding[e] = per_entry * size;
+            width[e] = change;
+        }
+        rounding[m] = per_entry;
+        // The entries of t multiply zero in the cross-section t = 1, whatever they are.
+        equations.bordered_values(&local.d[0], &local.lengths, &local.normal, &mut self.jacobian);
+        let pattern = equations.bordered_pattern();
+        local.y.identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
+        let largest =
+            |v: &Vector| v[..n].iter().fold(0.0f64, |max, &x| if x > max || x.is_nan() { x } else { max });
+        let defect = largest(&self.v);
+        local.y.multiply_abs(&rounding[..n], &mut self.v);
+        let q0 = round_up(defect + largest(&self.v), 2 * n + 40);
+        local.y.multiply_abs(&width[..m], &mut self.v);
+        let kappa = round_up(largest(&self.v), n + 20);
+        if !(q0 < 0.5 && kappa.is_finite()) {
+            return None;
+        }
+        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
+
+        // The residual in intervals: its width is what limits the box.
+        for e in 0..m {
+            let squared = (0..D).fold(point(0.0), |sum, axis| {
+                let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
+                sum + (i - j).sqr()
+            });
+            self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
+        }
+        self.f[m] = 0.0;
+        local.y.multiply_abs(&self.f[..m], &mut self.v);
+        let step = round_up(largest(&self.v), n + 2);
+        let q = round_up(q0 + kappa * alone_within, 4);
+        let all = round_up(step / (1.0 - q), 60);
+        if !(q < 1.0 && all < alone_within) {
+            return None;
+        }
+        // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
+        let near = round_up((q0 + kappa * all) * all, 6);
+        let mut radius = self.f.clone();
+        radius.fill(0.0);
+        for (r, v) in radius[..m].iter_mut().zip(self.v.iter()) {
+            *r = round_up(v + near, n + 8);
+        }
+        Some(SolutionBox {
+            centre: local.z[0].clone(),
+            radius,
+            alone_within,
+            rising,
+        })
+    }
+}
+
+impl SolutionBox {
+    /// Whether the other box holds the same solution, after changing the sign of this one's
+    /// entries where `mirror` says so.
+    pub fn is_same(&self, other: &SolutionBox, mirror: impl Fn(usize) -> bool) -> Same {
+        let m = self.centre.len() - 2;
+        let (mut inside, mut apart) = (true, false);
+        for i in 0..m {
+            let x = if mirror(i) {
+                -self.centre[i]
+            } else {
+                self.centre[i]
+            };
+            let distance = (x - other.centre[i]).abs();
+            // The subtraction and the sums are rounded: a factor covers it.
+            let slack = 4.0 * f64::EPSILON * (x.abs() + distance);
+            let radii = round_up(self.radius[i] + other.radius[i] + slack, 4);
+            apart |= distance > radii;
+            inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
+        }
+        match (inside, apart) {
+            // One solution within `alone_within` of the other's middle, so both are that one.
+            (true, _) => Same::Yes,
+            (false, true) => Same::No,
+            (false, false) => Same::Unknown,
+        }
+    }
+
+    /// The coordinates of all points in the problem's units.
+    pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
+        let d = homotopy.dimension;
+        let m = homotopy.equations;
+        (0..homotopy.points)
+            .map(|p| {
+                std::array::from_fn(|axis| {
+                    if axis >= d || homotopy.gauge.variable[p * d + axis] == m {
+                        return point(0.0);
+                    }
+                    let i = homotopy.gauge.variable[p * d + axis];
+                    let (x, r) = (self.centre[i], self.radius[i]);
+                    // Scaling by a power of two is exact.
+                    let (lo, hi) = ((x - r).next_down(), (x + r).next_up());
+                    hull(lo * homotopy.unit, hi * homotopy.unit)
+                })
+            })
+            .collect()
+    }
+}

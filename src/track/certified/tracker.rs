@@ -1,0 +1,541 @@
+//! The chain of tubes from the sketch back to the sketch.
+
+use super::link::{Ball, Tube};
+use super::solution::{Same, SolutionBox, SolutionProver};
+use super::tube::KrawczykTest;
+use crate::interval::{Interval, hull, point};
+use crate::linalg::{Inverter, Vector};
+use crate::system::Homotopy;
+use crate::track::events::{Crossing, TimeAlong};
+use crate::track::full::{Equations, RefineError, first_normal, path_length};
+use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Solution, Space, Status};
+use std::time::Instant;
+
+/// The path leaves a tube at this fraction of its half length, so that there is room behind the
+/// exit for a crossing of t = 1 that falls on it.
+const EXIT: f64 = 0.97;
+/// The next tube is expected to reach back over this fraction of its predicted half length.
+const REACH: f64 = 0.9;
+/// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
+/// all that is asked of them. Proofs do not depend on it.
+const POINT_TOLERANCE: f64 = 1e-9;
+/// Steps below this, relative to the size of the figure, end the run.
+const SMALLEST_STEP: f64 = 1e-11;
+
+/// Follows the path in the full space and proves every step.
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
+    let clock = Instant::now();
+    let mut tracker = Tracker::<D>::new(homotopy);
+    let mut status = match tracker.run(options, control) {
+        Ok(()) => Status::Closed,
+        Err(reason) => Status::Stopped(reason),
+    };
+    let solutions = match tracker.solutions() {
+        Ok(solutions) => solutions,
+        Err((reason, solutions)) => {
+            if status == Status::Closed {
+                status = Status::Stopped(reason);
+            }
+            solutions
+        }
+    };
+    if status == Status::Closed
+        && let Err(reason) = tracker.lengths_are_positive()
+    {
+        status = Status::Stopped(reason);
+    }
+    Outcome {
+        mode: Mode::Certified,
+        space: Space::Full,
+        status,
+        solutions,
+        steps: tracker.steps,
+        rejected: tracker.rejected,
+        plan_changes: 0,
+        driving: Driving::default(),
+        length: tracker.length,
+        t_range: tracker.t_range,
+        seconds: clock.elapsed().as_secs_f64(),
+        switched_on: tracker.switched_on(),
+    }
+}
+
+/// Why a tube could not be added to the chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rejection {
+    Refine(RefineError),
+    Unproved,
+    Unlinked,
+    Undecided,
+}
+
+impl Rejection {
+    fn in_words(self) -> &'static str {
+        match self {
+            Rejection::Refine(RefineError::Singular) => "the Jacobian is singular in 53 bits",
+            Rejection::Refine(RefineError::Diverged) => "the corrector does not converge",
+            Rejection::Unproved => "the Krawczyk test fails however short the tube",
+            Rejection::Unlinked => "the tube could not be linked to the one before",
+            Rejection::Undecided => {
+                "it could not be decided whether the path meets t = 1: a fold is too near, or two \
+                 solutions are"
+            }
+        }
+    }
+}
+
+struct Tracker<'a, const D: usize> {
+    homotopy: &'a Homotopy,
+    equations: Equations<D>,
+    inverter: Inverter,
+    test: KrawczykTest<D>,
+    prover: SolutionProver<D>,
+    now: Tube<D>,
+    next: Tube<D>,
+    /// Weights for the next proof, and those to return to if it is rejected.
+    weights: Vector,
+    kept_weights: Vector,
+    /// The point of the tube before, if there is one.
+    previous: Option<Vector>,
+    sketch: Ball,
+    /// The direction of travel at the sketch.
+    first_normal: Vector,
+    crossings: Vec<Crossing>,
+    scratch: Vector,
+    found: Vec<SolutionBox>,
+    steps: usize,
+    rejected: usize,
+    shortened: usize,
+    length: f64,
+    t_range: (f64, f64),
+}
+
+impl<'a, const D: usize> Tracker<'a, D> {
+    fn new(homotopy: &'a Homotopy) -> Self {
+        let equations = Equations::<D>::new(homotopy);
+        let n = equations.n();
+        let vector = || equations.vector();
+        let mut sketch = Ball::new(&equations);
+        for (i, &place) in homotopy.gauge.place.iter().enumerate() {
+            let x = homotopy.sketch_box[place];
+            sketch.centre[i] = x.mid();
+            sketch.radius[i] = x.rad();
+        }
+        let mut weights = vector();
+        weights[..n].fill(1.0);
+        Tracker {
+            homotopy,
+            inverter: Inverter::new(n),
+            test: KrawczykTest::new(&equations),
+            prover: SolutionProver::new(homotopy, &equations),
+            now: Tube::new(&equations),
+            next: Tube::new(&equations),
+            kept_weights: weights.clone(),
+            weights,
+            previous: None,
+            sketch,
+            first_normal: vector(),
+            crossings: Vec::new(),
+            scratch: vector(),
+            found: Vec::new(),
+            steps: 0,
+            rejected: 0,
+            shortened: 0,
+            length: 0.0,
+            t_range: (f64::INFINITY, f64::NEG_INFINITY),
+            equations,
+        }
+    }
+
+    fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), String> {
+        let max_h = options
+            .max_step
+            .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
+        self.start(options.reverse, max_h)?;
+        // A prediction of the next half length, and how much of it has been believed lately.
+        let mut before = self.now.proof.h;
+        let mut trust = 1.0;
+        // A bound on the half length where t = 1 is hard to separate; it grows back.
+        let mut limit = max_h;
+        loop {
+            let h = self.now.proof.h;
+            let estimate = (h * (h / before).sqrt().clamp(0.5, 1.5)).min(limit);
+            let advance = self.now.exit_at + REACH * trust * estimate;
+            match self.step(advance, limit) {
+                Ok(closed) => {
+                    self.steps += 1;
+                    if closed {
+                        return Ok(());
+                    }
+                    before = h;
+                    trust = (trust * 1.1).min(1.0);
+                    limit = (2.0 * limit).min(max_h);
+                }
+                Err(rejection) => {
+                    self.rejected += 1;
+                    self.weights.copy_from_slice(&self.kept_weights);
+                    if rejection == Rejection::Undecided {
+                        self.shortened += 1;
+                        limit = 0.25 * self.next.proof.h.min(limit);
+                    } else {
+                        trust *= 0.6;
+                    }
+                    let smallest = SMALLEST_STEP * self.figure_size();
+                    if limit < smallest || trust * h.min(limit) < smallest {
+                        return Err(self.stuck(rejection));
+                    }
+                }
+            }
+            if self.steps >= options.max_steps {
+                return Err(format!(
+                    "the limit of {} tubes was reached {}",
+                    options.max_steps,
+                    self.place()
+                ));
+            }
+            let progress = Progress {
+                t: self.now.local.z[0][self.equations.m],
+                steps: self.steps,
+                solutions: self.found.len(),
+                length: self.length,
+            };
+            if control.is_cancelled(progress) {
+                return Err(format!("interrupted {}", self.place()));
+            }
+        }
+    }
+
+    /// Proves the tube around the sketch.
+    fn start(&mut self, reverse: bool, max_h: f64) -> Result<(), String> {
+        let equations = &self.equations;
+        let local = &mut self.now.local;
+        local.z[0].copy_from_slice(&self.sketch.centre);
+        first_normal(equations, &mut self.inverter, local, reverse)
+            .map_err(|_| "the sketch is a singular point of its path: no direction of travel could be computed".to_owned())?;
+        local.z[0].copy_from_slice(&self.sketch.centre);
+        local
+            .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
+            .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
+        local.expand(equations);
+        self.first_normal.copy_from_slice(&local.normal);
+        // The first rounds find the weights, the last one proves.
+        let unproved = |tracker: &Self| {
+            format!(
+                "at the sketch, {}{}",
+                Rejection::Unproved.in_words(),
+                tracker.condition()
+            )
+        };
+        let mut proof = None;
+        for _ in 0..4 {
+            proof = self
+                .test
+                .prove(equations, &self.now.local, &mut self.weights, max_h);
+        }
+        let Some(proof) = proof else {
+            return Err(unproved(self));
+        };
+        self.now.proof = proof;
+        self.now.weights.copy_from_slice(self.test.weights());
+        self.now.exit_at = EXIT * proof.h;
+        self.test
+            .enclose_exit(equations, &mut self.now)
+            .ok_or_else(|| unproved(self))?;
+        self.now.entry = self
+            .now
+            .locate(&self.sketch)
+            .ok_or_else(|| "the sketch could not be enclosed in the first tube".to_owned())?;
+        self.kept_weights.copy_from_slice(&self.weights);
+        let tube = std::mem::replace(&mut self.now, Tube::empty());
+        let events = self.account(&tube, None);
+        self.now = tube;
+        events.map_err(|rejection| format!("in the first tube, {}", rejection.in_words()))
+    }
+
+    /// Adds the tube that is `advance` further on. Tells whether it closes the loop.
+    fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
+        let equations = &self.equations;
+        let (now, next) = (&self.now, &mut self.next);
+        self.now.local.predict(
+            advance,
+            self.previous.as_deref(),
+            &mut next.local.z[0],
+            &mut next.local.normal,
+        );
+        next.local
+            .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
+            .map_err(Rejection::Refine)?;
+        next.local.expand(equations);
+        self.kept_weights.copy_from_slice(&self.weights);
+        next.proof = self
+            .test
+            .prove(equations, &next.local, &mut self.weights, limit)
+            .ok_or(Rejection::Unproved)?;
+        next.weights.copy_from_slice(self.test.weights());
+        next.exit_at = EXIT * next.proof.h;
+        self.test
+            .enclose_exit(equations, next)
+            .ok_or(Rejection::Unproved)?;
+        next.entry = now.leads_to(next).ok_or(Rejection::Unlinked)?;
+        if next.entry.1 >= next.exit_at {
+            return Err(Rejection::Unlinked);
+        }
+        let tube = std::mem::replace(&mut self.next, Tube::empty());
+        let closing = self.closes(&tube);
+        let accounted = self.account(&tube, closing);
+        self.next = tube;
+        accounted?;
+        match &mut self.previous {
+            Some(previous) => previous.copy_from_slice(&self.now.local.z[0]),
+            None => self.previous = Some(self.now.local.z[0].clone()),
+        }
+        std::mem::swap(&mut self.now, &mut self.next);
+        Ok(closing.is_some())
+    }
+
+    /// Whether the sketch lies ahead of the entry in a tube, travelled in the same direction as
+    /// at the start: where, if so.
+    fn closes(&self, tube: &Tube<D>) -> Option<(f64, f64)> {
+        let m = self.equations.m;
+        let (h, z) = (tube.proof.h, &tube.local.z[0]);
+        // Most tubes are nowhere near: |z − z₀| ≤ 2 h is generous for a tube that holds z.
+        if z[m].abs() > 2.0 * h || (0..m).any(|i| (z[i] - self.sketch.centre[i]).abs() > 2.0 * h) {
+            return None;
+        }
+        let at = tube.locate(&self.sketch)?;
+        (at.0 > tube.entry.1 && tube.goes_along(at, &self.first_normal)).then_some(at)
+    }
+
+    /// Looks for solutions in a linked tube, and keeps count of the path.
+    fn account(&mut self, tube: &Tube<D>, closing: Option<(f64, f64)>) -> Result<(), Rejection> {
+        let time = tube.time();
+        let from = tube.entry.0.max(-tube.proof.h);
+        let to = closing
+            .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))
+            .min(tube.proof.h);
+        let mut crossings = std::mem::take(&mut self.crossings);
+        let found = time
+            .crossings(from, to, &mut crossings)
+            .map_err(|_| Rejection::Undecided)
+            .and_then(|()| self.prove_crossings(tube, &crossings));
+        self.crossings = crossings;
+        found?;
+        let until = closing.map_or(tube.exit_at, |at| at.1);
+        self.length += path_length(
+            &tube.local,
+            from,
+            until,
+            self.homotopy.unit,
+            &mut self.scratch,
+        );
+        self.widen_t_range(&time, from, to);
+        Ok(())
+    }
+
+    fn prove_crossings(&mut self, tube: &Tube<D>, crossings: &[Crossing]) -> Result<(), Rejection> {
+        let known = self.found.len();
+        let all =
+            (0..crossings.len()).try_for_each(|index| self.prove_crossing(tube, crossings, index));
+        if all.is_err() {
+            self.found.truncate(known);
+        }
+        all
+    }
+
+    /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
+    /// in this stretch of it, since it lies in no other.
+    fn prove_crossing(
+        &mut self,
+        tube: &Tube<D>,
+        crossings: &[Crossing],
+        index: usize,
+    ) -> Result<(), Rejection> {
+        let crossing = crossings[index];
+        let (a, b) = crossing.between;
+        tube.local.at(0.5 * (a + b), &mut self.scratch);
+        let found = self
+            .prover
+            .prove(
+                &self.equations,
+                &mut self.inverter,
+                &self.scratch,
+                crossing.rising,
+            )
+            .ok_or(Rejection::Undecided)?;
+        let ball = Ball {
+            centre: found.centre.clone(),
+            radius: found.radius.clone(),
+        };
+        let at = tube.locate(&ball).ok_or(Rejection::Undecided)?;
+        let meets = |c: &Crossing| at.0 <= c.between.1 && c.between.0 <= at.1;
+        if !meets(&crossing)
+            || crossings
+                .iter()
+                .enumerate()
+                .any(|(k, c)| k != index && meets(c))
+        {
+            return Err(Rejection::Undecided);
+        }
+        for other in &self.found {
+            match found.is_same(other, |_| false) {
+                // In the overlap of two tubes, or at the end of the loop.
+                Same::Yes => return Ok(()),
+                Same::No => {}
+                Same::Unknown => return Err(Rejection::Undecided),
+            }
+        }
+        self.found.push(found);
+        Ok(())
+    }
+
+    fn widen_t_range(&mut self, time: &TimeAlong, from: f64, to: f64) {
+        let inside = |(lo, hi): (f64, f64), range: (f64, f64)| lo >= range.0 && hi <= range.1;
+        let shift = |(lo, hi): (f64, f64)| ((lo + 1.0).next_down(), (hi + 1.0).next_up());
+        if inside(shift(time.bounds(from, to).0), self.t_range) {
+            return;
+        }
+        const PIECES: usize = 32;
+        let at = |k: usize| from + (to - from) * (k as f64 / PIECES as f64);
+        for k in 0..PIECES {
+            // One float of overlap on either side covers the rounding of the ends.
+            let (lo, hi) = shift(time.bounds(at(k).next_down(), at(k + 1).next_up()).0);
+            self.t_range = (self.t_range.0.min(lo), self.t_range.1.max(hi));
+        }
+    }
+
+    /// Claim 3: a_i(t) > 0 on the whole range of t.
+    fn lengths_are_positive(&self) -> Result<(), String> {
+        let range = hull(self.t_range.0, self.t_range.1);
+        for (index, length) in self.homotopy.lengths.iter().enumerate() {
+            if length.enclose(range).inf() <= 0.0
+                && !positive_in_pieces(|t| length.enclose(t), range)
+            {
+                return Err(format!(
+                    "the length of constraint {} could not be proved positive for t from {:.6} to {:.6}",
+                    index + 1,
+                    self.t_range.0,
+                    self.t_range.1
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The solutions with their classes; the reason, if a claim about them could not be proved.
+    fn solutions(&self) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
+        let d = self.homotopy.dimension;
+        let gauge = &self.homotopy.gauge;
+        // The mirror image in the gauge: the last coordinate changes its sign.
+        let mirrored = |i: usize| gauge.place[i] % d == d - 1;
+        let mut reason = None;
+        let mut classes: Vec<usize> = Vec::new();
+        for (k, found) in self.found.iter().enumerate() {
+            let mut class = None;
+            for (j, other) in self.found[..k].iter().enumerate() {
+                match found.is_same(other, mirrored) {
+                    Same::Yes => class = Some(classes[j]),
+                    Same::No => {}
+                    Same::Unknown => {
+                        reason = Some(format!(
+                            "it could not be decided whether solutions {} and {} are mirror images",
+                            j + 1,
+                            k + 1
+                        ))
+                    }
+                }
+            }
+            classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
+            // Congruent figures have the same or mirrored coordinates only if the reference
+            // points are on the same sides.
+            for (rank, &p) in gauge.reference.iter().enumerate().skip(1) {
+                let i = gauge.variable[p * d + rank - 1];
+                if found.centre[i] - found.radius[i] <= 0.0 {
+                    reason = Some(format!(
+                        "in solution {} the reference is degenerate or turned over",
+                        k + 1
+                    ));
+                }
+            }
+        }
+        let solutions = self
+            .found
+            .iter()
+            .zip(classes)
+            .map(|(found, class)| {
+                let points = found.points(self.homotopy);
+                let width = relative_width(&points);
+                Solution {
+                    points,
+                    class,
+                    width,
+                }
+            })
+            .collect();
+        match reason {
+            None => Ok(solutions),
+            Some(reason) => Err((reason, solutions)),
+        }
+    }
+
+    fn figure_size(&self) -> f64 {
+        self.now.local.z[0]
+            .iter()
+            .fold(1.0, |max: f64, x| max.max(x.abs()))
+    }
+
+    fn place(&self) -> String {
+        format!(
+            "at t = {:.9} after {} tubes{}",
+            self.now.local.z[0][self.equations.m],
+            self.steps,
+            self.condition()
+        )
+    }
+
+    fn condition(&self) -> String {
+        match self.now.local.condition(&self.equations) {
+            Some(condition) => format!(" (condition of the Jacobian about {condition:.1e})"),
+            None => String::new(),
+        }
+    }
+
+    fn stuck(&self, rejection: Rejection) -> String {
+        format!(
+            "{} at the smallest step, {}",
+            rejection.in_words(),
+            self.place()
+        )
+    }
+
+    fn switched_on(&self) -> Vec<String> {
+        let mut list = Vec::new();
+        if self.shortened > 0 {
+            list.push(format!(
+                "shorter tubes, {} times: t = 1 could not be separated from a fold or another solution in the longer ones",
+                self.shortened
+            ));
+        }
+        list
+    }
+}
+
+/// Whether a function is proved positive on every piece of a range.
+fn positive_in_pieces(enclose: impl Fn(Interval) -> Interval, range: Interval) -> bool {
+    const PIECES: usize = 64;
+    let (lo, width) = (point(range.inf()), point(range.sup()) - point(range.inf()));
+    (0..PIECES).all(|k| {
+        let piece = hull(k as f64 / PIECES as f64, (k + 1) as f64 / PIECES as f64);
+        enclose((lo + width * piece).intersection(range)).inf() > 0.0
+    })
+}
+
+/// The widest coordinate's width over the largest coordinate.
+fn relative_width(points: &[[Interval; 3]]) -> f64 {
+    let all = || points.iter().flatten();
+    let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
+    all().fold(0.0, |max: f64, x| max.max(x.wid())) / size
+}

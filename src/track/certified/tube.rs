@@ -1,0 +1,546 @@
+//! The Krawczyk test around a piece of the path (DESIGN.md, "One certified step").
+//!
+//! Let ẑ(s) be the Taylor polynomial at a point of the path, c the normal of its cross-sections,
+//! G_s(w) = (F(ẑ(s) + w), c·w), and u > 0 a vector of weights with the norm |w|_u = max |w_i|/u_i.
+//! The preconditioner moves with s: Ỹ(s) = (I − s A) Y with A ≈ Y·J₁, where J_k is the
+//! coefficient of sᵏ of the Jacobian along ẑ. Then, with R₀ = I − Y[J₀; c],
+//!
+//! ```text
+//! M(s, w) = I − Ỹ(s)·DG_s(w)
+//!         = s²(A² − A₂) + s³ A A₂ + (I − s A)(R₀ + rounding − Σ_{k≥3} sᵏ Y J_k − Y J'(w)),   A₂ ≈ Y J₂
+//! ```
+//!
+//! so that the terms linear in s cancel, and h may be of the order of 1/√|A² − A₂| rather than
+//! 1/|A|. If |M|_u ≤ q < 1 for |s| ≤ h, |w|_u ≤ r and |Ỹ(s) F(ẑ(s))|_u ≤ η < (1 − q) r, then
+//! w ↦ w − Ỹ(s) G_s(w) is a contraction of the box |w|_u ≤ r into itself: for every s there is
+//! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
+//! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
+
+use super::link::{Tube, evaluation_error};
+use crate::interval::rounding::{gamma, in_range, round_up};
+use crate::linalg::{LANE, Matrix, Vector};
+use crate::track::full::{DEGREE, Equations, Lengths, Local, MAX_DEGREE, ORDER};
+
+/// At most so much of the contraction may be used up by the length of the tube.
+const MAX_CONTRACTION: f64 = 0.85;
+/// The smallest weight of an entry beside the largest, 1.
+const MIN_WEIGHT: f64 = 0.02;
+
+/// What is proved of a tube.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Proof {
+    /// The tube reaches over |s| ≤ h.
+    pub h: f64,
+    /// In the box |w|_u ≤ `r` around ẑ(s) the path is the only zero of the cross-section.
+    pub r: f64,
+    /// The path is at most that far from ẑ(s).
+    pub distance: f64,
+    /// The path's derivative by s is at most that far from ẑ'(s).
+    pub slope_distance: f64,
+    /// The bound on |M|_u.
+    pub q: f64,
+    /// |ẑ'(s)|_u on the tube.
+    pub slope: f64,
+    /// |A|_u.
+    pub moving: f64,
+}
+
+/// Work space of the test.
+#[derive(Debug, Clone)]
+pub struct KrawczykTest<const D: usize> {
+    a: Matrix,
+    /// Values of the sparse matrices J₁, J₂ and [J₀; c].
+    j1: Vec<f64>,
+    j2: Vec<f64>,
+    j0: Vec<f64>,
+    bounds: [Vector; 5],
+    /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
+    near: [Vector; D],
+    far: [Vector; D],
+    sums: [Vector; D],
+    coefficient: Vector,
+    lengths: Lengths,
+    v: Vector,
+    f: Vector,
+    u: Vector,
+    square_u: Vector,
+}
+
+/// Bounds in the norm |·|_u, up to the factors that depend on h.
+#[derive(Debug, Clone, Copy)]
+struct Norms {
+    /// |A|, |A₂|, |A² − A₂|.
+    a: f64,
+    a2: f64,
+    square: f64,
+    /// |R₀|, and rounding of all of the computed products.
+    r0: f64,
+    /// |Σ_{k≥3} sᵏ Y J_k| at |s| = `h`.
+    higher: f64,
+    /// |Y J'(w)| per |w|_u.
+    width: f64,
+    /// |Y F(ẑ(s))| at |s| = `h`: orders up to ORDER with rounding, ORDER + 1, and above.
+    low: f64,
+    middle: f64,
+    high: f64,
+    /// |ẑ'(s)|_u for |s| ≤ `h`, and the bound on |ẑ_t'(s)| in it.
+    slope: f64,
+    slope_of_t: f64,
+    /// Where the bounds that depend on s were taken; they hold below.
+    h: f64,
+}
+
+impl<const D: usize> KrawczykTest<D> {
+    /// Room for the tubes of a problem.
+    pub fn new(equations: &Equations<D>) -> Self {
+        let n = equations.n();
+        let per_axis = || std::array::from_fn(|_| equations.per_edge());
+        let entries = equations.pattern().entries();
+        KrawczykTest {
+            a: Matrix::zeros(n, n),
+            j1: vec![0.0; entries],
+            j2: vec![0.0; entries],
+            j0: vec![0.0; equations.bordered_pattern().entries()],
+            bounds: std::array::from_fn(|_| equations.vector()),
+            near: per_axis(),
+            far: per_axis(),
+            sums: per_axis(),
+            coefficient: equations.per_edge(),
+            lengths: Lengths::new(equations.m),
+            v: equations.vector(),
+            f: equations.vector(),
+            u: equations.vector(),
+            square_u: equations.vector(),
+        }
+    }
+
+    /// Finds the longest tube around `local` that can be proved, at most `max_h` to either side.
+    /// `weights` are u; they are replaced by better ones for the next tube.
+    ///
+    /// `None`: nothing can be proved here, however short.
+    pub fn prove(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        weights: &mut Vector,
+        max_h: f64,
+    ) -> Option<Proof> {
+        let norms = self.norms(equations, local, weights, max_h)?;
+        let proof = norms.longest(weights[equations.m]);
+        self.improve(weights);
+        proof
+    }
+
+    /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
+    /// last, whose A this test still has.
+    ///
+    /// A few steps w ← w − Ỹ(s) G_s(w) come near it. As that map is a contraction by q, the zero
+    /// is at most |Ỹ(s) G_s(w)|_u / (1 − q) from any w in the box.
+    pub fn enclose_exit(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D>,
+    ) -> Option<()> {
+        let (m, n) = (equations.m, equations.n());
+        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
+        let out = &mut tube.exit;
+        let c = &local.normal[..n];
+        local.at(s, &mut out.centre);
+        let goal = 1e-3 * proof.r;
+        let mut step = f64::INFINITY;
+        for _ in 0..6 {
+            equations.differences(&out.centre, &mut self.near);
+            equations.expand_lengths(out.centre[m], &mut self.lengths);
+            equations.residual(&self.near, &self.lengths, &mut self.f);
+            local.y.multiply(&self.f[..m], &mut self.v);
+            self.a.multiply(&self.v[..n], &mut self.f);
+            for i in 0..n {
+                self.v[i] -= s * self.f[i];
+                out.centre[i] -= self.v[i];
+            }
+            let last = step;
+            step = norm_of(&self.v, u, n);
+            if step < goal || step > 0.5 * last {
+                break;
+            }
+        }
+        // The defect at the point reached, with what rounding may hide of it.
+        equations.differences(&out.centre, &mut self.near);
+        equations.expand_lengths(out.centre[m], &mut self.lengths);
+        equations.residual(&self.near, &self.lengths, &mut self.f);
+        let hidden = &mut self.bounds[0];
+        equations.residual_error(&self.near, out.centre[m], hidden);
+        let (mut along, mut error) = (0.0, 0.0);
+        let mut offset = 0.0f64;
+        for i in 0..n {
+            let z = (0..=ORDER)
+                .rev()
+                .fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
+            let w = out.centre[i] - z;
+            let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
+            along += c[i] * w;
+            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
+            let ratio = (w.abs() + e) / u[i];
+            if ratio > offset || ratio.is_nan() {
+                offset = ratio;
+            }
+        }
+        self.f[m] = along;
+        hidden[m] = error;
+        for i in 0..n {
+            hidden[i] += gamma(n + 2) * self.f[i].abs();
+        }
+        local.y.multiply(&self.f[..n], &mut self.v);
+        let computed = norm_of(&self.v, u, n);
+        local.y.multiply_abs(&hidden[..n], &mut self.v);
+        let hidden = norm_of(&self.v, u, n);
+        let defect = round_up(
+            (computed + hidden) * (1.0 + s.abs() * proof.moving),
+            2 * n + 20,
+        );
+        let radius = round_up(defect / (1.0 - proof.q), 400);
+        if !(round_up(offset, 40) < proof.r && radius < proof.r) {
+            return None;
+        }
+        for i in 0..n {
+            out.radius[i] = round_up(radius * u[i], 1);
+        }
+        Some(())
+    }
+
+    /// The weights used in the last proof.
+    pub fn weights(&self) -> &Vector {
+        &self.u
+    }
+
+    /// Weights for the next tube: towards the Perron vector of |A² − A₂|, in whose norm that
+    /// matrix is smallest.
+    fn improve(&self, weights: &mut Vector) {
+        let n = self.square_u.len() - 1;
+        let largest = self.square_u[..n]
+            .iter()
+            .fold(f64::MIN_POSITIVE, |max: f64, v| max.max(*v));
+        let mut top = 0.0f64;
+        for (w, v) in weights[..n].iter_mut().zip(self.square_u.iter()) {
+            *w = (*w * (v / largest)).sqrt().max(MIN_WEIGHT);
+            top = top.max(*w);
+        }
+        for w in &mut weights[..n] {
+            *w /= top;
+        }
+    }
+
+    /// The bounds that do not depend on the final h, and the others at the largest h worth trying.
+    fn norms(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        weights: &Vector,
+        max_h: f64,
+    ) -> Option<Norms> {
+        let (m, n) = (equations.m, equations.n());
+        self.u.copy_from_slice(weights);
+        // Differences, sums over a column, and the powers of t(s): fewer roundings than this.
+        let per_entry = gamma(m + 120);
+        let [a, a2, square, r0] = self.products(equations, local);
+        let a = round_up(a, n + 2);
+        let a2 = round_up(a2, n + 2);
+        let square = round_up(square + gamma(n + m + 8) * (a * a + a2), n + 8);
+        if !(in_range(a) && in_range(a2) && in_range(square)) {
+            return None;
+        }
+        let h = max_h.min((MAX_CONTRACTION / square.max(f64::MIN_POSITIVE)).sqrt());
+        let hs = powers_of(h);
+        self.bound_equations(equations, local, &hs, per_entry);
+
+        let u = &self.u;
+        let y = &local.y;
+        let mut bound = |g: &Vector, len: usize| {
+            y.multiply_abs(&g[..len], &mut self.v);
+            round_up(norm_of(&self.v, u, n), n + 200)
+        };
+        let [rounding, higher, width, low, high] = &self.bounds;
+        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n), 2);
+        let higher = bound(higher, m);
+        let width = bound(width, m);
+        let low = bound(low, m);
+        let high = bound(high, m);
+        // The leading term keeps its signs: Y first, absolute values after. Its rounding is in `low`.
+        y.multiply(&self.f[..m], &mut self.v);
+        let middle = round_up(norm_of(&self.v, u, n) * hs[ORDER + 1], n + 20);
+        let slope_of = |i: usize| (1..=ORDER).map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1]).sum::<f64>();
+        let slope = (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i]));
+        let slope = round_up(slope, 40);
+        let slope_of_t = round_up(slope_of(m), 40);
+        let norms = Norms { a, a2, square, r0, higher, width, low, middle, high, slope, slope_of_t, h };
+        norms.is_in_range().then_some(norms)
+    }
+
+    /// Bounds per equation, into `bounds`: the rounding of J's products; the Jacobian's terms of
+    /// order ≥ 3 in s; its change over the width; F's orders ≤ ORDER with all of its rounding;
+    /// and > ORDER + 1. Order ORDER + 1, with its sign, into `f`.
+    fn bound_equations(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        hs: &[f64; DEGREE + 1],
+        per_entry: f64,
+    ) {
+        let (m, n) = (equations.m, equations.n());
+        let u = &self.u;
+        equations.sums(u, &mut self.sums);
+        for axis in 0..D {
+            let d = std::array::from_fn::<_, { ORDER + 1 }, _>(|k| local.d[k][axis].lanes());
+            let (near, far) = (self.near[axis].lanes_mut(), self.far[axis].lanes_mut());
+            for l in 0..near.len() {
+                for i in 0..LANE {
+                    let size = |k: usize| d[k][l][i].abs();
+                    near[l][i] = size(0) + (size(1) * hs[1] + size(2) * hs[2]);
+                    far[l][i] = (3..=ORDER).fold(0.0, |sum: f64, k| size(k).mul_add(hs[k], sum));
+                }
+            }
+        }
+        // What t can be along the tube, and its higher terms.
+        let ut = u[m];
+        let reach: f64 = (1..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
+        let t = local.z[0][m].abs() + reach;
+        let t_higher: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
+        let [rounding, higher, width, low, _] = &mut self.bounds;
+        let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
+        let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        for l in 0..e0.len() {
+            for i in 0..LANE {
+                let (mut j_near, mut j_far, mut j_width, mut size) = (0.0, 0.0, 0.0, 0.0);
+                for axis in 0..D {
+                    let sum = self.sums[axis].lanes()[l][i];
+                    let (near, far) = (self.near[axis].lanes()[l][i], self.far[axis].lanes()[l][i]);
+                    j_near += near * sum;
+                    j_far += far * sum;
+                    j_width += sum * sum;
+                    size += (near + far) * (near + far);
+                }
+                let [e0, e1, e2] = [e0[l][i], e1[l][i], e2[l][i]].map(f64::abs);
+                let [r0, r1, r2] = [r0[l][i], r1[l][i], r2[l][i]];
+                let slope_size = e1 + 2.0 * t * e2;
+                let slope_radius = r1 + 2.0 * t * r2;
+                rounding.lanes_mut()[l][i] = per_entry * (j_near + slope_size * ut) + slope_radius * ut;
+                higher.lanes_mut()[l][i] = j_far + 2.0 * e2 * t_higher * ut;
+                width.lanes_mut()[l][i] = j_width + 2.0 * (e2 + r2) * (ut * ut);
+                let length_size = e0 + t * (e1 + t * e2);
+                let length_radius = r0 + t * (r1 + t * r2);
+                low.lanes_mut()[l][i] = gamma(200) * (size + length_size) + length_radius;
+            }
+        }
+        self.bound_bend(local, equations, t, ut, hs, per_entry);
+
+        // The coefficients of F along the tube.
+        let [_, _, _, low, high] = &mut self.bounds;
+        high.fill(0.0);
+        for k in 0..=2 * ORDER {
+            if k == ORDER + 1 {
+                local.coefficient(equations, k, 0, &mut self.f);
+                continue;
+            }
+            local.coefficient(equations, k, 0, &mut self.coefficient);
+            // With k/(ORDER + 2) ≥ 1 above, so that it bounds the derivative by s too, see `proof`.
+            let (sum, factor) =
+                if k <= ORDER { (&mut *low, hs[k]) } else { (&mut *high, hs[k] * (k as f64 / (ORDER + 2) as f64)) };
+            for (sum, c) in sum.lanes_mut().iter_mut().zip(self.coefficient.lanes()) {
+                for i in 0..LANE {
+                    sum[i] = c[i].abs().mul_add(factor, sum[i]);
+                }
+            }
+        }
+        let beyond = 2 * ORDER + 1..=DEGREE;
+        high[equations.bend.edge] += beyond
+            .map(|k| local.bend_excess(equations, k).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64))
+            .sum::<f64>();
+        // Rounding in Y f_{ORDER + 1}, a fused sum of m products; relative to its terms.
+        for (low, f) in low[..m].iter_mut().zip(self.f.iter()) {
+            *low += gamma(n + 2) * f.abs() * hs[ORDER + 1];
+        }
+        let rounding = &mut self.bounds[0];
+        let normal: f64 = local.normal[..n].iter().zip(&self.u[..n]).map(|(c, u)| c.abs() * u).sum();
+        rounding[m] = per_entry * normal;
+    }
+
+    /// Adds to the bounds of the distance that bends what its terms of degree > 2 in t bring.
+    fn bound_bend(
+        &mut self,
+        local: &Local<D>,
+        equations: &Equations<D>,
+        t: f64,
+        ut: f64,
+        hs: &[f64; DEGREE + 1],
+        per_entry: f64,
+    ) {
+        let [rounding, higher, width, low, _] = &mut self.bounds;
+        let bend = &equations.bend;
+        let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
+        let cube = t * t * t;
+        low[at] += gamma(200) * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
+        let slope_size = t * t * (3.0 * e[3] + 4.0 * t * e[4]);
+        let slope_radius = t * t * (3.0 * r[3] + 4.0 * t * r[4]);
+        rounding[at] += per_entry * slope_size * ut + slope_radius * ut;
+        // The width may add its share to t: |w_t| ≤ r u_t ≤ 1, as `proof` takes care.
+        let wide = t + 1.0;
+        width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
+        // All of the bend's terms, though the ones of e₂ are counted already.
+        let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER).map(|k| local.bend_slope(k).abs() * hs[k]).sum();
+        higher[at] += terms * ut;
+    }
+
+    /// A ≈ Y J₁, kept; and |A|_u, |A₂|_u with A₂ ≈ Y J₂, |A² − A₂|_u, |I − Y [J₀; c]|_u, as computed.
+    fn products(&mut self, equations: &Equations<D>, local: &Local<D>) -> [f64; 4] {
+        let (m, n) = (equations.m, equations.n());
+        let (y, u) = (&local.y, &self.u);
+        let pattern = equations.pattern();
+        // The entry of t in J_k is E'(t(s)) at sᵏ: 2 e₂ t_k but for the bend.
+        for (k, values) in [(1, &mut self.j1), (2, &mut self.j2)] {
+            let slope = 2.0 * local.z[k][m];
+            for (time, e2) in self.f[..m].iter_mut().zip(equations.e[2].iter()) {
+                *time = e2 * slope;
+            }
+            self.f[equations.bend.edge] = local.bend_slope(k);
+            equations.pattern_values(&local.d[k], &self.f[..m], values);
+        }
+        equations.bordered_values(&local.d[0], &local.lengths, &local.normal, &mut self.j0);
+        y.multiply_sparse(pattern, &self.j1, &mut self.a);
+        y.identity_minus_sparse_abs(equations.bordered_pattern(), &self.j0, &u[..n], &mut self.v);
+        let r0 = norm_of(&self.v, u, n);
+        self.a.multiply_abs(&u[..n], &mut self.v);
+        let a = norm_of(&self.v, u, n);
+        self.a.square_minus_sparse_abs((y, pattern, &self.j2), &u[..n], &mut self.square_u, &mut self.v);
+        [a, norm_of(&self.v, u, n), norm_of(&self.square_u, u, n), r0]
+    }
+}
+
+/// |v|_u: one division per entry, to be covered by the caller's `round_up`.
+fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
+    v[..n].iter().zip(&u[..n]).fold(0.0, |max: f64, (v, u)| {
+        // A NaN must not be lost in the comparison.
+        let x = v.abs() / u;
+        if x > max || x.is_nan() { x } else { max }
+    })
+}
+
+/// 1, h, h², …: each with at most DEGREE roundings.
+fn powers_of(h: f64) -> [f64; DEGREE + 1] {
+    let mut powers = [1.0; DEGREE + 1];
+    for k in 1..=DEGREE {
+        powers[k] = powers[k - 1] * h;
+    }
+    powers
+}
+
+impl Norms {
+    fn is_in_range(&self) -> bool {
+        [
+            self.a,
+            self.a2,
+            self.square,
+            self.r0,
+            self.higher,
+            self.width,
+            self.low,
+            self.middle,
+            self.high,
+            self.slope,
+            self.slope_of_t,
+            self.h,
+        ]
+        .into_iter()
+        .all(in_range)
+    }
+
+    /// The contraction without the width, the factor of the width, and the defect, at `h`.
+    /// Sums of fewer than 60 roundings, covered by the factor.
+    fn at(&self, h: f64) -> (f64, f64, f64) {
+        let moving = 1.0 + h * self.a;
+        let x = h / self.h;
+        let x3 = x * x * x;
+        let x6 = x3 * x3;
+        let contraction =
+            moving * (self.r0 + self.higher * x3) + h * h * (self.square + h * (self.a * self.a2));
+        let defect = moving * (self.low + self.middle * x6 + self.high * (x6 * x));
+        (
+            round_up(contraction, 60),
+            round_up(moving * self.width, 60),
+            round_up(defect, 60),
+        )
+    }
+
+    /// The largest provable h: by bisection on a logarithmic scale, as any h that passes will do.
+    fn longest(&self, weight_of_t: f64) -> Option<Proof> {
+        const {
+            assert!(
+                ORDER + 1 == 6,
+                "the powers in `at` are those of the Taylor order"
+            )
+        };
+        if let Some(proof) = self.proof(self.h, weight_of_t) {
+            return Some(proof);
+        }
+        let (mut lo, mut hi) = (0.0, self.h);
+        let mut best = None;
+        for _ in 0..40 {
+            let h = if lo == 0.0 {
+                hi / 2.0
+            } else {
+                (lo * hi).sqrt()
+            };
+            match self.proof(h, weight_of_t) {
+                Some(proof) => {
+                    best = Some(proof);
+                    lo = h;
+                    if hi / lo < 1.02 {
+                        break;
+                    }
+                }
+                None => hi = h,
+            }
+        }
+        best
+    }
+
+    fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
+        let (contraction, width, defect) = self.at(h);
+        let room = 1.0 - contraction;
+        // Beyond this the box would be too narrow to be linked, or the proof too close to call.
+        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
+            return None;
+        }
+        let r = (0.5 * room / width).min(0.5 / weight_of_t);
+        let q = round_up(contraction + width * r, 4);
+        // The path is nearer than r: again with the width that is really needed, |w|_u ≤ η/(1 − q).
+        let near = round_up(defect / (1.0 - q), 400);
+        let nearer_q = round_up(contraction + width * near.min(r), 4);
+        let distance = round_up(defect / (1.0 - nearer_q), 400);
+        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
+            return None;
+        }
+        // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
+        // A power sᵏ gains a factor k/h: k ≤ DEGREE in the rounding, k ≤ (MAX_DEGREE − 1) ORDER in J_k.
+        // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
+        let moving = 1.0 + h * self.a;
+        let orders = [DEGREE, ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
+        let x = h / self.h;
+        let x3 = x * x * x;
+        let defect_slope =
+            orders[0] * self.low + x3 * x3 * (orders[1] * self.middle + orders[2] * self.high * x);
+        let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[3] * self.higher * x3;
+        let slope = moving
+            * (defect_slope
+                + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
+        let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
+        Some(Proof {
+            h,
+            r,
+            distance,
+            slope_distance,
+            q,
+            slope: self.slope,
+            moving: self.a,
+        })
+    }
+}

@@ -1,0 +1,193 @@
+//! Where a piece of path meets t = 1, completely.
+//!
+//! The path's t is a polynomial ẑ_t(s) up to a distance, its slope ẑ_t'(s) up to another. The
+//! range of s is split until on every piece either t ≠ 1 is certain or the sign of t' is. In
+//! certified mode the distances are proved; in float mode they are estimates.
+
+use crate::interval::rounding::{gamma, round_up};
+use crate::track::full::ORDER;
+
+/// t along a piece of path, as a polynomial with error bounds.
+#[derive(Debug, Clone, Copy)]
+pub struct TimeAlong {
+    /// Coefficients of ẑ_t(s) − 1, the first rounded.
+    coefficients: [f64; ORDER + 1],
+    /// How far the path's t may be from the polynomial, rounding included.
+    band: f64,
+    /// How far the path's dt/ds may be from the polynomial's derivative.
+    slope_band: f64,
+    /// A bound on the polynomial's second derivative.
+    curvature: f64,
+    h: f64,
+}
+
+/// A stretch in which the path crosses t = 1 exactly once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// The crossing is at a parameter between these.
+    pub between: (f64, f64),
+    /// Whether t rises through 1.
+    pub rising: bool,
+}
+
+/// The signs of t − 1 and t' could not be separated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Undecided;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Piece {
+    Below,
+    Above,
+    Rising,
+    Falling,
+}
+
+/// Pieces are not split more often than that: the last are 2⁻⁴⁰ of the tube.
+const MAX_DEPTH: usize = 40;
+
+impl TimeAlong {
+    /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
+    pub fn new(z: [f64; ORDER + 1], h: f64, distance: f64, slope_distance: f64) -> Self {
+        let (mut curvature, mut size, mut slope, mut power) = (0.0, z[0].abs() + 1.0, 0.0, 1.0);
+        for k in 1..=ORDER {
+            slope += k as f64 * z[k].abs() * power;
+            if k >= 2 {
+                curvature += (k * (k - 1)) as f64 * z[k].abs() * (power / h);
+            }
+            power *= h;
+            size += z[k].abs() * power;
+        }
+        // Horner's rule and the subtraction of 1: fewer than 30 roundings of terms below `size`.
+        let rounding = gamma(30);
+        let mut coefficients = z;
+        coefficients[0] -= 1.0;
+        TimeAlong {
+            coefficients,
+            band: round_up(distance + rounding * size, 40),
+            slope_band: round_up(slope_distance + rounding * slope, 40),
+            curvature: round_up(curvature, 40),
+            h,
+        }
+    }
+
+    /// Bounds of t − 1 and of dt/ds over the parameters from `a` to `b`.
+    pub fn bounds(&self, a: f64, b: f64) -> ((f64, f64), (f64, f64)) {
+        let c = &self.coefficients;
+        let middle = 0.5 * (a + b);
+        let half = 0.5 * (b - a) * (1.0 + 4.0 * f64::EPSILON) + 2.0 * f64::EPSILON * middle.abs();
+        let (mut value, mut slope) = (c[ORDER], 0.0);
+        for k in (0..ORDER).rev() {
+            slope = slope * middle + value;
+            value = value * middle + c[k];
+        }
+        let spread = self.slope_band + self.curvature * half;
+        let reach = slope.abs() * half + 0.5 * self.curvature * half * half + self.band;
+        let (spread, reach) = (round_up(spread, 10), round_up(reach, 40));
+        let around = |x: f64, r: f64| ((x - r).next_down(), (x + r).next_up());
+        (around(value, reach), around(slope, spread))
+    }
+
+    /// All crossings of t = 1 with parameters from `from` to `to`, and perhaps some a little
+    /// outside, with |s| ≤ h.
+    pub fn crossings(&self, from: f64, to: f64, out: &mut Vec<Crossing>) -> Result<(), Undecided> {
+        out.clear();
+        let ((low, high), _) = self.bounds(from, to);
+        if low > 0.0 || high < 0.0 {
+            return Ok(());
+        }
+        let (from, above_at_start) = self.clear_end(from, -1.0)?;
+        let (to, above_at_end) = self.clear_end(to, 1.0)?;
+        let mut scan = Scan {
+            above: above_at_start,
+            open: None,
+            out,
+        };
+        self.split(from, to, 0, &mut scan)?;
+        scan.certain(above_at_end)
+    }
+
+    /// Moves an end outwards until t ≠ 1 is certain there; also tells whether t > 1.
+    fn clear_end(&self, end: f64, direction: f64) -> Result<(f64, bool), Undecided> {
+        let mut step = 0.0;
+        loop {
+            let at = end + direction * step;
+            if at.abs() > self.h {
+                return Err(Undecided);
+            }
+            let ((low, high), _) = self.bounds(at, at);
+            if low > 0.0 || high < 0.0 {
+                return Ok((at, low > 0.0));
+            }
+            step = if step == 0.0 {
+                1e-12 * self.h
+            } else {
+                2.0 * step
+            };
+        }
+    }
+
+    fn split(&self, a: f64, b: f64, depth: usize, scan: &mut Scan) -> Result<(), Undecided> {
+        let ((low, high), (slope_low, slope_high)) = self.bounds(a, b);
+        let piece = if low > 0.0 {
+            Piece::Above
+        } else if high < 0.0 {
+            Piece::Below
+        } else if slope_low > 0.0 {
+            Piece::Rising
+        } else if slope_high < 0.0 {
+            Piece::Falling
+        } else if depth == MAX_DEPTH {
+            return Err(Undecided);
+        } else {
+            let middle = 0.5 * (a + b);
+            self.split(a, middle, depth + 1, scan)?;
+            return self.split(middle, b, depth + 1, scan);
+        };
+        scan.push(piece, a, b)
+    }
+}
+
+/// Reads the pieces in their order and pairs the signs before and after each monotone stretch.
+struct Scan<'a> {
+    /// The last certain sign of t − 1: whether it is positive.
+    above: bool,
+    /// The monotone stretch being read: its start, its end, and whether t rises.
+    open: Option<(f64, f64, bool)>,
+    out: &'a mut Vec<Crossing>,
+}
+
+impl Scan<'_> {
+    fn push(&mut self, piece: Piece, a: f64, b: f64) -> Result<(), Undecided> {
+        match piece {
+            Piece::Below | Piece::Above => self.certain(piece == Piece::Above),
+            Piece::Rising | Piece::Falling => {
+                let rising = piece == Piece::Rising;
+                match &mut self.open {
+                    None => self.open = Some((a, b, rising)),
+                    Some((_, end, direction)) if *direction == rising => *end = b,
+                    // A fold with t = 1 in reach.
+                    Some(_) => return Err(Undecided),
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// A place where the sign of t − 1 is certain: a monotone stretch before it holds exactly one
+    /// crossing if the sign has changed, and none otherwise.
+    fn certain(&mut self, above: bool) -> Result<(), Undecided> {
+        if let Some((start, end, rising)) = self.open.take()
+            && above != self.above
+        {
+            if above != rising {
+                return Err(Undecided);
+            }
+            self.out.push(Crossing {
+                between: (start, end),
+                rising,
+            });
+        }
+        self.above = above;
+        Ok(())
+    }
+}

@@ -1,0 +1,9 @@
+//! Plain floating-point tracking in the full space: fast, and an observation, not a proof.
+
+mod paper;
+mod record;
+mod tracker;
+
+pub use paper::track as track_paper;
+pub use record::Record;
+pub use tracker::track;

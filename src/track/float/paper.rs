@@ -1,0 +1,217 @@
+//! The paper's tracker in the full space, to set its figures beside ours (RR 8705, section 7.1).
+
+use super::Record;
+use crate::linalg::{Inverter, Matrix, Vector};
+use crate::system::Homotopy;
+use crate::track::full::{Equations, dot};
+use crate::track::{Control, Options, Outcome, Progress, Status};
+use std::time::Instant;
+
+/// δmax of RR 8705, section 7.3.1, without a construction plan.
+const LARGEST_STEP: f64 = 0.1;
+/// δmin.
+const SMALLEST_STEP: f64 = 1e-10;
+/// The paper does not say when a correction has succeeded; this is ours.
+const TOLERANCE: f64 = 1e-8;
+const MAX_CORRECTIONS: usize = 5;
+/// The step of the finite differences, about √u.
+const DIFFERENCE: f64 = 1.5e-8;
+
+/// Follows the path with an Euler predictor, Newton–Raphson corrections with Jacobians by finite
+/// differences, and steps that are doubled and halved.
+///
+/// `homotopy` should have the unit 1, as the paper's steps are in the problem's lengths.
+pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+    let clock = Instant::now();
+    let equations = Equations::<D>::new(homotopy);
+    let mut record = Record::new(&equations);
+    let status = match Paper::new(homotopy, &equations).run(options, control, &mut record) {
+        Ok(()) => Status::Closed,
+        Err(reason) => Status::Stopped(reason),
+    };
+    record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
+}
+
+struct Paper<'a, const D: usize> {
+    homotopy: &'a Homotopy,
+    equations: &'a Equations<D>,
+    inverter: Inverter,
+    inverse: Matrix,
+    f: Vector,
+    shifted: Vector,
+    z: Vector,
+    next: Vector,
+    tangent: Vector,
+    next_tangent: Vector,
+}
+
+impl<'a, const D: usize> Paper<'a, D> {
+    fn new(homotopy: &'a Homotopy, equations: &'a Equations<D>) -> Self {
+        let vector = || equations.vector();
+        let n = equations.n();
+        Paper {
+            homotopy,
+            equations,
+            inverter: Inverter::new(n),
+            inverse: Matrix::zeros(n, n),
+            f: vector(),
+            shifted: vector(),
+            z: vector(),
+            next: vector(),
+            tangent: vector(),
+            next_tangent: vector(),
+        }
+    }
+
+    /// c_i = |p_j − p_k| − a_i(t), equation (1) of the paper.
+    fn residual(homotopy: &Homotopy, equations: &Equations<D>, z: &[f64], out: &mut [f64]) {
+        let t = z[equations.m];
+        for (e, (length, f)) in homotopy.lengths.iter().zip(out).enumerate() {
+            let difference = |axis: usize| {
+                let [i, j] = equations.ends[axis][e];
+                z[i as usize] - z[j as usize]
+            };
+            let squared: f64 = (0..D).map(|axis| difference(axis).powi(2)).sum();
+            *f = squared.sqrt() - length.value(t);
+        }
+    }
+
+    /// Inverts [J; c] at `self.next`, J by finite differences; leaves H there in `self.f`.
+    fn differentiate(&mut self) -> Option<()> {
+        let (m, n) = (self.equations.m, self.equations.n());
+        Self::residual(self.homotopy, self.equations, &self.next, &mut self.f);
+        let jacobian = self.inverter.input();
+        for k in 0..n {
+            let kept = self.next[k];
+            self.next[k] = kept + DIFFERENCE;
+            let h = self.next[k] - kept;
+            Self::residual(self.homotopy, self.equations, &self.next, &mut self.shifted);
+            self.next[k] = kept;
+            let column = jacobian.column_mut(k);
+            for e in 0..m {
+                column[e] = (self.shifted[e] - self.f[e]) / h;
+            }
+            column[m] = self.tangent[k];
+        }
+        self.inverter.invert_into(&mut self.inverse).ok()
+    }
+
+    fn run(&mut self, options: &Options, control: &mut Control, record: &mut Record<D>) -> Result<(), String> {
+        let (m, n) = (self.equations.m, self.equations.n());
+        for (x, &place) in self.z.iter_mut().zip(&self.homotopy.gauge.place) {
+            *x = self.homotopy.sketch[place];
+        }
+        let sketch = self.z.clone();
+        // The orientation is arbitrary; ours is that of rising t.
+        self.tangent[m] = if options.reverse { -1.0 } else { 1.0 };
+        self.next.copy_from_slice(&self.z);
+        self.differentiate().ok_or("the sketch is a singular point of its path")?;
+        self.set_tangent();
+        std::mem::swap(&mut self.tangent, &mut self.next_tangent);
+        let direction = self.tangent.clone();
+        let largest = options.max_step.unwrap_or(LARGEST_STEP);
+        let mut step = largest;
+        loop {
+            for i in 0..n {
+                self.next[i] = self.tangent[i].mul_add(step, self.z[i]);
+            }
+            if !self.correct() {
+                record.rejected += 1;
+                if step < 2.0 * SMALLEST_STEP {
+                    return Err(format!(
+                        "the correction fails at the smallest step, at t = {:.9} after {} steps",
+                        self.z[m], record.steps
+                    ));
+                }
+                step *= 0.5;
+                continue;
+            }
+            self.set_tangent();
+            record.steps += 1;
+            record.meet(self.next[m]);
+            self.look_for_solution(record);
+            let homotopy_length = |a: &Vector, b: &Vector| {
+                (0..n).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+            };
+            record.length += homotopy_length(&self.z, &self.next);
+            // The hyperplane t = 0 was crossed near the sketch, in the direction of the start.
+            if record.steps > 1 && self.passed(&sketch, &direction, step) {
+                return Ok(());
+            }
+            std::mem::swap(&mut self.z, &mut self.next);
+            std::mem::swap(&mut self.tangent, &mut self.next_tangent);
+            if 2.0 * step <= largest {
+                step *= 2.0;
+            }
+            if record.steps >= options.max_steps {
+                return Err(format!("the limit of {} steps was reached at t = {:.9}", options.max_steps, self.z[m]));
+            }
+            let progress = Progress {
+                t: self.z[m],
+                steps: record.steps,
+                solutions: record.solutions(),
+                length: record.length,
+            };
+            if control.is_cancelled(progress) {
+                return Err(format!("interrupted at t = {:.9} after {} steps", self.z[m], record.steps));
+            }
+        }
+    }
+
+    /// Newton–Raphson in the hyperplane normal to the tangent.
+    fn correct(&mut self) -> bool {
+        let (m, n) = (self.equations.m, self.equations.n());
+        for _ in 0..MAX_CORRECTIONS {
+            if self.differentiate().is_none() {
+                return false;
+            }
+            self.f[m] = 0.0;
+            self.inverse.multiply(&self.f[..n], &mut self.shifted);
+            let mut size = 0.0f64;
+            for i in 0..n {
+                self.next[i] -= self.shifted[i];
+                size = size.max(self.shifted[i].abs());
+            }
+            if size <= TOLERANCE {
+                return true;
+            }
+            if size.is_nan() {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// The unit tangent from the last inverse, along the one before.
+    fn set_tangent(&mut self) {
+        let (m, n) = (self.equations.m, self.equations.n());
+        let column = self.inverse.column(m);
+        let size = dot(column, column).sqrt();
+        for i in 0..n {
+            self.next_tangent[i] = column[i] / size;
+        }
+    }
+
+    /// A change of sign of t − 1 between two points is a solution.
+    fn look_for_solution(&mut self, record: &mut Record<D>) {
+        let m = self.equations.m;
+        let (a, b) = (self.z[m] - 1.0, self.next[m] - 1.0);
+        if (a < 0.0) == (b < 0.0) {
+            return;
+        }
+        let part = a / (a - b);
+        for i in 0..self.shifted.len() {
+            self.shifted[i] = self.z[i] + part * (self.next[i] - self.z[i]);
+        }
+        // Where the interpolated point is too far off, the solution is lost: the paper's tracker
+        // has no other way either.
+        let _ = record.solution(self.equations, &mut self.inverter, &self.shifted);
+    }
+
+    fn passed(&self, sketch: &[f64], direction: &[f64], step: f64) -> bool {
+        let (m, n) = (self.equations.m, self.equations.n());
+        let crossed = (self.z[m] < 0.0) != (self.next[m] < 0.0);
+        let away = (0..n).map(|i| (self.next[i] - sketch[i]).powi(2)).sum::<f64>().sqrt();
+        crossed && away <= 1.5 * step && dot(&self.next_tangent[..n], &direction[..n]) > 0.0
+    }
+}

@@ -1,0 +1,197 @@
+//! Predictor and corrector with steps chosen from the corrector's contraction.
+
+use super::Record;
+use crate::linalg::{Inverter, Vector};
+use crate::system::Homotopy;
+use crate::track::events::{Crossing, TimeAlong};
+use crate::track::full::{Equations, Local, ORDER, first_normal, path_length};
+use crate::track::{Control, Options, Outcome, Progress, Status};
+use std::time::Instant;
+
+/// Points of the path are corrected until the last correction is below this, in the homotopy's
+/// unit; the next would be smaller still by the contraction.
+const POINT_TOLERANCE: f64 = 1e-8;
+/// The step is chosen so that the corrector's first two corrections shrink by this factor. The
+/// factor is about |[J; c]⁻¹ F''| times the prediction's error, Kantorovich's number: it says how
+/// deep in the basin of Newton's method the prediction is, whatever the problem's scale.
+const CONTRACTION: f64 = 0.002;
+/// A prediction with a larger one is not trusted to be on the same path.
+const LARGEST_CONTRACTION: f64 = 0.02;
+/// The tangent turns by at most this angle's cosine in a step.
+const LEAST_COSINE: f64 = 0.8;
+/// The first step, in the homotopy's unit.
+const FIRST_STEP: f64 = 0.01;
+/// Steps below this end the run.
+const SMALLEST_STEP: f64 = 1e-10;
+
+/// Follows the path in the full space in floating point.
+pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+    let clock = Instant::now();
+    let equations = Equations::<D>::new(homotopy);
+    let mut record = Record::new(&equations);
+    let status = match run(homotopy, &equations, options, control, &mut record) {
+        Ok(()) => Status::Closed,
+        Err(reason) => Status::Stopped(reason),
+    };
+    record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
+}
+
+fn run<const D: usize>(
+    homotopy: &Homotopy,
+    equations: &Equations<D>,
+    options: &Options,
+    control: &mut Control,
+    record: &mut Record<D>,
+) -> Result<(), String> {
+    let (m, n) = (equations.m, equations.n());
+    let mut inverter = Inverter::new(n);
+    let (mut now, mut next) = (Local::new(equations), Local::new(equations));
+    let mut sketch = equations.vector();
+    for (x, &place) in sketch.iter_mut().zip(&homotopy.gauge.place) {
+        *x = homotopy.sketch[place];
+    }
+    now.z[0].copy_from_slice(&sketch);
+    first_normal(equations, &mut inverter, &mut now, options.reverse)
+        .map_err(|_| "the sketch is a singular point of its path".to_owned())?;
+    now.z[0].copy_from_slice(&sketch);
+    now.refine(equations, &mut inverter, POINT_TOLERANCE, 8)
+        .map_err(|_| "the sketch could not be corrected onto its path".to_owned())?;
+    now.expand(equations);
+    let direction = now.normal.clone();
+
+    let longest = options.max_step.map_or(f64::INFINITY, |step| step / homotopy.unit);
+    let mut previous: Option<Vector> = None;
+    let mut events = Events::new(equations);
+    let mut step = FIRST_STEP.min(longest);
+    loop {
+        let place = |record: &Record<D>, now: &Local<D>| {
+            format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
+        };
+        if step < SMALLEST_STEP {
+            return Err(format!("the corrector fails at the smallest step, {}", place(record, &now)));
+        }
+        now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
+        let refined = next.refine(equations, &mut inverter, POINT_TOLERANCE, 6).is_ok()
+            && next.contraction <= LARGEST_CONTRACTION;
+        if refined {
+            next.expand(equations);
+        }
+        let turned = crate::track::full::dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
+        let seen = refined && !turned && events.between(equations, &mut inverter, &now, &next, step, record).is_some();
+        if !seen {
+            record.rejected += 1;
+            step *= 0.5;
+            continue;
+        }
+        record.steps += 1;
+        record.meet(next.z[0][m]);
+        if let Some(at) = events.passes(&sketch, &direction, &next, step)
+            && record.steps > 1
+        {
+            record.length += path_length(&next, -step, at, homotopy.unit, &mut events.scratch);
+            return Ok(());
+        }
+        record.length += path_length(&next, -step, 0.0, homotopy.unit, &mut events.scratch);
+        // The contraction grows with the (ORDER + 2)-nd power of the step.
+        let growth = (CONTRACTION / next.contraction.max(1e-300)).powf(1.0 / (ORDER + 2) as f64);
+        step = (step * growth.clamp(0.5, 1.6)).min(longest);
+        match &mut previous {
+            Some(previous) => previous.copy_from_slice(&now.z[0]),
+            None => previous = Some(now.z[0].clone()),
+        }
+        std::mem::swap(&mut now, &mut next);
+        if record.steps >= options.max_steps {
+            return Err(format!("the limit of {} steps was reached {}", options.max_steps, place(record, &now)));
+        }
+        let progress = Progress {
+            t: now.z[0][m],
+            steps: record.steps,
+            solutions: record.solutions(),
+            length: record.length,
+        };
+        if control.is_cancelled(progress) {
+            return Err(format!("interrupted {}", place(record, &now)));
+        }
+    }
+}
+
+/// Finds what happens between two points of the path.
+struct Events {
+    crossings: Vec<Crossing>,
+    scratch: Vector,
+}
+
+impl Events {
+    fn new<const D: usize>(equations: &Equations<D>) -> Self {
+        Events { crossings: Vec::new(), scratch: equations.vector() }
+    }
+
+    /// Records the solutions between two points: the first half of the way is read off the
+    /// expansion at one, the second off the other. `None`: they could not be separated.
+    fn between<const D: usize>(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        now: &Local<D>,
+        next: &Local<D>,
+        step: f64,
+        record: &mut Record<D>,
+    ) -> Option<()> {
+        // The expansions are off by 2^-(ORDER + 1) of the prediction's error at half the way, and
+        // their slopes by (ORDER + 1) / (step / 2) times that.
+        let error = next.first_correction / 32.0 + 10.0 * POINT_TOLERANCE;
+        let half = 0.5 * step;
+        for (local, from, to) in [(now, 0.0, half), (next, -half, 0.0)] {
+            let z = std::array::from_fn(|k| local.z[k][equations.m]);
+            let time = TimeAlong::new(z, step, error, 12.0 * error / step);
+            time.crossings(from, to, &mut self.crossings).ok()?;
+            for k in 0..self.crossings.len() {
+                let (a, b) = self.crossings[k].between;
+                local.at(0.5 * (a + b), &mut self.scratch);
+                record.solution(equations, inverter, &self.scratch)?;
+            }
+            if let ((low, high), (slope_low, slope_high)) = time.bounds(from, to)
+                && slope_low < 0.0
+                && slope_high > 0.0
+            {
+                // A fold of t: its extreme value is between these.
+                let _ = (low, high);
+                record.meet(extreme(local, from, to, equations.m));
+            }
+        }
+        Some(())
+    }
+
+    /// Whether the path, followed in `direction`, passed the sketch on the last `step` before `next`:
+    /// at which parameter, if so.
+    fn passes<const D: usize>(&mut self, sketch: &[f64], direction: &[f64], next: &Local<D>, step: f64) -> Option<f64> {
+        let n = next.y.rows();
+        let t = sketch.len() - 2;
+        if next.z[0][t].abs() > step {
+            return None;
+        }
+        let c = &next.normal[..n];
+        let at: f64 = (0..n).map(|i| c[i] * (sketch[i] - next.z[0][i])).sum();
+        if !(at <= 0.0 && at >= -step) || crate::track::full::dot(c, &direction[..n]) <= 0.0 {
+            return None;
+        }
+        next.at(at, &mut self.scratch);
+        let away = (0..n).fold(0.0, |max: f64, i| max.max((self.scratch[i] - sketch[i]).abs()));
+        (away <= 10.0 * next.first_correction + 1e-6).then_some(at)
+    }
+}
+
+/// The value of t where its slope vanishes, by bisection.
+fn extreme<const D: usize>(local: &Local<D>, from: f64, to: f64, t: usize) -> f64 {
+    let slope = |s: f64| (1..=ORDER).rev().fold(0.0, |sum, k| sum * s + k as f64 * local.z[k][t]);
+    let (mut a, mut b) = (from, to);
+    for _ in 0..50 {
+        let middle = 0.5 * (a + b);
+        if (slope(middle) > 0.0) == (slope(a) > 0.0) {
+            a = middle;
+        } else {
+            b = middle;
+        }
+    }
+    (0..=ORDER).rev().fold(0.0, |sum, k| sum * a + local.z[k][t])
+}

@@ -1,0 +1,269 @@
+//! H(X, t) laid out for the inner loops: one vector over all distances for each quantity.
+
+use crate::interval::rounding::{gamma, round_up};
+use crate::linalg::{LANE, Matrix, Sparse, Vector};
+use crate::system::Homotopy;
+
+/// The degree of F in t: 4 for the bend, otherwise 2. In X it is 2.
+pub const MAX_DEGREE: usize = 4;
+
+/// E(t) = ½ a(t)² of the one distance that bends, a polynomial of degree 4.
+#[derive(Debug, Clone, Copy)]
+pub struct Bend {
+    /// Which distance.
+    pub edge: usize,
+    /// The coefficients of E.
+    pub e: [f64; 5],
+    /// How far the exact ones may be away.
+    pub e_radius: [f64; 5],
+}
+
+/// The m equations in n = m + 1 unknowns, t last, of a problem in D dimensions.
+///
+/// A vector of unknowns has a spare entry n more, always zero, from which fixed coordinates are read.
+#[derive(Debug, Clone)]
+pub struct Equations<const D: usize> {
+    /// The number m of equations.
+    pub m: usize,
+    /// The entries of z for either point's coordinates, per axis and distance.
+    pub ends: [Vec<[u32; 2]>; D],
+    /// The coefficients of E up to t², per distance (the bend's too), and their radii.
+    pub e: [Vector; 3],
+    /// See `e`.
+    pub e_radius: [Vector; 3],
+    /// The distance that bends.
+    pub bend: Bend,
+    /// The pattern of a derivative of the Jacobian, and which value each of its entries has:
+    /// (axis, distance, sign), or the entry of t.
+    pattern: Sparse,
+    /// The pattern of the Jacobian with the normal for its last row.
+    bordered: Sparse,
+    sources: Vec<Source>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Source {
+    axis: u32,
+    edge: u32,
+    sign: f64,
+}
+
+impl<const D: usize> Equations<D> {
+    /// Lays out a homotopy.
+    pub fn new(homotopy: &Homotopy) -> Self {
+        assert_eq!(homotopy.dimension, D);
+        let m = homotopy.equations;
+        let entry = |point: usize, axis: usize| match homotopy.gauge.variable[point * D + axis] {
+            fixed if fixed == m => m + 1,
+            free => free,
+        };
+        let ends: [Vec<[u32; 2]>; D] = std::array::from_fn(|axis| {
+            let edges = homotopy.edges.iter();
+            edges.map(|edge| edge.points.map(|p| entry(p, axis) as u32)).collect()
+        });
+        let lengths = &homotopy.lengths;
+        let coefficient = |pick: &dyn Fn(usize) -> f64| {
+            let mut out = Vector::zeros(m);
+            (0..m).for_each(|e| out[e] = pick(e));
+            out
+        };
+        let bend = homotopy.bend;
+        let mut columns: Vec<Vec<(usize, Source)>> = vec![Vec::new(); m];
+        for axis in 0..D {
+            for (edge, &end) in ends[axis].iter().enumerate() {
+                for (end, sign) in end.into_iter().zip([1.0, -1.0]) {
+                    if (end as usize) < m {
+                        let source = Source { axis: axis as u32, edge: edge as u32, sign };
+                        columns[end as usize].push((edge, source));
+                    }
+                }
+            }
+        }
+        let rows = |column: &[(usize, Source)]| column.iter().map(|c| c.0).collect::<Vec<_>>();
+        let time: Vec<usize> = (0..m).collect();
+        let mut plain: Vec<Vec<usize>> = columns.iter().map(|c| rows(c)).collect();
+        plain.push(time);
+        let bordered: Vec<Vec<usize>> =
+            plain.iter().map(|column| column.iter().copied().chain([m]).collect()).collect();
+        Equations {
+            m,
+            ends,
+            e: std::array::from_fn(|k| coefficient(&|e| lengths[e].e[k])),
+            e_radius: std::array::from_fn(|k| coefficient(&|e| lengths[e].e_radius[k])),
+            bend: Bend { edge: bend, e: lengths[bend].e, e_radius: lengths[bend].e_radius },
+            pattern: Sparse::new(&plain),
+            bordered: Sparse::new(&bordered),
+            sources: columns.into_iter().flatten().map(|c| c.1).collect(),
+        }
+    }
+
+    /// The number n of unknowns.
+    pub fn n(&self) -> usize {
+        self.m + 1
+    }
+
+    /// A vector of n unknowns and the spare entry.
+    pub fn vector(&self) -> Vector {
+        Vector::zeros(self.m + 2)
+    }
+
+    /// A vector of one entry per distance.
+    pub fn per_edge(&self) -> Vector {
+        Vector::zeros(self.m)
+    }
+
+    /// p_i − p_j for the vector `z`, per axis and distance.
+    #[inline(always)]
+    pub fn differences(&self, z: &[f64], out: &mut [Vector; D]) {
+        for (ends, out) in self.ends.iter().zip(out) {
+            for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
+                *d = z[i as usize] - z[j as usize];
+            }
+        }
+    }
+
+    /// z_i + z_j likewise.
+    pub fn sums(&self, z: &[f64], out: &mut [Vector; D]) {
+        for (ends, out) in self.ends.iter().zip(out) {
+            for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
+                *d = z[i as usize] + z[j as usize];
+            }
+        }
+    }
+
+    /// The Taylor coefficients E⁽ʲ⁾(t)/j!: for all distances up to j = 2, for the bend to j = 4.
+    #[inline(always)]
+    pub fn expand_lengths(&self, t: f64, out: &mut Lengths) {
+        let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
+        let [t0, t1] = &mut out.terms;
+        let (t0, t1) = (t0.lanes_mut(), t1.lanes_mut());
+        for l in 0..e0.len() {
+            for k in 0..LANE {
+                let slope = e2[l][k] * t;
+                t0[l][k] = t.mul_add(e1[l][k] + slope, e0[l][k]);
+                t1[l][k] = 2.0f64.mul_add(slope, e1[l][k]);
+            }
+        }
+        let e = &self.bend.e;
+        let e4t = e[4] * t;
+        out.bend = [
+            e[0] + t * (e[1] + t * (e[2] + t * (e[3] + e4t))),
+            e[1] + t * (2.0 * e[2] + t * (3.0 * e[3] + 4.0 * e4t)),
+            e[2] + t * (3.0 * e[3] + 6.0 * e4t),
+            e[3] + 4.0 * e4t,
+            e[4],
+        ];
+        out.terms[0][self.bend.edge] = out.bend[0];
+        out.terms[1][self.bend.edge] = out.bend[1];
+    }
+
+    /// F from differences and lengths.
+    #[inline(always)]
+    pub fn residual(&self, d: &[Vector; D], lengths: &Lengths, out: &mut Vector) {
+        let d = d.each_ref().map(|d| d.lanes());
+        let t0 = lengths.terms[0].lanes();
+        let out = out.lanes_mut();
+        for l in 0..t0.len() {
+            for k in 0..LANE {
+                let squared: f64 = (0..D).map(|axis| d[axis][l][k] * d[axis][l][k]).sum();
+                out[l][k] = 0.5f64.mul_add(squared, -t0[l][k]);
+            }
+        }
+    }
+
+    /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
+    /// radii of the coefficients. No term goes through more than 20 roundings.
+    pub fn residual_error(&self, d: &[Vector; D], t: f64, out: &mut Vector) {
+        let t = t.abs();
+        for (e, out) in out[..self.m].iter_mut().enumerate() {
+            let squared: f64 = (0..D).map(|axis| d[axis][e].powi(2)).sum();
+            let value = |c: &[Vector; 3]| c[0][e].abs() + t * (c[1][e].abs() + t * c[2][e].abs());
+            let (mut size, mut radius) = (value(&self.e), value(&self.e_radius));
+            if e == self.bend.edge {
+                let (c, r) = (&self.bend.e, &self.bend.e_radius);
+                let cube = t * t * t;
+                size += cube * (c[3].abs() + t * c[4].abs());
+                radius += cube * (r[3] + t * r[4]);
+            }
+            *out = round_up(gamma(20) * (0.5 * squared + size) + radius, 24);
+        }
+    }
+
+    /// Writes the Jacobian at the given differences, and `normal` as its last row.
+    pub fn jacobian(&self, d: &[Vector; D], lengths: &Lengths, normal: &[f64], out: &mut Matrix) {
+        let (m, n) = (self.m, self.n());
+        out.clear();
+        let mut at = 0;
+        for column in 0..m {
+            let column_out = out.column_mut(column);
+            for source in &self.sources[at..at + self.pattern.entries_of(column)] {
+                column_out[source.edge as usize] = source.sign * d[source.axis as usize][source.edge as usize];
+            }
+            at += self.pattern.entries_of(column);
+            column_out[m] = normal[column];
+        }
+        let time = out.column_mut(m);
+        for (to, slope) in time[..m].iter_mut().zip(lengths.terms[1].iter()) {
+            *to = -slope;
+        }
+        time[m] = normal[n - 1];
+    }
+
+    /// The pattern of the Jacobian's derivatives along a curve, whose last row is zero.
+    pub fn pattern(&self) -> &Sparse {
+        &self.pattern
+    }
+
+    /// The pattern of the Jacobian with its last row.
+    pub fn bordered_pattern(&self) -> &Sparse {
+        &self.bordered
+    }
+
+    /// Values for [`Equations::pattern`]: the differences, and minus `time` in the column of t.
+    #[inline(always)]
+    pub fn pattern_values(&self, d: &[Vector; D], time: &[f64], out: &mut [f64]) {
+        let (entries, last) = out.split_at_mut(self.sources.len());
+        for (out, source) in entries.iter_mut().zip(&self.sources) {
+            *out = source.sign * d[source.axis as usize][source.edge as usize];
+        }
+        for (out, time) in last.iter_mut().zip(time) {
+            *out = -time;
+        }
+    }
+
+    /// Values for [`Equations::bordered_pattern`].
+    pub fn bordered_values(&self, d: &[Vector; D], lengths: &Lengths, normal: &[f64], out: &mut [f64]) {
+        let (mut at, mut from) = (0, 0);
+        for column in 0..self.m {
+            let count = self.pattern.entries_of(column);
+            for source in &self.sources[from..from + count] {
+                out[at] = source.sign * d[source.axis as usize][source.edge as usize];
+                at += 1;
+            }
+            from += count;
+            out[at] = normal[column];
+            at += 1;
+        }
+        for slope in lengths.terms[1].iter() {
+            out[at] = -slope;
+            at += 1;
+        }
+        out[at] = normal[self.m];
+    }
+}
+
+/// Taylor coefficients of the lengths' half squares at some t.
+#[derive(Debug, Clone)]
+pub struct Lengths {
+    /// E and E' of all distances.
+    pub terms: [Vector; 2],
+    /// All five coefficients of the bend.
+    pub bend: [f64; 5],
+}
+
+impl Lengths {
+    /// Room for `m` distances.
+    pub fn new(m: usize) -> Self {
+        Lengths { terms: [Vector::zeros(m), Vector::zeros(m)], bend: [0.0; 5] }
+    }
+}

@@ -1,0 +1,350 @@
+//! A point of the path with its preconditioner and the path's Taylor expansion there.
+
+use super::equations::{Equations, Lengths, MAX_DEGREE};
+use crate::linalg::{Inverter, LANE, Matrix, Vector};
+
+/// Degree of the Taylor polynomials.
+pub const ORDER: usize = 5;
+/// The largest power of s in F(ẑ(s)).
+pub const DEGREE: usize = MAX_DEGREE * ORDER;
+
+/// Why a predicted point could not be brought onto the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RefineError {
+    /// The Jacobian with the normal is singular in floating point.
+    Singular,
+    /// The corrections do not shrink as they should.
+    Diverged,
+}
+
+/// A point z₀ near the path, a unit normal c of the cross-section through it, a float matrix
+/// Y ≈ [J; c]⁻¹, and the polynomial ẑ(s) = z₀ + s z₁ + … with c·ẑ(s) = c·z₀ + s that follows the path.
+#[derive(Debug, Clone)]
+pub struct Local<const D: usize> {
+    /// Coefficients z₀ … of ẑ.
+    pub z: [Vector; ORDER + 1],
+    /// Their differences p_i − p_j, per axis and distance.
+    pub d: [[Vector; D]; ORDER + 1],
+    /// Taylor coefficients of the lengths at t₀.
+    pub lengths: Lengths,
+    /// The normal c.
+    pub normal: Vector,
+    /// The preconditioner.
+    pub y: Matrix,
+    /// Powers of t(s) − t₀: `powers[j - 1][k]` is the coefficient of sᵏ in its j-th power.
+    pub powers: [[f64; DEGREE + 1]; MAX_DEGREE],
+    /// The size of the first correction: how far the prediction was from the path.
+    pub first_correction: f64,
+    /// How much the corrections shrank at the first iteration, or zero if one was enough.
+    pub contraction: f64,
+    f: Vector,
+    delta: Vector,
+}
+
+impl<const D: usize> Local<D> {
+    /// Room for one point.
+    pub fn new(equations: &Equations<D>) -> Self {
+        let (m, n) = (equations.m, equations.n());
+        let vector = || equations.vector();
+        Local {
+            z: std::array::from_fn(|_| vector()),
+            d: std::array::from_fn(|_| std::array::from_fn(|_| equations.per_edge())),
+            lengths: Lengths::new(m),
+            normal: vector(),
+            y: Matrix::zeros(n, n),
+            powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
+            first_correction: 0.0,
+            contraction: 0.0,
+            f: vector(),
+            delta: vector(),
+        }
+    }
+
+    /// A placeholder without any room.
+    pub fn empty() -> Self {
+        let none = || Vector::zeros(0);
+        Local {
+            z: std::array::from_fn(|_| none()),
+            d: std::array::from_fn(|_| std::array::from_fn(|_| none())),
+            lengths: Lengths::new(0),
+            normal: none(),
+            y: Matrix::zeros(0, 0),
+            powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
+            first_correction: 0.0,
+            contraction: 0.0,
+            f: none(),
+            delta: none(),
+        }
+    }
+
+    /// Brings differences and lengths up to date with `z[0]`.
+    #[inline(always)]
+    fn look(&mut self, equations: &Equations<D>) {
+        equations.differences(&self.z[0], &mut self.d[0]);
+        equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
+    }
+
+    /// Makes the preconditioner at `z[0]`.
+    pub fn precondition(&mut self, equations: &Equations<D>, inverter: &mut Inverter) -> Result<(), RefineError> {
+        self.look(equations);
+        equations.jacobian(&self.d[0], &self.lengths, &self.normal, inverter.input());
+        inverter.invert_into(&mut self.y).map_err(|_| RefineError::Singular)
+    }
+
+    /// Corrects `z[0]` onto the path with the preconditioner made at the prediction, moving in
+    /// the cross-section normal to `normal` (both to be set by the caller).
+    pub fn refine(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Result<(), RefineError> {
+        let (m, n) = (equations.m, equations.n());
+        self.precondition(equations, inverter)?;
+        let mut last = f64::INFINITY;
+        self.contraction = 0.0;
+        for iteration in 0..max_iterations {
+            equations.residual(&self.d[0], &self.lengths, &mut self.f);
+            self.y.multiply(&self.f[..m], &mut self.delta);
+            let mut size = 0.0f64;
+            for (z, delta) in self.z[0][..n].iter_mut().zip(self.delta.iter()) {
+                *z -= delta;
+                // A NaN must not be lost in the comparison.
+                size = if size >= delta.abs() { size } else { delta.abs() };
+            }
+            self.look(equations);
+            match iteration {
+                0 => self.first_correction = size,
+                1 => self.contraction = size / last,
+                _ => {}
+            }
+            if size <= tolerance {
+                return Ok(());
+            }
+            // Quarter at least: a chord iteration that does worse started too far away.
+            if size.is_nan() || size > 0.25 * last {
+                return Err(RefineError::Diverged);
+            }
+            last = size;
+        }
+        Err(RefineError::Diverged)
+    }
+
+    /// Corrects `z[0]` in X at a fixed t, as far as floats go.
+    pub fn polish_at(&mut self, equations: &Equations<D>, inverter: &mut Inverter, t: f64) -> Option<()> {
+        let m = equations.m;
+        self.normal.fill(0.0);
+        self.normal[m] = 1.0;
+        self.z[0][m] = t;
+        self.refine(equations, inverter, 1e-6, 20).ok()?;
+        // Newton's method with the preconditioner of the refined point: the first correction
+        // tells how near it was, further ones stop shrinking at the limit of precision.
+        for _ in 0..3 {
+            self.z[0][m] = t;
+            let refined = self.refine(equations, inverter, 1e-13, 20);
+            if refined.is_err() && (self.first_correction.is_nan() || self.first_correction > 1e-5) {
+                return None;
+            }
+        }
+        self.z[0][m] = t;
+        self.look(equations);
+        Some(())
+    }
+
+    /// Computes the coefficients z₁ … by differentiating F(ẑ(s)) = 0: each solves the
+    /// same linear system, with what the earlier ones leave as its right-hand side.
+    pub fn expand(&mut self, equations: &Equations<D>) {
+        let (m, n) = (equations.m, equations.n());
+        for k in 1..=ORDER {
+            // The terms of order k without z_k; the last row asks c·z₁ = 1, c·z_k = 0.
+            self.set_power(k, 0.0);
+            let mut f = std::mem::take(&mut self.f);
+            self.coefficient(equations, k, 1, &mut f);
+            for lane in f.lanes_mut() {
+                *lane = lane.map(|x| -x);
+            }
+            f[m] = if k == 1 { 1.0 } else { 0.0 };
+            self.y.multiply(&f[..n], &mut self.delta);
+            self.z[k].copy_from_slice(&self.delta);
+            // One step of iterative refinement, as Y was made at the prediction.
+            equations.differences(&self.z[k], &mut self.d[k]);
+            self.subtract_jacobian_times(k, m, &mut f);
+            f[m] -= dot(&self.normal[..n], &self.z[k][..n]);
+            self.y.multiply(&f[..n], &mut self.delta);
+            for (z, delta) in self.z[k].lanes_mut().iter_mut().zip(self.delta.lanes()) {
+                for i in 0..LANE {
+                    z[i] += delta[i];
+                }
+            }
+            equations.differences(&self.z[k], &mut self.d[k]);
+            self.set_power(k, self.z[k][m]);
+            self.f = f;
+        }
+        for k in ORDER + 1..=DEGREE {
+            self.set_power(k, 0.0);
+        }
+    }
+
+    /// `f −= J z_k` in the first m rows.
+    #[inline(always)]
+    fn subtract_jacobian_times(&self, k: usize, m: usize, f: &mut Vector) {
+        let t = self.z[k][m];
+        let slope = self.lengths.terms[1].lanes();
+        let (d0, dk) = (self.d[0].each_ref().map(|d| d.lanes()), self.d[k].each_ref().map(|d| d.lanes()));
+        for (l, f) in f.lanes_mut().iter_mut().enumerate().take(slope.len()) {
+            for i in 0..LANE {
+                let product: f64 = (0..D).map(|axis| d0[axis][l][i] * dk[axis][l][i]).sum();
+                f[i] -= product - slope[l][i] * t;
+            }
+        }
+    }
+
+    /// Brings the powers of t(s) − t₀ up to date at order k, t_k being `t`.
+    fn set_power(&mut self, k: usize, t: f64) {
+        let [p1, p2, p3, p4] = &mut self.powers;
+        p1[k] = t;
+        let (mut s2, mut s3, mut s4) = (0.0, 0.0, 0.0);
+        for a in 1..k.min(ORDER + 1) {
+            s2 += p1[a] * p1[k - a];
+            s3 += p1[a] * p2[k - a];
+            s4 += p1[a] * p3[k - a];
+        }
+        (p2[k], p3[k], p4[k]) = (s2, s3, s4);
+    }
+
+    /// The coefficients of sᵏ in F(ẑ(s)), for all distances, from products of z_a with a ≥ `least`:
+    /// 0 for all of them, 1 for those without J z_k.
+    #[inline(always)]
+    pub fn coefficient(&self, equations: &Equations<D>, k: usize, least: usize, out: &mut Vector) {
+        let least = least.max(k.saturating_sub(ORDER));
+        let e2 = equations.e[2].lanes();
+        let (square, linear) = (self.powers[1][k], if least == 0 { self.powers[0][k] } else { 0.0 });
+        let slope = self.lengths.terms[1].lanes();
+        let lanes = e2.len();
+        let out_lanes = &mut out.lanes_mut()[..lanes];
+        for (l, out) in out_lanes.iter_mut().enumerate() {
+            for i in 0..LANE {
+                out[i] = -(e2[l][i].mul_add(square, slope[l][i] * linear));
+            }
+        }
+        for a in least..=k / 2 {
+            let b = k - a;
+            if b > ORDER {
+                continue;
+            }
+            let factor = if a == b { 0.5 } else { 1.0 };
+            for axis in 0..D {
+                let (x, y) = (self.d[a][axis].lanes(), self.d[b][axis].lanes());
+                for ((out, x), y) in out_lanes.iter_mut().zip(x).zip(y) {
+                    for i in 0..LANE {
+                        out[i] = (factor * x[i]).mul_add(y[i], out[i]);
+                    }
+                }
+            }
+        }
+        if k == 0 {
+            let t0 = self.lengths.terms[0].lanes();
+            for (out, t0) in out_lanes.iter_mut().zip(t0) {
+                for i in 0..LANE {
+                    out[i] -= t0[i];
+                }
+            }
+        } else {
+            out[equations.bend.edge] -= self.bend_excess(equations, k);
+        }
+    }
+
+    /// What the bend's E(t(s)) has at sᵏ beyond E' t_k and e₂ (t(s) − t₀)².
+    pub fn bend_excess(&self, equations: &Equations<D>, k: usize) -> f64 {
+        let c = &self.lengths.bend;
+        (c[2] - equations.bend.e[2]) * self.powers[1][k] + c[3] * self.powers[2][k] + c[4] * self.powers[3][k]
+    }
+
+    /// The coefficient of sᵏ, k ≥ 1, in the bend's E'(t(s)).
+    pub fn bend_slope(&self, k: usize) -> f64 {
+        let c = &self.lengths.bend;
+        2.0 * c[2] * self.powers[0][k] + 3.0 * c[3] * self.powers[1][k] + 4.0 * c[4] * self.powers[2][k]
+    }
+
+    /// Predicts the path's point and unit tangent at `s`, beyond the range of this expansion.
+    ///
+    /// The polynomial is raised by one degree so that it also goes through `previous`, the point
+    /// of the path where the expansion before was made: that costs no linear algebra.
+    pub fn predict(&self, s: f64, previous: Option<&[f64]>, z: &mut Vector, normal: &mut Vector) {
+        let n = self.y.rows();
+        self.at(s, z);
+        self.slope(s, normal);
+        if let Some(previous) = previous {
+            let back: f64 = (0..n).map(|i| self.normal[i] * (previous[i] - self.z[0][i])).sum();
+            let ratio = s / back;
+            let square = ratio * ratio;
+            let factor = square * square * square;
+            const { assert!(ORDER == 5, "the factor is the (ORDER + 1)-st power of the ratio") };
+            for i in 0..n {
+                let away = factor * (previous[i] - self.entry_at(i, back));
+                z[i] += away;
+                normal[i] += (ORDER + 1) as f64 / s * away;
+            }
+        }
+        let size = dot(&normal[..n], &normal[..n]).sqrt();
+        for x in &mut normal[..n] {
+            *x /= size;
+        }
+    }
+
+    /// A float estimate of the condition of [J; c], |·|_∞ of both factors.
+    pub fn condition(&self, equations: &Equations<D>) -> Option<f64> {
+        let n = equations.n();
+        let mut jacobian = Matrix::zeros(n, n);
+        equations.jacobian(&self.d[0], &self.lengths, &self.normal, &mut jacobian);
+        let ones = vec![1.0; n];
+        let mut sums = equations.vector();
+        let mut norm = |a: &Matrix| {
+            a.multiply_abs(&ones, &mut sums);
+            sums.iter().fold(0.0, |max: f64, &x| max.max(x))
+        };
+        let condition = norm(&jacobian) * norm(&self.y);
+        condition.is_finite().then_some(condition)
+    }
+
+    /// ẑ(s)_i.
+    #[inline(always)]
+    pub fn entry_at(&self, i: usize, s: f64) -> f64 {
+        (0..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, self.z[k][i]))
+    }
+
+    /// ẑ(s).
+    pub fn at(&self, s: f64, out: &mut Vector) {
+        let z = self.z.each_ref().map(|z| z.lanes());
+        for (l, out) in out.lanes_mut().iter_mut().enumerate() {
+            for i in 0..LANE {
+                out[i] = (0..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, z[k][l][i]));
+            }
+        }
+    }
+
+    /// ẑ'(s).
+    pub fn slope(&self, s: f64, out: &mut Vector) {
+        let z = self.z.each_ref().map(|z| z.lanes());
+        for (l, out) in out.lanes_mut().iter_mut().enumerate() {
+            for i in 0..LANE {
+                out[i] = (1..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, k as f64 * z[k][l][i]));
+            }
+        }
+    }
+}
+
+/// a·b, in four interleaved sums.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a4, a1) = a.as_chunks::<LANE>();
+    let (b4, b1) = b.as_chunks::<LANE>();
+    let mut sums = [0.0; LANE];
+    for (a, b) in a4.iter().zip(b4) {
+        for i in 0..LANE {
+            sums[i] = a[i].mul_add(b[i], sums[i]);
+        }
+    }
+    let rest: f64 = a1.iter().zip(b1).map(|(x, y)| x * y).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}

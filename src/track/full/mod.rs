@@ -1,0 +1,12 @@
+//! The path in all free coordinates (RR 8705, section 2.2: "tracking S").
+//!
+//! A point of the path is a vector z = (X, t) of n = m + 1 numbers. Around one, [`Local`] holds
+//! what both trackers need: a preconditioner, and the Taylor expansion of the path.
+
+mod equations;
+mod local;
+mod start;
+
+pub use equations::{Equations, Lengths, MAX_DEGREE};
+pub use local::{DEGREE, Local, ORDER, RefineError, dot};
+pub use start::{first_normal, path_length};

@@ -1,0 +1,62 @@
+//! Setting out from the sketch, and measuring what was travelled.
+
+use super::{Equations, Local, dot};
+use crate::linalg::{Inverter, Singular, Vector};
+
+/// Finds the path's unit tangent at `local.z[0]` and sets it as normal: with t rising, or falling
+/// where `reverse` says so. Where t is stationary, the other way is the opposite direction still.
+///
+/// The tangent is the solution of [J; e_k] x = e_n, first with t for the k-th entry, and where
+/// that is singular, as at a fold of t, with each of the coordinates.
+pub fn first_normal<const D: usize>(
+    equations: &Equations<D>,
+    inverter: &mut Inverter,
+    local: &mut Local<D>,
+    reverse: bool,
+) -> Result<(), Singular> {
+    let (m, n) = (equations.m, equations.n());
+    // An inverse with larger entries than this comes from rounding, not from the problem.
+    const LARGEST: f64 = 1e12;
+    for k in (0..n).rev() {
+        local.normal.fill(0.0);
+        local.normal[k] = 1.0;
+        if local.precondition(equations, inverter).is_err() {
+            continue;
+        }
+        let tangent = local.y.column(m);
+        let size = dot(tangent, tangent).sqrt();
+        if !(size.is_finite() && size < LARGEST) {
+            continue;
+        }
+        let sign = if (tangent[m] < 0.0) == reverse {
+            1.0
+        } else {
+            -1.0
+        };
+        for (c, x) in local.normal[..n].iter_mut().zip(local.y.column(m)) {
+            *c = sign * x / size;
+        }
+        return Ok(());
+    }
+    Err(Singular)
+}
+
+/// The length of ẑ between two parameters, the coordinates counted in units of `unit`: Gauss's
+/// rule with two points.
+pub fn path_length<const D: usize>(
+    local: &Local<D>,
+    from: f64,
+    to: f64,
+    unit: f64,
+    scratch: &mut Vector,
+) -> f64 {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let t = scratch.len() - 2;
+    let mut speed = |s: f64| {
+        local.slope(s, scratch);
+        let x = dot(&scratch[..t], &scratch[..t]);
+        (unit * unit * x + scratch[t] * scratch[t]).sqrt()
+    };
+    let offset = half / 3f64.sqrt();
+    half * (speed(middle - offset) + speed(middle + offset))
+}

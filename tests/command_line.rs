@@ -1,0 +1,131 @@
+//! The program as its users meet it: what it prints and writes, and where it ends.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::fs;
+use std::process::{Command as Process, Stdio};
+use std::time::Duration;
+
+const OCTAHEDRON: &str = "problems/octahedron.toml";
+
+fn krawl() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_krawl"))
+}
+
+#[test]
+#[ignore = "needs the trackers"]
+fn prints_a_table_and_writes_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.json");
+    let run = krawl()
+        .args(["solve", OCTAHEDRON, "--json"])
+        .arg(&file)
+        .assert()
+        .code(0)
+        .get_output()
+        .clone();
+    let table = String::from_utf8(run.stdout).unwrap();
+    assert!(table.starts_with("octahedron: Closed, proved: the 4 solutions"));
+    assert!(run.stderr.is_empty(), "no progress where nobody watches");
+    let json: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    assert_eq!(json["status"], "closed");
+    assert_eq!(json["solutions"].as_array().unwrap().len(), 4);
+    assert_eq!(
+        json["solutions"][0]["points"]["p1"][2]
+            .as_array()
+            .unwrap()
+            .len(),
+        2
+    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+#[ignore = "needs the trackers"]
+fn json_on_standard_output_is_all_there_is() {
+    let arguments = [
+        "solve", OCTAHEDRON, "--mode", "float", "--space", "full", "--json", "-",
+    ];
+    let output = krawl()
+        .args(arguments)
+        .assert()
+        .code(0)
+        .get_output()
+        .clone();
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(
+        (&json["mode"], &json["space"]),
+        (&"float".into(), &"full".into())
+    );
+    let x = &json["solutions"][0]["points"]["p4"][0];
+    assert_eq!(x[0], x[1]);
+    assert!(output.stderr.is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+#[ignore = "needs the trackers"]
+fn an_interrupt_ends_the_run_cleanly() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.json");
+    // Steps so small that the run outlasts the test.
+    let mut run = Process::new(env!("CARGO_BIN_EXE_krawl"))
+        .args([
+            "solve",
+            "problems/icosahedron.toml",
+            "--max-step",
+            "1e-7",
+            "--json",
+        ])
+        .arg(&file)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(700));
+    let sent = Process::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(sent.success());
+    assert_eq!(run.wait().unwrap().code(), Some(1));
+    let json: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    assert_eq!(json["status"], "stopped");
+    assert!(json["reason"].is_string());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_who_leaves_early_does_no_harm() {
+    let mut run = Process::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(["check", OCTAHEDRON])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(run.stdout.take());
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_said() {
+    let run = Process::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(["check", OCTAHEDRON])
+        .stdout(
+            fs::OpenOptions::new()
+                .write(true)
+                .open("/dev/full")
+                .unwrap(),
+        )
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(2));
+    assert!(
+        String::from_utf8(run.stderr)
+            .unwrap()
+            .contains("cannot be written")
+    );
+}
