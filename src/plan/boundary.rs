@@ -37,3 +37,34 @@ pub fn gamma_three(p: V3, c1: V3, c2: V3, c3: V3) -> f64 {
     let radius = norm(across) / norm(line);
     (height / radius.max(r3)).min(volume / (r3 * norm(across)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vanishes_where_intersections_merge() {
+        let (c1, c2) = ([0.0, 0.0, 0.0], [2.0, 0.0, 0.0]);
+        assert_eq!(gamma_two([1.0, 0.0, 0.0], c1, c2), 0.0);
+        assert_eq!(gamma_two([5.0, 0.0, 0.0], c1, c2), 0.0);
+        assert!((gamma_two([0.0, 2.0, 0.0], c1, c2) - 0.5f64.sqrt()).abs() < 1e-15);
+        // A point of the plane of the centres, and the same lifted by a tenth of the radii.
+        let c3 = [1.0, 2.0, 0.0];
+        assert_eq!(gamma_three([1.0, 1.0, 0.0], c1, c2, c3), 0.0);
+        let gamma = gamma_three([1.0, 1.0, 0.1], c1, c2, c3);
+        assert!((gamma - 0.1 / 1.01f64.sqrt()).abs() < 1e-15, "{gamma}");
+    }
+
+    #[test]
+    fn sees_a_centre_on_the_axis() {
+        // Centres almost on a line, the point far from it: the paper's γ would be about 1.
+        let gamma = gamma_three(
+            [0.0, 0.0, 1.0],
+            [-1.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.5, 1e-3, 0.0],
+        );
+        assert!(gamma < 1e-2);
+        assert!(gamma_two([0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]) < 2e-3);
+    }
+}

@@ -239,3 +239,63 @@ impl Graph {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::testing::{rigid, shipped};
+    use proptest::prelude::*;
+
+    fn check(plan: &Plan, homotopy: &Homotopy) {
+        assert_eq!(plan.instructions.len(), homotopy.points - 1);
+        assert_eq!(plan.driving(), plan.removed().len());
+        let mut placed = vec![homotopy.gauge.reference[0]];
+        let mut used = HashSet::new();
+        for instruction in &plan.instructions {
+            for arm in instruction.arms() {
+                if let Arm::Edge { centre, edge } = *arm {
+                    assert!(placed.contains(&centre) && used.insert(edge));
+                    let mut ends = homotopy.edges[edge].points;
+                    ends.sort_unstable();
+                    let mut wanted = [centre, instruction.point];
+                    wanted.sort_unstable();
+                    assert_eq!(ends, wanted);
+                }
+            }
+            // Definition 3, (i), where the reference is joined.
+            assert!(!instruction.arms[0].is_driving());
+            assert!(!placed.contains(&instruction.point));
+            placed.push(instruction.point);
+        }
+    }
+
+    #[test]
+    fn the_shipped_problems_need_few_driving_parameters() {
+        for (name, driving) in [
+            ("octahedron", 1),
+            ("disulfide", 1),
+            ("dodecagon", 2),
+            ("icosahedron", 3),
+            ("icosahedron-c1", 3),
+        ] {
+            let homotopy = Homotopy::new(&shipped(name)).unwrap();
+            let plan = Plan::derive(&homotopy);
+            assert_eq!(plan.driving(), driving, "{name}");
+            check(&plan, &homotopy);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_rigid_graph_of_the_plane_has_a_plan(problem in rigid(2, 3..30)) {
+            let homotopy = Homotopy::new(&problem).unwrap();
+            check(&Plan::derive(&homotopy), &homotopy);
+        }
+
+        #[test]
+        fn any_such_graph_of_space_has_a_plan(problem in rigid(3, 4..20)) {
+            let homotopy = Homotopy::new(&problem).unwrap();
+            check(&Plan::derive(&homotopy), &homotopy);
+        }
+    }
+}

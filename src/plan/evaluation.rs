@@ -491,3 +491,138 @@ fn side_of_line<const D: usize>(p: [f64; D], c1: [f64; D], c2: [f64; D]) -> f64 
     let (u, e) = (sub(p, c1), sub(c2, c1));
     e[0] * u[1] - e[1] * u[0]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::testing::{rigid, shipped};
+    use crate::plan::{Differences, Lookout};
+    use crate::problem::Problem;
+    use proptest::prelude::*;
+
+    /// A plan that is far enough from boundary configurations in the sketch, evaluated there.
+    fn at_sketch<const D: usize>(
+        problem: &Problem,
+        alpha: f64,
+    ) -> (Homotopy, Plan, Evaluation<D>, Vec<f64>) {
+        let homotopy = Homotopy::new(problem).unwrap();
+        let mut plan = Plan::derive(&homotopy);
+        let lengths: Vec<f64> = homotopy.lengths.iter().map(|l| l.value(0.0)).collect();
+        let figure = &homotopy.sketch;
+        plan.change(&Lookout {
+            figure,
+            ahead: None,
+            lengths: &lengths,
+            alpha,
+            restore: 1.0,
+        });
+        let (evaluation, q) = evaluated(&homotopy, &plan, alpha);
+        (homotopy, plan, evaluation, q)
+    }
+
+    fn evaluated<const D: usize>(
+        homotopy: &Homotopy,
+        plan: &Plan,
+        alpha: f64,
+    ) -> (Evaluation<D>, Vec<f64>) {
+        let mut evaluation = Evaluation::<D>::new(homotopy, plan, alpha);
+        evaluation.recover_branch(&homotopy.sketch);
+        let mut q = vec![0.0; evaluation.driving() + 1];
+        evaluation.parameters(&homotopy.sketch, 0.0, &mut q);
+        assert!(evaluation.evaluate(&q));
+        (evaluation, q)
+    }
+
+    fn is_sketch<const D: usize>(homotopy: &Homotopy, evaluation: &Evaluation<D>) -> bool {
+        let off = homotopy
+            .sketch
+            .iter()
+            .zip(evaluation.figure())
+            .fold(0.0f64, |off, (a, b)| off.max((a - b).abs()));
+        off < 1e-10 && evaluation.residual().iter().all(|r| r.abs() < 1e-10)
+    }
+
+    fn check<const D: usize>(problem: &Problem) {
+        let (homotopy, mut plan, mut evaluation, q) = at_sketch::<D>(problem, 0.3);
+        assert!(
+            is_sketch(&homotopy, &evaluation),
+            "the branch through the sketch gives the sketch"
+        );
+        assert!(evaluation.gamma() > 0.1 && !evaluation.is_near_boundary());
+
+        // Exact derivatives against differences.
+        evaluation.differentiate();
+        let mut other = evaluation.clone();
+        assert!(other.difference(&q, 1e-7, &mut Differences::default()));
+        // Differences are off by their step times second derivatives, which grow along the plan
+        // like squares of first derivatives.
+        let agree = |exact: &[Lanes], other: &[Lanes]| {
+            let size = exact
+                .iter()
+                .flat_map(|x| x.0)
+                .fold(1.0, |size: f64, x| size.max(x.abs()));
+            let mut both = exact
+                .iter()
+                .zip(other)
+                .flat_map(|(a, b)| a.0.into_iter().zip(b.0));
+            both.all(|(a, b)| (a - b).abs() < 1e-6 * size * size)
+        };
+        assert!(agree(evaluation.jacobian(), other.jacobian()));
+        let flat = |e: &Evaluation<D>| e.sensitivity().as_flattened().to_vec();
+        assert!(agree(&flat(&evaluation), &flat(&other)));
+
+        // Replacing every instruction there is and restoring all of them keeps the figure.
+        let original = plan.clone();
+        let lengths: Vec<f64> = homotopy.lengths.iter().map(|l| l.value(0.0)).collect();
+        let at = Lookout {
+            figure: &homotopy.sketch,
+            ahead: None,
+            lengths: &lengths,
+            alpha: 0.7,
+            restore: 1.0,
+        };
+        plan.change(&at);
+        let (replaced, _) = evaluated::<D>(&homotopy, &plan, 0.1);
+        assert!(replaced.gamma() >= 0.5f64.sqrt() - 1e-9 && is_sketch(&homotopy, &replaced));
+        assert!(plan.driving() >= original.driving() && plan.driving() == plan.removed().len());
+        let restoring = Lookout {
+            alpha: 0.0,
+            restore: 0.0,
+            ..at
+        };
+        plan.change(&restoring);
+        assert!(plan.is_original());
+        assert_eq!(plan.driving(), Plan::derive(&homotopy).driving());
+        if homotopy.dimension == 3 {
+            let (restored, _) = evaluated::<D>(&homotopy, &plan, 0.1);
+            assert!(is_sketch(&homotopy, &restored));
+        }
+    }
+
+    #[test]
+    fn figures_and_derivatives_of_the_shipped_problems() {
+        check::<3>(&shipped("octahedron"));
+        check::<3>(&shipped("disulfide"));
+        check::<3>(&shipped("icosahedron"));
+        check::<2>(&shipped("dodecagon"));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn figures_and_derivatives_in_the_plane(problem in rigid(2, 4..12)) {
+            at_sketch::<2>(&problem, 0.1);
+            let (homotopy, _, evaluation, _) = at_sketch::<2>(&problem, 0.1);
+            prop_assert!(is_sketch(&homotopy, &evaluation));
+            prop_assert!(evaluation.gamma() > 0.1 && !evaluation.is_near_boundary());
+        }
+
+        #[test]
+        fn figures_and_derivatives_in_space(problem in rigid(3, 5..12)) {
+            let (homotopy, _, evaluation, _) = at_sketch::<3>(&problem, 0.1);
+            prop_assert!(is_sketch(&homotopy, &evaluation));
+            prop_assert!(evaluation.gamma() > 0.1 && !evaluation.is_near_boundary());
+        }
+    }
+}

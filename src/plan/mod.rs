@@ -23,6 +23,8 @@ mod evaluation;
 mod instruction;
 mod lanes;
 mod shift;
+#[cfg(test)]
+pub(crate) mod testing;
 mod vector;
 
 pub use change::Lookout;

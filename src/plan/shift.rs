@@ -52,3 +52,37 @@ pub(super) fn shift_from_circle(p: V3, c1: V3, c2: V3) -> V3 {
         _ => add_scaled(p, norm(u1), perpendicular(u1)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::boundary::{gamma_three, gamma_two};
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector(flat: bool) -> impl Strategy<Value = V3> {
+        prop::array::uniform3(-1.0f64..1.0)
+            .prop_map(move |v| if flat { [v[0], v[1], 0.0] } else { v })
+    }
+
+    proptest! {
+        // Proposition 2, and its equivalents of section 6.
+        #[test]
+        fn shifting_leads_away_from_the_boundary(p in vector(true), c1 in vector(true), s in -3.0f64..3.0, off in -0.05f64..0.05) {
+            prop_assume!(norm(sub(p, c1)) > 1e-3 && s.abs() > 1e-2);
+            let u = sub(p, c1);
+            let c2 = add_scaled(add_scaled(p, s, u), off, [-u[1], u[0], 0.0]);
+            prop_assert!(gamma_two(p, c1, shift_in_plane(p, c1, c2)) > 0.7);
+            prop_assert!(gamma_two(p, c1, shift_in_plane(p, c1, add_scaled(p, s, u))) > 0.7);
+        }
+
+        #[test]
+        fn shifting_leads_away_in_space(p in vector(false), c1 in vector(false), c2 in vector(false), c3 in vector(false)) {
+            prop_assume!(norm(sub(p, c1)) > 1e-3 && norm(sub(p, c3)) > 1e-3);
+            let first = shift_in_space(p, c1, c3);
+            prop_assert!(gamma_two(p, c1, first) > 0.7);
+            prop_assert!(gamma_three(p, c1, first, shift_from_circle(p, c1, first)) > 0.7);
+            prop_assume!(gamma_two(p, c1, c2) > 0.1);
+            prop_assert!(gamma_three(p, c1, c2, shift_from_circle(p, c1, c2)) > 0.7);
+        }
+    }
+}

@@ -13,11 +13,11 @@ mod events;
 mod paper;
 mod station;
 mod steps;
+#[cfg(test)]
+mod tests;
 
 use super::congruence_classes;
-use super::{
-    Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, Status,
-};
+use super::{Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, Status};
 use crate::interval::point;
 use crate::plan::{Evaluation, Lanes, Lookout, Plan};
 use crate::system::Homotopy;
@@ -36,7 +36,11 @@ const CONGRUENT: f64 = 1e-8;
 /// For [`Preset::Paper`] the homotopy should be in the problem's own unit
 /// ([`Homotopy::with_unit`] with 1). What comes out is an observation: nothing is proved. A run
 /// that cannot go on ends [`Status::Stopped`], with what it has found.
-pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
     debug_assert_eq!(homotopy.dimension, D);
     Tracker::<D>::new(homotopy, options).run(control)
 }

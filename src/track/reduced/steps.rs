@@ -8,12 +8,12 @@ use crate::track::{Control, Status};
 /// The first step from the sketch, while there is no history.
 const FIRST_STEP: f64 = 0.01;
 
-/// A station may be off its prediction by this part of the step. (With this and [`TURN`] both six
+/// A station may be off its prediction by this part of the step. (With this and [`TURN`] both four
 /// times larger, the results on the shipped problems are the same: there is room.)
-const ERROR: f64 = 0.02;
+const ERROR: f64 = 0.05;
 
 /// The tangent may turn by this angle in a step, in radians.
-const TURN: f64 = 0.2;
+const TURN: f64 = 0.3;
 
 /// Changes of plan in one step because of what is ahead, at most.
 const LOOKS_AHEAD: usize = 3;
