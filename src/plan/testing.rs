@@ -9,8 +9,6 @@ pub(crate) fn shipped(name: &str) -> Problem {
     Problem::read(file).unwrap()
 }
 
-pub(crate) const SHIPPED: [&str; 4] = ["octahedron", "disulfide", "dodecagon", "icosahedron-c1"];
-
 /// Random rigid problems of the plane (`dimension` 2) or of space, by Henneberg steps: each point
 /// is joined to as many earlier ones as there are dimensions, or (second kind, in the plane and in
 /// space) is put on an edge, which is removed, and joined to its ends and enough other points.
@@ -44,8 +42,7 @@ pub(crate) fn rigid(
                 }
             };
             let mut edges: Vec<[usize; 2]> = Vec::new();
-            for k in 1..n {
-                let (.., choices, split) = raw[k];
+            for (k, &(.., choices, split)) in raw.iter().enumerate().skip(1) {
                 if k <= dimension {
                     edges.extend((0..k.min(dimension)).map(|j| [j, k]));
                     continue;
