@@ -28,6 +28,9 @@ use std::time::Instant;
 /// Steps below this end the run.
 const SMALLEST_STEP: f64 = 1e-10;
 
+/// Why a run ends where even the smallest step leaves open what lies within it.
+const UNCLEAR: &str = "a solution or the sketch cannot be isolated, as if it were singular,";
+
 /// Figures are taken for congruent if their distances agree to this, relative to their size.
 const CONGRUENT: f64 = 1e-8;
 

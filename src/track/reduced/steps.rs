@@ -2,7 +2,7 @@
 
 use super::events::Events;
 use super::station::{Piece, distance};
-use super::{SMALLEST_STEP, Tracker};
+use super::{SMALLEST_STEP, Tracker, UNCLEAR};
 use crate::track::{Control, Status};
 
 /// The first step from the sketch, while there is no history.
@@ -91,7 +91,9 @@ impl<const D: usize> Tracker<'_, D> {
                 self.advance(length, s);
                 return Err(Status::Closed);
             }
-            Events::Unclear => return self.reject(pace),
+            Events::Unclear => {
+                return self.reject(pace).map_err(|_| self.stopped(UNCLEAR));
+            }
         }
         if near || self.steps.is_multiple_of(RESTORE_EVERY) && self.plan_is_restorable(RESTORE) {
             self.change_plan(false, RESTORE)?;
