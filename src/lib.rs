@@ -3,6 +3,7 @@
 
 pub mod interval;
 pub mod linalg;
+pub mod plan;
 pub mod problem;
 pub mod report;
 pub mod system;

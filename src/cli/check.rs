@@ -1,7 +1,9 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, output};
+use krawl::plan::Plan;
 use krawl::problem::{Problem, Target};
+use krawl::system::Homotopy;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -33,8 +35,11 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 /// The construction plan with its driving parameters and removed constraints, as lines of text.
-fn construction_plan(_problem: &Problem) -> Option<String> {
-    None
+fn construction_plan(problem: &Problem) -> Option<String> {
+    let homotopy = Homotopy::new(problem).ok()?;
+    let plan = Plan::derive(&homotopy).describe(problem);
+    let indented: String = plan.lines().map(|line| format!("  {line}\n")).collect();
+    Some(format!("construction plan\n{indented}"))
 }
 
 fn describe(problem: &Problem) -> String {

@@ -8,6 +8,7 @@ pub mod float;
 pub mod full;
 mod options;
 mod outcome;
+pub mod reduced;
 
 pub use congruence::congruence_classes;
 pub use control::{Control, Progress};
@@ -60,6 +61,6 @@ fn solve_in<const D: usize>(
         (Mode::Certified, ..) => Ok(certified::track::<D>(homotopy, options, control)),
         (Mode::Float, Space::Full, Preset::Default) => Ok(float::track::<D>(homotopy, options, control)),
         (Mode::Float, Space::Full, Preset::Paper) => Ok(float::track_paper::<D>(homotopy, options, control)),
-        (Mode::Float, Space::Reduced, _) => Err(StartError::Unsupported("not built yet".into())),
+        (Mode::Float, Space::Reduced, _) => Ok(reduced::track::<D>(homotopy, options, control)),
     }
 }
