@@ -31,6 +31,8 @@ pub struct Inverter {
     free: Vector,
     /// How often pivots were chosen.
     choices: usize,
+    /// The sign of the last determinant.
+    negative: bool,
 }
 
 impl Inverter {
@@ -45,12 +47,18 @@ impl Inverter {
             multipliers: Vector::zeros(n),
             free: Vector::zeros(n),
             choices: 0,
+            negative: false,
         }
     }
 
     /// How often an order of pivots was chosen so far.
     pub fn choices(&self) -> usize {
         self.choices
+    }
+
+    /// Whether the determinant of the matrix inverted last is negative, as floats see it.
+    pub fn is_negative(&self) -> bool {
+        self.negative
     }
 
     /// Inverts the matrix with the given values into `out`.
@@ -71,7 +79,8 @@ impl Inverter {
         }
         for (column, &row) in self.pivots.row_of.iter().enumerate() {
             // Column k of the result stands for the equation that was its pivot.
-            out.column_mut(row).copy_from_slice(self.work.column(column));
+            out.column_mut(row)
+                .copy_from_slice(self.work.column(column));
         }
         Ok(())
     }
@@ -98,10 +107,17 @@ impl Inverter {
         }
         self.free.fill(1.0);
         let lanes = self.work.lanes();
-        with_block!(
+        self.negative = with_block!(
             lanes,
-            exchange(lanes, self.work.data_mut(), &self.pivots, &mut self.multipliers, &mut self.free)
-        )
+            exchange(
+                lanes,
+                self.work.data_mut(),
+                &self.pivots,
+                &mut self.multipliers,
+                &mut self.free
+            )
+        )?;
+        Ok(())
     }
 }
 
@@ -111,7 +127,8 @@ fn exchange<const L: usize>(
     pivots: &Pivots,
     multipliers: &mut Vector,
     free: &mut Vector,
-) -> Result<(), Singular> {
+) -> Result<bool, Singular> {
+    let mut negative = pivots.odd;
     for (step, &k) in pivots.order.iter().enumerate() {
         let touched = &pivots.touched[pivots.starts[step]..pivots.starts[step + 1]];
         let (lane, at) = (k / LANE, k % LANE);
@@ -123,6 +140,7 @@ fn exchange<const L: usize>(
         if !strong {
             return Err(Singular);
         }
+        negative ^= pivot < 0.0;
         free[k] = 0.0;
         let inverse = 1.0 / pivot;
         column[lane][at] = 0.0;
@@ -134,11 +152,15 @@ fn exchange<const L: usize>(
         }
         column[lane][at] = inverse;
         for offset in (0..lanes).step_by(L) {
-            let m: [Lane; L] = multipliers.lanes()[offset..offset + L].try_into().expect("L lanes");
+            let m: [Lane; L] = multipliers.lanes()[offset..offset + L]
+                .try_into()
+                .expect("L lanes");
             for &j in touched {
                 let column = &mut data[j as usize * lanes..(j as usize + 1) * lanes];
                 let c = column[lane][at];
-                let block: &mut [Lane; L] = (&mut column[offset..offset + L]).try_into().expect("L lanes");
+                let block: &mut [Lane; L] = (&mut column[offset..offset + L])
+                    .try_into()
+                    .expect("L lanes");
                 for l in 0..L {
                     for i in 0..LANE {
                         block[l][i] = m[l][i].mul_add(c, block[l][i]);
@@ -151,7 +173,7 @@ fn exchange<const L: usize>(
             data[j as usize * lanes + lane][at] *= -inverse;
         }
     }
-    Ok(())
+    Ok(negative)
 }
 
 /// The largest entry among the free rows.
@@ -164,7 +186,8 @@ fn largest(column: &[Lane], free: &[Lane]) -> f64 {
             best[i] = if size <= best[i] { best[i] } else { size };
         }
     }
-    best.into_iter().fold(0.0f64, |max, x| if x <= max { max } else { x })
+    best.into_iter()
+        .fold(0.0f64, |max, x| if x <= max { max } else { x })
 }
 
 #[cfg(test)]
@@ -174,8 +197,13 @@ mod tests {
     #[test]
     fn inverse_times_matrix_is_the_identity() {
         for n in [1usize, 2, 4, 9, 19, 31, 32, 33, 50, 70] {
-            let columns: Vec<Vec<usize>> =
-                (0..n).map(|j| (0..n).filter(|&i| n < 3 || (i * i + 3 * j) % 4 < 2 || i == (j + 1) % n).collect()).collect();
+            let columns: Vec<Vec<usize>> = (0..n)
+                .map(|j| {
+                    (0..n)
+                        .filter(|&i| n < 3 || (i * i + 3 * j) % 4 < 2 || i == (j + 1) % n)
+                        .collect()
+                })
+                .collect();
             let pattern = Sparse::new(&columns);
             let mut inverter = Inverter::new(&pattern);
             // The second matrix is inverted with the pivots of the first; the third needs others.
@@ -184,15 +212,19 @@ mod tests {
                 let mut values = Vec::new();
                 for (j, column) in columns.iter().enumerate() {
                     for &i in column {
-                        let value = ((i * 29 + j * 13) as f64 * 1.3 + seed + 0.5).sin() + if i == (j + 1) % n { 2.0 } else { 0.0 };
+                        let value = ((i * 29 + j * 13) as f64 * 1.3 + seed + 0.5).sin()
+                            + if i == (j + 1) % n { 2.0 } else { 0.0 };
                         dense[(i, j)] = value;
                         values.push(value);
                     }
                 }
                 let mut y = Matrix::zeros(n, n);
                 inverter.invert(&values, &mut y).unwrap();
+                assert_eq!(inverter.is_negative(), dense.determinant() < 0.0);
                 let y = nalgebra::DMatrix::from_fn(n, n, |i, j| y.get(i, j));
-                let error = (nalgebra::DMatrix::identity(n, n) - &y * &dense).abs().max();
+                let error = (nalgebra::DMatrix::identity(n, n) - &y * &dense)
+                    .abs()
+                    .max();
                 assert!(error < 1e-9 * y.abs().max().max(1.0), "order {n}: {error}");
             }
         }
@@ -203,8 +235,14 @@ mod tests {
         let pattern = Sparse::new(&[vec![0, 1], vec![0, 1]]);
         let mut inverter = Inverter::new(&pattern);
         let mut y = Matrix::zeros(2, 2);
-        assert_eq!(inverter.invert(&[1.0, 2.0, 2.0, 4.0], &mut y), Err(Singular));
-        assert_eq!(inverter.invert(&[f64::NAN, 2.0, 2.0, 4.0], &mut y), Err(Singular));
+        assert_eq!(
+            inverter.invert(&[1.0, 2.0, 2.0, 4.0], &mut y),
+            Err(Singular)
+        );
+        assert_eq!(
+            inverter.invert(&[f64::NAN, 2.0, 2.0, 4.0], &mut y),
+            Err(Singular)
+        );
         assert_eq!(inverter.invert(&[1.0, 2.0, 2.0, 3.0], &mut y), Ok(()));
         assert_eq!(inverter.choices(), 3);
     }

@@ -13,7 +13,11 @@ pub(super) type Lane = [f64; LANE];
 /// Lanes of a column: as many as needed, beyond one block whole blocks.
 fn lanes_for(len: usize) -> usize {
     let lanes = len.div_ceil(LANE);
-    if lanes <= BLOCK { lanes } else { lanes.next_multiple_of(BLOCK) }
+    if lanes <= BLOCK {
+        lanes
+    } else {
+        lanes.next_multiple_of(BLOCK)
+    }
 }
 
 /// A vector padded with zeros to whole lanes.
@@ -26,7 +30,10 @@ pub struct Vector {
 impl Vector {
     /// A vector of `len` zeros.
     pub fn zeros(len: usize) -> Self {
-        Vector { len, lanes: vec![[0.0; LANE]; lanes_for(len)] }
+        Vector {
+            len,
+            lanes: vec![[0.0; LANE]; lanes_for(len)],
+        }
     }
 
     /// The entries in lanes, padding included.
@@ -84,7 +91,12 @@ impl Matrix {
     /// A matrix of zeros.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         let lanes = lanes_for(rows);
-        Matrix { rows, columns, lanes, data: vec![[0.0; LANE]; lanes * columns] }
+        Matrix {
+            rows,
+            columns,
+            lanes,
+            data: vec![[0.0; LANE]; lanes * columns],
+        }
     }
 
     /// The number of rows.
@@ -135,24 +147,36 @@ impl Matrix {
 
     /// `y = A x`, each entry a fused sum of `x.len()` products, x being no longer than a row.
     pub fn multiply(&self, x: &[f64], y: &mut Vector) {
-        with_block!(self.lanes, combine(self.lanes, &self.data, x, &mut y.lanes, |a| a));
+        with_block!(
+            self.lanes,
+            combine(self.lanes, &self.data, x, &mut y.lanes, |a| a)
+        );
     }
 
     /// `y = |A| x`, the same with the entries' absolute values.
     pub fn multiply_abs(&self, x: &[f64], y: &mut Vector) {
-        with_block!(self.lanes, combine(self.lanes, &self.data, x, &mut y.lanes, f64::abs));
+        with_block!(
+            self.lanes,
+            combine(self.lanes, &self.data, x, &mut y.lanes, f64::abs)
+        );
     }
 
     /// `out = A S`. Each entry is a fused sum over the entries of a column of S.
     pub fn multiply_sparse(&self, s: &Sparse, values: &[f64], out: &mut Matrix) {
         debug_assert_eq!((self.lanes, s.columns()), (out.lanes, out.columns));
-        with_block!(self.lanes, sparse(self.lanes, &self.data, s, values, &mut out.data));
+        with_block!(
+            self.lanes,
+            sparse(self.lanes, &self.data, s, values, &mut out.data)
+        );
     }
 
     /// `y = |I − A S| u`. Each entry of the difference is a fused sum over the entries of a
     /// column of S and 1; then a fused sum of n products.
     pub fn identity_minus_sparse_abs(&self, s: &Sparse, values: &[f64], u: &[f64], y: &mut Vector) {
-        with_block!(self.lanes, identity_minus(self.lanes, &self.data, s, values, u, &mut y.lanes));
+        with_block!(
+            self.lanes,
+            identity_minus(self.lanes, &self.data, s, values, u, &mut y.lanes)
+        );
     }
 
     /// `square = |A A − Y S| u` and `other = |Y S| u`, the matrices square of the same size. Each
@@ -191,7 +215,10 @@ pub struct Sparse {
 impl Sparse {
     /// From the rows of the entries in each column.
     pub fn new(columns: &[Vec<usize>]) -> Self {
-        let mut pattern = Sparse { starts: vec![0], rows: Vec::new() };
+        let mut pattern = Sparse {
+            starts: vec![0],
+            rows: Vec::new(),
+        };
         for column in columns {
             pattern.rows.extend(column.iter().map(|&row| row as u32));
             pattern.starts.push(pattern.rows.len());
@@ -216,7 +243,9 @@ impl Sparse {
 
     /// The rows of a column's entries.
     pub fn rows_of(&self, column: usize) -> impl Iterator<Item = usize> + '_ {
-        self.rows[self.starts[column]..self.starts[column + 1]].iter().map(|&row| row as usize)
+        self.rows[self.starts[column]..self.starts[column + 1]]
+            .iter()
+            .map(|&row| row as usize)
     }
 
     /// The sum of absolute values in each row.
@@ -229,9 +258,16 @@ impl Sparse {
 
     /// The rows and values of a column's entries.
     #[inline(always)]
-    pub(super) fn column<'a>(&'a self, values: &'a [f64], column: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
+    pub(super) fn column<'a>(
+        &'a self,
+        values: &'a [f64],
+        column: usize,
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
         let range = self.starts[column]..self.starts[column + 1];
-        self.rows[range.clone()].iter().zip(&values[range]).map(|(&row, &value)| (row as usize, value))
+        self.rows[range.clone()]
+            .iter()
+            .zip(&values[range])
+            .map(|(&row, &value)| (row as usize, value))
     }
 }
 
@@ -262,7 +298,13 @@ fn add_abs<const L: usize>(sums: &mut [Lane; L], a: &[Lane; L], x: f64) {
 }
 
 /// `y = Σ_j f(A_j) x_j` over the columns.
-fn combine<const L: usize>(lanes: usize, data: &[Lane], x: &[f64], y: &mut [Lane], f: impl Fn(f64) -> f64 + Copy) {
+fn combine<const L: usize>(
+    lanes: usize,
+    data: &[Lane],
+    x: &[f64],
+    y: &mut [Lane],
+    f: impl Fn(f64) -> f64 + Copy,
+) {
     for offset in (0..lanes).step_by(L) {
         let mut sums = [[0.0; LANE]; L];
         for (column, &x) in data.chunks_exact(lanes).zip(x) {
@@ -290,7 +332,14 @@ fn sparse<const L: usize>(lanes: usize, a: &[Lane], s: &Sparse, values: &[f64], 
     }
 }
 
-fn identity_minus<const L: usize>(lanes: usize, a: &[Lane], s: &Sparse, values: &[f64], u: &[f64], y: &mut [Lane]) {
+fn identity_minus<const L: usize>(
+    lanes: usize,
+    a: &[Lane],
+    s: &Sparse,
+    values: &[f64],
+    u: &[f64],
+    y: &mut [Lane],
+) {
     for offset in (0..lanes).step_by(L) {
         let mut sums = [[0.0; LANE]; L];
         for (j, &u) in u.iter().enumerate().take(s.columns()) {
@@ -359,7 +408,10 @@ mod tests {
             let (mut y, mut z) = (Vector::zeros(n), Vector::zeros(n));
             let close = |y: &Vector, expected: DVector<f64>| {
                 for (got, want) in y.iter().zip(expected.iter()) {
-                    assert!((got - want).abs() <= 1e-12 * (1.0 + want.abs()), "{n}: {got} {want}");
+                    assert!(
+                        (got - want).abs() <= 1e-12 * (1.0 + want.abs()),
+                        "{n}: {got} {want}"
+                    );
                 }
             };
             a.multiply(&u, &mut y);
@@ -367,7 +419,9 @@ mod tests {
             a.multiply_abs(&u, &mut y);
             close(&y, dense(&a).abs() * &x);
 
-            let columns: Vec<Vec<usize>> = (0..n).map(|j| (0..n).filter(|i| (i + j) % 3 != 1).collect()).collect();
+            let columns: Vec<Vec<usize>> = (0..n)
+                .map(|j| (0..n).filter(|i| (i + j) % 3 != 1).collect())
+                .collect();
             let pattern = Sparse::new(&columns);
             let values: Vec<f64> = (0..pattern.entries()).map(|k| (k as f64).cos()).collect();
             let mut s = DMatrix::zeros(n, n);

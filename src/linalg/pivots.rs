@@ -12,7 +12,10 @@ struct Bits {
 impl Bits {
     fn new(n: usize) -> Self {
         let words = n.div_ceil(64);
-        Bits { words, data: vec![0; words * n] }
+        Bits {
+            words,
+            data: vec![0; words * n],
+        }
     }
 
     fn row(&self, row: usize) -> &[u64] {
@@ -65,6 +68,8 @@ pub(super) struct Pivots {
     pub starts: Vec<usize>,
     /// The columns changed, beside the pivot's own.
     pub touched: Vec<u32>,
+    /// Whether the permutation that takes columns to their pivot rows is odd.
+    pub odd: bool,
 }
 
 /// A pivot is at least this fraction of the largest entry that could have been it.
@@ -89,6 +94,7 @@ impl Pivots {
             column_of: vec![usize::MAX; n],
             starts: vec![0],
             touched: Vec::new(),
+            odd: false,
         };
         let mut largest = vec![0.0f64; n];
         let mut count = vec![0usize; n];
@@ -110,7 +116,10 @@ impl Pivots {
                 let in_row = bits.count(row);
                 for column in bits.entries(row) {
                     let size = a[row * n + column].abs();
-                    if pivots.row_of[column] != usize::MAX || size == 0.0 || size < THRESHOLD * largest[column] {
+                    if pivots.row_of[column] != usize::MAX
+                        || size == 0.0
+                        || size < THRESHOLD * largest[column]
+                    {
                         continue;
                     }
                     let fill = (in_row - 1) * (count[column] - 1);
@@ -124,12 +133,31 @@ impl Pivots {
             pivots.order.push(k);
             pivots.row_of[k] = p;
             pivots.column_of[p] = k;
-            pivots.touched.extend(bits.entries(p).filter(|&j| j != k).map(|j| j as u32));
+            pivots
+                .touched
+                .extend(bits.entries(p).filter(|&j| j != k).map(|j| j as u32));
             pivots.starts.push(pivots.touched.len());
             exchange(&mut a, &mut bits, n, p, k);
         }
+        pivots.odd = is_odd(&pivots.row_of);
         Some(pivots)
     }
+}
+
+/// Whether a permutation is odd: whether it has an odd number of cycles of even length.
+fn is_odd(permutation: &[usize]) -> bool {
+    let mut seen = vec![false; permutation.len()];
+    let mut odd = false;
+    for start in 0..permutation.len() {
+        let (mut at, mut length) = (start, 0);
+        while !seen[at] {
+            seen[at] = true;
+            at = permutation[at];
+            length += 1;
+        }
+        odd ^= length > 0 && length % 2 == 0;
+    }
+    odd
 }
 
 /// Exchanges the roles of equation `p` and unknown `k`.

@@ -87,7 +87,10 @@ impl<const D: usize> SolutionProver<D> {
             let slope = local.lengths.terms[1][e].abs();
             let (mut size, mut change) = (slope, 0.0);
             for axis in 0..D {
-                let free = equations.ends[axis][e].iter().filter(|&&end| (end as usize) < n).count() as f64;
+                let free = equations.ends[axis][e]
+                    .iter()
+                    .filter(|&&end| (end as usize) < n)
+                    .count() as f64;
                 size += local.d[0][axis][e].abs() * free;
                 // |w_i − w_j| times the row sum of the entry's two columns.
                 change += free * free;
@@ -97,11 +100,22 @@ impl<const D: usize> SolutionProver<D> {
         }
         rounding[m] = per_entry;
         // The entries of t multiply zero in the cross-section t = 1, whatever they are.
-        equations.bordered_values(&local.d[0], &local.lengths, &local.normal, &mut self.jacobian);
+        equations.bordered_values(
+            &local.d[0],
+            &local.lengths,
+            &local.normal,
+            &mut self.jacobian,
+        );
         let pattern = equations.bordered_pattern();
-        local.y.identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
-        let largest =
-            |v: &Vector| v[..n].iter().fold(0.0f64, |max, &x| if x > max || x.is_nan() { x } else { max });
+        local
+            .y
+            .identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
+        let largest = |v: &Vector| {
+            v[..n].iter().fold(
+                0.0f64,
+                |max, &x| if x > max || x.is_nan() { x } else { max },
+            )
+        };
         let defect = largest(&self.v);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
         let q0 = round_up(defect + largest(&self.v), 2 * n + 40);

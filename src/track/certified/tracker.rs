@@ -194,7 +194,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
                             limit = 0.25 * self.next.proof.h.min(limit);
                         }
                         // The tube is known but for a little shift of its middle.
-                        Rejection::Unlinked => shorter = (REACH * self.next.proof.h).min(0.6 * reach),
+                        Rejection::Unlinked => {
+                            shorter = (REACH * self.next.proof.h).min(0.6 * reach)
+                        }
                         Rejection::Refine(_) | Rejection::Unproved => shorter = 0.5 * reach,
                     }
                     let smallest = SMALLEST_STEP * self.figure_size();

@@ -138,11 +138,7 @@ impl<const D: usize> KrawczykTest<D> {
     ///
     /// A few steps w ← w − Ỹ(s) G_s(w) come near it. As that map is a contraction by q, the zero
     /// is at most |Ỹ(s) G_s(w)|_u / (1 − q) from any w in the box.
-    pub fn enclose_exit(
-        &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tube<D>,
-    ) -> Option<()> {
+    pub fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let out = &mut tube.exit;
@@ -270,12 +266,34 @@ impl<const D: usize> KrawczykTest<D> {
         // The leading term keeps its signs: Y first, absolute values after. Its rounding is in `low`.
         y.multiply(&self.f[..m], &mut self.v);
         let middle = round_up(norm_of(&self.v, u, n) * hs[ORDER + 1], n + 20);
-        let slope_of = |i: usize| (1..=ORDER).map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1]).sum::<f64>();
+        let slope_of = |i: usize| {
+            (1..=ORDER)
+                .map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1])
+                .sum::<f64>()
+        };
         let slope = (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i]));
         let slope = round_up(slope, 40);
         let slope_of_t = round_up(slope_of(m), 40);
-        let normal = local.normal[..n].iter().zip(&u[..n]).map(|(c, u)| c.abs() * u).sum();
-        let norms = Norms { a, a2, square, r0, higher, width, low, middle, high, slope, slope_of_t, normal, h };
+        let normal = local.normal[..n]
+            .iter()
+            .zip(&u[..n])
+            .map(|(c, u)| c.abs() * u)
+            .sum();
+        let norms = Norms {
+            a,
+            a2,
+            square,
+            r0,
+            higher,
+            width,
+            low,
+            middle,
+            high,
+            slope,
+            slope_of_t,
+            normal,
+            h,
+        };
         norms.is_in_range().then_some(norms)
     }
 
@@ -326,7 +344,8 @@ impl<const D: usize> KrawczykTest<D> {
                 let [r0, r1, r2] = [r0[l][i], r1[l][i], r2[l][i]];
                 let slope_size = e1 + 2.0 * t * e2;
                 let slope_radius = r1 + 2.0 * t * r2;
-                rounding.lanes_mut()[l][i] = per_entry * (j_near + slope_size * ut) + slope_radius * ut;
+                rounding.lanes_mut()[l][i] =
+                    per_entry * (j_near + slope_size * ut) + slope_radius * ut;
                 higher.lanes_mut()[l][i] = j_far + 2.0 * e2 * t_higher * ut;
                 width.lanes_mut()[l][i] = j_width + 2.0 * (e2 + r2) * (ut * ut);
                 let length_size = e0 + t * (e1 + t * e2);
@@ -346,8 +365,11 @@ impl<const D: usize> KrawczykTest<D> {
             }
             local.coefficient(equations, k, 0, &mut self.coefficient);
             // With k/(ORDER + 2) ≥ 1 above, so that it bounds the derivative by s too, see `proof`.
-            let (sum, factor) =
-                if k <= ORDER { (&mut *low, hs[k]) } else { (&mut *high, hs[k] * (k as f64 / (ORDER + 2) as f64)) };
+            let (sum, factor) = if k <= ORDER {
+                (&mut *low, hs[k])
+            } else {
+                (&mut *high, hs[k] * (k as f64 / (ORDER + 2) as f64))
+            };
             for (sum, c) in sum.lanes_mut().iter_mut().zip(self.coefficient.lanes()) {
                 for i in 0..LANE {
                     sum[i] = c[i].abs().mul_add(factor, sum[i]);
@@ -356,14 +378,20 @@ impl<const D: usize> KrawczykTest<D> {
         }
         let beyond = 2 * ORDER + 1..=DEGREE;
         high[equations.bend.edge] += beyond
-            .map(|k| local.bend_excess(equations, k).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64))
+            .map(|k| {
+                local.bend_excess(equations, k).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64)
+            })
             .sum::<f64>();
         // Rounding in Y f_{ORDER + 1}, a fused sum of m products; relative to its terms.
         for (low, f) in low[..m].iter_mut().zip(self.f.iter()) {
             *low += gamma(n + 2) * f.abs() * hs[ORDER + 1];
         }
         let rounding = &mut self.bounds[0];
-        let normal: f64 = local.normal[..n].iter().zip(&self.u[..n]).map(|(c, u)| c.abs() * u).sum();
+        let normal: f64 = local.normal[..n]
+            .iter()
+            .zip(&self.u[..n])
+            .map(|(c, u)| c.abs() * u)
+            .sum();
         rounding[m] = per_entry * normal;
     }
 
@@ -389,7 +417,9 @@ impl<const D: usize> KrawczykTest<D> {
         let wide = t + 1.0;
         width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
         // All of the bend's terms, though the ones of e₂ are counted already.
-        let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER).map(|k| local.bend_slope(k).abs() * hs[k]).sum();
+        let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER)
+            .map(|k| local.bend_slope(k).abs() * hs[k])
+            .sum();
         higher[at] += terms * ut;
     }
 
@@ -413,7 +443,12 @@ impl<const D: usize> KrawczykTest<D> {
         let r0 = norm_of(&self.v, u, n);
         self.a.multiply_abs(&u[..n], &mut self.v);
         let a = norm_of(&self.v, u, n);
-        self.a.square_minus_sparse_abs((y, pattern, &self.j2), &u[..n], &mut self.square_u, &mut self.v);
+        self.a.square_minus_sparse_abs(
+            (y, pattern, &self.j2),
+            &u[..n],
+            &mut self.square_u,
+            &mut self.v,
+        );
         [a, norm_of(&self.v, u, n), norm_of(&self.square_u, u, n), r0]
     }
 }

@@ -4,7 +4,7 @@ use super::Record;
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
-use crate::track::full::{Equations, Local, ORDER, first_normal, path_length};
+use crate::track::full::{Equations, Local, Meeting, ORDER, first_normal, path_length};
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 
@@ -14,9 +14,9 @@ const POINT_TOLERANCE: f64 = 1e-8;
 /// The step is chosen so that the corrector's first two corrections shrink by this factor. The
 /// factor is about |[J; c]⁻¹ F''| times the prediction's error, Kantorovich's number: it says how
 /// deep in the basin of Newton's method the prediction is, whatever the problem's scale.
-const CONTRACTION: f64 = 0.002;
+const CONTRACTION: f64 = 5e-5;
 /// A prediction with a larger one is not trusted to be on the same path.
-const LARGEST_CONTRACTION: f64 = 0.02;
+const LARGEST_CONTRACTION: f64 = 1e-3;
 /// The tangent turns by at most this angle's cosine in a step.
 const LEAST_COSINE: f64 = 0.8;
 /// The first step, in the homotopy's unit.
@@ -25,7 +25,11 @@ const FIRST_STEP: f64 = 0.01;
 const SMALLEST_STEP: f64 = 1e-10;
 
 /// Follows the path in the full space in floating point.
-pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
     let mut record = Record::new(&equations);
@@ -59,7 +63,9 @@ fn run<const D: usize>(
     now.expand(equations);
     let direction = now.normal.clone();
 
-    let longest = options.max_step.map_or(f64::INFINITY, |step| step / homotopy.unit);
+    let longest = options
+        .max_step
+        .map_or(f64::INFINITY, |step| step / homotopy.unit);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations);
     let mut step = FIRST_STEP.min(longest);
@@ -68,16 +74,26 @@ fn run<const D: usize>(
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
-            return Err(format!("the corrector fails at the smallest step, {}", place(record, &now)));
+            return Err(format!(
+                "the corrector fails at the smallest step, {}",
+                place(record, &now)
+            ));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
-        let refined = next.refine(equations, &mut inverter, POINT_TOLERANCE, 6).is_ok()
-            && next.contraction <= LARGEST_CONTRACTION;
+        let refined = next
+            .refine(equations, &mut inverter, POINT_TOLERANCE, 6)
+            .is_ok()
+            && next.contraction <= LARGEST_CONTRACTION
+            && next.negative == now.negative;
         if refined {
             next.expand(equations);
         }
         let turned = crate::track::full::dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
-        let seen = refined && !turned && events.between(equations, &mut inverter, &now, &next, step, record).is_some();
+        let seen = refined
+            && !turned
+            && events
+                .between(equations, &mut inverter, &now, &next, step, record)
+                .is_some();
         if !seen {
             record.rejected += 1;
             step *= 0.5;
@@ -88,10 +104,10 @@ fn run<const D: usize>(
         if let Some(at) = events.passes(&sketch, &direction, &next, step)
             && record.steps > 1
         {
-            record.length += path_length(&next, -step, at, homotopy.unit, &mut events.scratch);
+            record.length += events.length(&now, &next, step, at, homotopy.unit);
             return Ok(());
         }
-        record.length += path_length(&next, -step, 0.0, homotopy.unit, &mut events.scratch);
+        record.length += events.length(&now, &next, step, 0.0, homotopy.unit);
         // The contraction grows with the (ORDER + 2)-nd power of the step.
         let growth = (CONTRACTION / next.contraction.max(1e-300)).powf(1.0 / (ORDER + 2) as f64);
         step = (step * growth.clamp(0.5, 1.6)).min(longest);
@@ -101,7 +117,11 @@ fn run<const D: usize>(
         }
         std::mem::swap(&mut now, &mut next);
         if record.steps >= options.max_steps {
-            return Err(format!("the limit of {} steps was reached {}", options.max_steps, place(record, &now)));
+            return Err(format!(
+                "the limit of {} steps was reached {}",
+                options.max_steps,
+                place(record, &now)
+            ));
         }
         let progress = Progress {
             t: now.z[0][m],
@@ -116,19 +136,24 @@ fn run<const D: usize>(
 }
 
 /// Finds what happens between two points of the path.
-struct Events {
+struct Events<const D: usize> {
     crossings: Vec<Crossing>,
+    meeting: Meeting<D>,
     scratch: Vector,
 }
 
-impl Events {
-    fn new<const D: usize>(equations: &Equations<D>) -> Self {
-        Events { crossings: Vec::new(), scratch: equations.vector() }
+impl<const D: usize> Events<D> {
+    fn new(equations: &Equations<D>) -> Self {
+        Events {
+            crossings: Vec::new(),
+            meeting: Meeting::new(equations),
+            scratch: equations.vector(),
+        }
     }
 
     /// Records the solutions between two points: the first half of the way is read off the
     /// expansion at one, the second off the other. `None`: they could not be separated.
-    fn between<const D: usize>(
+    fn between(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut Inverter,
@@ -141,13 +166,21 @@ impl Events {
         // their slopes by (ORDER + 1) / (step / 2) times that.
         let error = next.first_correction / 32.0 + 10.0 * POINT_TOLERANCE;
         let half = 0.5 * step;
-        for (local, from, to) in [(now, 0.0, half), (next, -half, 0.0)] {
+        let back = self.middle(now, next, half);
+        for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
             let z = std::array::from_fn(|k| local.z[k][equations.m]);
-            let time = TimeAlong::new(z, step, error, 12.0 * error / step);
+            let reach = 2.0 * (to - from);
+            let time = TimeAlong::new(z, reach, error, 12.0 * error / step);
             time.crossings(from, to, &mut self.crossings).ok()?;
             for k in 0..self.crossings.len() {
                 let (a, b) = self.crossings[k].between;
-                local.at(0.5 * (a + b), &mut self.scratch);
+                local.meet(
+                    equations,
+                    0.5 * (a + b),
+                    1.0,
+                    &mut self.meeting,
+                    &mut self.scratch,
+                )?;
                 record.solution(equations, inverter, &self.scratch)?;
             }
             if let ((low, high), (slope_low, slope_high)) = time.bounds(from, to)
@@ -162,9 +195,32 @@ impl Events {
         Some(())
     }
 
+    /// The parameter at `next` of the point where the expansion at `now` is left for its own: the
+    /// two have different normals, so it is not just the rest of the step.
+    fn middle(&mut self, now: &Local<D>, next: &Local<D>, half: f64) -> f64 {
+        now.at(half, &mut self.scratch);
+        let n = next.y.rows();
+        (0..n)
+            .map(|i| next.normal[i] * (self.scratch[i] - next.z[0][i]))
+            .sum()
+    }
+
+    /// The path's length from `now` to the parameter `at` of `next`.
+    fn length(&mut self, now: &Local<D>, next: &Local<D>, step: f64, at: f64, unit: f64) -> f64 {
+        let back = self.middle(now, next, 0.5 * step);
+        path_length(now, 0.0, 0.5 * step, unit, &mut self.scratch)
+            + path_length(next, back, at, unit, &mut self.scratch)
+    }
+
     /// Whether the path, followed in `direction`, passed the sketch on the last `step` before `next`:
     /// at which parameter, if so.
-    fn passes<const D: usize>(&mut self, sketch: &[f64], direction: &[f64], next: &Local<D>, step: f64) -> Option<f64> {
+    fn passes(
+        &mut self,
+        sketch: &[f64],
+        direction: &[f64],
+        next: &Local<D>,
+        step: f64,
+    ) -> Option<f64> {
         let n = next.y.rows();
         let t = sketch.len() - 2;
         if next.z[0][t].abs() > step {
@@ -176,14 +232,20 @@ impl Events {
             return None;
         }
         next.at(at, &mut self.scratch);
-        let away = (0..n).fold(0.0, |max: f64, i| max.max((self.scratch[i] - sketch[i]).abs()));
+        let away = (0..n).fold(0.0, |max: f64, i| {
+            max.max((self.scratch[i] - sketch[i]).abs())
+        });
         (away <= 10.0 * next.first_correction + 1e-6).then_some(at)
     }
 }
 
 /// The value of t where its slope vanishes, by bisection.
 fn extreme<const D: usize>(local: &Local<D>, from: f64, to: f64, t: usize) -> f64 {
-    let slope = |s: f64| (1..=ORDER).rev().fold(0.0, |sum, k| sum * s + k as f64 * local.z[k][t]);
+    let slope = |s: f64| {
+        (1..=ORDER)
+            .rev()
+            .fold(0.0, |sum, k| sum * s + k as f64 * local.z[k][t])
+    };
     let (mut a, mut b) = (from, to);
     for _ in 0..50 {
         let middle = 0.5 * (a + b);
@@ -193,5 +255,7 @@ fn extreme<const D: usize>(local: &Local<D>, from: f64, to: f64, t: usize) -> f6
             b = middle;
         }
     }
-    (0..=ORDER).rev().fold(0.0, |sum, k| sum * a + local.z[k][t])
+    (0..=ORDER)
+        .rev()
+        .fold(0.0, |sum, k| sum * a + local.z[k][t])
 }

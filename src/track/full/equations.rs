@@ -59,7 +59,9 @@ impl<const D: usize> Equations<D> {
         };
         let ends: [Vec<[u32; 2]>; D] = std::array::from_fn(|axis| {
             let edges = homotopy.edges.iter();
-            edges.map(|edge| edge.points.map(|p| entry(p, axis) as u32)).collect()
+            edges
+                .map(|edge| edge.points.map(|p| entry(p, axis) as u32))
+                .collect()
         });
         let lengths = &homotopy.lengths;
         let coefficient = |pick: &dyn Fn(usize) -> f64| {
@@ -73,7 +75,11 @@ impl<const D: usize> Equations<D> {
             for (edge, &end) in ends[axis].iter().enumerate() {
                 for (end, sign) in end.into_iter().zip([1.0, -1.0]) {
                     if (end as usize) < m {
-                        let source = Source { axis: axis as u32, edge: edge as u32, sign };
+                        let source = Source {
+                            axis: axis as u32,
+                            edge: edge as u32,
+                            sign,
+                        };
                         columns[end as usize].push((edge, source));
                     }
                 }
@@ -83,14 +89,20 @@ impl<const D: usize> Equations<D> {
         let time: Vec<usize> = (0..m).collect();
         let mut plain: Vec<Vec<usize>> = columns.iter().map(|c| rows(c)).collect();
         plain.push(time);
-        let bordered: Vec<Vec<usize>> =
-            plain.iter().map(|column| column.iter().copied().chain([m]).collect()).collect();
+        let bordered: Vec<Vec<usize>> = plain
+            .iter()
+            .map(|column| column.iter().copied().chain([m]).collect())
+            .collect();
         Equations {
             m,
             ends,
             e: std::array::from_fn(|k| coefficient(&|e| lengths[e].e[k])),
             e_radius: std::array::from_fn(|k| coefficient(&|e| lengths[e].e_radius[k])),
-            bend: Bend { edge: bend, e: lengths[bend].e, e_radius: lengths[bend].e_radius },
+            bend: Bend {
+                edge: bend,
+                e: lengths[bend].e,
+                e_radius: lengths[bend].e_radius,
+            },
             pattern: Sparse::new(&plain),
             bordered: Sparse::new(&bordered),
             sources: columns.into_iter().flatten().map(|c| c.1).collect(),
@@ -217,7 +229,13 @@ impl<const D: usize> Equations<D> {
     }
 
     /// Values for [`Equations::bordered_pattern`].
-    pub fn bordered_values(&self, d: &[Vector; D], lengths: &Lengths, normal: &[f64], out: &mut [f64]) {
+    pub fn bordered_values(
+        &self,
+        d: &[Vector; D],
+        lengths: &Lengths,
+        normal: &[f64],
+        out: &mut [f64],
+    ) {
         let (mut at, mut from) = (0, 0);
         for column in 0..self.m {
             let count = self.pattern.entries_of(column);
@@ -249,6 +267,9 @@ pub struct Lengths {
 impl Lengths {
     /// Room for `m` distances.
     pub fn new(m: usize) -> Self {
-        Lengths { terms: [Vector::zeros(m), Vector::zeros(m)], bend: [0.0; 5] }
+        Lengths {
+            terms: [Vector::zeros(m), Vector::zeros(m)],
+            bend: [0.0; 5],
+        }
     }
 }

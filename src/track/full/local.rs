@@ -37,6 +37,9 @@ pub struct Local<const D: usize> {
     pub first_correction: f64,
     /// How much the corrections shrank at the first iteration, or zero if one was enough.
     pub contraction: f64,
+    /// The sign of det [J; c] at the prediction. Along a path that is followed in one direction,
+    /// c being near its tangent, it never changes.
+    pub negative: bool,
     /// Values of the sparse matrix [J; c].
     values: Vec<f64>,
     f: Vector,
@@ -57,6 +60,7 @@ impl<const D: usize> Local<D> {
             powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
+            negative: false,
             values: vec![0.0; equations.bordered_pattern().entries()],
             f: vector(),
             delta: vector(),
@@ -75,6 +79,7 @@ impl<const D: usize> Local<D> {
             powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
+            negative: false,
             values: Vec::new(),
             f: none(),
             delta: none(),
@@ -89,10 +94,18 @@ impl<const D: usize> Local<D> {
     }
 
     /// Makes the preconditioner at `z[0]`.
-    pub fn precondition(&mut self, equations: &Equations<D>, inverter: &mut Inverter) -> Result<(), RefineError> {
+    pub fn precondition(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+    ) -> Result<(), RefineError> {
         self.look(equations);
         equations.bordered_values(&self.d[0], &self.lengths, &self.normal, &mut self.values);
-        inverter.invert(&self.values, &mut self.y).map_err(|_| RefineError::Singular)
+        inverter
+            .invert(&self.values, &mut self.y)
+            .map_err(|_| RefineError::Singular)?;
+        self.negative = inverter.is_negative();
+        Ok(())
     }
 
     /// Corrects `z[0]` onto the path with the preconditioner made at the prediction, moving in
@@ -115,7 +128,11 @@ impl<const D: usize> Local<D> {
             for (z, delta) in self.z[0][..n].iter_mut().zip(self.delta.iter()) {
                 *z -= delta;
                 // A NaN must not be lost in the comparison.
-                size = if size >= delta.abs() { size } else { delta.abs() };
+                size = if size >= delta.abs() {
+                    size
+                } else {
+                    delta.abs()
+                };
             }
             self.look(equations);
             match iteration {
@@ -135,8 +152,54 @@ impl<const D: usize> Local<D> {
         Err(RefineError::Diverged)
     }
 
+    /// The path's point with t = `target` near the parameter `s`, found along the path: chord
+    /// corrections in the cross-section alternate with Newton steps in s. `None`: no convergence.
+    pub fn meet(
+        &self,
+        equations: &Equations<D>,
+        mut s: f64,
+        target: f64,
+        room: &mut Meeting<D>,
+        z: &mut Vector,
+    ) -> Option<()> {
+        let m = equations.m;
+        self.at(s, z);
+        for _ in 0..40 {
+            equations.differences(z, &mut room.d);
+            equations.expand_lengths(z[m], &mut room.lengths);
+            equations.residual(&room.d, &room.lengths, &mut room.f);
+            self.y.multiply(&room.f[..m], &mut room.delta);
+            self.slope(s, &mut room.slope);
+            // The next point is z − δ + ds ẑ'(s), with the ds that brings its t to the target.
+            let ds = (target - z[m] + room.delta[m]) / room.slope[m];
+            let mut size = 0.0f64;
+            for i in 0..=m {
+                let change = ds * room.slope[i] - room.delta[i];
+                z[i] += change;
+                size = if size >= change.abs() {
+                    size
+                } else {
+                    change.abs()
+                };
+            }
+            s += ds;
+            if size <= 1e-10 {
+                return Some(());
+            }
+            if !(size <= 1.0) {
+                return None;
+            }
+        }
+        None
+    }
+
     /// Corrects `z[0]` in X at a fixed t, as far as floats go.
-    pub fn polish_at(&mut self, equations: &Equations<D>, inverter: &mut Inverter, t: f64) -> Option<()> {
+    pub fn polish_at(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        t: f64,
+    ) -> Option<()> {
         let m = equations.m;
         self.normal.fill(0.0);
         self.normal[m] = 1.0;
@@ -147,7 +210,8 @@ impl<const D: usize> Local<D> {
         for _ in 0..3 {
             self.z[0][m] = t;
             let refined = self.refine(equations, inverter, 1e-13, 20);
-            if refined.is_err() && (self.first_correction.is_nan() || self.first_correction > 1e-5) {
+            if refined.is_err() && (self.first_correction.is_nan() || self.first_correction > 1e-5)
+            {
                 return None;
             }
         }
@@ -195,7 +259,10 @@ impl<const D: usize> Local<D> {
     fn subtract_jacobian_times(&self, k: usize, m: usize, f: &mut Vector) {
         let t = self.z[k][m];
         let slope = self.lengths.terms[1].lanes();
-        let (d0, dk) = (self.d[0].each_ref().map(|d| d.lanes()), self.d[k].each_ref().map(|d| d.lanes()));
+        let (d0, dk) = (
+            self.d[0].each_ref().map(|d| d.lanes()),
+            self.d[k].each_ref().map(|d| d.lanes()),
+        );
         for (l, f) in f.lanes_mut().iter_mut().enumerate().take(slope.len()) {
             for i in 0..LANE {
                 let product: f64 = (0..D).map(|axis| d0[axis][l][i] * dk[axis][l][i]).sum();
@@ -223,7 +290,10 @@ impl<const D: usize> Local<D> {
     pub fn coefficient(&self, equations: &Equations<D>, k: usize, least: usize, out: &mut Vector) {
         let least = least.max(k.saturating_sub(ORDER));
         let e2 = equations.e[2].lanes();
-        let (square, linear) = (self.powers[1][k], if least == 0 { self.powers[0][k] } else { 0.0 });
+        let (square, linear) = (
+            self.powers[1][k],
+            if least == 0 { self.powers[0][k] } else { 0.0 },
+        );
         let slope = self.lengths.terms[1].lanes();
         let lanes = e2.len();
         let out_lanes = &mut out.lanes_mut()[..lanes];
@@ -262,13 +332,17 @@ impl<const D: usize> Local<D> {
     /// What the bend's E(t(s)) has at sᵏ beyond E' t_k and e₂ (t(s) − t₀)².
     pub fn bend_excess(&self, equations: &Equations<D>, k: usize) -> f64 {
         let c = &self.lengths.bend;
-        (c[2] - equations.bend.e[2]) * self.powers[1][k] + c[3] * self.powers[2][k] + c[4] * self.powers[3][k]
+        (c[2] - equations.bend.e[2]) * self.powers[1][k]
+            + c[3] * self.powers[2][k]
+            + c[4] * self.powers[3][k]
     }
 
     /// The coefficient of sᵏ, k ≥ 1, in the bend's E'(t(s)).
     pub fn bend_slope(&self, k: usize) -> f64 {
         let c = &self.lengths.bend;
-        2.0 * c[2] * self.powers[0][k] + 3.0 * c[3] * self.powers[1][k] + 4.0 * c[4] * self.powers[2][k]
+        2.0 * c[2] * self.powers[0][k]
+            + 3.0 * c[3] * self.powers[1][k]
+            + 4.0 * c[4] * self.powers[2][k]
     }
 
     /// Predicts the path's point and unit tangent at `s`, beyond the range of this expansion.
@@ -280,11 +354,18 @@ impl<const D: usize> Local<D> {
         self.at(s, z);
         self.slope(s, normal);
         if let Some(previous) = previous {
-            let back: f64 = (0..n).map(|i| self.normal[i] * (previous[i] - self.z[0][i])).sum();
+            let back: f64 = (0..n)
+                .map(|i| self.normal[i] * (previous[i] - self.z[0][i]))
+                .sum();
             let ratio = s / back;
             let square = ratio * ratio;
             let factor = square * square * square;
-            const { assert!(ORDER == 5, "the factor is the (ORDER + 1)-st power of the ratio") };
+            const {
+                assert!(
+                    ORDER == 5,
+                    "the factor is the (ORDER + 1)-st power of the ratio"
+                )
+            };
             for i in 0..n {
                 let away = factor * (previous[i] - self.entry_at(i, back));
                 z[i] += away;
@@ -302,7 +383,9 @@ impl<const D: usize> Local<D> {
         let n = equations.n();
         let mut sums = equations.vector();
         let largest = |sums: &[f64]| sums.iter().fold(0.0, |max: f64, &x| max.max(x));
-        equations.bordered_pattern().row_sums_abs(&self.values, &mut sums);
+        equations
+            .bordered_pattern()
+            .row_sums_abs(&self.values, &mut sums);
         let jacobian = largest(&sums);
         self.y.multiply_abs(&vec![1.0; n], &mut sums);
         let condition = jacobian * largest(&sums);
@@ -312,7 +395,9 @@ impl<const D: usize> Local<D> {
     /// ẑ(s)_i.
     #[inline(always)]
     pub fn entry_at(&self, i: usize, s: f64) -> f64 {
-        (0..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, self.z[k][i]))
+        (0..=ORDER)
+            .rev()
+            .fold(0.0, |sum: f64, k| sum.mul_add(s, self.z[k][i]))
     }
 
     /// ẑ(s).
@@ -320,7 +405,9 @@ impl<const D: usize> Local<D> {
         let z = self.z.each_ref().map(|z| z.lanes());
         for (l, out) in out.lanes_mut().iter_mut().enumerate() {
             for i in 0..LANE {
-                out[i] = (0..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, z[k][l][i]));
+                out[i] = (0..=ORDER)
+                    .rev()
+                    .fold(0.0, |sum: f64, k| sum.mul_add(s, z[k][l][i]));
             }
         }
     }
@@ -330,7 +417,9 @@ impl<const D: usize> Local<D> {
         let z = self.z.each_ref().map(|z| z.lanes());
         for (l, out) in out.lanes_mut().iter_mut().enumerate() {
             for i in 0..LANE {
-                out[i] = (1..=ORDER).rev().fold(0.0, |sum: f64, k| sum.mul_add(s, k as f64 * z[k][l][i]));
+                out[i] = (1..=ORDER)
+                    .rev()
+                    .fold(0.0, |sum: f64, k| sum.mul_add(s, k as f64 * z[k][l][i]));
             }
         }
     }
@@ -348,4 +437,27 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     }
     let rest: f64 = a1.iter().zip(b1).map(|(x, y)| x * y).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// Work space of [`Local::meet`].
+#[derive(Debug)]
+pub struct Meeting<const D: usize> {
+    d: [Vector; D],
+    lengths: Lengths,
+    f: Vector,
+    delta: Vector,
+    slope: Vector,
+}
+
+impl<const D: usize> Meeting<D> {
+    /// For one problem.
+    pub fn new(equations: &Equations<D>) -> Self {
+        Meeting {
+            d: std::array::from_fn(|_| equations.per_edge()),
+            lengths: Lengths::new(equations.m),
+            f: equations.vector(),
+            delta: equations.vector(),
+            slope: equations.vector(),
+        }
+    }
 }

@@ -8,5 +8,5 @@ mod local;
 mod start;
 
 pub use equations::{Equations, Lengths, MAX_DEGREE};
-pub use local::{DEGREE, Local, ORDER, RefineError, dot};
+pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, dot};
 pub use start::{first_normal, path_length};
