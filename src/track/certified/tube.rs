@@ -551,3 +551,11 @@ impl Norms {
         })
     }
 }
+
+#[cfg(test)]
+impl<const D: usize> KrawczykTest<D> {
+    /// A of the last proof.
+    pub(super) fn moving_matrix(&self) -> &Matrix {
+        &self.a
+    }
+}
