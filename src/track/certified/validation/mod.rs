@@ -14,7 +14,7 @@ use super::link::Tube;
 use super::tube::KrawczykTest;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Matrix, Vector};
-use crate::problem::Problem;
+use crate::problem::{Decimal, Problem};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, ORDER, first_normal};
 use nalgebra::DMatrix;
@@ -24,7 +24,7 @@ pub struct Random(u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
-        Random(seed)
+        Random(seed + 1000 * from_environment("KRAWL_SEED").unwrap_or(0))
     }
 
     pub fn bits(&mut self) -> u64 {
@@ -53,12 +53,29 @@ impl Random {
     }
 }
 
+/// How many times the usual number of cases to run, and a seed to add, from the environment
+/// (KRAWL_EFFORT, KRAWL_SEED): for long searches.
+pub fn effort(rounds: usize) -> usize {
+    rounds * from_environment("KRAWL_EFFORT").unwrap_or(1) as usize
+}
+
+fn from_environment(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
 /// The problems that come with krawl.
 pub fn shipped() -> Vec<Problem> {
     let read = |name: &str| {
         Problem::read(format!("{}/problems/{name}.toml", env!("CARGO_MANIFEST_DIR"))).expect("a readable problem")
     };
     ["disulfide", "dodecagon", "icosahedron-c1", "octahedron"].map(read).into()
+}
+
+/// A decimal times a power of ten, exactly. `None`: out of range.
+pub fn times_ten_to(x: &Decimal, exponent: i32) -> Option<Decimal> {
+    let text = x.text();
+    let (mantissa, old) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    format!("{mantissa}e{}", old.parse::<i32>().ok()? + exponent).parse().ok()
 }
 
 /// A number with few digits, so that its decimal is what people would write.
@@ -106,7 +123,7 @@ pub fn random_problem(random: &mut Random, dimension: usize, points: usize, chan
             let target = rounded(length * (1.0 + random.between(-change, change)), 3).max(0.001);
             builder = builder.distance(&name(a), &name(b), target);
         }
-        if let Ok(problem) = builder.finish() {
+        if let Ok(problem) = builder.bend_coefficient([2.0, 0.3, 0.05, -0.1][random.below(4)]).finish() {
             return problem;
         }
     }

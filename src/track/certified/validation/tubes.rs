@@ -203,7 +203,7 @@ fn proofs_hold_along_the_shipped_problems() {
 fn proofs_hold_along_random_problems() {
     let mut tally = Tally::default();
     let mut random = Random::new(2);
-    for round in 0..60 {
+    for round in 0..effort(60) {
         let dimension = 2 + round % 2;
         let points = dimension + 1 + random.below(4);
         let change = [0.1, 0.5, 1e-6][random.below(3)];
