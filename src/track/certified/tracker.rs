@@ -351,8 +351,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     fn prove_crossings(&mut self, tube: &Tube<D>, crossings: &[Crossing]) -> Result<(), Rejection> {
         let known = self.found.len();
-        let all =
-            (0..crossings.len()).try_for_each(|index| self.prove_crossing(tube, crossings, index));
+        let all = crossings.iter().try_for_each(|&crossing| self.prove_crossing(tube, crossing));
         if all.is_err() {
             self.found.truncate(known);
         }
@@ -360,14 +359,12 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
-    /// in this stretch of it, since it lies in no other.
+    /// in this stretch of it.
     fn prove_crossing(
         &mut self,
         tube: &Tube<D>,
-        crossings: &[Crossing],
-        index: usize,
+        crossing: Crossing,
     ) -> Result<(), Rejection> {
-        let crossing = crossings[index];
         let (a, b) = crossing.between;
         tube.local.at(0.5 * (a + b), &mut self.scratch);
         let found = self
@@ -384,13 +381,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
             radius: found.radius.clone(),
         };
         let at = tube.locate(&ball).ok_or(Rejection::Undecided)?;
-        let meets = |c: &Crossing| at.0 <= c.between.1 && c.between.0 <= at.1;
-        if !meets(&crossing)
-            || crossings
-                .iter()
-                .enumerate()
-                .any(|(k, c)| k != index && meets(c))
-        {
+        // All of it: beyond the stretch there may be another solution, in the tube but not counted.
+        if at.0 < a || at.1 > b {
             return Err(Rejection::Undecided);
         }
         for other in &self.found {
