@@ -531,7 +531,10 @@ impl Norms {
         let x3 = x * x * x;
         let defect_slope =
             orders[0] * self.low + x3 * x3 * (orders[1] * self.middle + orders[2] * self.high * x);
-        let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[3] * self.higher * x3;
+        // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders k, where
+        // |s| = H is `self.h`: as k ≥ 1, k |s|ᵏ⁻¹ ≤ k Hᵏ/H.
+        let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
+        let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[3] * self.higher * x3 + rounding_slope;
         let slope = moving
             * (defect_slope
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
