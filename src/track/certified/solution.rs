@@ -104,7 +104,8 @@ impl<const D: usize> SolutionProver<D> {
             |v: &Vector| v[..n].iter().fold(0.0f64, |max, &x| if x > max || x.is_nan() { x } else { max });
         let defect = largest(&self.v);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
-        let q0 = round_up(defect + largest(&self.v), 2 * n + 40);
+        // The ones of I pass through as many sums as the products that they are added to.
+        let q0 = round_up(defect + largest(&self.v) + gamma(m + 4), 2 * n + 40);
         local.y.multiply_abs(&width[..m], &mut self.v);
         let kappa = round_up(largest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {

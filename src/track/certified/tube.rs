@@ -262,7 +262,8 @@ impl<const D: usize> KrawczykTest<D> {
             round_up(norm_of(&self.v, u, n), n + 200)
         };
         let [rounding, higher, width, low, high] = &self.bounds;
-        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n), 2);
+        // The ones of I pass through as many sums as the products that they are added to.
+        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n) + gamma(m + 4), 3);
         let higher = bound(higher, m);
         let width = bound(width, m);
         let low = bound(low, m);
