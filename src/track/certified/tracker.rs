@@ -261,6 +261,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.now.entry = self
             .now
             .locate(&self.sketch)
+            // Before the exit: what lies between is to be searched, and the loop to close behind it.
+            .filter(|entry| entry.1 < self.now.exit_at)
             .ok_or_else(|| "the sketch could not be enclosed in the first tube".to_owned())?;
         self.kept_weights.copy_from_slice(&self.weights);
         let tube = std::mem::replace(&mut self.now, Tube::empty());
