@@ -126,7 +126,8 @@ impl<const D: usize> SolutionProver<D> {
         let step = round_up(largest(&self.v), n + 2);
         let q = round_up(q0 + kappa * alone_within, 4);
         let all = round_up(step / (1.0 - q), 60);
-        if !(q < 1.0 && all < alone_within) {
+        // With room for rounding, so that the box itself lies where its solution is alone.
+        if !(q < 1.0 && all < 0.99 * alone_within) {
             return None;
         }
         // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
