@@ -55,7 +55,8 @@ impl TimeAlong {
                 curvature += (k * (k - 1)) as f64 * z[k].abs() * (power / h);
             }
             power *= h;
-            size += z[k].abs() * power;
+            // Once in the value; k times in the slope, which reaches over h at most.
+            size += (k + 1) as f64 * z[k].abs() * power;
         }
         // Horner's rule and the subtraction of 1: fewer than 30 roundings of terms below `size`.
         let rounding = gamma(30);

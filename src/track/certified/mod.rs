@@ -4,5 +4,7 @@ mod link;
 mod solution;
 mod tracker;
 mod tube;
+#[cfg(test)]
+mod validation;
 
 pub use tracker::track;

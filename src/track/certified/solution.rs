@@ -118,7 +118,8 @@ impl<const D: usize> SolutionProver<D> {
         };
         let defect = largest(&self.v);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
-        let q0 = round_up(defect + largest(&self.v), 2 * n + 40);
+        // The ones of I pass through as many sums as the products that they are added to.
+        let q0 = round_up(defect + largest(&self.v) + gamma(m + 4), 2 * n + 40);
         local.y.multiply_abs(&width[..m], &mut self.v);
         let kappa = round_up(largest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {
@@ -139,7 +140,8 @@ impl<const D: usize> SolutionProver<D> {
         let step = round_up(largest(&self.v), n + 2);
         let q = round_up(q0 + kappa * alone_within, 4);
         let all = round_up(step / (1.0 - q), 60);
-        if !(q < 1.0 && all < alone_within) {
+        // With room for rounding, so that the box itself lies where its solution is alone.
+        if !(q < 1.0 && all < 0.99 * alone_within) {
             return None;
         }
         // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.

@@ -263,6 +263,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.now.entry = self
             .now
             .locate(&self.sketch)
+            // Before the exit: what lies between is to be searched, and the loop to close behind it.
+            .filter(|entry| entry.1 < self.now.exit_at)
             .ok_or_else(|| "the sketch could not be enclosed in the first tube".to_owned())?;
         self.kept_weights.copy_from_slice(&self.weights);
         let tube = std::mem::replace(&mut self.now, Tube::empty());
@@ -353,8 +355,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     fn prove_crossings(&mut self, tube: &Tube<D>, crossings: &[Crossing]) -> Result<(), Rejection> {
         let known = self.found.len();
-        let all =
-            (0..crossings.len()).try_for_each(|index| self.prove_crossing(tube, crossings, index));
+        let all = crossings.iter().try_for_each(|&crossing| self.prove_crossing(tube, crossing));
         if all.is_err() {
             self.found.truncate(known);
         }
@@ -362,14 +363,12 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
-    /// in this stretch of it, since it lies in no other.
+    /// in this stretch of it.
     fn prove_crossing(
         &mut self,
         tube: &Tube<D>,
-        crossings: &[Crossing],
-        index: usize,
+        crossing: Crossing,
     ) -> Result<(), Rejection> {
-        let crossing = crossings[index];
         let (a, b) = crossing.between;
         tube.local.at(0.5 * (a + b), &mut self.scratch);
         let found = self
@@ -386,13 +385,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
             radius: found.radius.clone(),
         };
         let at = tube.locate(&ball).ok_or(Rejection::Undecided)?;
-        let meets = |c: &Crossing| at.0 <= c.between.1 && c.between.0 <= at.1;
-        if !meets(&crossing)
-            || crossings
-                .iter()
-                .enumerate()
-                .any(|(k, c)| k != index && meets(c))
-        {
+        // All of it: beyond the stretch there may be another solution, in the tube but not counted.
+        if at.0 < a || at.1 > b {
             return Err(Rejection::Undecided);
         }
         for other in &self.found {

@@ -258,7 +258,8 @@ impl<const D: usize> KrawczykTest<D> {
             round_up(norm_of(&self.v, u, n), n + 200)
         };
         let [rounding, higher, width, low, high] = &self.bounds;
-        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n), 2);
+        // The ones of I pass through as many sums as the products that they are added to.
+        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n) + gamma(m + 4), 3);
         let higher = bound(higher, m);
         let width = bound(width, m);
         let low = bound(low, m);
@@ -558,15 +559,19 @@ impl Norms {
             return None;
         }
         // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
-        // A power sᵏ gains a factor k/h: k ≤ DEGREE in the rounding, k ≤ (MAX_DEGREE − 1) ORDER in J_k.
+        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. In the part of F that
+        // does not get smaller with s, rounding above all, k ≤ DEGREE, and k |s|ᵏ⁻¹ ≤ k Hᵏ/H with the
+        // H = `self.h` where it was bounded, as the derivative has only orders k ≥ 1.
         // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
         let moving = 1.0 + h * self.a;
-        let orders = [DEGREE, ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
+        let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
         let x = h / self.h;
         let x3 = x * x * x;
         let defect_slope =
-            orders[0] * self.low + x3 * x3 * (orders[1] * self.middle + orders[2] * self.high * x);
-        let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[3] * self.higher * x3;
+            DEGREE as f64 / self.h * self.low + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
+        // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders, at H.
+        let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
+        let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[2] * self.higher * x3 + rounding_slope;
         let slope = moving
             * (defect_slope
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
@@ -584,5 +589,13 @@ impl Norms {
             slope: self.slope,
             moving: self.a,
         })
+    }
+}
+
+#[cfg(test)]
+impl<const D: usize> KrawczykTest<D> {
+    /// A of the last proof.
+    pub(super) fn moving_matrix(&self) -> &Matrix {
+        &self.a
     }
 }
