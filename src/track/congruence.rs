@@ -21,7 +21,9 @@ pub fn congruence_classes(figures: &[Vec<[f64; 3]>], tolerance: f64) -> Vec<usiz
         .iter()
         .map(|figure| {
             let distances = distances(figure);
-            let found = classes.iter().position(|known| agree(known, &distances, tolerance));
+            let found = classes
+                .iter()
+                .position(|known| agree(known, &distances, tolerance));
             found.unwrap_or_else(|| {
                 classes.push(distances);
                 classes.len() - 1
@@ -34,7 +36,12 @@ fn distances(figure: &[[f64; 3]]) -> Vec<f64> {
     let mut out = Vec::with_capacity(figure.len() * figure.len() / 2);
     for (k, a) in figure.iter().enumerate() {
         for b in &figure[..k] {
-            out.push((0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt());
+            out.push(
+                (0..3)
+                    .map(|axis| (a[axis] - b[axis]).powi(2))
+                    .sum::<f64>()
+                    .sqrt(),
+            );
         }
     }
     out
@@ -42,5 +49,8 @@ fn distances(figure: &[[f64; 3]]) -> Vec<f64> {
 
 fn agree(a: &[f64], b: &[f64], tolerance: f64) -> bool {
     let size = a.iter().chain(b).fold(0.0f64, |size, &x| size.max(x));
-    a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tolerance * size)
+    a.len() == b.len()
+        && a.iter()
+            .zip(b)
+            .all(|(x, y)| (x - y).abs() <= tolerance * size)
 }

@@ -58,8 +58,12 @@ fn solve_in<const D: usize>(
 ) -> Result<Outcome, StartError> {
     match (options.mode, options.space, options.preset) {
         (Mode::Certified, ..) => Ok(certified::track::<D>(homotopy, options, control)),
-        (Mode::Float, Space::Full, Preset::Default) => Ok(float::track::<D>(homotopy, options, control)),
-        (Mode::Float, Space::Full, Preset::Paper) => Ok(float::track_paper::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Full, Preset::Default) => {
+            Ok(float::track::<D>(homotopy, options, control))
+        }
+        (Mode::Float, Space::Full, Preset::Paper) => {
+            Ok(float::track_paper::<D>(homotopy, options, control))
+        }
         (Mode::Float, Space::Reduced, _) => Err(StartError::Unsupported("not built yet".into())),
     }
 }

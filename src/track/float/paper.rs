@@ -21,7 +21,11 @@ const DIFFERENCE: f64 = 1.5e-8;
 /// differences, and steps that are doubled and halved.
 ///
 /// `homotopy` should have the unit 1, as the paper's steps are in the problem's lengths.
-pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
     let mut record = Record::new(&equations);
@@ -93,7 +97,12 @@ impl<'a, const D: usize> Paper<'a, D> {
         self.inverter.invert_into(&mut self.inverse).ok()
     }
 
-    fn run(&mut self, options: &Options, control: &mut Control, record: &mut Record<D>) -> Result<(), String> {
+    fn run(
+        &mut self,
+        options: &Options,
+        control: &mut Control,
+        record: &mut Record<D>,
+    ) -> Result<(), String> {
         let (m, n) = (self.equations.m, self.equations.n());
         for (x, &place) in self.z.iter_mut().zip(&self.homotopy.gauge.place) {
             *x = self.homotopy.sketch[place];
@@ -102,7 +111,8 @@ impl<'a, const D: usize> Paper<'a, D> {
         // The orientation is arbitrary; ours is that of rising t.
         self.tangent[m] = if options.reverse { -1.0 } else { 1.0 };
         self.next.copy_from_slice(&self.z);
-        self.differentiate().ok_or("the sketch is a singular point of its path")?;
+        self.differentiate()
+            .ok_or("the sketch is a singular point of its path")?;
         self.set_tangent();
         std::mem::swap(&mut self.tangent, &mut self.next_tangent);
         let direction = self.tangent.clone();
@@ -127,9 +137,8 @@ impl<'a, const D: usize> Paper<'a, D> {
             record.steps += 1;
             record.meet(self.next[m]);
             self.look_for_solution(record);
-            let homotopy_length = |a: &Vector, b: &Vector| {
-                (0..n).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-            };
+            let homotopy_length =
+                |a: &Vector, b: &Vector| (0..n).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
             record.length += homotopy_length(&self.z, &self.next);
             // The hyperplane t = 0 was crossed near the sketch, in the direction of the start.
             if record.steps > 1 && self.passed(&sketch, &direction, step) {
@@ -141,7 +150,10 @@ impl<'a, const D: usize> Paper<'a, D> {
                 step *= 2.0;
             }
             if record.steps >= options.max_steps {
-                return Err(format!("the limit of {} steps was reached at t = {:.9}", options.max_steps, self.z[m]));
+                return Err(format!(
+                    "the limit of {} steps was reached at t = {:.9}",
+                    options.max_steps, self.z[m]
+                ));
             }
             let progress = Progress {
                 t: self.z[m],
@@ -150,7 +162,10 @@ impl<'a, const D: usize> Paper<'a, D> {
                 length: record.length,
             };
             if control.is_cancelled(progress) {
-                return Err(format!("interrupted at t = {:.9} after {} steps", self.z[m], record.steps));
+                return Err(format!(
+                    "interrupted at t = {:.9} after {} steps",
+                    self.z[m], record.steps
+                ));
             }
         }
     }
@@ -208,7 +223,10 @@ impl<'a, const D: usize> Paper<'a, D> {
     fn passed(&self, sketch: &[f64], direction: &[f64], step: f64) -> bool {
         let (m, n) = (self.equations.m, self.equations.n());
         let crossed = (self.z[m] < 0.0) != (self.next[m] < 0.0);
-        let away = (0..n).map(|i| (self.next[i] - sketch[i]).powi(2)).sum::<f64>().sqrt();
+        let away = (0..n)
+            .map(|i| (self.next[i] - sketch[i]).powi(2))
+            .sum::<f64>()
+            .sqrt();
         crossed && away <= 1.5 * step && dot(&self.next_tangent[..n], &direction[..n]) > 0.0
     }
 }

@@ -59,9 +59,8 @@ impl<const D: usize> Record<D> {
         local.polish_at(equations, inverter, 1.0)?;
         let x = &local.z[0];
         let size = x[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-        let is_same = |known: &Vector| {
-            (0..m).all(|i| (known[i] - x[i]).abs() <= SAME_FIGURE * size)
-        };
+        let is_same =
+            |known: &Vector| (0..m).all(|i| (known[i] - x[i]).abs() <= SAME_FIGURE * size);
         if !self.found.iter().any(is_same) {
             self.found.push(x.clone());
         }

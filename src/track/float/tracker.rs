@@ -25,7 +25,11 @@ const FIRST_STEP: f64 = 0.01;
 const SMALLEST_STEP: f64 = 1e-10;
 
 /// Follows the path in the full space in floating point.
-pub fn track<const D: usize>(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
     let mut record = Record::new(&equations);
@@ -59,7 +63,9 @@ fn run<const D: usize>(
     now.expand(equations, ORDER);
     let direction = now.normal.clone();
 
-    let longest = options.max_step.map_or(f64::INFINITY, |step| step / homotopy.unit);
+    let longest = options
+        .max_step
+        .map_or(f64::INFINITY, |step| step / homotopy.unit);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations);
     let mut step = FIRST_STEP.min(longest);
@@ -68,16 +74,25 @@ fn run<const D: usize>(
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
-            return Err(format!("the corrector fails at the smallest step, {}", place(record, &now)));
+            return Err(format!(
+                "the corrector fails at the smallest step, {}",
+                place(record, &now)
+            ));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
-        let refined = next.refine(equations, &mut inverter, POINT_TOLERANCE, 6).is_ok()
+        let refined = next
+            .refine(equations, &mut inverter, POINT_TOLERANCE, 6)
+            .is_ok()
             && next.contraction <= LARGEST_CONTRACTION;
         if refined {
             next.expand(equations, ORDER);
         }
         let turned = crate::track::full::dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
-        let seen = refined && !turned && events.between(equations, &mut inverter, &now, &next, step, record).is_some();
+        let seen = refined
+            && !turned
+            && events
+                .between(equations, &mut inverter, &now, &next, step, record)
+                .is_some();
         if !seen {
             record.rejected += 1;
             step *= 0.5;
@@ -101,7 +116,11 @@ fn run<const D: usize>(
         }
         std::mem::swap(&mut now, &mut next);
         if record.steps >= options.max_steps {
-            return Err(format!("the limit of {} steps was reached {}", options.max_steps, place(record, &now)));
+            return Err(format!(
+                "the limit of {} steps was reached {}",
+                options.max_steps,
+                place(record, &now)
+            ));
         }
         let progress = Progress {
             t: now.z[0][m],
@@ -123,7 +142,10 @@ struct Events {
 
 impl Events {
     fn new<const D: usize>(equations: &Equations<D>) -> Self {
-        Events { crossings: Vec::new(), scratch: equations.vector() }
+        Events {
+            crossings: Vec::new(),
+            scratch: equations.vector(),
+        }
     }
 
     /// Records the solutions between two points: the first half of the way is read off the
@@ -164,7 +186,13 @@ impl Events {
 
     /// Whether the path, followed in `direction`, passed the sketch on the last `step` before `next`:
     /// at which parameter, if so.
-    fn passes<const D: usize>(&mut self, sketch: &[f64], direction: &[f64], next: &Local<D>, step: f64) -> Option<f64> {
+    fn passes<const D: usize>(
+        &mut self,
+        sketch: &[f64],
+        direction: &[f64],
+        next: &Local<D>,
+        step: f64,
+    ) -> Option<f64> {
         let n = next.y.rows();
         let t = sketch.len() - 2;
         if next.z[0][t].abs() > step {
@@ -176,14 +204,20 @@ impl Events {
             return None;
         }
         next.at(at, ORDER, &mut self.scratch);
-        let away = (0..n).fold(0.0, |max: f64, i| max.max((self.scratch[i] - sketch[i]).abs()));
+        let away = (0..n).fold(0.0, |max: f64, i| {
+            max.max((self.scratch[i] - sketch[i]).abs())
+        });
         (away <= 10.0 * next.first_correction + 1e-6).then_some(at)
     }
 }
 
 /// The value of t where its slope vanishes, by bisection.
 fn extreme<const D: usize>(local: &Local<D>, from: f64, to: f64, t: usize) -> f64 {
-    let slope = |s: f64| (1..=ORDER).rev().fold(0.0, |sum, k| sum * s + k as f64 * local.z[k][t]);
+    let slope = |s: f64| {
+        (1..=ORDER)
+            .rev()
+            .fold(0.0, |sum, k| sum * s + k as f64 * local.z[k][t])
+    };
     let (mut a, mut b) = (from, to);
     for _ in 0..50 {
         let middle = 0.5 * (a + b);
@@ -193,5 +227,7 @@ fn extreme<const D: usize>(local: &Local<D>, from: f64, to: f64, t: usize) -> f6
             b = middle;
         }
     }
-    (0..=ORDER).rev().fold(0.0, |sum, k| sum * a + local.z[k][t])
+    (0..=ORDER)
+        .rev()
+        .fold(0.0, |sum, k| sum * a + local.z[k][t])
 }

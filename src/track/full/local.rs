@@ -132,7 +132,12 @@ impl<const D: usize> Local<D> {
     }
 
     /// Corrects `z[0]` in X at a fixed t, as far as floats go.
-    pub fn polish_at(&mut self, equations: &Equations<D>, inverter: &mut Inverter, t: f64) -> Option<()> {
+    pub fn polish_at(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        t: f64,
+    ) -> Option<()> {
         let m = equations.m;
         self.normal.fill(0.0);
         self.normal[m] = 1.0;
