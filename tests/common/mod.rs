@@ -1,0 +1,68 @@
+//! What several of the tests need: shipped problems, runs, and checks that share no code with the
+//! trackers.
+
+#![allow(dead_code)] // every test program uses its own part
+
+pub mod boxes;
+pub mod exact;
+pub mod moves;
+pub mod random;
+
+use krawl::problem::Problem;
+use krawl::track::{self, Control, Mode, Options, Outcome, Solution, Space, Status};
+
+/// The shipped problems with short paths, and how many solutions they have on the path, all of
+/// them different up to reflection. The first three counts are published (RR 8705, tables 1 and
+/// 2), the last two are those of the complex solutions up to reflection, which bound them.
+pub const SHORT: [(&str, usize); 6] = [
+    ("octahedron", 4),
+    ("disulfide", 8),
+    ("dodecagon", 2),
+    ("icosahedron-c1", 8),
+    ("prism", 12),
+    ("k33", 8),
+];
+
+/// All float modes and spaces that there are.
+pub const FLOAT_SPACES: [Space; 1] = [Space::Full];
+
+/// A way to follow a path, for each mode and space that there is.
+pub fn ways() -> Vec<Options> {
+    let float = FLOAT_SPACES.map(Options::float);
+    [vec![Options::certified()], float.to_vec()].concat()
+}
+
+/// The arguments of the program that ask for a way.
+pub fn arguments(way: &Options) -> [&'static str; 4] {
+    let mode = match way.mode {
+        Mode::Certified => "certified",
+        Mode::Float => "float",
+    };
+    let space = match way.space {
+        Space::Full => "full",
+        Space::Reduced => "reduced",
+    };
+    ["--mode", mode, "--space", space]
+}
+
+/// A problem from `problems/`.
+pub fn shipped(name: &str) -> Problem {
+    Problem::read(format!("problems/{name}.toml")).unwrap()
+}
+
+/// The result of a run.
+pub fn solve(problem: &Problem, options: &Options) -> Outcome {
+    track::solve(problem, options, &mut Control::default()).unwrap()
+}
+
+/// The solutions of a run that must close.
+pub fn closed(problem: &Problem, options: &Options) -> Vec<Solution> {
+    let outcome = solve(problem, options);
+    assert_eq!(
+        outcome.status,
+        Status::Closed,
+        "{}, {options:?}",
+        problem.name
+    );
+    outcome.solutions
+}

@@ -1,0 +1,147 @@
+//! Laws that hold for every problem, tried on random ones.
+//!
+//! Every `cargo test` tries the same problems, so that a result does not depend on luck: float
+//! tracking promises nothing, and a jump to another path with as many solutions would be no bug.
+//! The ignored variants try more, larger and each time other ones.
+
+mod common;
+
+use common::boxes::{View, check, float_matching, matching};
+use common::random::{Recipe, recipe};
+use common::{FLOAT_SPACES, solve};
+use krawl::problem::Problem;
+use krawl::track::{Options, Outcome, Status};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
+use std::cell::RefCell;
+
+/// What became of the problems that were tried.
+#[derive(Debug, Default)]
+struct Tally {
+    closed: usize,
+    stopped: usize,
+    with_solutions: usize,
+    float_closed: usize,
+    float_agrees: usize,
+    reasons: Vec<String>,
+}
+
+/// Long paths are cut off here, which is a reason to stop as good as any.
+const MAX_STEPS: usize = 20_000;
+
+fn limited(options: Options) -> Options {
+    Options {
+        max_steps: MAX_STEPS,
+        ..options
+    }
+}
+
+/// The laws. A run closes, or says why it does not; what it says about solutions is true in either
+/// case; the other way round the loop are the same solutions; and float tracking agrees.
+fn laws(problem: &Problem, tally: &mut Tally) -> Result<(), String> {
+    let outcome = solve(problem, &limited(Options::certified()));
+    check(problem, &outcome.solutions)?;
+    if let Status::Stopped(reason) = &outcome.status {
+        tally.stopped += 1;
+        tally.reasons.push(reason.clone());
+        return if reason.trim().is_empty() {
+            Err("stopped without a reason".to_owned())
+        } else {
+            Ok(())
+        };
+    }
+    tally.closed += 1;
+    tally.with_solutions += usize::from(!outcome.solutions.is_empty());
+    even_crossings(&outcome)?;
+    let solutions = &outcome.solutions;
+    let back = solve(problem, &limited(Options::certified()).reversed());
+    if back.status == Status::Closed {
+        let pairs = matching(solutions, &View::same(problem), &back.solutions)
+            .map_err(|e| format!("reversed: {e}"))?;
+        if !pairs.iter().rev().copied().eq(0..solutions.len()) {
+            return Err(format!("reversed, the order is {pairs:?}"));
+        }
+    }
+    for space in FLOAT_SPACES {
+        let float = solve(problem, &limited(Options::float(space)));
+        if float.status != Status::Closed {
+            continue;
+        }
+        tally.float_closed += 1;
+        if float.solutions.len() == solutions.len() {
+            tally.float_agrees += 1;
+            float_matching(problem, solutions, &float.solutions)
+                .map_err(|e| format!("float, {space:?}: {e}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// A closed curve that crosses t = 1 and nowhere touches it crosses it as often up as down.
+fn even_crossings(outcome: &Outcome) -> Result<(), String> {
+    if outcome.solutions.len().is_multiple_of(2) {
+        Ok(())
+    } else {
+        Err(format!("{} crossings of t = 1", outcome.solutions.len()))
+    }
+}
+
+fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<TestRng>) -> Tally {
+    let tally = RefCell::new(Tally::default());
+    let config = Config {
+        cases,
+        failure_persistence: None,
+        ..Config::default()
+    };
+    let mut runner = match rng {
+        Some(rng) => TestRunner::new_with_rng(config, rng),
+        None => TestRunner::new(config),
+    };
+    let result = runner.run(&strategy, |recipe| {
+        // Points that coincide, or a sketch on one line.
+        let problem = recipe
+            .build()
+            .map_err(|e| TestCaseError::reject(e.to_string()))?;
+        laws(&problem, &mut tally.borrow_mut()).map_err(TestCaseError::fail)
+    });
+    match result {
+        Ok(()) => {}
+        Err(TestError::Fail(reason, recipe)) => {
+            let text = recipe.build().map_or_else(|e| e.to_string(), |p| p.to_toml());
+            panic!("{reason}\n\n{text}");
+        }
+        Err(error) => panic!("{error}"),
+    }
+    let tally = tally.into_inner();
+    println!("{tally:#?}");
+    // Laws about closed runs say little if there are none.
+    assert!(tally.closed * 10 >= cases as usize * 9, "{tally:#?}");
+    assert!(tally.with_solutions * 4 >= cases as usize, "{tally:#?}");
+    tally
+}
+
+fn same_each_time() -> Option<TestRng> {
+    Some(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+}
+
+#[test]
+fn in_the_plane() {
+    try_all(recipe(2, 3..=9), 100, same_each_time());
+}
+
+#[test]
+fn in_space() {
+    try_all(recipe(3, 4..=9), 60, same_each_time());
+}
+
+#[test]
+#[ignore = "takes long, and tries other problems each time"]
+fn many_in_the_plane() {
+    try_all(recipe(2, 3..=9), 5000, None);
+}
+
+#[test]
+#[ignore = "takes long, and tries other problems each time"]
+fn many_in_space() {
+    try_all(recipe(3, 4..=9), 3000, None);
+}
