@@ -107,7 +107,9 @@ fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<Test
     match result {
         Ok(()) => {}
         Err(TestError::Fail(reason, recipe)) => {
-            let text = recipe.build().map_or_else(|e| e.to_string(), |p| p.to_toml());
+            let text = recipe
+                .build()
+                .map_or_else(|e| e.to_string(), |p| p.to_toml());
             panic!("{reason}\n\n{text}");
         }
         Err(error) => panic!("{error}"),

@@ -75,7 +75,11 @@ impl Inverter {
         let kept = !self.pivots.order.is_empty() && self.exchange_all(values).is_ok();
         if !kept {
             self.choose(values)?;
-            self.exchange_all(values)?;
+            if let Err(singular) = self.exchange_all(values) {
+                // Pivots chosen for such a matrix are no good for the next one either.
+                self.pivots = Pivots::default();
+                return Err(singular);
+            }
         }
         for (column, &row) in self.pivots.row_of.iter().enumerate() {
             // Column k of the result stands for the equation that was its pivot.

@@ -59,21 +59,6 @@ impl<const D: usize> Tube<D> {
         }
     }
 
-    /// A placeholder without any room.
-    pub fn empty() -> Self {
-        Tube {
-            local: Local::empty(),
-            weights: Vector::zeros(0),
-            proof: Proof::default(),
-            exit_at: 0.0,
-            exit: Ball {
-                centre: Vector::zeros(0),
-                radius: Vector::zeros(0),
-            },
-            entry: (0.0, 0.0),
-        }
-    }
-
     /// Proves that a point of H⁻¹(0) known to lie in `ball` is the path's point in one of this
     /// tube's cross-sections, and encloses its parameter. `None`: it could not be proved.
     ///

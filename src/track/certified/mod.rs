@@ -1,5 +1,6 @@
 //! Every step a theorem: tubes proved by a Krawczyk test, linked without a gap.
 
+mod ledger;
 mod link;
 mod solution;
 mod tracker;

@@ -1,14 +1,12 @@
 //! The chain of tubes from the sketch back to the sketch.
 
+use super::ledger::Ledger;
 use super::link::{Ball, Tube};
-use super::solution::{Same, SolutionBox, SolutionProver};
 use super::tube::KrawczykTest;
-use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
-use crate::track::events::{Crossing, TimeAlong};
-use crate::track::full::{Equations, RefineError, first_normal, path_length};
-use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Solution, Space, Status};
+use crate::track::full::{Equations, RefineError, first_normal};
+use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status};
 use std::time::Instant;
 
 /// The path leaves a tube at this fraction of its half length, so that there is room behind the
@@ -37,7 +35,12 @@ pub fn track<const D: usize>(
         Ok(()) => Status::Closed,
         Err(reason) => Status::Stopped(reason),
     };
-    let solutions = match tracker.solutions() {
+    if status == Status::Closed
+        && let Err(reason) = tracker.ledger.check_closed()
+    {
+        status = Status::Stopped(reason);
+    }
+    let solutions = match tracker.ledger.solutions() {
         Ok(solutions) => solutions,
         Err((reason, solutions)) => {
             if status == Status::Closed {
@@ -46,11 +49,6 @@ pub fn track<const D: usize>(
             solutions
         }
     };
-    if status == Status::Closed
-        && let Err(reason) = tracker.lengths_are_positive()
-    {
-        status = Status::Stopped(reason);
-    }
     Outcome {
         mode: Mode::Certified,
         space: Space::Full,
@@ -60,8 +58,8 @@ pub fn track<const D: usize>(
         rejected: tracker.rejected,
         plan_changes: 0,
         driving: Driving::default(),
-        length: tracker.length,
-        t_range: tracker.t_range,
+        length: tracker.ledger.length,
+        t_range: tracker.ledger.t_range,
         seconds: clock.elapsed().as_secs_f64(),
         switched_on: tracker.switched_on(),
     }
@@ -96,7 +94,7 @@ struct Tracker<'a, const D: usize> {
     equations: Equations<D>,
     inverter: Inverter,
     test: KrawczykTest<D>,
-    prover: SolutionProver<D>,
+    ledger: Ledger<'a, D>,
     now: Tube<D>,
     next: Tube<D>,
     /// Weights for the next proof, and those to return to if it is rejected.
@@ -107,14 +105,9 @@ struct Tracker<'a, const D: usize> {
     sketch: Ball,
     /// The direction of travel at the sketch.
     first_normal: Vector,
-    crossings: Vec<Crossing>,
-    scratch: Vector,
-    found: Vec<SolutionBox>,
     steps: usize,
     rejected: usize,
     shortened: usize,
-    length: f64,
-    t_range: (f64, f64),
 }
 
 impl<'a, const D: usize> Tracker<'a, D> {
@@ -134,7 +127,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
             homotopy,
             inverter: equations.inverter(),
             test: KrawczykTest::new(&equations),
-            prover: SolutionProver::new(homotopy, &equations),
+            ledger: Ledger::new(homotopy, &equations),
             now: Tube::new(&equations),
             next: Tube::new(&equations),
             kept_weights: weights.clone(),
@@ -142,14 +135,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
             previous: None,
             sketch,
             first_normal: vector(),
-            crossings: Vec::new(),
-            scratch: vector(),
-            found: Vec::new(),
             steps: 0,
             rejected: 0,
             shortened: 0,
-            length: 0.0,
-            t_range: (f64::INFINITY, f64::NEG_INFINITY),
             equations,
         }
     }
@@ -215,8 +203,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
             let progress = Progress {
                 t: self.now.local.z[0][self.equations.m],
                 steps: self.steps,
-                solutions: self.found.len(),
-                length: self.length,
+                solutions: self.ledger.solutions_so_far(),
+                length: self.ledger.length,
             };
             if control.is_cancelled(progress) {
                 return Err(format!("interrupted {}", self.place()));
@@ -267,10 +255,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .filter(|entry| entry.1 < self.now.exit_at)
             .ok_or_else(|| "the sketch could not be enclosed in the first tube".to_owned())?;
         self.kept_weights.copy_from_slice(&self.weights);
-        let tube = std::mem::replace(&mut self.now, Tube::empty());
-        let events = self.account(&tube, None);
-        self.now = tube;
-        events.map_err(|rejection| format!("in the first tube, {}", rejection.in_words()))
+        self.ledger
+            .enter(&self.equations, &mut self.inverter, &self.now, None)
+            .map_err(|_| format!("in the first tube, {}", Rejection::Undecided.in_words()))
     }
 
     /// Adds the tube that is `advance` further on. Tells whether it closes the loop.
@@ -301,11 +288,10 @@ impl<'a, const D: usize> Tracker<'a, D> {
         if next.entry.1 >= next.exit_at {
             return Err(Rejection::Unlinked);
         }
-        let tube = std::mem::replace(&mut self.next, Tube::empty());
-        let closing = self.closes(&tube);
-        let accounted = self.account(&tube, closing);
-        self.next = tube;
-        accounted?;
+        let closing = self.closes(&self.next);
+        self.ledger
+            .enter(&self.equations, &mut self.inverter, &self.next, closing)
+            .map_err(|_| Rejection::Undecided)?;
         match &mut self.previous {
             Some(previous) => previous.copy_from_slice(&self.now.local.z[0]),
             None => self.previous = Some(self.now.local.z[0].clone()),
@@ -325,169 +311,6 @@ impl<'a, const D: usize> Tracker<'a, D> {
         }
         let at = tube.locate(&self.sketch)?;
         (at.0 > tube.entry.1 && tube.goes_along(at, &self.first_normal)).then_some(at)
-    }
-
-    /// Looks for solutions in a linked tube, and keeps count of the path.
-    fn account(&mut self, tube: &Tube<D>, closing: Option<(f64, f64)>) -> Result<(), Rejection> {
-        let time = tube.time();
-        let from = tube.entry.0.max(-tube.proof.h);
-        let to = closing
-            .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))
-            .min(tube.proof.h);
-        let mut crossings = std::mem::take(&mut self.crossings);
-        let found = time
-            .crossings(from, to, &mut crossings)
-            .map_err(|_| Rejection::Undecided)
-            .and_then(|()| self.prove_crossings(tube, &crossings));
-        self.crossings = crossings;
-        found?;
-        let until = closing.map_or(tube.exit_at, |at| at.1);
-        self.length += path_length(
-            &tube.local,
-            from,
-            until,
-            self.homotopy.unit,
-            &mut self.scratch,
-        );
-        self.widen_t_range(&time, from, to);
-        Ok(())
-    }
-
-    fn prove_crossings(&mut self, tube: &Tube<D>, crossings: &[Crossing]) -> Result<(), Rejection> {
-        let known = self.found.len();
-        let all = crossings.iter().try_for_each(|&crossing| self.prove_crossing(tube, crossing));
-        if all.is_err() {
-            self.found.truncate(known);
-        }
-        all
-    }
-
-    /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
-    /// in this stretch of it.
-    fn prove_crossing(
-        &mut self,
-        tube: &Tube<D>,
-        crossing: Crossing,
-    ) -> Result<(), Rejection> {
-        let (a, b) = crossing.between;
-        tube.local.at(0.5 * (a + b), &mut self.scratch);
-        let found = self
-            .prover
-            .prove(
-                &self.equations,
-                &mut self.inverter,
-                &self.scratch,
-                crossing.rising,
-            )
-            .ok_or(Rejection::Undecided)?;
-        let ball = Ball {
-            centre: found.centre.clone(),
-            radius: found.radius.clone(),
-        };
-        let at = tube.locate(&ball).ok_or(Rejection::Undecided)?;
-        // All of it: beyond the stretch there may be another solution, in the tube but not counted.
-        if at.0 < a || at.1 > b {
-            return Err(Rejection::Undecided);
-        }
-        for other in &self.found {
-            match found.is_same(other, |_| false) {
-                // In the overlap of two tubes, or at the end of the loop.
-                Same::Yes => return Ok(()),
-                Same::No => {}
-                Same::Unknown => return Err(Rejection::Undecided),
-            }
-        }
-        self.found.push(found);
-        Ok(())
-    }
-
-    fn widen_t_range(&mut self, time: &TimeAlong, from: f64, to: f64) {
-        let inside = |(lo, hi): (f64, f64), range: (f64, f64)| lo >= range.0 && hi <= range.1;
-        let shift = |(lo, hi): (f64, f64)| ((lo + 1.0).next_down(), (hi + 1.0).next_up());
-        if inside(shift(time.bounds(from, to).0), self.t_range) {
-            return;
-        }
-        const PIECES: usize = 32;
-        let at = |k: usize| from + (to - from) * (k as f64 / PIECES as f64);
-        for k in 0..PIECES {
-            // One float of overlap on either side covers the rounding of the ends.
-            let (lo, hi) = shift(time.bounds(at(k).next_down(), at(k + 1).next_up()).0);
-            self.t_range = (self.t_range.0.min(lo), self.t_range.1.max(hi));
-        }
-    }
-
-    /// Claim 3: a_i(t) > 0 on the whole range of t.
-    fn lengths_are_positive(&self) -> Result<(), String> {
-        let range = hull(self.t_range.0, self.t_range.1);
-        for (index, length) in self.homotopy.lengths.iter().enumerate() {
-            if length.enclose(range).inf() <= 0.0
-                && !positive_in_pieces(|t| length.enclose(t), range)
-            {
-                return Err(format!(
-                    "the length of constraint {} could not be proved positive for t from {:.6} to {:.6}",
-                    index + 1,
-                    self.t_range.0,
-                    self.t_range.1
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    /// The solutions with their classes; the reason, if a claim about them could not be proved.
-    fn solutions(&self) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
-        let d = self.homotopy.dimension;
-        let gauge = &self.homotopy.gauge;
-        // The mirror image in the gauge: the last coordinate changes its sign.
-        let mirrored = |i: usize| gauge.place[i] % d == d - 1;
-        let mut reason = None;
-        let mut classes: Vec<usize> = Vec::new();
-        for (k, found) in self.found.iter().enumerate() {
-            let mut class = None;
-            for (j, other) in self.found[..k].iter().enumerate() {
-                match found.is_same(other, mirrored) {
-                    Same::Yes => class = Some(classes[j]),
-                    Same::No => {}
-                    Same::Unknown => {
-                        reason = Some(format!(
-                            "it could not be decided whether solutions {} and {} are mirror images",
-                            j + 1,
-                            k + 1
-                        ))
-                    }
-                }
-            }
-            classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
-            // Congruent figures have the same or mirrored coordinates only if the reference
-            // points are on the same sides.
-            for (rank, &p) in gauge.reference.iter().enumerate().skip(1) {
-                let i = gauge.variable[p * d + rank - 1];
-                if found.centre[i] - found.radius[i] <= 0.0 {
-                    reason = Some(format!(
-                        "in solution {} the reference is degenerate or turned over",
-                        k + 1
-                    ));
-                }
-            }
-        }
-        let solutions = self
-            .found
-            .iter()
-            .zip(classes)
-            .map(|(found, class)| {
-                let points = found.points(self.homotopy);
-                let width = relative_width(&points);
-                Solution {
-                    points,
-                    class,
-                    width,
-                }
-            })
-            .collect();
-        match reason {
-            None => Ok(solutions),
-            Some(reason) => Err((reason, solutions)),
-        }
     }
 
     fn figure_size(&self) -> f64 {
@@ -530,21 +353,4 @@ impl<'a, const D: usize> Tracker<'a, D> {
         }
         list
     }
-}
-
-/// Whether a function is proved positive on every piece of a range.
-fn positive_in_pieces(enclose: impl Fn(Interval) -> Interval, range: Interval) -> bool {
-    const PIECES: usize = 64;
-    let (lo, width) = (point(range.inf()), point(range.sup()) - point(range.inf()));
-    (0..PIECES).all(|k| {
-        let piece = hull(k as f64 / PIECES as f64, (k + 1) as f64 / PIECES as f64);
-        enclose((lo + width * piece).intersection(range)).inf() > 0.0
-    })
-}
-
-/// The widest coordinate's width over the largest coordinate.
-fn relative_width(points: &[[Interval; 3]]) -> f64 {
-    let all = || points.iter().flatten();
-    let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
-    all().fold(0.0, |max: f64, x| max.max(x.wid())) / size
 }

@@ -567,11 +567,12 @@ impl Norms {
         let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
         let x = h / self.h;
         let x3 = x * x * x;
-        let defect_slope =
-            DEGREE as f64 / self.h * self.low + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
+        let defect_slope = DEGREE as f64 / self.h * self.low
+            + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
         // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders, at H.
         let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
-        let jacobian_slope = self.a + 2.0 * h * self.a2 + orders[2] * self.higher * x3 + rounding_slope;
+        let jacobian_slope =
+            self.a + 2.0 * h * self.a2 + orders[2] * self.higher * x3 + rounding_slope;
         let slope = moving
             * (defect_slope
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));

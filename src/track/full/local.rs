@@ -67,25 +67,6 @@ impl<const D: usize> Local<D> {
         }
     }
 
-    /// A placeholder without any room.
-    pub fn empty() -> Self {
-        let none = || Vector::zeros(0);
-        Local {
-            z: std::array::from_fn(|_| none()),
-            d: std::array::from_fn(|_| std::array::from_fn(|_| none())),
-            lengths: Lengths::new(0),
-            normal: none(),
-            y: Matrix::zeros(0, 0),
-            powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
-            first_correction: 0.0,
-            contraction: 0.0,
-            negative: false,
-            values: Vec::new(),
-            f: none(),
-            delta: none(),
-        }
-    }
-
     /// Brings differences and lengths up to date with `z[0]`.
     #[inline(always)]
     fn look(&mut self, equations: &Equations<D>) {

@@ -12,7 +12,9 @@ fn exact(x: f64) -> BigRational {
 }
 
 fn value(p: &[BigRational], x: &BigRational) -> BigRational {
-    p.iter().rev().fold(BigRational::zero(), |sum, c| sum * x + c)
+    p.iter()
+        .rev()
+        .fold(BigRational::zero(), |sum, c| sum * x + c)
 }
 
 fn trim(mut p: Polynomial) -> Polynomial {
@@ -24,8 +26,12 @@ fn trim(mut p: Polynomial) -> Polynomial {
 
 /// Sturm's sequence, each member scaled to a leading coefficient ±1.
 fn sturm(p: &[BigRational]) -> Vec<Polynomial> {
-    let derivative: Polynomial =
-        p.iter().enumerate().skip(1).map(|(k, c)| c * BigRational::from_integer(k.into())).collect();
+    let derivative: Polynomial = p
+        .iter()
+        .enumerate()
+        .skip(1)
+        .map(|(k, c)| c * BigRational::from_integer(k.into()))
+        .collect();
     let mut sequence = vec![trim(p.to_vec()), trim(derivative)];
     loop {
         let (a, b) = (&sequence[sequence.len() - 2], &sequence[sequence.len() - 1]);
@@ -43,7 +49,9 @@ fn sturm(p: &[BigRational]) -> Vec<Polynomial> {
             rest.pop();
         }
         let rest = trim(rest);
-        let scale = rest.last().map_or(BigRational::from_integer(1.into()), |c| c.abs());
+        let scale = rest
+            .last()
+            .map_or(BigRational::from_integer(1.into()), |c| c.abs());
         sequence.push(rest.into_iter().map(|c| -c / &scale).collect());
     }
 }
@@ -52,8 +60,12 @@ fn sturm(p: &[BigRational]) -> Vec<Polynomial> {
 fn roots(p: &[BigRational], a: &BigRational, b: &BigRational) -> usize {
     let sequence = sturm(p);
     let changes = |x: &BigRational| {
-        let signs: Vec<bool> =
-            sequence.iter().map(|q| value(q, x)).filter(|v| !v.is_zero()).map(|v| v.is_positive()).collect();
+        let signs: Vec<bool> = sequence
+            .iter()
+            .map(|q| value(q, x))
+            .filter(|v| !v.is_zero())
+            .map(|v| v.is_positive())
+            .collect();
         signs.windows(2).filter(|w| w[0] != w[1]).count()
     };
     // Sturm counts those in (a, b].
@@ -73,7 +85,10 @@ fn is_true(p: &[BigRational], (from, to): (f64, f64), crossings: &[Crossing]) ->
     for c in crossings {
         let (a, b) = (exact(c.between.0), exact(c.between.1));
         let (before, after) = (value(p, &a), value(p, &b));
-        if roots(p, &a, &b) != 1 || before.is_positive() == c.rising || after.is_positive() != c.rising {
+        if roots(p, &a, &b) != 1
+            || before.is_positive() == c.rising
+            || after.is_positive() != c.rising
+        {
             return false;
         }
         // Those beyond the ends do not count below.
@@ -113,10 +128,13 @@ fn lists_of_crossings_are_true_or_undecided() {
             // At the ends, and near them.
             4 => vec![to, a],
             5 => vec![from + random.sign() * near, to + random.sign() * near],
-            _ => (0..1 + random.below(5)).map(|_| random.between(-1.5 * h, 1.5 * h)).collect(),
+            _ => (0..1 + random.below(5))
+                .map(|_| random.between(-1.5 * h, 1.5 * h))
+                .collect(),
         };
         let mut c = product(&factors);
-        let scale = random.sign() * 10f64.powf(random.between(-3.0, 0.0)) / h.powi(factors.len() as i32);
+        let scale =
+            random.sign() * 10f64.powf(random.between(-3.0, 0.0)) / h.powi(factors.len() as i32);
         let mut z = [0.0; ORDER + 1];
         for (k, c) in c.drain(..).enumerate() {
             z[k] = scale * c;
@@ -128,7 +146,10 @@ fn lists_of_crossings_are_true_or_undecided() {
         let distance = 10f64.powf(random.between(-14.0, -4.0));
         let slope_distance = 10f64.powf(random.between(-3.0, 1.0)) * distance / h;
         let mut crossings = Vec::new();
-        if TimeAlong::new(z, h, distance, slope_distance).crossings(from, to, &mut crossings).is_err() {
+        if TimeAlong::new(z, h, distance, slope_distance)
+            .crossings(from, to, &mut crossings)
+            .is_err()
+        {
             undecided += 1;
             continue;
         }
@@ -138,7 +159,11 @@ fn lists_of_crossings_are_true_or_undecided() {
         p[0] = &p[0] - exact(1.0);
         // The polynomial itself, and others within the bounds.
         let tilt = 0.999 * slope_distance.min(distance / h);
-        for (constant, linear) in [(0.0, 0.0), (random.sign() * distance, 0.0), (0.0, random.sign() * tilt)] {
+        for (constant, linear) in [
+            (0.0, 0.0),
+            (random.sign() * distance, 0.0),
+            (0.0, random.sign() * tilt),
+        ] {
             let p = shifted(&p, &exact(constant), &exact(linear));
             assert!(
                 is_true(&p, (from, to), &crossings),

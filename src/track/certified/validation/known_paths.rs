@@ -19,7 +19,10 @@ fn whole(x: i64) -> BigRational {
 }
 
 fn decimal(text: &str) -> BigRational {
-    text.parse::<crate::problem::Decimal>().unwrap().value().clone()
+    text.parse::<crate::problem::Decimal>()
+        .unwrap()
+        .value()
+        .clone()
 }
 
 /// √x to 150 binary digits.
@@ -60,17 +63,32 @@ enum Known {
 
 /// From the places, on either side of 0, where each of the points is flat.
 fn known(flat: &[(Option<BigRational>, Option<BigRational>)], exactly: bool) -> Known {
-    let tolerance = if exactly { BigRational::new(1.into(), BigInt::from(1) << 120) } else { decimal("1e-7") };
+    let tolerance = if exactly {
+        BigRational::new(1.into(), BigInt::from(1) << 120)
+    } else {
+        decimal("1e-7")
+    };
     let nearest = |values: Vec<(usize, BigRational)>| -> Option<Result<(usize, BigRational), ()>> {
         let first = values.iter().min_by_key(|v| v.1.abs())?.clone();
-        let ties = values.iter().filter(|v| (&v.1 - &first.1).abs() < tolerance).count();
+        let ties = values
+            .iter()
+            .filter(|v| (&v.1 - &first.1).abs() < tolerance)
+            .count();
         Some(if ties > 1 { Err(()) } else { Ok(first) })
     };
     let side = |pick: &dyn Fn(usize) -> Option<BigRational>| {
-        nearest((0..flat.len()).filter_map(|k| pick(k).map(|x| (k, x))).collect())
+        nearest(
+            (0..flat.len())
+                .filter_map(|k| pick(k).map(|x| (k, x)))
+                .collect(),
+        )
     };
     let (below, above) = (side(&|k| flat[k].0.clone()), side(&|k| flat[k].1.clone()));
-    let doubtful = if exactly { Known::NeverClosed } else { Known::Unclear };
+    let doubtful = if exactly {
+        Known::NeverClosed
+    } else {
+        Known::Unclear
+    };
     match (below, above) {
         (Some(Ok((l, _))), Some(Ok((u, end)))) => {
             if (&end - whole(1)).abs() < tolerance {
@@ -96,8 +114,14 @@ fn near(random: &mut Random, base: i64) -> String {
         _ => {
             let (sign, digits) = (random.below(2), 3 + random.below(10));
             let small = BigRational::new(1.into(), BigInt::from(10).pow(digits as u32));
-            let value = if sign == 0 { whole(base) + small } else { whole(base) - small };
-            let scaled = (value * BigRational::from(BigInt::from(10).pow(14))).to_integer().to_string();
+            let value = if sign == 0 {
+                whole(base) + small
+            } else {
+                whole(base) - small
+            };
+            let scaled = (value * BigRational::from(BigInt::from(10).pow(14)))
+                .to_integer()
+                .to_string();
             format!("{scaled}e-14")
         }
     }
@@ -109,17 +133,27 @@ fn fan(random: &mut Random) -> (Problem, Known) {
     // The sketch's and the target lengths of the edges, the first being the common one.
     let mut sketch = vec![14];
     let mut names = vec![["p1".to_owned(), "p2".to_owned()]];
-    let mut builder = Problem::build("fan", 2).point("p1", [0, 0]).point("p2", [14, 0]);
+    let mut builder = Problem::build("fan", 2)
+        .point("p1", [0, 0])
+        .point("p2", [14, 0]);
     for k in 0..count {
         let (left, name) = (random.below(2) == 0, format!("q{k}"));
-        builder = builder.point(&name, [if left { 5 } else { 9 }, if random.below(2) == 0 { 12 } else { -12 }]);
+        builder = builder.point(
+            &name,
+            [
+                if left { 5 } else { 9 },
+                if random.below(2) == 0 { 12 } else { -12 },
+            ],
+        );
         sketch.extend(if left { [13, 15] } else { [15, 13] });
         names.extend(["p1", "p2"].map(|p| [p.to_owned(), name.clone()]));
     }
     let mut target: Vec<String> = sketch.iter().map(|&s| near(random, s)).collect();
     if random.below(3) == 0 {
         // A target triangle that is flat or nearly so.
-        let tiny = ["0", "1e-3", "-1e-3", "1e-6", "-1e-6", "1e-9", "-1e-9", "1e-11", "-1e-11"][random.below(9)];
+        let tiny = [
+            "0", "1e-3", "-1e-3", "1e-6", "-1e-6", "1e-9", "-1e-9", "1e-11", "-1e-11",
+        ][random.below(9)];
         let sum = decimal("22") + decimal(tiny);
         target[0] = "14".into();
         target[1] = "8".into();
@@ -131,7 +165,11 @@ fn fan(random: &mut Random) -> (Problem, Known) {
     for (name, target) in names.iter().zip(&target) {
         builder = builder.distance(&name[0], &name[1], target.as_str());
     }
-    let reference = &names[if random.below(2) == 0 { 0 } else { random.below(names.len()) }];
+    let reference = &names[if random.below(2) == 0 {
+        0
+    } else {
+        random.below(names.len())
+    }];
     let problem = builder
         .bend(&names[bend])
         .bend_coefficient(c)
@@ -141,17 +179,26 @@ fn fan(random: &mut Random) -> (Problem, Known) {
 
     let length = |e: usize| -> Length {
         let (from, to) = (whole(sketch[e]), decimal(&target[e]));
-        let c = if e == bend { decimal(c) } else { BigRational::zero() };
+        let c = if e == bend {
+            decimal(c)
+        } else {
+            BigRational::zero()
+        };
         [from.clone(), to - from + &c, -c]
     };
     let combine = |signs: [i64; 3], lengths: [&Length; 3]| -> Length {
-        std::array::from_fn(|k| (0..3).fold(BigRational::zero(), |sum, i| sum + whole(signs[i]) * &lengths[i][k]))
+        std::array::from_fn(|k| {
+            (0..3).fold(BigRational::zero(), |sum, i| {
+                sum + whole(signs[i]) * &lengths[i][k]
+            })
+        })
     };
     let base = length(0);
     let flat: Vec<_> = (0..count)
         .map(|k| {
             let (a, b) = (length(1 + 2 * k), length(2 + 2 * k));
-            let ends = [[1, 1, -1], [1, -1, 1], [-1, 1, 1]].map(|signs| zeros(&combine(signs, [&base, &a, &b])));
+            let ends = [[1, 1, -1], [1, -1, 1], [-1, 1, 1]]
+                .map(|signs| zeros(&combine(signs, [&base, &a, &b])));
             let below = ends.iter().filter_map(|e| e.0.clone()).max();
             let above = ends.iter().filter_map(|e| e.1.clone()).min();
             (below, above)
@@ -176,20 +223,32 @@ fn tent(random: &mut Random) -> (Problem, Known) {
         let tiny = 10f64.powf(random.between(-5.0, -1.0));
         let place = match first {
             Some(p) if twins => [p[0], p[1], random.sign() * p[2] * (1.0 + rounded(tiny, 6))],
-            _ => [random.between(-1.0, 2.0), random.between(-1.0, 2.0), random.sign() * random.between(0.2, 2.0)],
+            _ => [
+                random.between(-1.0, 2.0),
+                random.between(-1.0, 2.0),
+                random.sign() * random.between(0.2, 2.0),
+            ],
         }
         .map(|x| rounded(x, 7));
         first = first.or(Some(place));
         builder = builder.point(&format!("q{k}"), place);
         for (j, p) in base.iter().enumerate() {
             let sketch = size(place[0] - p[0], place[1] - p[1], place[2]);
-            ends.push((format!("p{j}"), format!("q{k}"), sketch, rounded(sketch * random.between(0.95, 1.05), 4)));
+            ends.push((
+                format!("p{j}"),
+                format!("q{k}"),
+                sketch,
+                rounded(sketch * random.between(0.95, 1.05), 4),
+            ));
         }
     }
     let sides: Vec<f64> = [(0, 1), (0, 2), (1, 2)]
         .map(|(i, j): (usize, usize)| size(base[i][0] - base[j][0], base[i][1] - base[j][1], 0.0))
         .into();
-    for (k, (i, j)) in [("p0", "p1"), ("p0", "p2"), ("p1", "p2")].into_iter().enumerate() {
+    for (k, (i, j)) in [("p0", "p1"), ("p0", "p2"), ("p1", "p2")]
+        .into_iter()
+        .enumerate()
+    {
         builder = builder.distance(i, j, rounded(sides[k], 2));
     }
     for (a, b, _, target) in &ends {
@@ -219,7 +278,11 @@ fn tent(random: &mut Random) -> (Problem, Known) {
         let x = (p * p - q * q + a * a) / (2.0 * a);
         let y = (p * p - r * r + b * b - 2.0 * x * x2) / (2.0 * y2);
         // Lengths must stay positive, too, and the base must not turn over.
-        if p.min(q).min(r).min(y2) <= 0.0 || y2.is_nan() { f64::NAN } else { p * p - x * x - y * y }
+        if p.min(q).min(r).min(y2) <= 0.0 || y2.is_nan() {
+            f64::NAN
+        } else {
+            p * p - x * x - y * y
+        }
     };
     let mut unclear = false;
     let mut nearest = |k: usize, direction: f64| -> Option<BigRational> {
@@ -235,7 +298,11 @@ fn tent(random: &mut Random) -> (Problem, Known) {
                 let (mut lo, mut hi) = (t, t + direction * step);
                 for _ in 0..80 {
                     let middle = 0.5 * (lo + hi);
-                    if height(k, middle) > 0.0 { lo = middle } else { hi = middle }
+                    if height(k, middle) > 0.0 {
+                        lo = middle
+                    } else {
+                        hi = middle
+                    }
                 }
                 return BigRational::from_float(lo);
             }
@@ -249,24 +316,45 @@ fn tent(random: &mut Random) -> (Problem, Known) {
         unclear = true;
         None
     };
-    let flat: Vec<_> = (0..count).map(|k| (nearest(k, -1.0), nearest(k, 1.0))).collect();
-    let known = if unclear { Known::Unclear } else { known(&flat, false) };
+    let flat: Vec<_> = (0..count)
+        .map(|k| (nearest(k, -1.0), nearest(k, 1.0)))
+        .collect();
+    let known = if unclear {
+        Known::Unclear
+    } else {
+        known(&flat, false)
+    };
     (problem, known)
 }
 
 /// Runs a problem of which the path is known, with any settings; true if it closed.
 fn check(problem: &Problem, known: &Known, random: &mut Random) -> bool {
     let max_step = [None, None, Some(0.1), Some(10.0)][random.below(4)];
-    let options = Options { max_step, reverse: random.below(2) == 0, max_steps: 3000, ..Options::certified() };
+    let options = Options {
+        max_step,
+        reverse: random.below(2) == 0,
+        max_steps: 3000,
+        ..Options::certified()
+    };
     let outcome = solve(problem, &options, &mut Control::default()).unwrap();
     if outcome.status != Status::Closed {
         return false;
     }
-    let classes = outcome.solutions.iter().map(|s| s.class + 1).max().unwrap_or(0);
+    let classes = outcome
+        .solutions
+        .iter()
+        .map(|s| s.class + 1)
+        .max()
+        .unwrap_or(0);
     let context = || format!("{problem:#?}\nt in {:?}", outcome.t_range);
     match *known {
         Known::Path(solutions, figures) => {
-            assert_eq!((outcome.solutions.len(), classes), (solutions, figures), "{}", context())
+            assert_eq!(
+                (outcome.solutions.len(), classes),
+                (solutions, figures),
+                "{}",
+                context()
+            )
         }
         Known::NeverClosed => panic!("closed, but the path is not regular: {}", context()),
         Known::Unclear => {}
@@ -290,7 +378,10 @@ fn run(make: fn(&mut Random) -> (Problem, Known), seed: u64, rounds: usize) -> [
             Known::Unclear => {}
         }
     }
-    println!("closed without {} and with {} solutions, not closed {}, never closed {}", counts[0], counts[1], counts[2], counts[3]);
+    println!(
+        "closed without {} and with {} solutions, not closed {}, never closed {}",
+        counts[0], counts[1], counts[2], counts[3]
+    );
     counts
 }
 

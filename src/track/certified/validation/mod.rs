@@ -66,16 +66,24 @@ fn from_environment(name: &str) -> Option<u64> {
 /// The problems that come with krawl.
 pub fn shipped() -> Vec<Problem> {
     let read = |name: &str| {
-        Problem::read(format!("{}/problems/{name}.toml", env!("CARGO_MANIFEST_DIR"))).expect("a readable problem")
+        Problem::read(format!(
+            "{}/problems/{name}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .expect("a readable problem")
     };
-    ["disulfide", "dodecagon", "icosahedron-c1", "octahedron"].map(read).into()
+    ["disulfide", "dodecagon", "icosahedron-c1", "octahedron"]
+        .map(read)
+        .into()
 }
 
 /// A decimal times a power of ten, exactly. `None`: out of range.
 pub fn times_ten_to(x: &Decimal, exponent: i32) -> Option<Decimal> {
     let text = x.text();
     let (mantissa, old) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    format!("{mantissa}e{}", old.parse::<i32>().ok()? + exponent).parse().ok()
+    format!("{mantissa}e{}", old.parse::<i32>().ok()? + exponent)
+        .parse()
+        .ok()
 }
 
 /// A number with few digits, so that its decimal is what people would write.
@@ -87,14 +95,20 @@ pub fn rounded(x: f64, digits: i32) -> f64 {
 /// The edges of a graph that is rigid for generic lengths, made by Henneberg's steps: a point
 /// joined to D others, or put on an edge and joined to D − 1 more.
 pub fn random_edges(random: &mut Random, dimension: usize, points: usize) -> Vec<[usize; 2]> {
-    let mut edges: Vec<[usize; 2]> = (0..dimension).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
+    let mut edges: Vec<[usize; 2]> = (0..dimension)
+        .flat_map(|b| (0..b).map(move |a| [a, b]))
+        .collect();
     for p in dimension..points {
         let mut ends = Vec::new();
         if random.below(2) == 0 && edges.len() > 1 && p > dimension {
             let [a, b] = edges.swap_remove(random.below(edges.len()));
             ends.extend([a, b]);
         }
-        let wanted = if ends.is_empty() { dimension } else { dimension + 1 };
+        let wanted = if ends.is_empty() {
+            dimension
+        } else {
+            dimension + 1
+        };
         while ends.len() < wanted {
             let q = random.below(p);
             if !ends.contains(&q) {
@@ -108,22 +122,38 @@ pub fn random_edges(random: &mut Random, dimension: usize, points: usize) -> Vec
 }
 
 /// A problem on such a graph, its targets away from the sketch by a factor up to 1 ± `change`.
-pub fn random_problem(random: &mut Random, dimension: usize, points: usize, change: f64) -> Problem {
+pub fn random_problem(
+    random: &mut Random,
+    dimension: usize,
+    points: usize,
+    change: f64,
+) -> Problem {
     loop {
         let edges = random_edges(random, dimension, points);
-        let places: Vec<Vec<f64>> =
-            (0..points).map(|_| (0..dimension).map(|_| rounded(random.between(-1.0, 1.0), 2)).collect()).collect();
+        let places: Vec<Vec<f64>> = (0..points)
+            .map(|_| {
+                (0..dimension)
+                    .map(|_| rounded(random.between(-1.0, 1.0), 2))
+                    .collect()
+            })
+            .collect();
         let name = |p: usize| format!("p{p}");
         let mut builder = Problem::build("random", dimension);
         for (p, place) in places.iter().enumerate() {
             builder = builder.point(&name(p), place.iter().copied());
         }
         for &[a, b] in &edges {
-            let length = (0..dimension).map(|k| (places[a][k] - places[b][k]).powi(2)).sum::<f64>().sqrt();
+            let length = (0..dimension)
+                .map(|k| (places[a][k] - places[b][k]).powi(2))
+                .sum::<f64>()
+                .sqrt();
             let target = rounded(length * (1.0 + random.between(-change, change)), 3).max(0.001);
             builder = builder.distance(&name(a), &name(b), target);
         }
-        if let Ok(problem) = builder.bend_coefficient([2.0, 0.3, 0.05, -0.1][random.below(4)]).finish() {
+        if let Ok(problem) = builder
+            .bend_coefficient([2.0, 0.3, 0.05, -0.1][random.below(4)])
+            .finish()
+        {
             return problem;
         }
     }
@@ -140,7 +170,11 @@ pub type Rows = Vec<Vec<Interval>>;
 
 impl<'a> Exact<'a> {
     pub fn new(homotopy: &'a Homotopy) -> Self {
-        Exact { homotopy, m: homotopy.equations, n: homotopy.equations + 1 }
+        Exact {
+            homotopy,
+            m: homotopy.equations,
+            n: homotopy.equations + 1,
+        }
     }
 
     /// The unknown behind a coordinate, if it is free.
@@ -150,15 +184,18 @@ impl<'a> Exact<'a> {
     }
 
     fn difference(&self, z: &[Interval], edge: usize, axis: usize) -> Interval {
-        let [i, j] = self.homotopy.edges[edge].points.map(|p| self.unknown(p, axis).map_or(point(0.0), |v| z[v]));
+        let [i, j] = self.homotopy.edges[edge]
+            .points
+            .map(|p| self.unknown(p, axis).map_or(point(0.0), |v| z[v]));
         i - j
     }
 
     pub fn residual(&self, z: &[Interval]) -> Vec<Interval> {
         (0..self.m)
             .map(|e| {
-                let squared = (0..self.homotopy.dimension)
-                    .fold(point(0.0), |sum, axis| sum + self.difference(z, e, axis).sqr());
+                let squared = (0..self.homotopy.dimension).fold(point(0.0), |sum, axis| {
+                    sum + self.difference(z, e, axis).sqr()
+                });
                 squared * point(0.5) - self.homotopy.lengths[e].enclose_half_square(z[self.m])
             })
             .collect()
@@ -220,18 +257,24 @@ impl<'a> Exact<'a> {
             }
         }
         let times = |v: &[Interval]| -> Vec<Interval> {
-            (0..n).map(|i| (0..n).fold(point(0.0), |sum, j| sum + point(inverse[(i, j)]) * v[j])).collect()
+            (0..n)
+                .map(|i| (0..n).fold(point(0.0), |sum, j| sum + point(inverse[(i, j)]) * v[j]))
+                .collect()
         };
         let centre = at(&z);
         let step = times(&defect(&centre));
         let size = z.iter().fold(0.0f64, |max, x| max.max(x.abs()));
         let mut radius: Vec<f64> = step.iter().map(|x| 2.0 * x.mag() + 1e-16 * size).collect();
         for _ in 0..6 {
-            let around: Vec<Interval> = (0..n).map(|i| hull(z[i] - radius[i], z[i] + radius[i])).collect();
+            let around: Vec<Interval> = (0..n)
+                .map(|i| hull(z[i] - radius[i], z[i] + radius[i]))
+                .collect();
             let contraction = self.identity_minus(&inverse, &self.bordered(&around, c));
             let image: Vec<Interval> = (0..n)
                 .map(|i| {
-                    let rest = (0..n).fold(point(0.0), |sum, j| sum + contraction[i][j] * (around[j] - centre[j]));
+                    let rest = (0..n).fold(point(0.0), |sum, j| {
+                        sum + contraction[i][j] * (around[j] - centre[j])
+                    });
                     centre[i] - step[i] + rest
                 })
                 .collect();
@@ -247,7 +290,10 @@ impl<'a> Exact<'a> {
                 let x: Vec<f64> = (0..n).map(|i| inverse[(i, n - 1)]).collect();
                 let largest = x.iter().fold(0.0f64, |max, x| max.max(x.abs()));
                 let error = (point(norm) * point(largest) / (point(1.0) - point(norm))).sup();
-                return Some((image, x.iter().map(|&x| hull(x - error, x + error)).collect()));
+                return Some((
+                    image,
+                    x.iter().map(|&x| hull(x - error, x + error)).collect(),
+                ));
             }
             radius.iter_mut().for_each(|r| *r *= 3.0);
         }
@@ -280,7 +326,11 @@ impl<const D: usize> Sample<D> {
     pub fn at(&self, s: f64) -> Vec<Interval> {
         let n = self.a.rows();
         (0..n)
-            .map(|i| (0..=ORDER).rev().fold(point(0.0), |sum, k| sum * point(s) + point(self.tube.local.z[k][i])))
+            .map(|i| {
+                (0..=ORDER).rev().fold(point(0.0), |sum, k| {
+                    sum * point(s) + point(self.tube.local.z[k][i])
+                })
+            })
             .collect()
     }
 
@@ -288,12 +338,21 @@ impl<const D: usize> Sample<D> {
     pub fn slope(&self, s: f64) -> Vec<Interval> {
         let n = self.a.rows();
         let term = |k: usize, i: usize| point(k as f64) * point(self.tube.local.z[k][i]);
-        (0..n).map(|i| (1..=ORDER).rev().fold(point(0.0), |sum, k| sum * point(s) + term(k, i))).collect()
+        (0..n)
+            .map(|i| {
+                (1..=ORDER)
+                    .rev()
+                    .fold(point(0.0), |sum, k| sum * point(s) + term(k, i))
+            })
+            .collect()
     }
 
     /// A lower bound of |v|_u.
     pub fn norm(&self, v: &[Interval]) -> f64 {
-        v.iter().zip(self.tube.weights.iter()).map(|(v, &u)| (v.abs() / point(u)).inf()).fold(0.0, f64::max)
+        v.iter()
+            .zip(self.tube.weights.iter())
+            .map(|(v, &u)| (v.abs() / point(u)).inf())
+            .fold(0.0, f64::max)
     }
 
     pub fn normal(&self) -> &[f64] {
@@ -316,7 +375,13 @@ impl<const D: usize> Workshop<D> {
         let n = equations.n();
         let mut weights = equations.vector();
         weights[..n].fill(1.0);
-        Workshop { inverter: equations.inverter(), test: KrawczykTest::new(&equations), weights, equations, max_h }
+        Workshop {
+            inverter: equations.inverter(),
+            test: KrawczykTest::new(&equations),
+            weights,
+            equations,
+            max_h,
+        }
     }
 
     /// A proved tube at the point and with the normal given, after a number of rounds for the weights.
@@ -325,17 +390,24 @@ impl<const D: usize> Workshop<D> {
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
         tube.local.normal[..n].copy_from_slice(&normal[..n]);
-        tube.local.refine(&self.equations, &mut self.inverter, 1e-9, 8).ok()?;
+        tube.local
+            .refine(&self.equations, &mut self.inverter, 1e-9, 8)
+            .ok()?;
         tube.local.expand(&self.equations);
         let mut proof = None;
         for _ in 0..rounds {
-            proof = self.test.prove(&self.equations, &tube.local, &mut self.weights, self.max_h);
+            proof = self
+                .test
+                .prove(&self.equations, &tube.local, &mut self.weights, self.max_h);
         }
         tube.proof = proof?;
         tube.weights.copy_from_slice(self.test.weights());
         tube.exit_at = 0.97 * tube.proof.h;
         self.test.enclose_exit(&self.equations, &mut tube)?;
-        Some(Sample { tube, a: self.test.moving_matrix().clone() })
+        Some(Sample {
+            tube,
+            a: self.test.moving_matrix().clone(),
+        })
     }
 
     /// The tube around the sketch.
@@ -350,7 +422,9 @@ impl<const D: usize> Workshop<D> {
 
     /// Linked tubes from the sketch on, at most `count`.
     pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample<D>> {
-        let Some(first) = self.first(homotopy) else { return Vec::new() };
+        let Some(first) = self.first(homotopy) else {
+            return Vec::new();
+        };
         let mut chain = vec![first];
         let (mut z, mut normal) = (self.equations.vector(), self.equations.vector());
         let mut trust = 1.0;

@@ -14,7 +14,12 @@ fn figures(outcome: &Outcome) -> (usize, Vec<(Vec<f64>, usize)>) {
         let mut shape = Vec::new();
         for i in 0..p.len() {
             for j in 0..i {
-                shape.push((0..3).map(|k| (p[i][k] - p[j][k]).powi(2)).sum::<f64>().sqrt());
+                shape.push(
+                    (0..3)
+                        .map(|k| (p[i][k] - p[j][k]).powi(2))
+                        .sum::<f64>()
+                        .sqrt(),
+                );
             }
         }
         if solution.class < figures.len() {
@@ -32,13 +37,28 @@ fn agree(a: &Outcome, b: &Outcome, scale: f64) -> bool {
     // Sorting may exchange figures that differ by less than the boxes' widths: match them freely.
     let close = |x: &[f64], y: &[f64]| {
         let size = y.iter().fold(0.0f64, |max, v| max.max(*v));
-        x.iter().zip(y).all(|(x, y)| (x * scale - y).abs() < 1e-6 * size)
+        x.iter()
+            .zip(y)
+            .all(|(x, y)| (x * scale - y).abs() < 1e-6 * size)
     };
-    m == n && a.len() == b.len() && a.iter().all(|(x, k)| b.iter().any(|(y, l)| k == l && close(x, y)))
+    m == n
+        && a.len() == b.len()
+        && a.iter()
+            .all(|(x, k)| b.iter().any(|(y, l)| k == l && close(x, y)))
 }
 
-fn run(problem: &Problem, max_step: Option<f64>, reverse: bool, max_steps: usize) -> Option<Outcome> {
-    let options = Options { max_step, reverse, max_steps, ..Options::certified() };
+fn run(
+    problem: &Problem,
+    max_step: Option<f64>,
+    reverse: bool,
+    max_steps: usize,
+) -> Option<Outcome> {
+    let options = Options {
+        max_step,
+        reverse,
+        max_steps,
+        ..Options::certified()
+    };
     let outcome = solve(problem, &options, &mut Control::default()).ok()?;
     (outcome.status == Status::Closed).then_some(outcome)
 }
@@ -51,7 +71,17 @@ fn symmetrical(random: &mut Random) -> Problem {
         .point("b", [2.0, 0.0])
         .point("c", [2.0, 2.0])
         .point("d", [0.0, 2.0])
-        .point("e", [1.0, 1.0 + if random.below(2) == 0 { 0.0 } else { rounded(tiny, 12) }]);
+        .point(
+            "e",
+            [
+                1.0,
+                1.0 + if random.below(2) == 0 {
+                    0.0
+                } else {
+                    rounded(tiny, 12)
+                },
+            ],
+        );
     let mut length = |base: f64| base + random.sign() * rounded(tiny * random.unit(), 13);
     let (s, r) = (2.0, 1.5);
     builder
@@ -77,7 +107,13 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
     check_solutions(problem, &first);
     let mut others: Vec<(String, Problem, Option<f64>, bool, f64)> = vec![
         ("reversed".into(), problem.clone(), None, true, 1.0),
-        ("small steps".into(), problem.clone(), Some(random.between(0.02, 0.3)), false, 1.0),
+        (
+            "small steps".into(),
+            problem.clone(),
+            Some(random.between(0.02, 0.3)),
+            false,
+            1.0,
+        ),
     ];
     // Another reference, of joined points or of any: the path cannot tell them apart, unless the
     // reference degenerates on the way, which at best ends the run.
@@ -97,7 +133,13 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
         if (any || joined(&reference)) && reference != problem.homotopy.reference {
             other.homotopy.reference = reference;
             if other.check().is_ok() {
-                others.push(("another reference".into(), other, None, random.below(2) == 0, 1.0));
+                others.push((
+                    "another reference".into(),
+                    other,
+                    None,
+                    random.below(2) == 0,
+                    1.0,
+                ));
                 break;
             }
             other = problem.clone();
@@ -123,7 +165,13 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
         Some(())
     })();
     if done.is_some() {
-        others.push((format!("10^{exponent}"), scaled, None, false, 10f64.powi(exponent)));
+        others.push((
+            format!("10^{exponent}"),
+            scaled,
+            None,
+            false,
+            10f64.powi(exponent),
+        ));
     }
     for (what, problem, max_step, reverse, scale) in others {
         match run(&problem, max_step, reverse, 20_000) {
@@ -156,7 +204,10 @@ fn closed_runs_agree() {
         };
         compare(&problem, &mut random, &mut runs);
     }
-    println!("{} runs agree, {} did not close, {} problems did not close at all", runs[0], runs[1], runs[2]);
+    println!(
+        "{} runs agree, {} did not close, {} problems did not close at all",
+        runs[0], runs[1], runs[2]
+    );
     assert!(runs[0] > 120);
 }
 
@@ -169,7 +220,9 @@ fn wild_settings_end_well() {
         let dimension = 2 + round % 2;
         let points = dimension + random.below(4);
         let mut problem = random_problem(&mut random, dimension, points, 0.1);
-        let bends = ["0", "1e-60", "-1e-30", "1e-9", "1e3", "1e12", "1e60", "-1e60", "-5"];
+        let bends = [
+            "0", "1e-60", "-1e-30", "1e-9", "1e3", "1e12", "1e60", "-1e60", "-5",
+        ];
         if random.below(3) > 0 {
             problem.homotopy.bend_coefficient = bends[random.below(bends.len())].parse().unwrap();
         }
@@ -186,7 +239,18 @@ fn wild_settings_end_well() {
                 }
             }
         }
-        let steps = [0.0, -1.0, f64::NAN, 1e-300, 1e-13, 1e-9, 0.1, 1e3, 1e300, f64::INFINITY];
+        let steps = [
+            0.0,
+            -1.0,
+            f64::NAN,
+            1e-300,
+            1e-13,
+            1e-9,
+            0.1,
+            1e3,
+            1e300,
+            f64::INFINITY,
+        ];
         let max_step = (random.below(2) == 0).then(|| steps[random.below(steps.len())]);
         if let Some(outcome) = run(&problem, max_step, random.below(2) == 0, 400) {
             closed += 1;
@@ -207,6 +271,9 @@ fn closed_runs_of_the_shipped_problems_agree() {
     for problem in shipped() {
         compare(&problem, &mut random, &mut runs);
     }
-    println!("{} runs agree, {} did not close, {} problems did not close at all", runs[0], runs[1], runs[2]);
+    println!(
+        "{} runs agree, {} did not close, {} problems did not close at all",
+        runs[0], runs[1], runs[2]
+    );
     assert!(runs[0] >= 8);
 }

@@ -4,18 +4,33 @@ use super::*;
 
 /// If two tubes are linked, then the first one's exit is in the second where it is said to be,
 /// and both run the same way there.
-fn link_is_true<const D: usize>(exact: &Exact, from: &Sample<D>, to: &Sample<D>, entry: (f64, f64)) -> bool {
+fn link_is_true<const D: usize>(
+    exact: &Exact,
+    from: &Sample<D>,
+    to: &Sample<D>,
+    entry: (f64, f64),
+) -> bool {
     let at = |sample: &Sample<D>, s: f64| {
         let through = sample.at(s);
         let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
-        exact.point_near(&start, sample.normal(), &through).expect("a regular point")
+        exact
+            .point_near(&start, sample.normal(), &through)
+            .expect("a regular point")
     };
     let (exit, ahead) = at(from, from.tube.exit_at);
     let (there, along) = at(to, 0.5 * (entry.0 + entry.1));
     // The entry's width moves the point by about as much, the weights aside.
     let allowed = 1e-9 + 2.0 * (entry.1 - entry.0);
-    let near = exit.iter().zip(&there).all(|(a, b)| (*a - *b).abs().inf() <= allowed);
-    let same_way = ahead.iter().zip(&along).fold(point(0.0), |sum, (a, b)| sum + *a * *b).sup() > 0.0;
+    let near = exit
+        .iter()
+        .zip(&there)
+        .all(|(a, b)| (*a - *b).abs().inf() <= allowed);
+    let same_way = ahead
+        .iter()
+        .zip(&along)
+        .fold(point(0.0), |sum, (a, b)| sum + *a * *b)
+        .sup()
+        > 0.0;
     near && same_way
 }
 
@@ -44,16 +59,28 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
         let back: Vec<f64> = next.normal()[..n].iter().map(|c| -c).collect();
         workshop.weights.copy_from_slice(&next.tube.weights);
         if let Some(turned) = workshop.tube(&next.tube.local.z[0], &back, 1) {
-            assert_eq!(from.tube.leads_to(&turned.tube), None, "a tube that runs backwards was linked");
+            assert_eq!(
+                from.tube.leads_to(&turned.tube),
+                None,
+                "a tube that runs backwards was linked"
+            );
             tally.backwards += 1;
         }
 
         // The mirror image, which meets the same equations.
-        let flip = |v: &[f64]| -> Vec<f64> { (0..n).map(|i| if last_axis(i) { -v[i] } else { v[i] }).collect() };
+        let flip = |v: &[f64]| -> Vec<f64> {
+            (0..n)
+                .map(|i| if last_axis(i) { -v[i] } else { v[i] })
+                .collect()
+        };
         workshop.weights.copy_from_slice(&next.tube.weights);
-        if let Some(mirrored) = workshop.tube(&flip(&next.tube.local.z[0]), &flip(next.normal()), 1) {
+        if let Some(mirrored) = workshop.tube(&flip(&next.tube.local.z[0]), &flip(next.normal()), 1)
+        {
             if let Some(entry) = from.tube.leads_to(&mirrored.tube) {
-                assert!(link_is_true(&exact, from, &mirrored, entry), "linked to the mirror image");
+                assert!(
+                    link_is_true(&exact, from, &mirrored, entry),
+                    "linked to the mirror image"
+                );
             }
             tally.mirrored += 1;
         }
@@ -65,13 +92,23 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
                 local.z[0][i] += spread * random.between(-1.0, 1.0);
             }
             let t = next.tube.local.z[0][n - 1];
-            if local.polish_at(&workshop.equations, &mut workshop.inverter, t).is_none() {
+            if local
+                .polish_at(&workshop.equations, &mut workshop.inverter, t)
+                .is_none()
+            {
                 continue;
             }
             let start = local.z[0].clone();
             let normal: Vec<f64> = if random.below(2) == 0 {
                 next.normal()[..n].to_vec()
-            } else if first_normal(&workshop.equations, &mut workshop.inverter, &mut local, random.below(2) == 0).is_ok() {
+            } else if first_normal(
+                &workshop.equations,
+                &mut workshop.inverter,
+                &mut local,
+                random.below(2) == 0,
+            )
+            .is_ok()
+            {
                 local.normal[..n].to_vec()
             } else {
                 continue;
@@ -79,7 +116,10 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
             workshop.weights.copy_from_slice(&next.tube.weights);
             if let Some(other) = workshop.tube(&start, &normal, 2) {
                 if let Some(entry) = from.tube.leads_to(&other.tube) {
-                    assert!(link_is_true(&exact, from, &other, entry), "linked to another branch");
+                    assert!(
+                        link_is_true(&exact, from, &other, entry),
+                        "linked to another branch"
+                    );
                 } else {
                     tally.branches += 1;
                 }
@@ -91,7 +131,10 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
             tally.pairs += 1;
             if let Some(entry) = from.tube.leads_to(&other.tube) {
                 tally.linked_pairs += 1;
-                assert!(link_is_true(&exact, from, other, entry), "tubes that do not touch were linked");
+                assert!(
+                    link_is_true(&exact, from, other, entry),
+                    "tubes that do not touch were linked"
+                );
             }
         }
     }
@@ -108,5 +151,8 @@ fn false_links_are_refused() {
         }
     }
     println!("{tally:?}");
-    assert!(tally.branches > 30 && tally.mirrored > 50 && tally.backwards > 50, "too few cases: {tally:?}");
+    assert!(
+        tally.branches > 30 && tally.mirrored > 50 && tally.backwards > 50,
+        "too few cases: {tally:?}"
+    );
 }

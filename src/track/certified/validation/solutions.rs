@@ -20,11 +20,17 @@ fn trimmed(x: BigRational) -> BigRational {
 /// The solution near the middles of a figure's boxes, far beyond the precision of floats.
 ///
 /// Its equations are |p_i − p_j|² = (target length)², from the problem's own decimals.
-pub fn exact_solution(problem: &Problem, homotopy: &Homotopy, boxes: &[[Interval; 3]]) -> Option<Vec<BigRational>> {
+pub fn exact_solution(
+    problem: &Problem,
+    homotopy: &Homotopy,
+    boxes: &[[Interval; 3]],
+) -> Option<Vec<BigRational>> {
     let (d, m) = (homotopy.dimension, homotopy.equations);
     let variable = |p: usize, axis: usize| homotopy.gauge.variable[p * d + axis];
     let place = |v: usize| (homotopy.gauge.place[v] / d, homotopy.gauge.place[v] % d);
-    let mut x: Vec<BigRational> = (0..m).map(|v| exact(boxes[place(v).0][place(v).1].mid())).collect();
+    let mut x: Vec<BigRational> = (0..m)
+        .map(|v| exact(boxes[place(v).0][place(v).1].mid()))
+        .collect();
     let get = |x: &[BigRational], p: usize, axis: usize| match variable(p, axis) {
         v if v < m => x[v].clone(),
         _ => BigRational::zero(),
@@ -42,8 +48,9 @@ pub fn exact_solution(problem: &Problem, homotopy: &Homotopy, boxes: &[[Interval
         }
     }
     let inverse = jacobian.try_inverse()?;
-    let inverse: Vec<Vec<BigRational>> =
-        (0..m).map(|i| (0..m).map(|j| exact(inverse[(i, j)])).collect()).collect();
+    let inverse: Vec<Vec<BigRational>> = (0..m)
+        .map(|i| (0..m).map(|j| exact(inverse[(i, j)])).collect())
+        .collect();
     let mut last = BigRational::from_integer(1.into());
     for _ in 0..100 {
         let residual: Vec<BigRational> = problem
@@ -63,7 +70,9 @@ pub fn exact_solution(problem: &Problem, homotopy: &Homotopy, boxes: &[[Interval
             .collect();
         last = BigRational::zero();
         for i in 0..m {
-            let step = trimmed((0..m).fold(BigRational::zero(), |sum, j| sum + &inverse[i][j] * &residual[j]));
+            let step = trimmed((0..m).fold(BigRational::zero(), |sum, j| {
+                sum + &inverse[i][j] * &residual[j]
+            }));
             last = last.max(step.abs());
             x[i] = &x[i] - step;
         }
@@ -107,7 +116,11 @@ pub fn check_solutions(problem: &Problem, outcome: &Outcome) {
         for (p, point) in solution.points.iter().enumerate() {
             for (axis, box_) in point.iter().enumerate() {
                 let free = axis < d && homotopy.gauge.variable[p * d + axis] < m;
-                let value = if free { x[homotopy.gauge.variable[p * d + axis]].clone() } else { BigRational::zero() };
+                let value = if free {
+                    x[homotopy.gauge.variable[p * d + axis]].clone()
+                } else {
+                    BigRational::zero()
+                };
                 assert!(
                     exact(box_.inf()) <= &value + &slack && &value - &slack <= exact(box_.sup()),
                     "{}: coordinate {axis} of point {p} is not in {box_:?}",
@@ -118,11 +131,28 @@ pub fn check_solutions(problem: &Problem, outcome: &Outcome) {
     }
     for (i, a) in outcome.solutions.iter().enumerate() {
         for (j, b) in outcome.solutions.iter().enumerate().take(i) {
-            let apart = a.points.iter().flatten().zip(b.points.iter().flatten()).any(|(a, b)| a.disjoint(*b));
-            assert!(apart, "{}: the boxes of solutions {i} and {j} meet", problem.name);
+            let apart = a
+                .points
+                .iter()
+                .flatten()
+                .zip(b.points.iter().flatten())
+                .any(|(a, b)| a.disjoint(*b));
+            assert!(
+                apart,
+                "{}: the boxes of solutions {i} and {j} meet",
+                problem.name
+            );
             let close = |(x, y): (&BigRational, &BigRational)| (x - y).abs() < exact(1e-40);
-            let congruent = shape(&homotopy, &found[i]).iter().zip(&shape(&homotopy, &found[j])).all(close);
-            assert_eq!(a.class == b.class, congruent, "{}: classes of solutions {i} and {j}", problem.name);
+            let congruent = shape(&homotopy, &found[i])
+                .iter()
+                .zip(&shape(&homotopy, &found[j]))
+                .all(close);
+            assert_eq!(
+                a.class == b.class,
+                congruent,
+                "{}: classes of solutions {i} and {j}",
+                problem.name
+            );
         }
     }
 }
@@ -139,7 +169,10 @@ fn boxes_hold_the_exact_solutions() {
     }
     let (mut closed, mut boxes) = (0, 0);
     for problem in &problems {
-        let options = Options { max_steps: 5000, ..Options::certified() };
+        let options = Options {
+            max_steps: 5000,
+            ..Options::certified()
+        };
         let outcome = solve(problem, &options, &mut Control::default()).unwrap();
         if outcome.status == Status::Closed {
             check_solutions(problem, &outcome);
@@ -148,5 +181,8 @@ fn boxes_hold_the_exact_solutions() {
         }
     }
     println!("{closed} closed, {boxes} boxes");
-    assert!(closed > 30 && boxes > 60, "too few cases: {closed} closed, {boxes} boxes");
+    assert!(
+        closed > 30 && boxes > 60,
+        "too few cases: {closed} closed, {boxes} boxes"
+    );
 }

@@ -21,7 +21,12 @@ struct Tally {
 /// M(s, w) = I − (I − s A) Y [J(ẑ(s) + w); c] in intervals; a lower bound of |M|_u.
 fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f64]) -> f64 {
     let n = exact.n;
-    let z: Vec<Interval> = sample.at(s).iter().zip(w).map(|(&z, &w)| z + point(w)).collect();
+    let z: Vec<Interval> = sample
+        .at(s)
+        .iter()
+        .zip(w)
+        .map(|(&z, &w)| z + point(w))
+        .collect();
     let rows = exact.bordered(&z, sample.normal());
     let (y, u) = (&sample.tube.local.y, &sample.tube.weights);
     let mut product = vec![vec![point(0.0); n]; n];
@@ -35,14 +40,19 @@ fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f
     }
     (0..n)
         .map(|i| {
-            let mut row: Vec<Interval> = (0..n).map(|j| point(if i == j { 1.0 } else { 0.0 }) - product[i][j]).collect();
+            let mut row: Vec<Interval> = (0..n)
+                .map(|j| point(if i == j { 1.0 } else { 0.0 }) - product[i][j])
+                .collect();
             for (k, from) in product.iter().enumerate() {
                 let x = point(s) * point(sample.a.get(i, k));
                 for (out, from) in row.iter_mut().zip(from) {
                     *out = *out + x * *from;
                 }
             }
-            let sum = row.iter().zip(u.iter()).fold(point(0.0), |sum, (x, &u)| sum + x.abs() * point(u));
+            let sum = row
+                .iter()
+                .zip(u.iter())
+                .fold(point(0.0), |sum, (x, &u)| sum + x.abs() * point(u));
             (sum / point(u[i])).inf()
         })
         .fold(0.0, f64::max)
@@ -66,10 +76,21 @@ fn check_tube<const D: usize>(
     for _ in 0..rounds {
         // (a) |M| ≤ q, in the middle of the box and at its corners.
         let s = any(random);
-        let size = if random.below(3) == 0 { random.unit() } else { 1.0 };
-        let w: Vec<f64> = (0..n).map(|i| random.sign() * (size * proof.r * u[i] * (1.0 - 1e-15))).collect();
+        let size = if random.below(3) == 0 {
+            random.unit()
+        } else {
+            1.0
+        };
+        let w: Vec<f64> = (0..n)
+            .map(|i| random.sign() * (size * proof.r * u[i] * (1.0 - 1e-15)))
+            .collect();
         let norm = contraction(exact, sample, s, &w);
-        assert!(norm <= proof.q, "|M| ≥ {norm} > {} at s = {s} of ±{}", proof.q, proof.h);
+        assert!(
+            norm <= proof.q,
+            "|M| ≥ {norm} > {} at s = {s} of ±{}",
+            proof.q,
+            proof.h
+        );
         tally.nearest_q = tally.nearest_q.max(norm / proof.q);
         tally.contractions += 1;
 
@@ -84,33 +105,58 @@ fn check_tube<const D: usize>(
         tally.points += 1;
         let away: Vec<Interval> = (0..n).map(|i| z[i] - through[i]).collect();
         let distance = sample.norm(&away);
-        assert!(distance <= proof.distance, "the path is {distance} away, not {}", proof.distance);
+        assert!(
+            distance <= proof.distance,
+            "the path is {distance} away, not {}",
+            proof.distance
+        );
         tally.nearest_distance = tally.nearest_distance.max(distance / proof.distance);
         let slope = sample.slope(s);
-        let advance = (0..n).fold(point(0.0), |sum, i| sum + point(sample.normal()[i]) * slope[i]);
+        let advance = (0..n).fold(point(0.0), |sum, i| {
+            sum + point(sample.normal()[i]) * slope[i]
+        });
         let turned: Vec<Interval> = (0..n).map(|i| x[i] * advance - slope[i]).collect();
         let turned = sample.norm(&turned);
-        assert!(turned <= proof.slope_distance, "the slope is {turned} away, not {}", proof.slope_distance);
+        assert!(
+            turned <= proof.slope_distance,
+            "the slope is {turned} away, not {}",
+            proof.slope_distance
+        );
         tally.nearest_slope = tally.nearest_slope.max(turned / proof.slope_distance);
 
         // (e) t and its slope, over a range around s and at s itself.
         let (lo, hi) = if random.below(2) == 0 {
             (s, s)
         } else {
-            (random.between(-proof.h, s).min(s), random.between(s, proof.h).max(s))
+            (
+                random.between(-proof.h, s).min(s),
+                random.between(s, proof.h).max(s),
+            )
         };
         let ((low, high), (slope_low, slope_high)) = time.bounds(lo, hi);
         let (t, rate) = (z[n - 1] - point(1.0), x[n - 1] * advance);
-        assert!(t.sup() >= low && t.inf() <= high, "t − 1 in {t:?} is not in [{low}, {high}]");
-        assert!(rate.sup() >= slope_low && rate.inf() <= slope_high, "t' in {rate:?}, not [{slope_low}, {slope_high}]");
+        assert!(
+            t.sup() >= low && t.inf() <= high,
+            "t − 1 in {t:?} is not in [{low}, {high}]"
+        );
+        assert!(
+            rate.sup() >= slope_low && rate.inf() <= slope_high,
+            "t' in {rate:?}, not [{slope_low}, {slope_high}]"
+        );
 
         // (d) The point is found at its own parameter.
-        let mut ball = Ball { centre: sample.tube.exit.centre.clone(), radius: sample.tube.exit.radius.clone() };
+        let mut ball = Ball {
+            centre: sample.tube.exit.centre.clone(),
+            radius: sample.tube.exit.radius.clone(),
+        };
         for i in 0..n {
             (ball.centre[i], ball.radius[i]) = (z[i].mid(), z[i].rad());
         }
         if let Some((lo, hi)) = sample.tube.locate(&ball) {
-            assert!(lo <= s && s <= hi, "the point at {s} was located in [{lo}, {hi}]");
+            assert!(
+                lo <= s && s <= hi,
+                "the point at {s} was located in [{lo}, {hi}]"
+            );
             tally.located += 1;
         }
     }
@@ -118,7 +164,12 @@ fn check_tube<const D: usize>(
 
 /// (c) The exit's box holds the path's point there, and that point is in the next tube where its
 /// entry says.
-fn check_link<const D: usize>(exact: &Exact, sample: &Sample<D>, next: Option<&Sample<D>>, tally: &mut Tally) {
+fn check_link<const D: usize>(
+    exact: &Exact,
+    sample: &Sample<D>,
+    next: Option<&Sample<D>>,
+    tally: &mut Tally,
+) {
     let n = exact.n;
     let through = sample.at(sample.tube.exit_at);
     let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
@@ -129,15 +180,25 @@ fn check_link<const D: usize>(exact: &Exact, sample: &Sample<D>, next: Option<&S
     let exit = &sample.tube.exit;
     for i in 0..n {
         let (c, r) = (point(exit.centre[i]), exit.radius[i]);
-        assert!((z[i] - c).abs().inf() <= r, "entry {i} of the exit is {} ± {r}, not in {:?}", exit.centre[i], z[i]);
+        assert!(
+            (z[i] - c).abs().inf() <= r,
+            "entry {i} of the exit is {} ± {r}, not in {:?}",
+            exit.centre[i],
+            z[i]
+        );
     }
     if let Some(next) = next {
         let g = |s: f64| {
             let there = next.at(s);
-            (0..n).fold(point(0.0), |sum, i| sum + point(next.normal()[i]) * (z[i] - there[i]))
+            (0..n).fold(point(0.0), |sum, i| {
+                sum + point(next.normal()[i]) * (z[i] - there[i])
+            })
         };
         let (lo, hi) = next.tube.entry;
-        assert!(g(lo).sup() >= 0.0 && g(hi).inf() <= 0.0, "the entry is not in [{lo}, {hi}]");
+        assert!(
+            g(lo).sup() >= 0.0 && g(hi).inf() <= 0.0,
+            "the entry is not in [{lo}, {hi}]"
+        );
         // x is along this tube's direction, as c·x = 1.
         let along = (0..n).fold(point(0.0), |sum, i| sum + point(next.normal()[i]) * x[i]);
         assert!(along.sup() > 0.0, "the next tube is followed backwards");
@@ -151,7 +212,9 @@ fn check_problem<const D: usize>(
     random: &mut Random,
     tally: &mut Tally,
 ) {
-    let Ok(homotopy) = Homotopy::new(problem) else { return };
+    let Ok(homotopy) = Homotopy::new(problem) else {
+        return;
+    };
     let exact = Exact::new(&homotopy);
     let mut workshop = Workshop::<D>::new(&homotopy, max_h);
     let chain = workshop.chain(&homotopy, 1000);
@@ -168,7 +231,11 @@ fn check_problem<const D: usize>(
             let mut weights = sample.tube.weights.clone();
             let h = factor * sample.tube.proof.h;
             tally.shortened += 1;
-            let Some(proof) = workshop.test.prove(&workshop.equations, &sample.tube.local, &mut weights, h) else {
+            let Some(proof) =
+                workshop
+                    .test
+                    .prove(&workshop.equations, &sample.tube.local, &mut weights, h)
+            else {
                 tally.refused += 1;
                 continue;
             };
@@ -194,9 +261,15 @@ fn proofs_hold_along_the_shipped_problems() {
         }
     }
     println!("{tally:?}");
-    assert!(tally.unresolved * 20 < tally.points, "too few cases were resolved: {tally:?}");
+    assert!(
+        tally.unresolved * 20 < tally.points,
+        "too few cases were resolved: {tally:?}"
+    );
     assert!(tally.refused == 0, "short tubes are not proved: {tally:?}");
-    assert!(tally.nearest_q > 0.5 && tally.nearest_distance > 0.1, "the tests come nowhere near: {tally:?}");
+    assert!(
+        tally.nearest_q > 0.5 && tally.nearest_distance > 0.1,
+        "the tests come nowhere near: {tally:?}"
+    );
 }
 
 #[test]
@@ -215,6 +288,12 @@ fn proofs_hold_along_random_problems() {
         }
     }
     println!("{tally:?}");
-    assert!(tally.refused * 100 < tally.shortened, "short tubes are not proved: {tally:?}");
-    assert!(tally.tubes > 200 && tally.unresolved * 20 < tally.points, "too few cases: {tally:?}");
+    assert!(
+        tally.refused * 100 < tally.shortened,
+        "short tubes are not proved: {tally:?}"
+    );
+    assert!(
+        tally.tubes > 200 && tally.unresolved * 20 < tally.points,
+        "too few cases: {tally:?}"
+    );
 }

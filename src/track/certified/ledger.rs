@@ -1,0 +1,242 @@
+//! What has been proved along the chain so far: solutions, the range of t, the length.
+
+use super::link::{Ball, Tube};
+use super::solution::{Same, SolutionBox, SolutionProver};
+use crate::interval::{Interval, hull, point};
+use crate::linalg::{Inverter, Vector};
+use crate::system::Homotopy;
+use crate::track::Solution;
+use crate::track::events::{Crossing, TimeAlong, Undecided};
+use crate::track::full::{Equations, path_length};
+
+/// The account of a chain of linked tubes.
+#[derive(Debug)]
+pub struct Ledger<'a, const D: usize> {
+    homotopy: &'a Homotopy,
+    prover: SolutionProver<D>,
+    found: Vec<SolutionBox>,
+    /// Work space.
+    crossings: Vec<Crossing>,
+    scratch: Vector,
+    ball: Ball,
+    /// The length of the path, in floats.
+    pub length: f64,
+    /// An enclosure of the values of t.
+    pub t_range: (f64, f64),
+}
+
+impl<'a, const D: usize> Ledger<'a, D> {
+    /// An empty account.
+    pub fn new(homotopy: &'a Homotopy, equations: &Equations<D>) -> Self {
+        Ledger {
+            homotopy,
+            prover: SolutionProver::new(homotopy, equations),
+            found: Vec::new(),
+            crossings: Vec::new(),
+            scratch: equations.vector(),
+            ball: Ball::new(equations),
+            length: 0.0,
+            t_range: (f64::INFINITY, f64::NEG_INFINITY),
+        }
+    }
+
+    /// The number of solutions so far.
+    pub fn solutions_so_far(&self) -> usize {
+        self.found.len()
+    }
+
+    /// Finds all solutions in a linked tube, from its entry to its exit, or to the sketch where
+    /// the loop is closed at the parameters `closing`. If it fails nothing is changed.
+    pub fn enter(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        tube: &Tube<D>,
+        closing: Option<(f64, f64)>,
+    ) -> Result<(), Undecided> {
+        let time = tube.time();
+        let from = tube.entry.0.max(-tube.proof.h);
+        let to = closing
+            .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))
+            .min(tube.proof.h);
+        let mut crossings = std::mem::take(&mut self.crossings);
+        let known = self.found.len();
+        let all = time.crossings(from, to, &mut crossings).and_then(|()| {
+            crossings
+                .iter()
+                .try_for_each(|&crossing| self.prove_crossing(equations, inverter, tube, crossing))
+        });
+        self.crossings = crossings;
+        if all.is_err() {
+            self.found.truncate(known);
+            return all;
+        }
+        let until = closing.map_or(tube.exit_at, |at| at.1);
+        self.length += path_length(
+            &tube.local,
+            from,
+            until,
+            self.homotopy.unit,
+            &mut self.scratch,
+        );
+        self.widen_t_range(&time, from, to);
+        Ok(())
+    }
+
+    /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
+    /// in this stretch of it.
+    fn prove_crossing(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Inverter,
+        tube: &Tube<D>,
+        crossing: Crossing,
+    ) -> Result<(), Undecided> {
+        let (a, b) = crossing.between;
+        tube.local.at(0.5 * (a + b), &mut self.scratch);
+        let found = self
+            .prover
+            .prove(equations, inverter, &self.scratch, crossing.rising)
+            .ok_or(Undecided)?;
+        self.ball.centre.copy_from_slice(&found.centre);
+        self.ball.radius.copy_from_slice(&found.radius);
+        let at = tube.locate(&self.ball).ok_or(Undecided)?;
+        // All of it: beyond the stretch there may be another solution, in the tube but not counted.
+        if at.0 < a || at.1 > b {
+            return Err(Undecided);
+        }
+        for other in &self.found {
+            match found.is_same(other, |_| false) {
+                // In the overlap of two tubes, or at the end of the loop.
+                Same::Yes => return Ok(()),
+                Same::No => {}
+                Same::Unknown => return Err(Undecided),
+            }
+        }
+        self.found.push(found);
+        Ok(())
+    }
+
+    fn widen_t_range(&mut self, time: &TimeAlong, from: f64, to: f64) {
+        let shift = |(lo, hi): (f64, f64)| ((lo + 1.0).next_down(), (hi + 1.0).next_up());
+        let (lo, hi) = shift(time.bounds(from, to).0);
+        if lo >= self.t_range.0 && hi <= self.t_range.1 {
+            return;
+        }
+        // Where the crude bound would widen the range, a finer one.
+        const PIECES: usize = 32;
+        let at = |k: usize| match k {
+            PIECES => to,
+            _ => from + (to - from) * (k as f64 / PIECES as f64),
+        };
+        for k in 0..PIECES {
+            let (lo, hi) = shift(time.bounds(at(k), at(k + 1)).0);
+            self.t_range = (self.t_range.0.min(lo), self.t_range.1.max(hi));
+        }
+    }
+
+    /// What remains to be proved of a closed loop.
+    pub fn check_closed(&self) -> Result<(), String> {
+        // Not needed for the proof: a loop crosses t = 1 as often upwards as downwards.
+        let rising = self.found.iter().filter(|s| s.rising).count();
+        if 2 * rising != self.found.len() {
+            return Err(format!(
+                "of {} crossings of t = 1 along a closed path, {rising} go upwards: this is a bug in krawl, \
+                 please report it",
+                self.found.len()
+            ));
+        }
+        self.lengths_are_positive()
+    }
+
+    /// Claim 3: a_i(t) > 0 on the whole range of t.
+    fn lengths_are_positive(&self) -> Result<(), String> {
+        let range = hull(self.t_range.0, self.t_range.1);
+        for (index, length) in self.homotopy.lengths.iter().enumerate() {
+            if length.enclose(range).inf() <= 0.0
+                && !positive_in_pieces(|t| length.enclose(t), range)
+            {
+                return Err(format!(
+                    "the length of constraint {} could not be proved positive for t from {:.6} to {:.6}",
+                    index + 1,
+                    self.t_range.0,
+                    self.t_range.1
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The solutions with their classes; the reason, if a claim about them could not be proved.
+    pub fn solutions(&self) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
+        let d = self.homotopy.dimension;
+        let gauge = &self.homotopy.gauge;
+        // The mirror image in the gauge: the last coordinate changes its sign.
+        let mirrored = |i: usize| gauge.place[i] % d == d - 1;
+        let mut reason = None;
+        let mut classes: Vec<usize> = Vec::new();
+        for (k, found) in self.found.iter().enumerate() {
+            let mut class = None;
+            for (j, other) in self.found[..k].iter().enumerate() {
+                match found.is_same(other, mirrored) {
+                    Same::Yes => class = Some(classes[j]),
+                    Same::No => {}
+                    Same::Unknown => {
+                        reason = Some(format!(
+                            "it could not be decided whether solutions {} and {} are mirror images",
+                            j + 1,
+                            k + 1
+                        ))
+                    }
+                }
+            }
+            classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
+            // Congruent figures have the same or mirrored coordinates only if the reference
+            // points are on the same sides.
+            for (rank, &p) in gauge.reference.iter().enumerate().skip(1) {
+                let i = gauge.variable[p * d + rank - 1];
+                if found.centre[i] - found.radius[i] <= 0.0 {
+                    reason = Some(format!(
+                        "in solution {} the reference is degenerate or turned over",
+                        k + 1
+                    ));
+                }
+            }
+        }
+        let solutions = self
+            .found
+            .iter()
+            .zip(classes)
+            .map(|(found, class)| {
+                let points = found.points(self.homotopy);
+                let width = relative_width(&points);
+                Solution {
+                    points,
+                    class,
+                    width,
+                }
+            })
+            .collect();
+        match reason {
+            None => Ok(solutions),
+            Some(reason) => Err((reason, solutions)),
+        }
+    }
+}
+
+/// Whether a function is proved positive on every piece of a range.
+fn positive_in_pieces(enclose: impl Fn(Interval) -> Interval, range: Interval) -> bool {
+    const PIECES: usize = 64;
+    let (lo, width) = (point(range.inf()), point(range.sup()) - point(range.inf()));
+    (0..PIECES).all(|k| {
+        let piece = hull(k as f64 / PIECES as f64, (k + 1) as f64 / PIECES as f64);
+        enclose((lo + width * piece).intersection(range)).inf() > 0.0
+    })
+}
+
+/// The widest coordinate's width over the largest coordinate.
+fn relative_width(points: &[[Interval; 3]]) -> f64 {
+    let all = || points.iter().flatten();
+    let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
+    all().fold(0.0, |max: f64, x| max.max(x.wid())) / size
+}
