@@ -167,7 +167,7 @@ impl<const D: usize> Local<D> {
             if size <= 1e-10 {
                 return Some(());
             }
-            if !(size <= 1.0) {
+            if size.is_nan() || size > 1.0 {
                 return None;
             }
         }

@@ -34,7 +34,7 @@ fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f
         for (k, row) in rows.iter().enumerate() {
             let y = point(y.get(i, k));
             for (out, x) in out.iter_mut().zip(row) {
-                *out = *out + y * *x;
+                *out += y * *x;
             }
         }
     }
@@ -46,7 +46,7 @@ fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f
             for (k, from) in product.iter().enumerate() {
                 let x = point(s) * point(sample.a.get(i, k));
                 for (out, from) in row.iter_mut().zip(from) {
-                    *out = *out + x * *from;
+                    *out += x * *from;
                 }
             }
             let sum = row
