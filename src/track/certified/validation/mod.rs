@@ -211,10 +211,10 @@ impl<'a> Exact<'a> {
                     let d = self.difference(z, e, axis);
                     let [i, j] = self.homotopy.edges[e].points.map(|p| self.unknown(p, axis));
                     if let Some(i) = i {
-                        row[i] = row[i] + d;
+                        row[i] += d;
                     }
                     if let Some(j) = j {
-                        row[j] = row[j] - d;
+                        row[j] -= d;
                     }
                 }
                 let e = self.homotopy.lengths[e].half_square();
