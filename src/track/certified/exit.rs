@@ -17,7 +17,7 @@ impl<const D: usize> KrawczykTest<D> {
         let out = &mut tube.exit;
         let c = &local.normal[..n];
         local.at(s, &mut out.centre);
-        let goal = 1e-3 * proof.r;
+        let goal = 2e-2 * proof.r;
         let mut step = f64::INFINITY;
         for _ in 0..6 {
             equations.differences(&out.centre, &mut self.near);
