@@ -32,13 +32,31 @@ struct Measured {
 
 fn main() {
     // `cargo bench` passes --bench; anything else picks problems by name.
-    let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let wanted: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with('-'))
+        .collect();
     let rows = [
-        Row { name: "float full", options: Options::float(Space::Full) },
-        Row { name: "float reduced", options: Options::float(Space::Reduced) },
-        Row { name: "certified full", options: Options::certified() },
-        Row { name: "paper full", options: Options::paper(Space::Full) },
-        Row { name: "paper reduced", options: Options::paper(Space::Reduced) },
+        Row {
+            name: "float full",
+            options: Options::float(Space::Full),
+        },
+        Row {
+            name: "float reduced",
+            options: Options::float(Space::Reduced),
+        },
+        Row {
+            name: "certified full",
+            options: Options::certified(),
+        },
+        Row {
+            name: "paper full",
+            options: Options::paper(Space::Full),
+        },
+        Row {
+            name: "paper reduced",
+            options: Options::paper(Space::Reduced),
+        },
     ];
     let mut budgets = Vec::new();
     println!(
@@ -49,7 +67,8 @@ fn main() {
         if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
             continue;
         }
-        let problem = Problem::read(Path::new(&format!("problems/{name}.toml"))).expect("a shipped problem");
+        let problem =
+            Problem::read(Path::new(&format!("problems/{name}.toml"))).expect("a shipped problem");
         let measured = measure(&problem, &rows);
         let full = measured[0].median;
         for (row, m) in rows.iter().zip(&measured) {
@@ -70,13 +89,21 @@ fn main() {
             );
         }
         let certified = measured[2].median;
-        budgets.push((format!("{name}: certified / float full"), certified / full, 3.0));
+        budgets.push((
+            format!("{name}: certified / float full"),
+            certified / full,
+            3.0,
+        ));
         if matches!(name, "disulfide" | "icosahedron-c1") {
             let label = format!("{name}: float reduced / float full, per step");
             budgets.push((label, per_step(&measured[1]) / per_step(&measured[0]), 0.5));
         }
         if let Some(published) = published {
-            budgets.push((format!("{name}: certified / published float"), certified / published, 1.0));
+            budgets.push((
+                format!("{name}: certified / published float"),
+                certified / published,
+                1.0,
+            ));
         }
     }
     if let Some(megabytes) = peak_memory() {
@@ -115,7 +142,10 @@ fn measure(problem: &Problem, rows: &[Row]) -> Vec<Measured> {
     outcomes
         .into_iter()
         .zip(seconds)
-        .map(|(outcome, seconds)| Measured { outcome, median: median(seconds) })
+        .map(|(outcome, seconds)| Measured {
+            outcome,
+            median: median(seconds),
+        })
         .collect()
 }
 

@@ -42,8 +42,14 @@ fn quiet_stretches(file: &str, options: Options) -> Vec<usize> {
         }
         (solutions, count) = (now.solutions, seen);
     };
-    let mut control = Control { cancel: None, progress: Some(&mut progress) };
-    let options = Options { max_steps: 8000, ..options };
+    let mut control = Control {
+        cancel: None,
+        progress: Some(&mut progress),
+    };
+    let options = Options {
+        max_steps: 8000,
+        ..options
+    };
     solve(&problem, &options, &mut control).expect("a run");
     stretches
 }
@@ -52,12 +58,21 @@ fn quiet_stretches(file: &str, options: Options) -> Vec<usize> {
 fn steps_do_not_allocate() {
     for options in [Options::certified(), Options::float(Space::Full)] {
         let stretches = quiet_stretches("problems/icosahedron.toml", options.clone());
-        assert!(stretches.len() > 10, "{options:?}: too few stretches without a solution");
-        assert!(stretches.iter().all(|&count| count == 0), "{options:?}: {stretches:?}");
+        assert!(
+            stretches.len() > 10,
+            "{options:?}: too few stretches without a solution"
+        );
+        assert!(
+            stretches.iter().all(|&count| count == 0),
+            "{options:?}: {stretches:?}"
+        );
     }
     // A change of plan does allocate; with short steps there are long stretches without one.
     let options = Options::float(Space::Reduced).with_max_step(0.001);
     let stretches = quiet_stretches("problems/dodecagon.toml", options);
     let quiet = stretches.iter().filter(|&&count| count == 0).count();
-    assert!(stretches.len() > 50 && 2 * quiet > stretches.len(), "{stretches:?}");
+    assert!(
+        stretches.len() > 50 && 2 * quiet > stretches.len(),
+        "{stretches:?}"
+    );
 }

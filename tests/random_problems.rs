@@ -116,9 +116,12 @@ fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<Test
     }
     let tally = tally.into_inner();
     println!("{tally:#?}");
-    // Laws about closed runs say little if there are none.
-    assert!(tally.closed * 10 >= cases as usize * 9, "{tally:#?}");
-    assert!(tally.with_solutions * 4 >= cases as usize, "{tally:#?}");
+    // Laws about closed runs say little if there are few, and most paths are no trouble. Many of
+    // them turn back before t = 1, in space more often: so many conditions are rarely met at once.
+    let cases = cases as usize;
+    assert!(tally.closed * 100 >= cases * 98, "{tally:#?}");
+    assert!(tally.with_solutions * 8 >= cases, "{tally:#?}");
+    assert!(tally.float_agrees * 100 >= cases * 90, "{tally:#?}");
     tally
 }
 
@@ -128,12 +131,12 @@ fn same_each_time() -> Option<TestRng> {
 
 #[test]
 fn in_the_plane() {
-    try_all(recipe(2, 3..=9), 100, same_each_time());
+    try_all(recipe(2, 3..=9), 400, same_each_time());
 }
 
 #[test]
 fn in_space() {
-    try_all(recipe(3, 4..=9), 60, same_each_time());
+    try_all(recipe(3, 4..=9), 400, same_each_time());
 }
 
 #[test]
