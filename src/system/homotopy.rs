@@ -35,6 +35,8 @@ pub struct Homotopy {
     pub lengths: Vec<Length>,
     /// Which of them bends.
     pub bend: usize,
+    /// What people call the distances.
+    pub names: Vec<String>,
     /// An enclosure of the sketch, all places.
     pub sketch_box: Vec<Interval>,
     /// Its middle.
@@ -101,6 +103,9 @@ impl Homotopy {
                 .collect(),
             lengths,
             bend: problem.homotopy.bend,
+            names: (0..problem.distances.len())
+                .map(|d| problem.distance_name(d))
+                .collect(),
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
             gauge,
@@ -116,6 +121,27 @@ impl Homotopy {
                 .map(|k| (figure[i + k] - figure[j + k]).powi(2))
                 .sum();
             *f = 0.5 * (squared - length.value(t).powi(2));
+        }
+    }
+
+    /// Where a length is nearly zero at t, beside the unit, a remark for people who wonder why the
+    /// run ended there: where two joined points coincide the equations are singular.
+    pub fn remark_on_lengths(&self, t: f64) -> String {
+        let (index, length) = self
+            .lengths
+            .iter()
+            .map(|length| length.value(t))
+            .enumerate()
+            .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+            .unwrap_or((0, f64::INFINITY));
+        if length.abs() < 1e-3 {
+            format!(
+                "; the length of {} goes to zero there ({:.1e})",
+                self.names[index],
+                length * self.unit
+            )
+        } else {
+            String::new()
         }
     }
 

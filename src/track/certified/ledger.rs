@@ -157,10 +157,8 @@ impl<'a, const D: usize> Ledger<'a, D> {
                 && !positive_in_pieces(|t| length.enclose(t), range)
             {
                 return Err(format!(
-                    "the length of constraint {} could not be proved positive for t from {:.6} to {:.6}",
-                    index + 1,
-                    self.t_range.0,
-                    self.t_range.1
+                    "the length of {} could not be proved positive for t from {:.6} to {:.6}",
+                    self.homotopy.names[index], self.t_range.0, self.t_range.1
                 ));
             }
         }

@@ -320,9 +320,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     fn place(&self) -> String {
+        let t = self.now.local.z[0][self.equations.m];
         format!(
-            "at t = {:.9} after {} tubes{}",
-            self.now.local.z[0][self.equations.m],
+            "at t = {t:.9} after {} tubes{}",
             self.steps,
             self.condition()
         )
@@ -336,8 +336,10 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     fn stuck(&self, rejection: Rejection) -> String {
+        let t = self.now.local.z[0][self.equations.m];
+        let remark = self.homotopy.remark_on_lengths(t);
         format!(
-            "{} at the smallest step, {}",
+            "{} at the smallest step, {}{remark}",
             rejection.in_words(),
             self.place()
         )

@@ -75,8 +75,9 @@ fn run<const D: usize>(
         };
         if step < SMALLEST_STEP {
             return Err(format!(
-                "the corrector fails at the smallest step, {}",
-                place(record, &now)
+                "the corrector fails at the smallest step, {}{}",
+                place(record, &now),
+                homotopy.remark_on_lengths(now.z[0][m])
             ));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
