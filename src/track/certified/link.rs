@@ -1,6 +1,6 @@
 //! That two tubes hold the same piece of path, followed in the same direction.
 
-use super::tube::Proof;
+use super::norms::Proof;
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
 use crate::track::events::TimeAlong;

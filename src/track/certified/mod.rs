@@ -1,7 +1,9 @@
 //! Every step a theorem: tubes proved by a Krawczyk test, linked without a gap.
 
+mod exit;
 mod ledger;
 mod link;
+mod norms;
 mod solution;
 mod tracker;
 mod tube;

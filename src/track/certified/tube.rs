@@ -16,80 +16,33 @@
 //! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
-use super::link::{Tube, evaluation_error};
+use super::norms::{MAX_CONTRACTION, Norms, Proof};
 use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::track::full::{DEGREE, Equations, Lengths, Local, MAX_DEGREE, ORDER};
 
-/// At most so much of the contraction may be used up by the length of the tube.
-const MAX_CONTRACTION: f64 = 0.85;
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
-
-/// What is proved of a tube.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Proof {
-    /// The tube reaches over |s| ≤ h.
-    pub h: f64,
-    /// In the box |w|_u ≤ `r` around ẑ(s) the path is the only zero of the cross-section.
-    pub r: f64,
-    /// The path is at most that far from ẑ(s).
-    pub distance: f64,
-    /// The path's derivative by s is at most that far from ẑ'(s).
-    pub slope_distance: f64,
-    /// The bound on |M|_u.
-    pub q: f64,
-    /// |ẑ'(s)|_u on the tube.
-    pub slope: f64,
-    /// |A|_u.
-    pub moving: f64,
-}
 
 /// Work space of the test.
 #[derive(Debug, Clone)]
 pub struct KrawczykTest<const D: usize> {
-    a: Matrix,
+    pub(super) a: Matrix,
     /// Values of the sparse matrices J₁, J₂ and [J₀; c].
     j1: Vec<f64>,
     j2: Vec<f64>,
     j0: Vec<f64>,
-    bounds: [Vector; 5],
+    pub(super) bounds: [Vector; 5],
     /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
-    near: [Vector; D],
+    pub(super) near: [Vector; D],
     far: [Vector; D],
     sums: [Vector; D],
     coefficient: Vector,
-    lengths: Lengths,
-    v: Vector,
-    f: Vector,
+    pub(super) lengths: Lengths,
+    pub(super) v: Vector,
+    pub(super) f: Vector,
     u: Vector,
     square_u: Vector,
-}
-
-/// Bounds in the norm |·|_u, up to the factors that depend on h.
-#[derive(Debug, Clone, Copy)]
-struct Norms {
-    /// |A|, |A₂|, |A² − A₂|.
-    a: f64,
-    a2: f64,
-    square: f64,
-    /// |R₀|, and rounding of all of the computed products.
-    r0: f64,
-    /// |Σ_{k≥3} sᵏ Y J_k| at |s| = `h`.
-    higher: f64,
-    /// |Y J'(w)| per |w|_u.
-    width: f64,
-    /// |Y F(ẑ(s))| at |s| = `h`: orders up to ORDER with rounding, ORDER + 1, and above.
-    low: f64,
-    middle: f64,
-    high: f64,
-    /// |ẑ'(s)|_u for |s| ≤ `h`, and the bound on |ẑ_t'(s)| in it.
-    slope: f64,
-    slope_of_t: f64,
-    /// Σ |c_i| u_i.
-    normal: f64,
-    /// Where the bounds that depend on s were taken; they hold below.
-    h: f64,
 }
 
 impl<const D: usize> KrawczykTest<D> {
@@ -131,79 +84,6 @@ impl<const D: usize> KrawczykTest<D> {
         let proof = norms.longest(weights[equations.m]);
         self.improve(weights);
         proof
-    }
-
-    /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
-    /// last, whose A this test still has.
-    ///
-    /// A few steps w ← w − Ỹ(s) G_s(w) come near it. As that map is a contraction by q, the zero
-    /// is at most |Ỹ(s) G_s(w)|_u / (1 − q) from any w in the box.
-    pub fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
-        let (m, n) = (equations.m, equations.n());
-        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
-        let out = &mut tube.exit;
-        let c = &local.normal[..n];
-        local.at(s, &mut out.centre);
-        let goal = 1e-3 * proof.r;
-        let mut step = f64::INFINITY;
-        for _ in 0..6 {
-            equations.differences(&out.centre, &mut self.near);
-            equations.expand_lengths(out.centre[m], &mut self.lengths);
-            equations.residual(&self.near, &self.lengths, &mut self.f);
-            local.y.multiply(&self.f[..m], &mut self.v);
-            self.a.multiply(&self.v[..n], &mut self.f);
-            for i in 0..n {
-                self.v[i] -= s * self.f[i];
-                out.centre[i] -= self.v[i];
-            }
-            let last = step;
-            step = norm_of(&self.v, u, n);
-            if step < goal || step > 0.5 * last {
-                break;
-            }
-        }
-        // The defect at the point reached, with what rounding may hide of it.
-        equations.differences(&out.centre, &mut self.near);
-        equations.expand_lengths(out.centre[m], &mut self.lengths);
-        equations.residual(&self.near, &self.lengths, &mut self.f);
-        let hidden = &mut self.bounds[0];
-        equations.residual_error(&self.near, out.centre[m], hidden);
-        let (mut along, mut error) = (0.0, 0.0);
-        let mut offset = 0.0f64;
-        for i in 0..n {
-            let z = (0..=ORDER)
-                .rev()
-                .fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
-            let w = out.centre[i] - z;
-            let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
-            along += c[i] * w;
-            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
-            let ratio = (w.abs() + e) / u[i];
-            if ratio > offset || ratio.is_nan() {
-                offset = ratio;
-            }
-        }
-        self.f[m] = along;
-        hidden[m] = error;
-        for i in 0..n {
-            hidden[i] += gamma(n + 2) * self.f[i].abs();
-        }
-        local.y.multiply(&self.f[..n], &mut self.v);
-        let computed = norm_of(&self.v, u, n);
-        local.y.multiply_abs(&hidden[..n], &mut self.v);
-        let hidden = norm_of(&self.v, u, n);
-        let defect = round_up(
-            (computed + hidden) * (1.0 + s.abs() * proof.moving),
-            2 * n + 20,
-        );
-        let radius = round_up(defect / (1.0 - proof.q), 400);
-        if !(round_up(offset, 40) < proof.r && radius < proof.r) {
-            return None;
-        }
-        for i in 0..n {
-            out.radius[i] = round_up(radius * u[i], 1);
-        }
-        Some(())
     }
 
     /// The weights used in the last proof.
@@ -455,7 +335,7 @@ impl<const D: usize> KrawczykTest<D> {
 }
 
 /// |v|_u: one division per entry, to be covered by the caller's `round_up`.
-fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
+pub(super) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
     v[..n].iter().zip(&u[..n]).fold(0.0, |max: f64, (v, u)| {
         // A NaN must not be lost in the comparison.
         let x = v.abs() / u;
@@ -470,127 +350,6 @@ fn powers_of(h: f64) -> [f64; DEGREE + 1] {
         powers[k] = powers[k - 1] * h;
     }
     powers
-}
-
-impl Norms {
-    fn is_in_range(&self) -> bool {
-        [
-            self.a,
-            self.a2,
-            self.square,
-            self.r0,
-            self.higher,
-            self.width,
-            self.low,
-            self.middle,
-            self.high,
-            self.slope,
-            self.slope_of_t,
-            self.h,
-        ]
-        .into_iter()
-        .all(in_range)
-    }
-
-    /// The contraction without the width, the factor of the width, and the defect, at `h`.
-    /// Sums of fewer than 60 roundings, covered by the factor.
-    fn at(&self, h: f64) -> (f64, f64, f64) {
-        let moving = 1.0 + h * self.a;
-        let x = h / self.h;
-        let x3 = x * x * x;
-        let x6 = x3 * x3;
-        let contraction =
-            moving * (self.r0 + self.higher * x3) + h * h * (self.square + h * (self.a * self.a2));
-        let defect = moving * (self.low + self.middle * x6 + self.high * (x6 * x));
-        (
-            round_up(contraction, 60),
-            round_up(moving * self.width, 60),
-            round_up(defect, 60),
-        )
-    }
-
-    /// The largest provable h: by bisection on a logarithmic scale, as any h that passes will do.
-    fn longest(&self, weight_of_t: f64) -> Option<Proof> {
-        const {
-            assert!(
-                ORDER + 1 == 6,
-                "the powers in `at` are those of the Taylor order"
-            )
-        };
-        if let Some(proof) = self.proof(self.h, weight_of_t) {
-            return Some(proof);
-        }
-        let (mut lo, mut hi) = (0.0, self.h);
-        let mut best = None;
-        for _ in 0..40 {
-            let h = if lo == 0.0 {
-                hi / 2.0
-            } else {
-                (lo * hi).sqrt()
-            };
-            match self.proof(h, weight_of_t) {
-                Some(proof) => {
-                    best = Some(proof);
-                    lo = h;
-                    if hi / lo < 1.02 {
-                        break;
-                    }
-                }
-                None => hi = h,
-            }
-        }
-        best
-    }
-
-    fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
-        let (contraction, width, defect) = self.at(h);
-        let room = 1.0 - contraction;
-        // Beyond this the box would be too narrow to be linked, or the proof too close to call.
-        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
-            return None;
-        }
-        let r = (0.5 * room / width).min(0.5 / weight_of_t);
-        let q = round_up(contraction + width * r, 4);
-        // The path is nearer than r: again with the width that is really needed, |w|_u ≤ η/(1 − q).
-        let near = round_up(defect / (1.0 - q), 400);
-        let nearer_q = round_up(contraction + width * near.min(r), 4);
-        let distance = round_up(defect / (1.0 - nearer_q), 400);
-        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
-            return None;
-        }
-        // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
-        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. In the part of F that
-        // does not get smaller with s, rounding above all, k ≤ DEGREE, and k |s|ᵏ⁻¹ ≤ k Hᵏ/H with the
-        // H = `self.h` where it was bounded, as the derivative has only orders k ≥ 1.
-        // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
-        let moving = 1.0 + h * self.a;
-        let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
-        let x = h / self.h;
-        let x3 = x * x * x;
-        let defect_slope = DEGREE as f64 / self.h * self.low
-            + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
-        // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders, at H.
-        let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
-        let jacobian_slope =
-            self.a + 2.0 * h * self.a2 + orders[2] * self.higher * x3 + rounding_slope;
-        let slope = moving
-            * (defect_slope
-                + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
-        let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
-        // Otherwise no tube after this one could be proved to go the same way.
-        if slope_distance * self.normal > 0.5 {
-            return None;
-        }
-        Some(Proof {
-            h,
-            r,
-            distance,
-            slope_distance,
-            q,
-            slope: self.slope,
-            moving: self.a,
-        })
-    }
 }
 
 #[cfg(test)]

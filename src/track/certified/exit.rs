@@ -1,0 +1,78 @@
+//! Where the path leaves a tube.
+
+use super::link::{Tube, evaluation_error};
+use super::tube::{KrawczykTest, norm_of};
+use crate::interval::rounding::{gamma, round_up};
+use crate::track::full::Equations;
+
+impl<const D: usize> KrawczykTest<D> {
+    /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
+    /// last, whose A this test still has.
+    ///
+    /// A few steps w ← w − Ỹ(s) G_s(w) come near it. As that map is a contraction by q, the zero
+    /// is at most |Ỹ(s) G_s(w)|_u / (1 − q) from any w in the box.
+    pub fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+        let (m, n) = (equations.m, equations.n());
+        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
+        let out = &mut tube.exit;
+        let c = &local.normal[..n];
+        local.at(s, &mut out.centre);
+        let goal = 1e-3 * proof.r;
+        let mut step = f64::INFINITY;
+        for _ in 0..6 {
+            equations.differences(&out.centre, &mut self.near);
+            equations.expand_lengths(out.centre[m], &mut self.lengths);
+            equations.residual(&self.near, &self.lengths, &mut self.f);
+            local.y.multiply(&self.f[..m], &mut self.v);
+            self.a.multiply(&self.v[..n], &mut self.f);
+            for i in 0..n {
+                self.v[i] -= s * self.f[i];
+                out.centre[i] -= self.v[i];
+            }
+            let last = step;
+            step = norm_of(&self.v, u, n);
+            if step < goal || step > 0.5 * last {
+                break;
+            }
+        }
+        // The defect at the point reached, with what rounding may hide of it.
+        equations.differences(&out.centre, &mut self.near);
+        equations.expand_lengths(out.centre[m], &mut self.lengths);
+        equations.residual(&self.near, &self.lengths, &mut self.f);
+        let hidden = &mut self.bounds[0];
+        equations.residual_error(&self.near, out.centre[m], hidden);
+        let (mut along, mut error) = (0.0, 0.0);
+        let mut offset = 0.0f64;
+        for i in 0..n {
+            let w = out.centre[i] - local.entry_at(i, s);
+            let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
+            along += c[i] * w;
+            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
+            let ratio = (w.abs() + e) / u[i];
+            if ratio > offset || ratio.is_nan() {
+                offset = ratio;
+            }
+        }
+        self.f[m] = along;
+        hidden[m] = error;
+        for i in 0..n {
+            hidden[i] += gamma(n + 2) * self.f[i].abs();
+        }
+        local.y.multiply(&self.f[..n], &mut self.v);
+        let computed = norm_of(&self.v, u, n);
+        local.y.multiply_abs(&hidden[..n], &mut self.v);
+        let hidden = norm_of(&self.v, u, n);
+        let defect = round_up(
+            (computed + hidden) * (1.0 + s.abs() * proof.moving),
+            2 * n + 20,
+        );
+        let radius = round_up(defect / (1.0 - proof.q), 400);
+        if !(round_up(offset, 40) < proof.r && radius < proof.r) {
+            return None;
+        }
+        for i in 0..n {
+            out.radius[i] = round_up(radius * u[i], 1);
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,172 @@
+//! From bounds in the norm |·|_u to the longest tube that they prove (see `tube.rs`).
+
+use crate::interval::rounding::{in_range, round_up};
+use crate::track::full::{DEGREE, MAX_DEGREE, ORDER};
+
+/// At most so much of the contraction may be used up by the length of the tube.
+pub(super) const MAX_CONTRACTION: f64 = 0.85;
+/// What is proved of a tube.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Proof {
+    /// The tube reaches over |s| ≤ h.
+    pub h: f64,
+    /// In the box |w|_u ≤ `r` around ẑ(s) the path is the only zero of the cross-section.
+    pub r: f64,
+    /// The path is at most that far from ẑ(s).
+    pub distance: f64,
+    /// The path's derivative by s is at most that far from ẑ'(s).
+    pub slope_distance: f64,
+    /// The bound on |M|_u.
+    pub q: f64,
+    /// |ẑ'(s)|_u on the tube.
+    pub slope: f64,
+    /// |A|_u.
+    pub moving: f64,
+}
+
+/// Bounds in the norm |·|_u, up to the factors that depend on h.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Norms {
+    /// |A|, |A₂|, |A² − A₂|.
+    pub a: f64,
+    pub a2: f64,
+    pub square: f64,
+    /// |R₀|, and rounding of all of the computed products.
+    pub r0: f64,
+    /// |Σ_{k≥3} sᵏ Y J_k| at |s| = `h`.
+    pub higher: f64,
+    /// |Y J'(w)| per |w|_u.
+    pub width: f64,
+    /// |Y F(ẑ(s))| at |s| = `h`: orders up to ORDER with rounding, ORDER + 1, and above.
+    pub low: f64,
+    pub middle: f64,
+    pub high: f64,
+    /// |ẑ'(s)|_u for |s| ≤ `h`, and the bound on |ẑ_t'(s)| in it.
+    pub slope: f64,
+    pub slope_of_t: f64,
+    /// Σ |c_i| u_i.
+    pub normal: f64,
+    /// Where the bounds that depend on s were taken; they hold below.
+    pub h: f64,
+}
+
+impl Norms {
+    pub fn is_in_range(&self) -> bool {
+        [
+            self.a,
+            self.a2,
+            self.square,
+            self.r0,
+            self.higher,
+            self.width,
+            self.low,
+            self.middle,
+            self.high,
+            self.slope,
+            self.slope_of_t,
+            self.h,
+        ]
+        .into_iter()
+        .all(in_range)
+    }
+
+    /// The contraction without the width, the factor of the width, and the defect, at `h`.
+    /// Sums of fewer than 60 roundings, covered by the factor.
+    fn at(&self, h: f64) -> (f64, f64, f64) {
+        let moving = 1.0 + h * self.a;
+        let x = h / self.h;
+        let x3 = x * x * x;
+        let x6 = x3 * x3;
+        let contraction =
+            moving * (self.r0 + self.higher * x3) + h * h * (self.square + h * (self.a * self.a2));
+        let defect = moving * (self.low + self.middle * x6 + self.high * (x6 * x));
+        (
+            round_up(contraction, 60),
+            round_up(moving * self.width, 60),
+            round_up(defect, 60),
+        )
+    }
+
+    /// The largest provable h: by bisection on a logarithmic scale, as any h that passes will do.
+    pub fn longest(&self, weight_of_t: f64) -> Option<Proof> {
+        const {
+            assert!(
+                ORDER + 1 == 6,
+                "the powers in `at` are those of the Taylor order"
+            )
+        };
+        if let Some(proof) = self.proof(self.h, weight_of_t) {
+            return Some(proof);
+        }
+        let (mut lo, mut hi) = (0.0, self.h);
+        let mut best = None;
+        for _ in 0..40 {
+            let h = if lo == 0.0 {
+                hi / 2.0
+            } else {
+                (lo * hi).sqrt()
+            };
+            match self.proof(h, weight_of_t) {
+                Some(proof) => {
+                    best = Some(proof);
+                    lo = h;
+                    if hi / lo < 1.02 {
+                        break;
+                    }
+                }
+                None => hi = h,
+            }
+        }
+        best
+    }
+
+    fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
+        let (contraction, width, defect) = self.at(h);
+        let room = 1.0 - contraction;
+        // Beyond this the box would be too narrow to be linked, or the proof too close to call.
+        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
+            return None;
+        }
+        let r = (0.5 * room / width).min(0.5 / weight_of_t);
+        let q = round_up(contraction + width * r, 4);
+        // The path is nearer than r: again with the width that is really needed, |w|_u ≤ η/(1 − q).
+        let near = round_up(defect / (1.0 - q), 400);
+        let nearer_q = round_up(contraction + width * near.min(r), 4);
+        let distance = round_up(defect / (1.0 - nearer_q), 400);
+        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
+            return None;
+        }
+        // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
+        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. In the part of F that
+        // does not get smaller with s, rounding above all, k ≤ DEGREE, and k |s|ᵏ⁻¹ ≤ k Hᵏ/H with the
+        // H = `self.h` where it was bounded, as the derivative has only orders k ≥ 1.
+        // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
+        let moving = 1.0 + h * self.a;
+        let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
+        let x = h / self.h;
+        let x3 = x * x * x;
+        let defect_slope = DEGREE as f64 / self.h * self.low
+            + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
+        // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders, at H.
+        let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
+        let jacobian_slope =
+            self.a + 2.0 * h * self.a2 + orders[2] * self.higher * x3 + rounding_slope;
+        let slope = moving
+            * (defect_slope
+                + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
+        let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
+        // Otherwise no tube after this one could be proved to go the same way.
+        if slope_distance * self.normal > 0.5 {
+            return None;
+        }
+        Some(Proof {
+            h,
+            r,
+            distance,
+            slope_distance,
+            q,
+            slope: self.slope,
+            moving: self.a,
+        })
+    }
+}
