@@ -13,7 +13,6 @@ fn krawl() -> Command {
 }
 
 #[test]
-#[ignore = "needs the trackers"]
 fn prints_a_table_and_writes_json() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("out.json");
@@ -41,7 +40,6 @@ fn prints_a_table_and_writes_json() {
 }
 
 #[test]
-#[ignore = "needs the trackers"]
 fn json_on_standard_output_is_all_there_is() {
     let arguments = [
         "solve", OCTAHEDRON, "--mode", "float", "--space", "full", "--json", "-",
@@ -64,7 +62,6 @@ fn json_on_standard_output_is_all_there_is() {
 
 #[cfg(unix)]
 #[test]
-#[ignore = "needs the trackers"]
 fn an_interrupt_ends_the_run_cleanly() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("out.json");

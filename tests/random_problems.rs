@@ -23,6 +23,7 @@ struct Tally {
     with_solutions: usize,
     float_closed: usize,
     float_agrees: usize,
+    /// Why runs stopped, with the problems.
     reasons: Vec<String>,
 }
 
@@ -43,7 +44,9 @@ fn laws(problem: &Problem, tally: &mut Tally) -> Result<(), String> {
     check(problem, &outcome.solutions)?;
     if let Status::Stopped(reason) = &outcome.status {
         tally.stopped += 1;
-        tally.reasons.push(reason.clone());
+        tally
+            .reasons
+            .push(format!("{reason}\n{}", problem.to_toml()));
         return if reason.trim().is_empty() {
             Err("stopped without a reason".to_owned())
         } else {
@@ -115,10 +118,16 @@ fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<Test
         Err(error) => panic!("{error}"),
     }
     let tally = tally.into_inner();
-    println!("{tally:#?}");
-    // Laws about closed runs say little if there are none.
-    assert!(tally.closed * 10 >= cases as usize * 9, "{tally:#?}");
-    assert!(tally.with_solutions * 4 >= cases as usize, "{tally:#?}");
+    println!("{tally:?}\n{}", tally.reasons.join("\n"));
+    // Laws about closed runs say little if there are few, and most paths are no trouble. Many of
+    // them turn back before t = 1, in space more often: so many conditions are rarely met at once.
+    let cases = cases as usize;
+    assert!(tally.closed * 100 >= cases * 98, "{tally:#?}");
+    assert!(tally.with_solutions * 8 >= cases, "{tally:#?}");
+    assert!(
+        tally.float_agrees * 100 >= cases * FLOAT_SPACES.len() * 95,
+        "{tally:#?}"
+    );
     tally
 }
 
@@ -128,12 +137,12 @@ fn same_each_time() -> Option<TestRng> {
 
 #[test]
 fn in_the_plane() {
-    try_all(recipe(2, 3..=9), 100, same_each_time());
+    try_all(recipe(2, 3..=9), 400, same_each_time());
 }
 
 #[test]
 fn in_space() {
-    try_all(recipe(3, 4..=9), 60, same_each_time());
+    try_all(recipe(3, 4..=9), 400, same_each_time());
 }
 
 #[test]

@@ -118,9 +118,11 @@ mod tests {
                 for end in [x.inf(), x.sup()] {
                     prop_assert!((BigRational::from_float(end).unwrap() - &value).abs() <= unit);
                 }
-                // And no more than a factor of a few hundred is given away.
+                // And no more than a factor of a few hundred is given away. The shortest decimal
+                // of a single float may end early: it is nearer than its last digit says.
                 let wide = BigRational::from_float(x.wid().max(x.mag() * 1e-16)).unwrap();
-                prop_assert!(unit <= wide * BigRational::from(BigInt::from(100)), "{}", shown);
+                let given_away = unit > wide * BigRational::from(BigInt::from(100));
+                prop_assert!(x.is_singleton() || !given_away, "{}", shown);
             } else {
                 prop_assert!(width >= -2, "{}", shown);
             }

@@ -148,7 +148,7 @@ pub fn root_near(problem: &Problem, start: &[[f64; 3]]) -> Option<Vec<[BigRation
         if step.amax() < 1e-30 * size {
             return Some(figure);
         }
-        if !(step.amax() < 1e3 * size) {
+        if step.amax() > 1e3 * size {
             return None;
         }
     }

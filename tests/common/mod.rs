@@ -24,7 +24,7 @@ pub const SHORT: [(&str, usize); 6] = [
 ];
 
 /// All float modes and spaces that there are.
-pub const FLOAT_SPACES: [Space; 1] = [Space::Full];
+pub const FLOAT_SPACES: [Space; 2] = [Space::Full, Space::Reduced];
 
 /// A way to follow a path, for each mode and space that there is.
 pub fn ways() -> Vec<Options> {
