@@ -5,21 +5,46 @@ use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::track::full::Equations;
 
+/// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
+const ENOUGH: f64 = 2e-2;
+/// Steps that are more than enough where the contraction is that of a proved tube.
+const MAX_STEPS: usize = 40;
+
 impl<const D: usize> KrawczykTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
-    /// last, whose A this test still has.
-    ///
-    /// A few steps w ← w − Ỹ(s) G_s(w) come near it. As that map is a contraction by q, the zero
-    /// is at most |Ỹ(s) G_s(w)|_u / (1 − q) from any w in the box.
+    /// last, whose A this test still has, as tightly as most links need.
     pub fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+        self.enclose(equations, tube, ENOUGH)?;
+        tube.exit_is_tight = false;
+        Some(())
+    }
+
+    /// The same as tightly as floats allow, for a tube proved earlier: where the next one is much
+    /// narrower.
+    pub fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+        self.make_moving_matrix(equations, &tube.local);
+        self.enclose(equations, tube, 0.0)?;
+        tube.exit_is_tight = true;
+        Some(())
+    }
+
+    /// A few steps w ← w − Ỹ(s) G_s(w), until they are below `accuracy` times r or do not shrink
+    /// any more. As that map is a contraction by q, the zero is at most |Ỹ(s) G_s(w)|_u / (1 − q)
+    /// from any w in the box.
+    fn enclose(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D>,
+        accuracy: f64,
+    ) -> Option<()> {
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let out = &mut tube.exit;
         let c = &local.normal[..n];
         local.at(s, &mut out.centre);
-        let goal = 2e-2 * proof.r;
+        let goal = accuracy * proof.r;
         let mut step = f64::INFINITY;
-        for _ in 0..6 {
+        for _ in 0..MAX_STEPS {
             equations.differences(&out.centre, &mut self.near);
             equations.expand_lengths(out.centre[m], &mut self.lengths);
             equations.residual(&self.near, &self.lengths, &mut self.f);

@@ -20,6 +20,8 @@ pub struct Tube<const D: usize> {
     pub exit_at: f64,
     /// See `exit_at`.
     pub exit: Ball,
+    /// Whether that box is as small as floats allow.
+    pub exit_is_tight: bool,
     /// The path comes in at a parameter in this range.
     pub entry: (f64, f64),
 }
@@ -55,6 +57,7 @@ impl<const D: usize> Tube<D> {
             proof: Proof::default(),
             exit_at: 0.0,
             exit: Ball::new(equations),
+            exit_is_tight: false,
             entry: (0.0, 0.0),
         }
     }

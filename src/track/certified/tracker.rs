@@ -263,7 +263,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
     /// Adds the tube that is `advance` further on. Tells whether it closes the loop.
     fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
         let equations = &self.equations;
-        let (now, next) = (&self.now, &mut self.next);
+        let next = &mut self.next;
         self.now.local.predict(
             advance,
             self.previous.as_deref(),
@@ -284,7 +284,17 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.test
             .enclose_exit(equations, next)
             .ok_or(Rejection::Unproved)?;
-        next.entry = now.leads_to(next).ok_or(Rejection::Unlinked)?;
+        next.entry = match self.now.leads_to(next) {
+            Some(entry) => entry,
+            None if self.now.exit_is_tight => return Err(Rejection::Unlinked),
+            // The next tube may be too narrow for what is known of the exit.
+            None => {
+                self.test
+                    .tighten_exit(equations, &mut self.now)
+                    .ok_or(Rejection::Unlinked)?;
+                self.now.leads_to(next).ok_or(Rejection::Unlinked)?
+            }
+        };
         if next.entry.1 >= next.exit_at {
             return Err(Rejection::Unlinked);
         }

@@ -304,22 +304,35 @@ impl<const D: usize> KrawczykTest<D> {
         higher[at] += terms * ut;
     }
 
+    /// Makes A ≈ Y J₁.
+    pub(super) fn make_moving_matrix(&mut self, equations: &Equations<D>, local: &Local<D>) {
+        self.derivative(equations, local, 1);
+        local
+            .y
+            .multiply_sparse(equations.pattern(), &self.j1, &mut self.a);
+    }
+
+    /// The values of the sparse matrix J_k, k = 1 or 2. The entry of t is minus E'(t(s)) at sᵏ:
+    /// 2 e₂ t_k but for the bend.
+    fn derivative(&mut self, equations: &Equations<D>, local: &Local<D>, k: usize) {
+        let m = equations.m;
+        let slope = 2.0 * local.z[k][m];
+        for (time, e2) in self.f[..m].iter_mut().zip(equations.e[2].iter()) {
+            *time = e2 * slope;
+        }
+        self.f[equations.bend.edge] = local.bend_slope(k);
+        let values = if k == 1 { &mut self.j1 } else { &mut self.j2 };
+        equations.pattern_values(&local.d[k], &self.f[..m], values);
+    }
+
     /// A ≈ Y J₁, kept; and |A|_u, |A₂|_u with A₂ ≈ Y J₂, |A² − A₂|_u, |I − Y [J₀; c]|_u, as computed.
     fn products(&mut self, equations: &Equations<D>, local: &Local<D>) -> [f64; 4] {
-        let (m, n) = (equations.m, equations.n());
+        let n = equations.n();
+        self.make_moving_matrix(equations, local);
+        self.derivative(equations, local, 2);
         let (y, u) = (&local.y, &self.u);
         let pattern = equations.pattern();
-        // The entry of t in J_k is E'(t(s)) at sᵏ: 2 e₂ t_k but for the bend.
-        for (k, values) in [(1, &mut self.j1), (2, &mut self.j2)] {
-            let slope = 2.0 * local.z[k][m];
-            for (time, e2) in self.f[..m].iter_mut().zip(equations.e[2].iter()) {
-                *time = e2 * slope;
-            }
-            self.f[equations.bend.edge] = local.bend_slope(k);
-            equations.pattern_values(&local.d[k], &self.f[..m], values);
-        }
         equations.bordered_values(&local.d[0], &local.lengths, &local.normal, &mut self.j0);
-        y.multiply_sparse(pattern, &self.j1, &mut self.a);
         y.identity_minus_sparse_abs(equations.bordered_pattern(), &self.j0, &u[..n], &mut self.v);
         let r0 = norm_of(&self.v, u, n);
         self.a.multiply_abs(&u[..n], &mut self.v);
