@@ -159,7 +159,6 @@ fn many_in_space() {
 
 /// Paths that close with steps of 0.02, and must with steps of the program's own choice.
 #[test]
-#[ignore = "known fault: a tube is not shortened where its successor cannot be linked to it, nor the first one where t = 1 is undecided in it"]
 fn short_steps_are_taken_where_they_are_needed() {
     let triangle = Problem::build("triangle", 2)
         .point("p1", ["-0.45", "-1.41"])

@@ -3,12 +3,12 @@
 use super::link::{Tube, evaluation_error};
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
-use crate::track::full::Equations;
+use crate::track::full::{Equations, dot};
 
 /// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
 const ENOUGH: f64 = 2e-2;
 /// Steps that are more than enough where the contraction is that of a proved tube.
-const MAX_STEPS: usize = 40;
+const MAX_STEPS: usize = 200;
 
 impl<const D: usize> KrawczykTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
@@ -24,8 +24,69 @@ impl<const D: usize> KrawczykTest<D> {
     pub fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
         self.make_moving_matrix(equations, &tube.local);
         self.enclose(equations, tube, 0.0)?;
+        tube.exit_slope_radius = self.enclose_tangent(equations, tube);
         tube.exit_is_tight = true;
         Some(())
+    }
+
+    /// Encloses the path's tangent T at the exit, c·T = 1, into `tube.exit_slope`; returns its
+    /// radius in |·|_u. The bound over the whole tube can be too wide where the next is narrow.
+    ///
+    /// T solves [J(P); c] T = e_n. As |I − Ỹ [J(P); c]|_u ≤ q for the path's point P, which is in the
+    /// tube, the solution is at most |Ỹ([J(P); c] v − e_n)|_u / (1 − q) from any v.
+    fn enclose_tangent(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> f64 {
+        let (m, n) = (equations.m, equations.n());
+        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
+        let (exit, v) = (&tube.exit, &mut tube.exit_slope);
+        let c = &local.normal[..n];
+        // Differences at the exit, of v, and sums of the exit's radii.
+        equations.differences(&exit.centre, &mut self.near);
+        equations.sums(&exit.radius, &mut self.sums);
+        equations.expand_lengths(exit.centre[m], &mut self.lengths);
+        local.slope(s, v);
+        for step in 0..=MAX_STEPS {
+            equations.differences(v, &mut self.far);
+            equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
+            self.f[m] = dot(c, &v[..n]) - 1.0;
+            if step == MAX_STEPS {
+                break;
+            }
+            local.y.multiply(&self.f[..n], &mut self.v);
+            let first = norm_of(&self.v, u, n);
+            self.a.multiply(&self.v[..n], &mut self.f);
+            for i in 0..n {
+                v[i] -= self.v[i] - s * self.f[i];
+            }
+            // One step more, so that `f` is the defect of the v that is kept.
+            if first < 1e-14 * norm_of(v, u, n) {
+                equations.differences(v, &mut self.far);
+                equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
+                self.f[m] = dot(c, &v[..n]) - 1.0;
+                break;
+            }
+        }
+        let hidden = &mut self.bounds[0];
+        let radius_of_t = exit.radius[m];
+        equations.jacobian_times_error(
+            (&self.near, exit.centre[m]),
+            (&self.sums, radius_of_t),
+            (&self.far, v[m]),
+            hidden,
+        );
+        let size: f64 = c.iter().zip(&v[..n]).map(|(c, v)| (c * v).abs()).sum();
+        hidden[m] = round_up(gamma(n + 4) * (size + 1.0), n + 4);
+        for i in 0..n {
+            hidden[i] += gamma(n + 2) * self.f[i].abs();
+        }
+        local.y.multiply(&self.f[..n], &mut self.v);
+        let computed = norm_of(&self.v, u, n);
+        local.y.multiply_abs(&hidden[..n], &mut self.v);
+        let hidden = norm_of(&self.v, u, n);
+        let defect = round_up(
+            (computed + hidden) * (1.0 + s.abs() * proof.moving),
+            2 * n + 20,
+        );
+        round_up(defect / (1.0 - proof.q), 400)
     }
 
     /// A few steps w ← w − Ỹ(s) G_s(w), until they are below `accuracy` times r or do not shrink
@@ -56,7 +117,7 @@ impl<const D: usize> KrawczykTest<D> {
             }
             let last = step;
             step = norm_of(&self.v, u, n);
-            if step < goal || step > 0.5 * last {
+            if step < goal || step > 0.98 * last {
                 break;
             }
         }

@@ -22,6 +22,10 @@ pub struct Tube<const D: usize> {
     pub exit: Ball,
     /// Whether that box is as small as floats allow.
     pub exit_is_tight: bool,
+    /// If so, the path's tangent there, in the tube's direction, up to `exit_slope_radius` in |·|_u.
+    pub exit_slope: Vector,
+    /// See `exit_slope`.
+    pub exit_slope_radius: f64,
     /// The path comes in at a parameter in this range.
     pub entry: (f64, f64),
 }
@@ -58,6 +62,8 @@ impl<const D: usize> Tube<D> {
             exit_at: 0.0,
             exit: Ball::new(equations),
             exit_is_tight: false,
+            exit_slope: equations.vector(),
+            exit_slope_radius: f64::INFINITY,
             entry: (0.0, 0.0),
         }
     }
@@ -161,8 +167,23 @@ impl<const D: usize> Tube<D> {
     /// is in `next` too, and both are followed the same way. Encloses the point's parameter in `next`.
     pub fn leads_to(&self, next: &Tube<D>) -> Option<(f64, f64)> {
         let entry = next.locate(&self.exit)?;
-        self.goes_along((self.exit_at, self.exit_at), &next.local.normal)
-            .then_some(entry)
+        let normal = &next.local.normal;
+        let same_way = self.goes_along((self.exit_at, self.exit_at), normal)
+            || self.exit_is_tight && self.exit_goes_along(normal);
+        same_way.then_some(entry)
+    }
+
+    /// The same as [`Tube::goes_along`] at the exit, by the tangent's own enclosure.
+    fn exit_goes_along(&self, normal: &[f64]) -> bool {
+        let n = self.weights.len() - 1;
+        let (mut along, mut error) = (0.0, 0.0);
+        for i in 0..n {
+            let slope = self.exit_slope[i];
+            along += normal[i] * slope;
+            error += normal[i].abs()
+                * (self.exit_slope_radius * self.weights[i] + gamma(n + 2) * slope.abs());
+        }
+        along > round_up(error, n + 8)
     }
 }
 

@@ -80,7 +80,7 @@ impl Rejection {
             Rejection::Refine(RefineError::Singular) => "the Jacobian is singular in 53 bits",
             Rejection::Refine(RefineError::Diverged) => "the corrector does not converge",
             Rejection::Unproved => "the Krawczyk test fails however short the tube",
-            Rejection::Unlinked => "the tube could not be linked to the one before",
+            Rejection::Unlinked => "the tube could not be linked to what comes before it",
             Rejection::Undecided => {
                 "it could not be decided whether the path meets t = 1: a fold is too near, or two \
                  solutions are"
@@ -225,39 +225,55 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
         local.expand(equations);
         self.first_normal.copy_from_slice(&local.normal);
-        // The first rounds find the weights, the last one proves.
-        let unproved = |tracker: &Self| {
-            format!(
-                "at the sketch, {}{}",
-                Rejection::Unproved.in_words(),
-                tracker.condition()
-            )
-        };
-        let mut proof = None;
-        for _ in 0..4 {
-            proof = self
-                .test
+        // The first rounds find the weights.
+        for _ in 0..3 {
+            self.test
                 .prove(equations, &self.now.local, &mut self.weights, max_h);
         }
-        let Some(proof) = proof else {
-            return Err(unproved(self));
-        };
-        self.now.proof = proof;
+        let mut limit = max_h;
+        loop {
+            match self.first_tube(limit) {
+                Ok(()) => return Ok(()),
+                // Where t = 1 is hard to separate, shorter tubes do it.
+                Err(Rejection::Undecided)
+                    if self.now.proof.h > SMALLEST_STEP * self.figure_size() =>
+                {
+                    self.shortened += 1;
+                    limit = 0.25 * self.now.proof.h;
+                }
+                Err(rejection) => {
+                    return Err(format!(
+                        "at the sketch, {}{}",
+                        rejection.in_words(),
+                        self.condition()
+                    ));
+                }
+            }
+        }
+    }
+
+    /// Proves the tube around the sketch, at most `limit` to either side, and that the sketch is in it.
+    fn first_tube(&mut self, limit: f64) -> Result<(), Rejection> {
+        let equations = &self.equations;
+        self.now.proof = self
+            .test
+            .prove(equations, &self.now.local, &mut self.weights, limit)
+            .ok_or(Rejection::Unproved)?;
         self.now.weights.copy_from_slice(self.test.weights());
-        self.now.exit_at = EXIT * proof.h;
+        self.now.exit_at = EXIT * self.now.proof.h;
         self.test
             .enclose_exit(equations, &mut self.now)
-            .ok_or_else(|| unproved(self))?;
+            .ok_or(Rejection::Unproved)?;
+        // Before the exit: what lies between is to be searched, and the loop to close behind it.
         self.now.entry = self
             .now
             .locate(&self.sketch)
-            // Before the exit: what lies between is to be searched, and the loop to close behind it.
             .filter(|entry| entry.1 < self.now.exit_at)
-            .ok_or_else(|| "the sketch could not be enclosed in the first tube".to_owned())?;
+            .ok_or(Rejection::Unlinked)?;
         self.kept_weights.copy_from_slice(&self.weights);
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.now, None)
-            .map_err(|_| format!("in the first tube, {}", Rejection::Undecided.in_words()))
+            .map_err(|_| Rejection::Undecided)
     }
 
     /// Adds the tube that is `advance` further on. Tells whether it closes the loop.
@@ -298,7 +314,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         if next.entry.1 >= next.exit_at {
             return Err(Rejection::Unlinked);
         }
-        let closing = self.closes(&self.next);
+        let closing = self.closes(&self.next)?;
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.next, closing)
             .map_err(|_| Rejection::Undecided)?;
@@ -312,15 +328,26 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     /// Whether the sketch lies ahead of the entry in a tube, travelled in the same direction as
     /// at the start: where, if so.
-    fn closes(&self, tube: &Tube<D>) -> Option<(f64, f64)> {
+    fn closes(&self, tube: &Tube<D>) -> Result<Option<(f64, f64)>, Rejection> {
         let m = self.equations.m;
         let (h, z) = (tube.proof.h, &tube.local.z[0]);
         // Most tubes are nowhere near: |z − z₀| ≤ 2 h is generous for a tube that holds z.
         if z[m].abs() > 2.0 * h || (0..m).any(|i| (z[i] - self.sketch.centre[i]).abs() > 2.0 * h) {
-            return None;
+            return Ok(None);
         }
-        let at = tube.locate(&self.sketch)?;
-        (at.0 > tube.entry.1 && tube.goes_along(at, &self.first_normal)).then_some(at)
+        match tube.locate(&self.sketch) {
+            Some(at) if at.0 > tube.entry.1 => {
+                // A regular curve comes back in the direction in which it left. What cannot be
+                // proved here is proved in a shorter tube.
+                let same_way = tube.goes_along(at, &self.first_normal);
+                if same_way {
+                    Ok(Some(at))
+                } else {
+                    Err(Rejection::Undecided)
+                }
+            }
+            _ => Ok(None),
+        }
     }
 
     fn figure_size(&self) -> f64 {

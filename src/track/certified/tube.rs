@@ -35,8 +35,8 @@ pub struct KrawczykTest<const D: usize> {
     pub(super) bounds: [Vector; 5],
     /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
     pub(super) near: [Vector; D],
-    far: [Vector; D],
-    sums: [Vector; D],
+    pub(super) far: [Vector; D],
+    pub(super) sums: [Vector; D],
     coefficient: Vector,
     pub(super) lengths: Lengths,
     pub(super) v: Vector,

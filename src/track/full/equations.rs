@@ -201,6 +201,54 @@ impl<const D: usize> Equations<D> {
         }
     }
 
+    /// J v at the given differences and lengths, `dv` being the differences of v and `vt` its t.
+    pub fn jacobian_times(
+        &self,
+        d: &[Vector; D],
+        lengths: &Lengths,
+        dv: &[Vector; D],
+        vt: f64,
+        out: &mut [f64],
+    ) {
+        for (e, out) in out[..self.m].iter_mut().enumerate() {
+            let product: f64 = (0..D).map(|axis| d[axis][e] * dv[axis][e]).sum();
+            *out = product - lengths.terms[1][e] * vt;
+        }
+    }
+
+    /// How far J v may be from what [`Equations::jacobian_times`] computes, J being taken anywhere
+    /// within the given radii (as differences' sums, and of t) of the point: no term goes through
+    /// more than 20 roundings.
+    pub fn jacobian_times_error(
+        &self,
+        (d, t): (&[Vector; D], f64),
+        (spread, t_radius): (&[Vector; D], f64),
+        (dv, vt): (&[Vector; D], f64),
+        out: &mut [f64],
+    ) {
+        let (t, vt) = (t.abs() + t_radius, vt.abs());
+        for (e, out) in out[..self.m].iter_mut().enumerate() {
+            let (mut size, mut moved) = (0.0, 0.0);
+            for axis in 0..D {
+                size += (d[axis][e] * dv[axis][e]).abs();
+                moved += spread[axis][e] * dv[axis][e].abs();
+            }
+            let (e1, e2) = (self.e[1][e].abs(), self.e[2][e].abs());
+            let (r1, r2) = (self.e_radius[1][e], self.e_radius[2][e]);
+            let mut slope_size = e1 + 2.0 * t * e2;
+            let mut slope_radius = r1 + 2.0 * t * r2;
+            let mut curvature = 2.0 * (e2 + r2);
+            if e == self.bend.edge {
+                let (c, r) = (self.bend.e.map(f64::abs), &self.bend.e_radius);
+                slope_size += t * t * (3.0 * c[3] + 4.0 * t * c[4]);
+                slope_radius += t * t * (3.0 * r[3] + 4.0 * t * r[4]);
+                curvature += t * (6.0 * (c[3] + r[3]) + 12.0 * t * (c[4] + r[4]));
+            }
+            let time = slope_radius + curvature * t_radius;
+            *out = round_up(gamma(20) * (size + slope_size * vt) + moved + time * vt, 40);
+        }
+    }
+
     /// An inverter for the Jacobian with its last row.
     pub fn inverter(&self) -> Inverter {
         Inverter::new(&self.bordered)
