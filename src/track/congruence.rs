@@ -1,5 +1,19 @@
 //! Which figures are the same up to rigid motions and reflections.
 
+use super::Solution;
+use crate::interval::point;
+
+/// What a float run found, as solutions: thin boxes, with their classes of congruence.
+pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<Solution> {
+    let classes = congruence_classes(&figures, tolerance);
+    let thin = |(figure, class): (Vec<[f64; 3]>, usize)| Solution {
+        points: figure.into_iter().map(|p| p.map(point)).collect(),
+        class,
+        width: 0.0,
+    };
+    figures.into_iter().zip(classes).map(thin).collect()
+}
+
 /// Classes of figures that are congruent up to reflection: for each figure the number of its
 /// class, counted from 0 in order of first occurrence.
 ///

@@ -10,7 +10,7 @@ mod options;
 mod outcome;
 pub mod reduced;
 
-pub use congruence::congruence_classes;
+pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Progress};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};

@@ -1,14 +1,18 @@
 //! Where the path leaves a tube.
 
 use super::link::{Tube, evaluation_error};
+use super::norms::Proof;
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
-use crate::track::full::{Equations, dot};
+use crate::linalg::Vector;
+use crate::track::full::{Equations, Local, dot};
 
 /// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
 const ENOUGH: f64 = 2e-2;
 /// Steps that are more than enough where the contraction is that of a proved tube.
 const MAX_STEPS: usize = 200;
+/// Corrections that shrink by less than this are at the limit of floats.
+const STAGNATION: f64 = 0.98;
 
 impl<const D: usize> KrawczykTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
@@ -44,27 +48,26 @@ impl<const D: usize> KrawczykTest<D> {
         equations.sums(&exit.radius, &mut self.sums);
         equations.expand_lengths(exit.centre[m], &mut self.lengths);
         local.slope(s, v);
-        for step in 0..=MAX_STEPS {
+        let mut correction = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
             equations.differences(v, &mut self.far);
             equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
             self.f[m] = dot(c, &v[..n]) - 1.0;
-            if step == MAX_STEPS {
+            local.y.multiply(&self.f[..n], &mut self.v);
+            let last = correction;
+            correction = norm_of(&self.v, u, n);
+            if correction > STAGNATION * last {
                 break;
             }
-            local.y.multiply(&self.f[..n], &mut self.v);
-            let first = norm_of(&self.v, u, n);
             self.a.multiply(&self.v[..n], &mut self.f);
             for i in 0..n {
                 v[i] -= self.v[i] - s * self.f[i];
             }
-            // One step more, so that `f` is the defect of the v that is kept.
-            if first < 1e-14 * norm_of(v, u, n) {
-                equations.differences(v, &mut self.far);
-                equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
-                self.f[m] = dot(c, &v[..n]) - 1.0;
-                break;
-            }
         }
+        // The defect of the v reached, with what rounding and the exit's radius may hide of it.
+        equations.differences(v, &mut self.far);
+        equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
+        self.f[m] = dot(c, &v[..n]) - 1.0;
         let hidden = &mut self.bounds[0];
         let radius_of_t = exit.radius[m];
         equations.jacobian_times_error(
@@ -75,17 +78,23 @@ impl<const D: usize> KrawczykTest<D> {
         );
         let size: f64 = c.iter().zip(&v[..n]).map(|(c, v)| (c * v).abs()).sum();
         hidden[m] = round_up(gamma(n + 4) * (size + 1.0), n + 4);
+        self.radius_from_defect(local, proof, u, s)
+    }
+
+    /// A bound on |Ỹ(s) g|_u / (1 − q) for any g within `bounds[0]` of `f`, entry by entry.
+    fn radius_from_defect(&mut self, local: &Local<D>, proof: &Proof, u: &Vector, s: f64) -> f64 {
+        let n = u.len() - 1;
+        let hidden = &mut self.bounds[0];
         for i in 0..n {
+            // Rounding in Y f, fused sums of n products.
             hidden[i] += gamma(n + 2) * self.f[i].abs();
         }
         local.y.multiply(&self.f[..n], &mut self.v);
         let computed = norm_of(&self.v, u, n);
         local.y.multiply_abs(&hidden[..n], &mut self.v);
         let hidden = norm_of(&self.v, u, n);
-        let defect = round_up(
-            (computed + hidden) * (1.0 + s.abs() * proof.moving),
-            2 * n + 20,
-        );
+        let moving = 1.0 + s.abs() * proof.moving;
+        let defect = round_up((computed + hidden) * moving, 2 * n + 20);
         round_up(defect / (1.0 - proof.q), 400)
     }
 
@@ -117,7 +126,7 @@ impl<const D: usize> KrawczykTest<D> {
             }
             let last = step;
             step = norm_of(&self.v, u, n);
-            if step < goal || step > 0.98 * last {
+            if step < goal || step > STAGNATION * last {
                 break;
             }
         }
@@ -141,18 +150,7 @@ impl<const D: usize> KrawczykTest<D> {
         }
         self.f[m] = along;
         hidden[m] = error;
-        for i in 0..n {
-            hidden[i] += gamma(n + 2) * self.f[i].abs();
-        }
-        local.y.multiply(&self.f[..n], &mut self.v);
-        let computed = norm_of(&self.v, u, n);
-        local.y.multiply_abs(&hidden[..n], &mut self.v);
-        let hidden = norm_of(&self.v, u, n);
-        let defect = round_up(
-            (computed + hidden) * (1.0 + s.abs() * proof.moving),
-            2 * n + 20,
-        );
-        let radius = round_up(defect / (1.0 - proof.q), 400);
+        let radius = self.radius_from_defect(local, proof, u, s);
         if !(round_up(offset, 40) < proof.r && radius < proof.r) {
             return None;
         }

@@ -1,10 +1,9 @@
 //! What a float run in the full space has seen so far.
 
-use crate::interval::point;
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, Local};
-use crate::track::{Driving, Mode, Outcome, Solution, Space, Status, congruence_classes};
+use crate::track::{Driving, Mode, Outcome, Space, Status, observed_solutions};
 
 /// Two figures are the same solution if no coordinate differs by more than this times the
 /// figure's size. Newton's method brings them to about 1e-15 times a condition number.
@@ -88,21 +87,11 @@ impl<const D: usize> Record<D> {
                     .collect()
             })
             .collect();
-        let classes = congruence_classes(&figures, SAME_LENGTH);
-        let solutions = figures
-            .into_iter()
-            .zip(classes)
-            .map(|(figure, class)| Solution {
-                points: figure.into_iter().map(|p| p.map(point)).collect(),
-                class,
-                width: 0.0,
-            })
-            .collect();
         Outcome {
             mode: Mode::Float,
             space: Space::Full,
             status,
-            solutions,
+            solutions: observed_solutions(figures, SAME_LENGTH),
             steps: self.steps,
             rejected: self.rejected,
             plan_changes: 0,

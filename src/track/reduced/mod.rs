@@ -16,9 +16,8 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
-use super::congruence_classes;
-use super::{Control, Driving, Mode, Options, Outcome, Preset, Progress, Solution, Space, Status};
-use crate::interval::point;
+use super::observed_solutions;
+use super::{Control, Driving, Mode, Options, Outcome, Preset, Progress, Space, Status};
 use crate::plan::{Evaluation, Lanes, Lookout, Plan};
 use crate::system::Homotopy;
 use corrector::Corrector;
@@ -246,21 +245,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
                     .collect()
             })
             .collect();
-        let classes = congruence_classes(&figures, CONGRUENT);
-        let solutions = figures
-            .into_iter()
-            .zip(classes)
-            .map(|(figure, class)| Solution {
-                points: figure.into_iter().map(|p| p.map(point)).collect(),
-                class,
-                width: 0.0,
-            })
-            .collect();
         Outcome {
             mode: Mode::Float,
             space: Space::Reduced,
             status,
-            solutions,
+            solutions: observed_solutions(figures, CONGRUENT),
             steps: self.steps,
             rejected: self.rejected,
             plan_changes: self.plan_changes,
