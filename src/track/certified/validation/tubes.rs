@@ -11,6 +11,7 @@ struct Tally {
     points: usize,
     unresolved: usize,
     located: usize,
+    tangents: usize,
     shortened: usize,
     refused: usize,
     nearest_q: f64,
@@ -165,6 +166,7 @@ fn check_tube<const D: usize>(
 /// (c) The exit's box holds the path's point there, and that point is in the next tube where its
 /// entry says.
 fn check_link<const D: usize>(
+    workshop: &mut Workshop<D>,
     exact: &Exact,
     sample: &Sample<D>,
     next: Option<&Sample<D>>,
@@ -177,16 +179,37 @@ fn check_link<const D: usize>(
         tally.unresolved += 1;
         return;
     };
-    let exit = &sample.tube.exit;
+    let in_exit = |exit: &Ball| {
+        for i in 0..n {
+            let (c, r) = (point(exit.centre[i]), exit.radius[i]);
+            assert!(
+                (z[i] - c).abs().inf() <= r,
+                "entry {i} of the exit is {} ± {r}, not in {:?}",
+                exit.centre[i],
+                z[i]
+            );
+        }
+    };
+    in_exit(&sample.tube.exit);
+    // The tighter enclosure, with that of the tangent, from a test that has seen other tubes since.
+    let mut tight = sample.tube.clone();
+    workshop
+        .test
+        .tighten_exit(&workshop.equations, &mut tight)
+        .expect("a tube whose exit was enclosed before");
+    in_exit(&tight.exit);
+    let u = &tight.weights;
     for i in 0..n {
-        let (c, r) = (point(exit.centre[i]), exit.radius[i]);
+        let away = (x[i] - point(tight.exit_slope[i])).abs();
         assert!(
-            (z[i] - c).abs().inf() <= r,
-            "entry {i} of the exit is {} ± {r}, not in {:?}",
-            exit.centre[i],
-            z[i]
+            away.inf() <= tight.exit_slope_radius * u[i],
+            "entry {i} of the tangent is {} ± {}, not in {:?}",
+            tight.exit_slope[i],
+            tight.exit_slope_radius * u[i],
+            x[i]
         );
     }
+    tally.tangents += 1;
     if let Some(next) = next {
         let g = |s: f64| {
             let there = next.at(s);
@@ -223,7 +246,7 @@ fn check_problem<const D: usize>(
         let sample = &chain[k];
         tally.tubes += 1;
         check_tube(&exact, sample, random, rounds, tally);
-        check_link(&exact, sample, chain.get(k + 1), tally);
+        check_link(&mut workshop, &exact, sample, chain.get(k + 1), tally);
 
         // (g) What is provable is provable for shorter tubes, unless so short that rounding drowns
         // the direction.
