@@ -6,6 +6,7 @@
 mod inverse;
 mod matrix;
 mod pivots;
+pub mod rstructure;
 
 pub use inverse::{Inverter, Singular};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
