@@ -102,9 +102,9 @@ fn subtract<T: Scalar>(
     from: usize,
     to: usize,
 ) {
-    let first = from / LANE;
-    if from % LANE != 0 {
-        for q in from % LANE..LANE {
+    let (first, part) = (from / LANE, from % LANE);
+    if part > 0 {
+        for q in part..LANE {
             v[at + first][q] = v[at + first][q].minus_product(column[first][q], x);
         }
     }

@@ -4,7 +4,7 @@ use super::*;
 use crate::interval::{Interval, enclose_rational, hull, point};
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::Zero;
 use proptest::prelude::*;
 
 /// Key unknowns, block sizes, and entries in 1/8 from −8 to 8, diagonally heavy enough to be
@@ -120,15 +120,15 @@ proptest! {
     #[test]
     fn floats_agree_with_another_library(sample in sample(20, 6)) {
         let matrix = sample.matrix(|x| x as f64);
-        let Ok(mut factors) = Factors::new(&matrix) else { return Ok(()) };
+        let Ok(mut factors) = Factors::new(&matrix) else { return Err(TestCaseError::reject("singular")) };
         let n = sample.size();
         let dense = sample.dense(0.0, |x| x as f64);
         let dense = DMatrix::from_fn(n, n, |i, j| dense[i][j]);
         let b: Vec<f64> = sample.right_side.iter().map(|&x| x as f64).collect();
-        let Some(inverse) = dense.clone().try_inverse() else { return Ok(()) };
-        let condition = inverse.abs().row_sum().max() * dense.abs().row_sum().max();
         // A is a part of the matrix that may be far worse conditioned than the whole.
-        prop_assume!(condition < 1e8);
+        let k = sample.keys;
+        let a = dense.view((0, k), (n - k, n - k)).into_owned();
+        prop_assume!(condition(&dense) < 1e7 && condition(&a) < 1e7);
         let mut solved = b.clone();
         let again = Factors::solving(&matrix, &mut solved).unwrap();
         let x = factors.solve(&b);
@@ -147,12 +147,12 @@ proptest! {
 
     #[test]
     fn enclosures_hold_the_exact_solutions(sample in sample(4, 4), corner in any::<u32>()) {
-        let Some(exact) = sample.exact() else { return Ok(()) };
-        let Ok(mut enclosure) = Enclosure::new(sample.matrix(|x| x as f64)) else { return Ok(()) };
+        let Some(exact) = sample.exact() else { return Err(TestCaseError::reject("singular")) };
+        let Ok(mut enclosure) = Enclosure::new(sample.matrix(|x| x as f64)) else { return Err(TestCaseError::reject("singular")) };
         let thin: Vec<Interval> = sample.right_side.iter().map(|&b| point(b as f64)).collect();
         for (x, exact) in enclosure.solve(&thin).iter().zip(&exact) {
             let exact = enclose_rational(exact);
-            prop_assert!(exact.intersection(*x) == exact || exact.subset(*x), "{x} {exact}");
+            prop_assert!(exact.subset(*x), "{x:?} {exact:?}");
         }
         // A thick right-hand side: the given one is a member at its boundary.
         let thick: Vec<Interval> = sample.right_side.iter().enumerate().map(|(i, &b)| {
@@ -170,7 +170,7 @@ proptest! {
         type Z = Residue<M>;
         let matrix = sample.matrix(Z::new);
         let b: Vec<Z> = sample.right_side.iter().map(|&b| Z::new(b)).collect();
-        let Ok(mut factors) = Factors::new(&matrix) else { return Ok(()) };
+        let Ok(mut factors) = Factors::new(&matrix) else { return Err(TestCaseError::reject("singular")) };
         let x = factors.solve(&b);
         let mut rest = b.clone();
         matrix.for_each(|row, column, entry| rest[row] = rest[row].minus_product(entry, x[column]));
@@ -180,9 +180,9 @@ proptest! {
     #[test]
     fn residues_agree_with_exact_fractions(sample in sample(3, 4)) {
         const P: u64 = 1_000_003;
-        let Some(exact) = sample.exact() else { return Ok(()) };
+        let Some(exact) = sample.exact() else { return Err(TestCaseError::reject("singular")) };
         let matrix = sample.matrix(Residue::<P>::new);
-        let Ok(mut factors) = Factors::new(&matrix) else { return Ok(()) };
+        let Ok(mut factors) = Factors::new(&matrix) else { return Err(TestCaseError::reject("singular")) };
         let b: Vec<Residue<P>> = sample.right_side.iter().map(|&b| Residue::new(b)).collect();
         for (x, exact) in factors.solve(&b).iter().zip(&exact) {
             prop_assert_eq!(hensel::residue(exact, P), Some(x.value().into()));
@@ -225,6 +225,16 @@ proptest! {
             }
             (one, other) => prop_assert!(one.is_err() && other.is_err()),
         }
+    }
+}
+
+/// Infinite for a singular matrix; 1 for an empty one.
+fn condition(a: &DMatrix<f64>) -> f64 {
+    let norm = |a: &DMatrix<f64>| a.row_iter().map(|row| row.abs().sum()).fold(0.0, f64::max);
+    match a.clone().try_inverse() {
+        None => f64::INFINITY,
+        Some(_) if a.is_empty() => 1.0,
+        Some(inverse) => norm(&inverse) * norm(a),
     }
 }
 
@@ -315,5 +325,5 @@ fn the_wrapping_effect_along_a_chain() {
     assert!(width([[0.5, 0.0], [0.0, 0.5]], 40) < 1e-10);
     let c = 0.5f64.sqrt();
     let growth = width([[c, -c], [c, c]], 41) / width([[c, -c], [c, c]], 21);
-    assert!((growth.to_f64().unwrap() / 2f64.powi(10) - 1.0).abs() < 1e-6);
+    assert!((growth / 2f64.powi(10) - 1.0).abs() < 1e-6);
 }
