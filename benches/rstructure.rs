@@ -58,9 +58,7 @@ fn system(n: usize, k: usize, m: usize, below: Below) -> (RMatrix<f64>, Vec<f64>
     // The last block takes what n − k leaves over.
     let order = n - k;
     let mut blocks = vec![m; order / m];
-    if order % m > 0 {
-        blocks.push(order % m);
-    }
+    blocks.extend(Some(order % m).filter(|&rest| rest > 0));
     let mut entries = Vec::new();
     let mut start = 0;
     for (index, &size) in blocks.iter().enumerate() {

@@ -51,8 +51,8 @@ fn construction_plan(problem: &Problem, always: bool) -> Option<String> {
     let mut text = format!("construction plan\n{described}");
     if always || homotopy.equations <= PATTERN {
         let pattern: String = indent(&pattern(problem, &homotopy, &plan));
-        text += "Jacobian (columns: key unknowns, then points as constructed; rows: distances, \
-                 then removed constraints)\n";
+        text += "Jacobian (columns: key unknowns, then what follows from those to the left; \
+                 rows: distances, removed constraints last)\n";
         text += &pattern;
     }
     Some(text)

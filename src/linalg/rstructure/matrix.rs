@@ -225,7 +225,7 @@ mod tests {
                     seen.push((i, j, x));
                 }
             });
-            seen.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+            seen.sort_by_key(|entry| (entry.0, entry.1));
             assert_eq!(seen, entries);
         }
     }
