@@ -13,6 +13,8 @@ pub(super) type Lane<T> = [T; LANE];
 pub(super) const CHUNK: usize = 4;
 /// Columns in a tile: with four lanes, twelve of the sixteen AVX registers.
 pub(super) const GROUP: usize = 3;
+// The sizes that `reduce`, `factor` and `for_groups` choose from.
+const _: () = assert!(CHUNK == 4 && GROUP == 3);
 
 /// A few columns to work on at a time. All have the same length.
 pub(super) type Group<'a, T, const R: usize> = [&'a mut [Lane<T>]; R];
