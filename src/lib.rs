@@ -45,7 +45,7 @@
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0
-//! - [`linalg`]: dense kernels on small matrices
+//! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
 //! - [`report`]: tables, JSON, progress

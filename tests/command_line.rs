@@ -91,6 +91,45 @@ fn an_interrupt_ends_the_run_cleanly() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
+#[test]
+fn check_shows_the_pattern_of_the_jacobian() {
+    let check = |arguments: &[&str]| {
+        let output = krawl().arg("check").args(arguments).assert().code(0);
+        String::from_utf8(output.get_output().stdout.clone()).unwrap()
+    };
+    // Nine rows, the removed constraint last.
+    let text = check(&["problems/k33.toml"]);
+    let pattern = text.split_once("\nJacobian").unwrap().1;
+    let rows: Vec<&str> = pattern.lines().skip(1).collect();
+    let removed = rows.iter().position(|row| row.contains("-+-")).unwrap();
+    assert!(rows[..removed].iter().any(|row| row.contains("[X X]")));
+    assert!(rows[removed + 1..].iter().all(|row| !row.contains('[')));
+    assert_eq!(rows.iter().filter(|row| row.contains('X')).count(), 9);
+    // Larger ones on demand.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("strip.toml");
+    fs::write(&file, strip(25)).unwrap();
+    let file = file.to_str().unwrap();
+    assert!(!check(&[file]).contains("\nJacobian"));
+    assert!(check(&[file, "--pattern"]).contains("\nJacobian"));
+}
+
+/// A strip of triangles in the plane.
+fn strip(points: usize) -> String {
+    let mut text = "name = \"strip\"\ndimension = 2\n[points]\n".to_owned();
+    for k in 0..points {
+        text += &format!("p{k} = [{}.{}, {}.0]\n", k / 2, 5 * (k % 2), k % 2);
+    }
+    text += "[constraints]\ndistances = [\n";
+    for k in 1..points {
+        text += &format!("[\"p{}\", \"p{k}\", 1.1],\n", k - 1);
+        if k > 1 {
+            text += &format!("[\"p{}\", \"p{k}\", 1.0],\n", k - 2);
+        }
+    }
+    text + "]\n"
+}
+
 #[cfg(unix)]
 #[test]
 fn a_reader_who_leaves_early_does_no_harm() {

@@ -12,7 +12,14 @@ use std::path::PathBuf;
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,
+    /// Show where the Jacobian has entries, ordered by the construction plan, however many
+    /// coordinates there are (otherwise up to 40)
+    #[arg(long)]
+    pattern: bool,
 }
+
+/// Up to so many free coordinates the pattern is shown without being asked for: it fits a screen.
+const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
@@ -24,7 +31,7 @@ pub fn run(arguments: &Arguments) -> u8 {
         }
     };
     let mut text = describe(&problem);
-    if let Some(plan) = construction_plan(&problem) {
+    if let Some(plan) = construction_plan(&problem, arguments.pattern) {
         text += &plan;
     }
     if output::print(&text) {
@@ -34,12 +41,41 @@ pub fn run(arguments: &Arguments) -> u8 {
     }
 }
 
-/// The construction plan with its driving parameters and removed constraints, as lines of text.
-fn construction_plan(problem: &Problem) -> Option<String> {
+/// The construction plan with its driving parameters and removed constraints, and the pattern of
+/// the Jacobian that comes of it, as lines of text.
+fn construction_plan(problem: &Problem, always: bool) -> Option<String> {
     let homotopy = Homotopy::new(problem).ok()?;
-    let plan = Plan::derive(&homotopy).describe(problem);
-    let indented: String = plan.lines().map(|line| format!("  {line}\n")).collect();
-    Some(format!("construction plan\n{indented}"))
+    let plan = Plan::derive(&homotopy);
+    let indent = |text: &str| text.lines().map(|line| format!("  {line}\n")).collect();
+    let described: String = indent(&plan.describe(problem));
+    let mut text = format!("construction plan\n{described}");
+    if always || homotopy.equations <= PATTERN {
+        let pattern: String = indent(&pattern(problem, &homotopy, &plan));
+        text += "Jacobian (columns: key unknowns, then what follows from those to the left; \
+                 rows: distances, removed constraints last)\n";
+        text += &pattern;
+    }
+    Some(text)
+}
+
+/// The pattern of the Jacobian under the plan: constraints by name, and coordinates.
+fn pattern(problem: &Problem, homotopy: &Homotopy, plan: &Plan) -> String {
+    let jacobian = plan.jacobian(homotopy, &homotopy.sketch);
+    let distances: Vec<String> = (0..problem.distances.len())
+        .map(|index| problem.distance_name(index))
+        .collect();
+    let coordinates: Vec<String> = homotopy
+        .gauge
+        .place
+        .iter()
+        .map(|&place| {
+            let (point, axis) = (place / homotopy.dimension, place % homotopy.dimension);
+            format!("{}.{}", problem.points[point].name, ["x", "y", "z"][axis])
+        })
+        .collect();
+    jacobian
+        .ordering()
+        .render(&jacobian.equations, &distances, &coordinates)
 }
 
 fn describe(problem: &Problem) -> String {

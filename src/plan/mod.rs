@@ -12,7 +12,7 @@
 //!
 //! Read as linear algebra, a plan orders points and distances so that the Jacobian is block
 //! triangular with one small block per point, but for the removed constraints' rows and the
-//! driving parameters' columns.
+//! driving parameters' columns: [`Plan::jacobian`].
 
 pub mod boundary;
 mod change;
@@ -21,6 +21,7 @@ mod describe;
 mod differences;
 mod evaluation;
 mod instruction;
+mod jacobian;
 mod lanes;
 mod shift;
 #[cfg(test)]
@@ -31,4 +32,5 @@ pub use change::Lookout;
 pub use differences::Differences;
 pub use evaluation::Evaluation;
 pub use instruction::{Arm, Instruction, Plan};
+pub use jacobian::Jacobian;
 pub use lanes::Lanes;

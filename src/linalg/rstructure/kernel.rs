@@ -1,0 +1,315 @@
+//! Elimination in one block: columns padded to whole lanes, worked on a few at a time.
+//!
+//! Everything here comes down to [`reduce`], which subtracts a product from a tile of
+//! [`CHUNK`] lanes by [`GROUP`] columns. Tile sizes are constants of the kernels, so that the
+//! tile stays in registers while the sums run.
+
+use super::Scalar;
+use crate::linalg::LANE;
+
+pub(super) type Lane<T> = [T; LANE];
+
+/// Lanes in a tile.
+pub(super) const CHUNK: usize = 4;
+/// Columns in a tile: with four lanes, twelve of the sixteen AVX registers.
+pub(super) const GROUP: usize = 3;
+// The sizes that `reduce`, `factor` and `for_groups` choose from.
+const _: () = assert!(CHUNK == 4 && GROUP == 3);
+
+/// A few columns to work on at a time. All have the same length.
+pub(super) type Group<'a, T, const R: usize> = [&'a mut [Lane<T>]; R];
+
+/// Takes the first `R` columns of `lanes` each.
+#[inline(always)]
+pub(super) fn group<T, const R: usize>(data: &mut [Lane<T>], lanes: usize) -> Group<'_, T, R> {
+    let mut columns = data.chunks_exact_mut(lanes);
+    std::array::from_fn(|_| columns.next().expect("R columns"))
+}
+
+/// Calls a function generic over a group of columns for every group in `data`.
+macro_rules! for_groups {
+    ($data:expr, $lanes:expr, |$group:ident| $body:expr) => {
+        for part in $data.chunks_mut(kernel::GROUP * $lanes) {
+            match part.len() / $lanes {
+                1 => {
+                    let mut $group = kernel::group::<_, 1>(part, $lanes);
+                    $body
+                }
+                2 => {
+                    let mut $group = kernel::group::<_, 2>(part, $lanes);
+                    $body
+                }
+                _ => {
+                    let mut $group = kernel::group::<_, 3>(part, $lanes);
+                    $body
+                }
+            }
+        }
+    };
+}
+pub(super) use for_groups;
+
+/// `v[at ..] −= Σ_j panel_j v[positions_j]` in a tile of `width` lanes, for every column `v`.
+/// Column j of the panel starts at lane `j * stride`.
+#[inline(always)]
+pub(super) fn reduce<T: Scalar, const R: usize>(
+    panel: &[Lane<T>],
+    stride: usize,
+    width: usize,
+    positions: impl Iterator<Item = usize>,
+    v: &mut Group<T, R>,
+    at: usize,
+) {
+    match width {
+        1 => tile::<T, 1, R>(panel, stride, positions, v, at),
+        2 => tile::<T, 2, R>(panel, stride, positions, v, at),
+        3 => tile::<T, 3, R>(panel, stride, positions, v, at),
+        _ => tile::<T, 4, R>(panel, stride, positions, v, at),
+    }
+}
+
+#[inline(always)]
+fn tile<T: Scalar, const L: usize, const R: usize>(
+    panel: &[Lane<T>],
+    stride: usize,
+    positions: impl Iterator<Item = usize>,
+    v: &mut Group<T, R>,
+    at: usize,
+) {
+    let mut sums: [[Lane<T>; L]; R] =
+        std::array::from_fn(|r| *v[r][at..].first_chunk().expect("L lanes"));
+    for (column, position) in panel.chunks(stride).zip(positions) {
+        let a: &[Lane<T>; L] = column.first_chunk().expect("L lanes");
+        for r in 0..R {
+            let x = v[r].as_flattened()[position];
+            for l in 0..L {
+                for q in 0..LANE {
+                    sums[r][l][q] = sums[r][l][q].minus_product(a[l][q], x);
+                }
+            }
+        }
+    }
+    for r in 0..R {
+        v[r][at..at + L].copy_from_slice(&sums[r]);
+    }
+}
+
+/// `v −= column x` in rows `from .. to * LANE`, counted from lane `at` of v.
+#[inline(always)]
+fn subtract<T: Scalar>(
+    column: &[Lane<T>],
+    x: T,
+    v: &mut [Lane<T>],
+    at: usize,
+    from: usize,
+    to: usize,
+) {
+    let (first, part) = (from / LANE, from % LANE);
+    if part > 0 {
+        for q in part..LANE {
+            v[at + first][q] = v[at + first][q].minus_product(column[first][q], x);
+        }
+    }
+    for l in from.div_ceil(LANE)..to {
+        for q in 0..LANE {
+            v[at + l][q] = v[at + l][q].minus_product(column[l][q], x);
+        }
+    }
+}
+
+/// Eliminates with the first `count` columns of a block's unit lower factor in the block that
+/// starts at lane `at` of each column of `v`. Rows beyond `count` are reduced by them.
+#[inline]
+pub(super) fn forward<T: Scalar, const R: usize>(
+    lower: &[Lane<T>],
+    lanes: usize,
+    count: usize,
+    v: &mut Group<T, R>,
+    at: usize,
+) {
+    for chunk in (0..lanes).step_by(CHUNK) {
+        let width = CHUNK.min(lanes - chunk);
+        let before = count.min(chunk * LANE);
+        if before > 0 {
+            let positions = at * LANE..at * LANE + before;
+            reduce(&lower[chunk..], lanes, width, positions, v, at + chunk);
+        }
+        for k in before..count.min((chunk + width) * LANE) {
+            let column = &lower[k * lanes..(k + 1) * lanes];
+            for v in v.iter_mut() {
+                let x = v.as_flattened()[at * LANE + k];
+                subtract(column, x, v, at, k + 1, chunk + width);
+            }
+        }
+    }
+}
+
+/// Solves with a block's upper factor of order `t`, of whose diagonal the inverses are given.
+#[inline]
+pub(super) fn backward<T: Scalar, const R: usize>(
+    upper: &[Lane<T>],
+    lanes: usize,
+    inverses: &[T],
+    v: &mut Group<T, R>,
+    at: usize,
+) {
+    let t = inverses.len();
+    for chunk in (0..lanes).step_by(CHUNK).rev() {
+        let width = CHUNK.min(lanes - chunk);
+        let end = t.min((chunk + width) * LANE);
+        if end < t {
+            let positions = at * LANE + end..at * LANE + t;
+            let panel = &upper[end * lanes + chunk..];
+            reduce(panel, lanes, width, positions, v, at + chunk);
+        }
+        for k in (chunk * LANE..end).rev() {
+            let column = &upper[k * lanes..(k + 1) * lanes];
+            let (lane, rest) = (k / LANE, k % LANE);
+            for v in v.iter_mut() {
+                let x = v[at + lane][rest].times(inverses[k]);
+                v[at + lane][rest] = x;
+                for l in chunk..lane {
+                    for q in 0..LANE {
+                        v[at + l][q] = v[at + l][q].minus_product(column[l][q], x);
+                    }
+                }
+                for q in 0..rest {
+                    v[at + lane][q] = v[at + lane][q].minus_product(column[lane][q], x);
+                }
+            }
+        }
+    }
+}
+
+/// Factors a block of order `inverses.len()` in place, P A = L U, with partial pivoting: L below
+/// the diagonal (its own is 1), U above, the inverses of its diagonal beside, and in `swaps` the
+/// row that each row was exchanged with. `None`: there was a column without a pivot.
+///
+/// Column groups from left to right, each reduced by all columns before it, so that a tile is
+/// written once ("left-looking"; Golub and Van Loan, Matrix Computations, 4th ed., 3.2.11).
+pub(super) fn factor<T: Scalar>(
+    block: &mut [Lane<T>],
+    lanes: usize,
+    inverses: &mut [T],
+    swaps: &mut [u32],
+) -> Option<()> {
+    let t = inverses.len();
+    for from in (0..t).step_by(GROUP) {
+        let width = GROUP.min(t - from);
+        let (done, rest) = block.split_at_mut(from * lanes);
+        match width {
+            1 => forward(done, lanes, from, &mut group::<_, 1>(rest, lanes), 0),
+            2 => forward(done, lanes, from, &mut group::<_, 2>(rest, lanes), 0),
+            _ => forward(done, lanes, from, &mut group::<_, 3>(rest, lanes), 0),
+        }
+        for j in from..from + width {
+            let column = &block.as_flattened()[j * lanes * LANE..][..t];
+            let mut best = (0.0, j);
+            for (row, x) in column.iter().enumerate().skip(j) {
+                let size = x.pivot_size();
+                if size > best.0 {
+                    best = (size, row);
+                }
+            }
+            if best.0 <= 0.0 {
+                return None;
+            }
+            swaps[j] = best.1 as u32;
+            if best.1 != j {
+                for column in block.chunks_exact_mut(lanes) {
+                    column.as_flattened_mut().swap(j, best.1);
+                }
+            }
+            let (left, right) = block.split_at_mut((j + 1) * lanes);
+            let pivot = &mut left[j * lanes..];
+            inverses[j] = pivot.as_flattened()[j].inverse();
+            for x in &mut pivot.as_flattened_mut()[j + 1..] {
+                *x = x.times(inverses[j]);
+            }
+            for column in right.chunks_exact_mut(lanes).take(from + width - j - 1) {
+                let x = column.as_flattened()[j];
+                subtract(pivot, x, column, 0, j + 1, lanes);
+            }
+        }
+    }
+    Some(())
+}
+
+/// Solves with a factored block, in the block that starts at lane `at` of each column of `v`.
+#[inline]
+pub(super) fn solve<T: Scalar, const R: usize>(
+    block: &[Lane<T>],
+    lanes: usize,
+    (inverses, swaps): (&[T], &[u32]),
+    v: &mut Group<T, R>,
+    at: usize,
+) {
+    for v in v.iter_mut() {
+        let v = &mut v.as_flattened_mut()[at * LANE..];
+        for (row, &other) in swaps.iter().enumerate() {
+            v.swap(row, other as usize);
+        }
+    }
+    forward(block, lanes, inverses.len(), v, at);
+    backward(block, lanes, inverses, v, at);
+}
+
+/// `sum − Σ a_i b_i`, in as many partial sums as a tile has lanes.
+#[inline]
+pub(super) fn minus_dot<T: Scalar>(sum: T, a: &[Lane<T>], b: &[Lane<T>]) -> T {
+    let mut sums = [[T::zero(); LANE]; CHUNK];
+    let (whole_a, rest_a) = a.as_chunks::<CHUNK>();
+    let (whole_b, rest_b) = b.as_chunks::<CHUNK>();
+    for (a, b) in whole_a.iter().zip(whole_b) {
+        for l in 0..CHUNK {
+            for q in 0..LANE {
+                sums[l][q] = sums[l][q].minus_product(a[l][q], b[l][q]);
+            }
+        }
+    }
+    for (a, b) in rest_a.iter().zip(rest_b) {
+        for q in 0..LANE {
+            sums[0][q] = sums[0][q].minus_product(a[q], b[q]);
+        }
+    }
+    sums.as_flattened()
+        .iter()
+        .fold(sum, |sum, &part| sum.plus(part))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::rstructure::Residue;
+
+    #[test]
+    fn factors_need_pivoting_and_find_it() {
+        // Zeros on the diagonal, every size up to three tiles.
+        type Z = Residue<1_000_003>;
+        for t in [1usize, 2, 3, 4, 5, 15, 16, 17, 33, 47, 48] {
+            let lanes = t.div_ceil(LANE);
+            let mut block = vec![[Z::zero(); LANE]; lanes * t];
+            let entry = |i: usize, j: usize| {
+                let x = (i * i * 31 + j * 17 + i * j * j * 7) % 1009;
+                Z::new(if i == j && t > 1 { 0 } else { x as i64 + 1 })
+            };
+            for (j, column) in block.chunks_exact_mut(lanes).enumerate() {
+                for i in 0..t {
+                    column.as_flattened_mut()[i] = entry(i, j);
+                }
+            }
+            let mut inverses = vec![Z::zero(); t];
+            let mut swaps = vec![0; t];
+            factor(&mut block, lanes, &mut inverses, &mut swaps).unwrap();
+            let x: Vec<Z> = (0..t).map(|i| Z::new(i as i64 * 5 - 3)).collect();
+            let mut v = vec![[Z::zero(); LANE]; lanes + 1];
+            for i in 0..t {
+                let b = (0..t).fold(Z::zero(), |sum, j| sum.plus(entry(i, j).times(x[j])));
+                v.as_flattened_mut()[LANE + i] = b;
+            }
+            let mut group = [v.as_mut_slice()];
+            solve(&block, lanes, (&inverses, &swaps), &mut group, 1);
+            assert_eq!(&v.as_flattened()[LANE..LANE + t], x, "order {t}");
+        }
+    }
+}
