@@ -1,6 +1,7 @@
 //! krawl follows the real homotopy path through a sketch and finds, with proof, the figures on it
 //! that meet the dimensions.
 
+pub mod certificate;
 pub mod interval;
 pub mod linalg;
 pub mod plan;
