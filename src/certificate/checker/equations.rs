@@ -70,6 +70,16 @@ impl Equations {
             .collect()
     }
 
+    /// The same in floats, roughly.
+    pub fn float_residual(&self, z: &[f64]) -> Vec<f64> {
+        let lengths = self.ends.iter().zip(&self.homotopy.lengths);
+        let value = lengths.map(|(ends, length)| {
+            let square: f64 = ends.iter().map(|[i, j]| (z[*i] - z[*j]).powi(2)).sum();
+            0.5 * square - length.e.iter().rev().fold(0.0, |sum, e| sum * z[self.m] + e)
+        });
+        value.collect()
+    }
+
     /// The coefficients of E_e(t₀ + τ) in τ.
     pub fn half_square_at(&self, e: usize, t: Interval) -> [Interval; 5] {
         let length = &self.homotopy.lengths[e];
@@ -107,19 +117,17 @@ impl Equations {
             .chain([(m, time)])
     }
 
-    /// Rows as whole numbers, and Σ |rest| u per row.
+    /// Rows as whole numbers, and Σ |rest| u ≤ Σ |rest| per row: no weight exceeds 1.
     pub fn whole_rows(
         &self,
         d: &Differences,
-        time: &[Interval],
-        u: &[Interval],
-    ) -> Option<(Rows, Vec<Interval>)> {
+        time: &[Interval]) -> Option<(Rows, Vec<Interval>)> {
         let mut rests = Vec::with_capacity(self.m + 1);
         let rows = (0..self.m).map(|e| {
             let mut rest_sum = ZERO;
             let row = self.row(e, &d[e], time[e]).map(|(i, x)| {
                 let (whole, rest) = split(x)?;
-                rest_sum += rest * u[i];
+                rest_sum += rest;
                 Some((i, whole))
             });
             let row = row.collect::<Option<Vec<_>>>();
@@ -151,12 +159,12 @@ impl Equations {
 
 pub const HALF: Interval = inari::const_interval!(0.5, 0.5);
 
-/// The whole numbers of a row that is known exactly, and Σ |rest| u.
-pub fn whole_row(row: &[f64], u: &[Interval]) -> Option<(Vec<(usize, i64)>, Interval)> {
+/// The same for one row of floats.
+pub fn whole_row(row: &[f64]) -> Option<(Vec<(usize, i64)>, Interval)> {
     let mut rest_sum = ZERO;
     let whole = row.iter().enumerate().map(|(i, &x)| {
         let (whole, rest) = split(exact(x))?;
-        rest_sum += rest * u[i];
+        rest_sum += rest;
         Some((i, whole))
     });
     Some((whole.collect::<Option<Vec<_>>>()?, rest_sum))

@@ -124,7 +124,7 @@ pub enum Flaw {
 }
 
 /// Tubes that are checked at a time. All that is kept of one chunk for the next is its last tube.
-const CHUNK: usize = 256;
+const CHUNK: usize = 64;
 
 /// Checks a certificate, read from a stream, in memory that does not grow with the chain.
 ///

@@ -37,7 +37,7 @@ impl Solution {
         let time = vec![ZERO; m];
         let y = invert(n, eq.float_matrix(&d, &time, &last)).ok_or("its Jacobian is singular")?;
         let y = Whole::nearest(n, &y).ok_or(LARGE)?;
-        let (mut rows, mut rests) = eq.whole_rows(&d, &time, &u).ok_or(LARGE)?;
+        let (mut rows, mut rests) = eq.whole_rows(&d, &time).ok_or(LARGE)?;
         rows.push(vec![(m, 1 << super::whole::BITS)]);
         rests.push(ZERO);
         // All weights are 1, which is 2¹⁶ times the unit of weights.

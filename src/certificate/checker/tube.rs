@@ -124,13 +124,13 @@ impl Tube {
                 0 => time.clone(),
                 _ => (0..m).map(|e| slope_of_time(e, k)).collect(),
             };
-            let (rows, rests) = eq.whole_rows(&d[k], &entries, &u).ok_or(LARGE)?;
+            let (rows, rests) = eq.whole_rows(&d[k], &entries).ok_or(LARGE)?;
             for (bound, rest) in bounds.iter_mut().zip(rests) {
                 *bound += power[k] * rest;
             }
             whole.push(rows);
         }
-        let (row, rest) = whole_row(&last[..n], &u).ok_or(LARGE)?;
+        let (row, rest) = whole_row(&last[..n]).ok_or(LARGE)?;
         whole[0].push(row);
         bounds[m] += rest;
         for e in 0..m {
@@ -206,10 +206,10 @@ impl Tube {
         if !(advance.inf() > 0.5) {
             return Err("its cross-sections turn back");
         }
+        let growth = (0..=ORDER).map(|k| point(k as f64) * power[k.saturating_sub(1)]);
+        let growth: Vec<Interval> = growth.collect();
         let slope_of = |x: &dyn Fn(usize) -> Interval| {
-            (1..=ORDER).fold(ZERO, |sum, k| {
-                sum + point(k as f64) * power[k - 1] * size(x(k))
-            })
+            (1..=ORDER).fold(ZERO, |sum, k| sum + growth[k] * size(x(k)))
         };
         let t_slope = slope_of(&|k| z[k][m]);
         let mut turn: Vec<Interval> = (0..m)
@@ -254,28 +254,21 @@ impl Tube {
     ) -> Result<Vec<Interval>, Fault> {
         let (m, n) = (eq.m, eq.m + 1);
         let middle = self.at(point(self.exit));
-        let mut z: Vec<Interval> = middle.iter().map(|x| exact(x.mid())).collect();
-        let value = |z: &[Interval]| {
-            let half_square = |e: usize| eq.half_square_at(e, z[m])[0];
-            let mut g = eq.residual(&eq.differences(z), half_square);
-            g.push((0..n).fold(ZERO, |sum, i| sum + self.normal[i] * (z[i] - middle[i])));
-            g
-        };
-        let mut g = value(&z);
-        for _ in 0..3 {
+        let mut z: Vec<f64> = middle.iter().map(|x| x.mid()).collect();
+        for _ in 0..2 {
+            let mut g = eq.float_residual(&z);
+            g.push((0..n).map(|i| self.normal[i].inf() * (z[i] - middle[i].mid())).sum());
             let times = |matrix: &dyn Fn(usize) -> f64, v: &[f64]| -> Vec<f64> {
-                (0..n)
-                    .map(|i| (0..n).map(|j| matrix(i * n + j) * v[j]).sum())
-                    .collect()
+                let row = |i: usize| (0..n).map(|j| matrix(i * n + j) * v[j]).sum();
+                (0..n).map(row).collect()
             };
-            let g_float: Vec<f64> = g.iter().map(|g| g.mid()).collect();
-            let step = times(&|k| y_float[k], &g_float);
+            let step = times(&|k| y_float[k], &g);
             let turned = times(&|k| a.float(k), &step);
-            for i in 0..n {
-                z[i] = exact((z[i] - point(step[i] - self.exit * turned[i])).mid());
-            }
-            g = value(&z);
+            (0..n).for_each(|i| z[i] -= step[i] - self.exit * turned[i]);
         }
+        let z: Vec<Interval> = z.into_iter().map(exact).collect();
+        let mut g = eq.residual(&eq.differences(&z), |e| eq.half_square_at(e, z[m])[0]);
+        g.push((0..n).fold(ZERO, |sum, i| sum + self.normal[i] * (z[i] - middle[i])));
         let far = upper(factor * y.norm_of(&g, weights).ok_or(LARGE)?);
         let inside = |i: usize| size(z[i] - middle[i]).sup() <= (point(self.r) * self.u[i]).inf();
         if !(0..n).all(inside) || !(far.sup() < self.r) {
