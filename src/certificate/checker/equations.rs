@@ -75,7 +75,12 @@ impl Equations {
         let lengths = self.ends.iter().zip(&self.homotopy.lengths);
         let value = lengths.map(|(ends, length)| {
             let square: f64 = ends.iter().map(|[i, j]| (z[*i] - z[*j]).powi(2)).sum();
-            0.5 * square - length.e.iter().rev().fold(0.0, |sum, e| sum * z[self.m] + e)
+            0.5 * square
+                - length
+                    .e
+                    .iter()
+                    .rev()
+                    .fold(0.0, |sum, e| sum * z[self.m] + e)
         });
         value.collect()
     }
@@ -118,10 +123,7 @@ impl Equations {
     }
 
     /// Rows as whole numbers, and Σ |rest| u ≤ Σ |rest| per row: no weight exceeds 1.
-    pub fn whole_rows(
-        &self,
-        d: &Differences,
-        time: &[Interval]) -> Option<(Rows, Vec<Interval>)> {
+    pub fn whole_rows(&self, d: &Differences, time: &[Interval]) -> Option<(Rows, Vec<Interval>)> {
         let mut rests = Vec::with_capacity(self.m + 1);
         let rows = (0..self.m).map(|e| {
             let mut rest_sum = ZERO;

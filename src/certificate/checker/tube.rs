@@ -257,7 +257,11 @@ impl Tube {
         let mut z: Vec<f64> = middle.iter().map(|x| x.mid()).collect();
         for _ in 0..2 {
             let mut g = eq.float_residual(&z);
-            g.push((0..n).map(|i| self.normal[i].inf() * (z[i] - middle[i].mid())).sum());
+            g.push(
+                (0..n)
+                    .map(|i| self.normal[i].inf() * (z[i] - middle[i].mid()))
+                    .sum(),
+            );
             let times = |matrix: &dyn Fn(usize) -> f64, v: &[f64]| -> Vec<f64> {
                 let row = |i: usize| (0..n).map(|j| matrix(i * n + j) * v[j]).sum();
                 (0..n).map(row).collect()
