@@ -27,9 +27,11 @@
 mod checker;
 mod format;
 mod reader;
+mod verdict;
 mod writer;
 
-pub use checker::{Flaw, Outcome, Settings, Stage, Verdict, verify};
+pub use checker::{Settings, Stage, verify};
 pub use format::{EndClaim, FormatError, Header, Record, SolutionClaim, TubeClaim, VERSION};
 pub use reader::Reader;
+pub use verdict::{Flaw, Outcome, Verdict};
 pub use writer::{Writer, write_header, write_record};
