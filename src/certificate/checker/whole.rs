@@ -104,7 +104,7 @@ impl Whole {
     pub fn defect(&self, rows: &Rows, u: &[u16]) -> Option<Interval> {
         let (n, product) = (self.n, self.times(rows));
         let one = |k: usize| {
-            if k % (n + 1) == 0 {
+            if k.is_multiple_of(n + 1) {
                 1i128 << (2 * BITS)
             } else {
                 0
