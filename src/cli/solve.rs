@@ -136,10 +136,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .transpose()?;
 
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let mut witness = match &cert {
-        Some(beside) => Some(Writer::new(BufWriter::new(beside.file()), &problem)),
-        None => None,
-    };
+    let mut witness = cert
+        .as_ref()
+        .map(|beside| Writer::new(BufWriter::new(beside.file()), &problem));
     let mut line = ProgressLine::new(!arguments.quiet);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
