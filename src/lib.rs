@@ -50,6 +50,7 @@
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
 //! - [`report`]: tables, JSON, progress
 
+pub mod certificate;
 pub mod interval;
 pub mod linalg;
 pub mod plan;

@@ -43,8 +43,8 @@ fn quiet_stretches(file: &str, options: Options) -> Vec<usize> {
         (solutions, count) = (now.solutions, seen);
     };
     let mut control = Control {
-        cancel: None,
         progress: Some(&mut progress),
+        ..Control::default()
     };
     let options = Options {
         max_steps: 8000,

@@ -165,3 +165,55 @@ fn output_that_cannot_be_written_is_said() {
             .contains("cannot be written")
     );
 }
+
+#[test]
+fn a_run_leaves_a_certificate_that_verifies() {
+    let folder = tempfile::tempdir().unwrap();
+    let cert = folder.path().join("octahedron.krawl");
+    let solve = |arguments: &[&str]| {
+        let run = krawl()
+            .args(["solve", OCTAHEDRON])
+            .args(arguments)
+            .arg("--cert")
+            .arg(&cert)
+            .assert();
+        run.get_output().status.code()
+    };
+    assert_eq!(solve(&[]), Some(0));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    let verify = |arguments: &[&str]| {
+        let run = krawl().arg("verify").arg(&cert).args(arguments).assert();
+        let output = run.get_output().clone();
+        (
+            output.status.code(),
+            String::from_utf8(output.stdout).unwrap(),
+            String::from_utf8(output.stderr).unwrap(),
+        )
+    };
+    let (code, text, errors) = verify(&["--threads", "1", OCTAHEDRON]);
+    assert_eq!(code, Some(0), "{text} {errors}");
+    assert!(
+        text.starts_with("octahedron: VERIFIED.") && text.contains("exactly 4 points with t = 1")
+    );
+    assert!(text.contains("smallest margin") && text.contains("exactly.\n"));
+    // Another problem.
+    let (code, text, _) = verify(&["problems/k33.toml"]);
+    assert_eq!(code, Some(1));
+    assert!(text.contains("the problem is not the one"));
+    // Damaged: the last tube's numbers.
+    let good = fs::read(&cert).unwrap();
+    let mut bad = good.clone();
+    let middle = bad.len() / 2;
+    bad[middle..middle + 300].fill(0x3f);
+    fs::write(&cert, bad).unwrap();
+    assert!(matches!(verify(&[]).0, Some(1 | 2)));
+    // Not one at all.
+    fs::write(&cert, &good[..good.len() - 1]).unwrap();
+    let (code, text, errors) = verify(&[]);
+    assert_eq!((code, text.as_str()), (Some(2), ""));
+    assert!(errors.contains("truncated"), "{errors}");
+    // Float mode proves nothing, and writes nothing.
+    fs::remove_file(&cert).unwrap();
+    assert_eq!(solve(&["--mode", "float"]), Some(2));
+    assert!(!cert.exists());
+}

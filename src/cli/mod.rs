@@ -5,13 +5,15 @@ mod interrupt;
 mod output;
 mod processor;
 mod solve;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Exit code of a run that closed, and of a check that found nothing wrong.
+/// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
+/// is verified.
 pub const CLOSED: u8 = 0;
-/// Exit code of a run that stopped before.
+/// Exit code of a run that stopped before, and of a certificate that is refuted or incomplete.
 pub const STOPPED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
 pub const BAD_INPUT: u8 = 2;
@@ -21,7 +23,8 @@ pub const BAD_INPUT: u8 = 2;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 closed, 1 stopped, 2 bad input or results that could not be written."
+    after_help = "Exit codes: 0 closed or verified, 1 stopped, refuted or incomplete, 2 bad input or \
+                  results that could not be written."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -32,6 +35,7 @@ struct Arguments {
 enum Verb {
     Check(check::Arguments),
     Solve(solve::Arguments),
+    Verify(verify::Arguments),
 }
 
 /// Runs the program. The exit code is its result.
@@ -43,6 +47,7 @@ pub fn run() -> ExitCode {
     let code = match Arguments::parse().verb {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
+        Verb::Verify(arguments) => verify::run(&arguments),
     };
     ExitCode::from(code)
 }

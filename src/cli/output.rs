@@ -83,6 +83,60 @@ impl Destination {
     }
 }
 
+/// A file that is written beside the one wanted, which it replaces when it is complete. Dropped
+/// before, it leaves nothing.
+#[derive(Debug)]
+pub struct Beside {
+    file: fs::File,
+    beside: PathBuf,
+    path: PathBuf,
+}
+
+impl Beside {
+    /// Begins a file in place of the one named.
+    pub fn new(argument: &Path) -> Result<Self, String> {
+        let Destination::File(path) = Destination::new(argument)? else {
+            return Err(format!("{}: must be a regular file", argument.display()));
+        };
+        let beside = beside(&path);
+        let file = fs::File::create_new(&beside)
+            .map_err(|error| format!("{}: cannot be written: {error}", argument.display()))?;
+        Ok(Beside { file, beside, path })
+    }
+
+    /// What is written to.
+    pub fn file(&self) -> &fs::File {
+        &self.file
+    }
+
+    /// Puts the file in its place if all was written. Returns whether all is well, having
+    /// complained otherwise.
+    pub fn commit(&self, written: io::Result<()>) -> bool {
+        let done = written
+            .and_then(|()| self.file.sync_all())
+            .and_then(|()| fs::rename(&self.beside, &self.path));
+        if let Err(error) = &done {
+            complain(&format!(
+                "{}: cannot be written: {error}",
+                self.path.display()
+            ));
+        }
+        done.is_ok()
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // After a commit there is no such file.
+        let _ = fs::remove_file(&self.beside);
+    }
+}
+
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    folder(path).join(format!(".{name}.{}.tmp", std::process::id()))
+}
+
 fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -91,8 +145,7 @@ fn folder(path: &Path) -> &Path {
 }
 
 fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = folder(path).join(format!(".{name}.{}.tmp", std::process::id()));
+    let beside = beside(path);
     let written = fs::File::create_new(&beside)
         .and_then(|mut file| {
             file.write_all(text.as_bytes())

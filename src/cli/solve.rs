@@ -1,11 +1,13 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
-use super::output::{self, Destination};
+use super::output::{self, Beside, Destination};
 use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
 use clap::ValueEnum;
+use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, to_json, to_table};
-use krawl::track::{self, Control, Options, Progress, Status};
+use krawl::track::{self, Control, Options, Progress, Status, Witness};
+use std::io::BufWriter;
 use std::path::PathBuf;
 
 /// Follow the path through the sketch and list the figures on it that meet the dimensions
@@ -32,6 +34,9 @@ pub struct Arguments {
     /// Follow the loop the other way round
     #[arg(long)]
     reverse: bool,
+    /// Write a certificate that `verify` can check; only for runs in certified mode
+    #[arg(long, value_name = "FILE")]
+    cert: Option<PathBuf>,
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -91,6 +96,11 @@ impl Arguments {
         if self.mode == Mode::Certified && self.preset == Preset::Paper {
             return Err("`--preset paper` is a way of float mode: add `--mode float`".to_owned());
         }
+        if self.mode == Mode::Float && self.cert.is_some() {
+            return Err(
+                "float mode proves nothing: leave out `--cert`, or `--mode float`".to_owned(),
+            );
+        }
         let options = match (self.mode, self.preset) {
             (Mode::Certified, _) => Options::certified(),
             (Mode::Float, Preset::Default) => Options::float(space),
@@ -125,11 +135,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .map(Destination::new)
         .transpose()?;
 
+    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
+    let mut witness = cert
+        .as_ref()
+        .map(|beside| Writer::new(BufWriter::new(beside.file()), &problem));
     let mut line = ProgressLine::new(!arguments.quiet);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
         cancel: Some(interrupt::flag()),
         progress: Some(&mut show),
+        witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
     };
     let outcome = track::solve(&problem, &options, &mut control);
     line.clear();
@@ -137,6 +152,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 
     // The file first: a table that nobody reads any more must not cost it.
     let mut written = true;
+    if let (Some(beside), Some(writer)) = (&cert, witness) {
+        written &= beside.commit(writer.finish().map(|_| ()));
+    }
     if let Some(json) = &json {
         written &= json.write(&(to_json(&problem, &outcome) + "\n"));
     }

@@ -4,11 +4,13 @@ mod digits;
 mod json;
 mod progress;
 mod table;
+mod theorem;
 
 pub use digits::certain_digits;
 pub use json::to_json;
 pub use progress::ProgressLine;
 pub use table::to_table;
+pub use theorem::theorem;
 
 #[cfg(test)]
 mod tests {

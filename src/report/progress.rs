@@ -43,6 +43,17 @@ impl ProgressLine {
         }
     }
 
+    /// Shows where the check of a certificate is.
+    pub fn show_check(&mut self, tubes: u64, solutions: usize) {
+        if let Some(line) = &self.line
+            && self.drawn.elapsed() >= PAUSE
+        {
+            self.drawn = Instant::now();
+            line.set_message(format!("tubes checked {tubes}   solutions {solutions}"));
+            line.tick();
+        }
+    }
+
     /// Takes the line away.
     pub fn clear(self) {
         if let Some(line) = &self.line {

@@ -1,5 +1,6 @@
 //! How a run talks to its caller: progress out, a request to stop in.
 
+use super::Witness;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Where a run is.
@@ -22,6 +23,8 @@ pub struct Control<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Called now and then, every [`Control::EVERY`] steps.
     pub progress: Option<&'a mut dyn FnMut(Progress)>,
+    /// Sees the proof of a certified run.
+    pub witness: Option<&'a mut dyn Witness>,
 }
 
 impl Control<'_> {

@@ -9,11 +9,13 @@ pub mod full;
 mod options;
 mod outcome;
 pub mod reduced;
+mod witness;
 
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Progress};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
+pub use witness::{TubeSeen, Witness};
 
 use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};

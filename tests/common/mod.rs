@@ -4,6 +4,7 @@
 #![allow(dead_code)] // every test program uses its own part
 
 pub mod boxes;
+pub mod certificate;
 pub mod exact;
 pub mod moves;
 pub mod random;

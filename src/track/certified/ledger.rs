@@ -40,6 +40,11 @@ impl<'a, const D: usize> Ledger<'a, D> {
         }
     }
 
+    /// The solutions so far, in the order of the path.
+    pub fn found(&self) -> &[SolutionBox] {
+        &self.found
+    }
+
     /// The number of solutions so far.
     pub fn solutions_so_far(&self) -> usize {
         self.found.len()

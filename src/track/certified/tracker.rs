@@ -6,7 +6,7 @@ use super::tube::KrawczykTest;
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, RefineError, first_normal};
-use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status};
+use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use std::time::Instant;
 
 /// The path leaves a tube at this fraction of its half length, so that there is room behind the
@@ -31,6 +31,9 @@ pub fn track<const D: usize>(
 ) -> Outcome {
     let clock = Instant::now();
     let mut tracker = Tracker::<D>::new(homotopy);
+    if let Some(witness) = &mut control.witness {
+        witness.begin(homotopy.unit);
+    }
     let mut status = match tracker.run(options, control) {
         Ok(()) => Status::Closed,
         Err(reason) => Status::Stopped(reason),
@@ -49,6 +52,10 @@ pub fn track<const D: usize>(
             solutions
         }
     };
+    if let Some(witness) = &mut control.witness {
+        let classes: Vec<usize> = solutions.iter().map(|s| s.class).collect();
+        witness.end(&status, &classes);
+    }
     Outcome {
         mode: Mode::Certified,
         space: Space::Full,
@@ -147,6 +154,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .max_step
             .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
         self.start(options.reverse, max_h)?;
+        self.show_tube(control, 0);
         // How far back the next tube is expected to reach, from the half lengths of the last two.
         let mut before = self.now.proof.h;
         // How much of the expectation to believe: less after a rejection, then more again.
@@ -159,9 +167,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
             let h = self.now.proof.h;
             let estimate = h * (h / before).sqrt().clamp(0.5, 1.5);
             let reach = (REACH * trust * estimate.min(limit)).min(shorter);
+            let known = self.ledger.solutions_so_far();
             match self.step(self.now.exit_at + reach, limit) {
                 Ok(closed) => {
                     self.steps += 1;
+                    self.show_tube(control, known);
                     if closed {
                         return Ok(());
                     }
@@ -209,6 +219,25 @@ impl<'a, const D: usize> Tracker<'a, D> {
             if control.is_cancelled(progress) {
                 return Err(format!("interrupted {}", self.place()));
             }
+        }
+    }
+
+    /// Shows the tube that was added last, and the solutions in it that were not `known` before.
+    fn show_tube(&self, control: &mut Control, known: usize) {
+        let Some(witness) = &mut control.witness else {
+            return;
+        };
+        let (n, tube) = (self.equations.n(), &self.now);
+        witness.tube(TubeSeen {
+            centre: &tube.local.z[0][..n],
+            normal: &tube.local.normal[..n],
+            weights: &tube.weights[..n],
+            h: tube.proof.h,
+            r: tube.proof.r,
+            exit: tube.exit_at,
+        });
+        for found in &self.ledger.found()[known..] {
+            witness.solution(&found.centre[..n - 1], &found.radius[..n - 1]);
         }
     }
 

@@ -154,6 +154,7 @@ fn stops_when_told_to() {
     let mut control = Control {
         cancel: Some(&flag),
         progress: None,
+        witness: None,
     };
     let cancelled = run_with(&problem, &options(), &mut control);
     assert_eq!(cancelled.status, Status::Stopped("interrupted".into()));

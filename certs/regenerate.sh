@@ -1,0 +1,10 @@
+#!/bin/sh
+# Makes the certificates in this folder again, and checks them.
+set -eu
+cd "$(dirname "$0")/.."
+cargo build --release
+for name in octahedron disulfide dodecagon k33 prism icosahedron-c1; do
+    target/release/krawl solve "problems/$name.toml" --cert "certs/$name.krawl" --quiet
+    target/release/krawl verify "certs/$name.krawl" "problems/$name.toml" --quiet
+    echo "$name: $(wc -c < "certs/$name.krawl") bytes"
+done

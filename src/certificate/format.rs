@@ -1,0 +1,110 @@
+//! What a certificate consists of (byte for byte in `certs/README.md`).
+
+use crate::problem::Problem;
+
+/// The first bytes of every certificate.
+pub const MAGIC: &[u8; 18] = b"krawl certificate\n";
+/// The version of the format that is written and read.
+pub const VERSION: u32 = 1;
+/// Longest text that names a program, or gives a reason.
+pub const MAX_TEXT: usize = 4096;
+/// Longest text of a problem.
+pub const MAX_PROBLEM: usize = 1 << 20;
+/// Units are between 2⁻²²⁰ and 2²²⁰: lengths in files are between 10⁻⁶⁰ and 10⁶⁰.
+pub const MAX_UNIT_EXPONENT: i16 = 220;
+/// More solutions than any path of a real problem has.
+pub const MAX_SOLUTIONS: usize = 4096;
+/// Numbers are smaller than this; the homotopy's unit is a typical length.
+pub const MAX_NUMBER: f64 = 1_099_511_627_776.0;
+/// What weights are multiples of.
+pub const WEIGHT_UNIT: f64 = 1.0 / 65536.0;
+
+/// Tags of the records.
+pub const TAG_MOVING_KRAWCZYK: u8 = 1;
+/// See [`TAG_MOVING_KRAWCZYK`].
+pub const TAG_SOLUTION: u8 = 2;
+/// See [`TAG_MOVING_KRAWCZYK`].
+pub const TAG_END: u8 = 3;
+
+/// What stands before the chain of tubes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Header {
+    /// The program that wrote the certificate, with its version.
+    pub program: String,
+    /// The problem.
+    pub problem: Problem,
+    /// SHA-256 of the problem's text.
+    pub hash: [u8; 32],
+    /// Lengths in the records are divided by 2 to this power.
+    pub unit_exponent: i16,
+}
+
+/// A part of the chain.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Record {
+    /// A tube that follows on the one before.
+    Tube(TubeClaim),
+    /// A point of the path with t = 1, first met in the tube before.
+    Solution(SolutionClaim),
+    /// The last record.
+    End(EndClaim),
+}
+
+/// The claim that Krawczyk's test with the moving preconditioner proves a tube: for every |s| ≤ h
+/// exactly one point of the path in the cross-section through ẑ(s), within r of it in the norm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TubeClaim {
+    /// z₀: the free coordinates and t.
+    pub centre: Vec<f64>,
+    /// The normal c of the cross-sections.
+    pub normal: Vec<f32>,
+    /// The weights u, in units of 2⁻¹⁶.
+    pub weights: Vec<u16>,
+    /// The half length.
+    pub h: f64,
+    /// The radius.
+    pub r: f32,
+    /// Where the path leaves for the next tube.
+    pub exit: f64,
+}
+
+/// The claim that a box holds exactly one solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolutionClaim {
+    /// The middle, the free coordinates.
+    pub centre: Vec<f64>,
+    /// How far the solution may be from it, entry by entry.
+    pub radius: Vec<f32>,
+}
+
+/// How the chain ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndClaim {
+    /// `None`: the last tube leads back to the sketch. Otherwise why the run stopped before.
+    pub stopped: Option<String>,
+    /// The number of tubes.
+    pub tubes: u64,
+    /// The class of each solution: the same number for figures that are congruent up to
+    /// reflection, counted from 0 in order of first occurrence.
+    pub classes: Vec<u32>,
+}
+
+/// Why a file is not a certificate.
+#[derive(Debug, thiserror::Error)]
+pub enum FormatError {
+    /// It cannot be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::Error),
+    /// It starts with something else.
+    #[error("does not start as a krawl certificate")]
+    NotACertificate,
+    /// It was written by a later program.
+    #[error("has version {0} of the format; this program reads version {VERSION}")]
+    Version(u32),
+    /// It ends early.
+    #[error("ends in the middle of {0}: it is truncated")]
+    Truncated(&'static str),
+    /// Something is out of its range.
+    #[error("{0}")]
+    Malformed(String),
+}

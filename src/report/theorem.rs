@@ -1,0 +1,80 @@
+//! What a certificate proves, in words.
+
+use super::certain_digits;
+use crate::certificate::{Outcome, Verdict};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// The theorem that was checked, or the claim that failed, with the numbers of the check.
+pub fn theorem(verdict: &Verdict, time: Duration) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_theorem(&mut out, verdict, time);
+    out
+}
+
+fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fmt::Result {
+    let name = &verdict.problem.name;
+    let (low, high) = verdict.t_range;
+    match &verdict.outcome {
+        Outcome::Verified => {
+            let count = verdict.solutions.len();
+            writeln!(
+                out,
+                "{name}: VERIFIED.\n\
+                 Theorem. Let H(X, t) = 0 be the distance equations of the problem in this certificate, \
+                 for the exact decimals in it, and S the connected component of the sketch at t = 0.\n\
+                 1. S is a closed curve, regular along its whole length.\n\
+                 2. S has exactly {count} points with t = 1, one in each of {count} disjoint boxes; {}.\n\
+                 3. On S t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+                classes_in_words(&verdict.classes)
+            )?;
+        }
+        Outcome::Partial(reason) => writeln!(
+            out,
+            "{name}: INCOMPLETE. The run stopped: {reason}.\n\
+             Verified so far: a regular arc of the curve through the sketch, with t between {low:.6} and \
+             {high:.6}, and on it exactly {} points with t = 1. Nothing is claimed of the rest of \
+             the curve.",
+            verdict.solutions.len()
+        )?,
+        Outcome::Refuted(flaw) => writeln!(out, "{name}: REFUTED: {flaw}.")?,
+    }
+    if !matches!(verdict.outcome, Outcome::Refuted(_)) {
+        for (k, solution) in verdict.solutions.iter().enumerate() {
+            writeln!(out, "  solution {}", k + 1)?;
+            for (point, place) in verdict.problem.points.iter().zip(solution) {
+                let place = place.iter().take(verdict.problem.dimension);
+                let place: Vec<String> = place.map(|&x| certain_digits(x)).collect();
+                writeln!(out, "    {:<12} {}", point.name, place.join("  "))?;
+            }
+        }
+    }
+    writeln!(
+        out,
+        "tubes checked {}, smallest margin of a Krawczyk test {:.4}, {:.3} s, written by {}",
+        verdict.tubes,
+        verdict.margin,
+        time.as_secs_f64(),
+        verdict.program.escape_debug()
+    )
+}
+
+fn classes_in_words(classes: &[u32]) -> String {
+    let mut groups: Vec<String> = Vec::new();
+    for class in 0..=classes.iter().copied().max().unwrap_or(0) {
+        let of_class = (0..classes.len()).filter(|&k| classes[k] == class);
+        let members: Vec<String> = of_class.map(|k| (k + 1).to_string()).collect();
+        if members.len() > 1 {
+            groups.push(members.join(" and "));
+        }
+    }
+    if groups.is_empty() {
+        "no two of them are congruent, even up to reflection".to_owned()
+    } else {
+        format!(
+            "congruent up to reflection are {}, and no others",
+            groups.join("; ")
+        )
+    }
+}

@@ -1,0 +1,405 @@
+//! One thing at a time is changed in good certificates: every false claim must be refused, every
+//! harmless change accepted.
+
+mod common;
+
+use common::certificate::{Certificate, shipped};
+use dice::Dice;
+use krawl::certificate::{Outcome, Record, Settings, TubeClaim, verify};
+use proptest::test_runner::{RngAlgorithm, TestRng};
+use std::collections::BTreeMap;
+
+/// Random choices from the generator that comes with proptest.
+mod dice {
+    use proptest::prelude::Rng;
+    use proptest::test_runner::TestRng;
+
+    pub struct Dice(pub TestRng);
+
+    impl Dice {
+        /// From 0 to below `n`.
+        pub fn below(&mut self, n: usize) -> usize {
+            (self.0.next_u64() % n as u64) as usize
+        }
+
+        /// Between two numbers.
+        pub fn between(&mut self, a: f64, b: f64) -> f64 {
+            a + (b - a) * (self.0.next_u64() as f64 / u64::MAX as f64)
+        }
+
+        /// Between two numbers, their logarithms equally likely.
+        pub fn about(&mut self, a: f64, b: f64) -> f64 {
+            self.between(a.ln(), b.ln()).exp()
+        }
+    }
+}
+
+type Damage = fn(&mut Certificate, &mut Dice);
+
+/// False claims.
+const FALSE: &[(&str, Damage)] = &[
+    ("tube's centre off the path", |c, dice| {
+        let k = dice.below(c.tubes());
+        let factor = dice.about(3.0, 300.0);
+        let tube = c.tube_mut(k);
+        let n = tube.centre.len();
+        // Sideways: along the path the tube would stay where it is.
+        let mut off: Vec<f64> = (0..n).map(|_| dice.between(-1.0, 1.0)).collect();
+        let normal: Vec<f64> = tube.normal.iter().map(|&c| c.into()).collect();
+        let along: f64 = off.iter().zip(&normal).map(|(x, c)| x * c).sum();
+        off.iter_mut()
+            .zip(&normal)
+            .for_each(|(x, c)| *x -= along * c);
+        let weight = |i: usize| f64::from(tube.weights[i]) / 65536.0;
+        let size = (0..n).fold(0.0, |max: f64, i| max.max(off[i].abs() / weight(i)));
+        for i in 0..n {
+            tube.centre[i] += factor * f64::from(tube.r) / size * off[i];
+        }
+    }),
+    ("tube's radius too large", |c, dice| {
+        let k = dice.below(c.tubes());
+        c.tube_mut(k).r *= dice.about(100.0, 1e6) as f32;
+    }),
+    ("tube too long", |c, dice| {
+        let k = dice.below(c.tubes());
+        c.tube_mut(k).h *= dice.about(3.0, 100.0);
+    }),
+    ("normal in a random direction", |c, dice| {
+        let k = dice.below(c.tubes());
+        let tube = c.tube_mut(k);
+        let random: Vec<f64> = tube
+            .normal
+            .iter()
+            .map(|_| dice.between(-1.0, 1.0))
+            .collect();
+        tube.normal
+            .iter_mut()
+            .zip(random)
+            .for_each(|(c, x)| *c = x as f32);
+    }),
+    ("link removed", |c, dice| {
+        // Where the next tube reaches back over a short one, the chain holds without it.
+        let gone = loop {
+            let k = 1 + dice.below(c.tubes() - 2);
+            if leaves_a_gap(c, k) {
+                break k;
+            }
+        };
+        c.keep_tubes(|k| k != gone);
+    }),
+    ("two tubes swapped", |c, dice| {
+        let (a, b) = (dice.below(c.tubes()), dice.below(c.tubes() - 1));
+        let (a, b) = (c.tube_at(a), c.tube_at(if b < a { b } else { b + 1 }));
+        c.records.swap(a, b);
+    }),
+    ("exit on the wrong side", |c, dice| {
+        // The last one's exit does not count: there the sketch is the end.
+        let k = dice.below(c.tubes() - 1);
+        c.tube_mut(k).exit *= -1.0;
+    }),
+    ("solution dropped", |c, dice| {
+        let k = dice.below(c.solutions());
+        let at = c.solution_at(k);
+        c.records.remove(at);
+        // The classes of all shipped solutions are different.
+        c.classes_mut().pop();
+    }),
+    ("solution listed twice", |c, dice| {
+        let k = dice.below(c.solutions());
+        let at = c.solution_at(k);
+        let again = c.records[at].clone();
+        c.records.insert(at, again);
+        let next = c.classes_mut().len() as u32;
+        c.classes_mut().push(next);
+    }),
+    ("solution added", |c, dice| {
+        let k = dice.below(c.solutions());
+        let at = c.solution_at(k);
+        let mut other = c.records[at].clone();
+        if let Record::Solution(solution) = &mut other {
+            let shift = dice.about(1e-3, 1.0);
+            solution
+                .centre
+                .iter_mut()
+                .for_each(|x| *x += dice.between(-shift, shift));
+        }
+        c.records.insert(at + 1, other);
+        let next = c.classes_mut().len() as u32;
+        c.classes_mut().push(next);
+    }),
+    ("mirror image of a solution added", |c, dice| {
+        let k = dice.below(c.solutions());
+        let at = c.solution_at(k);
+        let mut other = c.records[at].clone();
+        if let Record::Solution(solution) = &mut other {
+            c.mirrored_unknowns()
+                .into_iter()
+                .for_each(|i| solution.centre[i] *= -1.0);
+        }
+        c.records.insert(at + 1, other);
+        // It is a solution, and of this class; only the path does not meet it.
+        c.classes_mut().insert(k + 1, k as u32);
+    }),
+    ("solution moved", |c, dice| {
+        let k = dice.below(c.solutions());
+        let factor = dice.about(5.0, 1e6);
+        let solution = c.solution_mut(k);
+        let widest = (0..solution.radius.len())
+            .max_by(|&i, &j| solution.radius[i].total_cmp(&solution.radius[j]));
+        let i = widest.unwrap();
+        solution.centre[i] += factor * f64::from(solution.radius[i]);
+    }),
+    ("solution replaced by another", |c, dice| {
+        let (a, b) = (dice.below(c.solutions()), dice.below(c.solutions() - 1));
+        let (a, b) = (
+            c.solution_at(a),
+            c.solution_at(if b < a { b } else { b + 1 }),
+        );
+        c.records[a] = c.records[b].clone();
+    }),
+    ("box too narrow for its solution", |c, dice| {
+        let k = dice.below(c.solutions());
+        let factor = dice.about(1e-9, 1e-3) as f32;
+        c.solution_mut(k)
+            .radius
+            .iter_mut()
+            .for_each(|r| *r *= factor);
+    }),
+    ("box widened over its neighbour", |c, dice| {
+        let count = c.solutions();
+        let (a, b) = (dice.below(count), dice.below(count - 1));
+        let b = if b < a { b } else { b + 1 };
+        let other = c.solution_mut(b).centre.clone();
+        let solution = c.solution_mut(a);
+        for i in 0..other.len() {
+            let distance = (solution.centre[i] - other[i]).abs();
+            solution.radius[i] = solution.radius[i].max(1.01 * distance as f32);
+        }
+    }),
+    ("last digit of a number of the problem", |c, dice| {
+        // Of a length, a coordinate of the sketch, or the bend's coefficient.
+        let digits: Vec<usize> = (0..c.problem.len() - 1)
+            .filter(|&i| {
+                let byte = |i: usize| c.problem.as_bytes()[i];
+                byte(i).is_ascii_digit() && matches!(byte(i + 1), b',' | b']' | b'\n')
+            })
+            .skip(1)
+            .collect();
+        let at = digits[dice.below(digits.len())];
+        let digit = (c.problem.as_bytes()[at] - b'0' + 1 + dice.below(9) as u8) % 10;
+        let digit = digit.to_string();
+        c.problem.replace_range(at..=at, &digit);
+    }),
+    ("unit changed", |c, dice| {
+        c.unit_exponent += [-2, -1, 1, 2][dice.below(4)];
+    }),
+    ("loop cut short", |c, dice| {
+        let last = c.tubes() - 1 - dice.below(c.tubes() / 2);
+        c.keep_tubes(|k| k < last);
+    }),
+    ("start left out", |c, dice| {
+        let first = 1 + dice.below(c.tubes() / 2);
+        c.keep_tubes(|k| k >= first);
+    }),
+    ("direction reversed half-way", |c, dice| {
+        let (from, count) = (1 + dice.below(c.tubes() - 1), c.tubes());
+        for k in from..count {
+            let tube = c.tube_mut(k);
+            tube.normal.iter_mut().for_each(|c| *c *= -1.0);
+        }
+    }),
+    ("turned round and back to the sketch", |c, dice| {
+        // All of these tubes are true, and the last one holds the sketch.
+        let turn = 1 + dice.below(c.tubes() - 2);
+        let end = c.records.pop().unwrap();
+        let back: Vec<Record> = (0..=turn)
+            .rev()
+            .map(|k| {
+                let mut tube = c.tube_mut(k).clone();
+                tube.normal.iter_mut().for_each(|c| *c *= -1.0);
+                Record::Tube(tube)
+            })
+            .collect();
+        c.keep_tubes(|k| k <= turn);
+        c.records.extend(back);
+        c.records.push(end);
+        c.recount();
+    }),
+    ("class changed", |c, dice| {
+        let k = dice.below(c.solutions());
+        let other = dice.below(c.solutions()) as u32;
+        let class = &mut c.classes_mut()[k];
+        *class = if other == *class { other + 1 } else { other };
+    }),
+];
+
+/// Changes after which all claims are still true, and proved.
+const HARMLESS: &[(&str, Damage)] = &[
+    ("tube split in two", |c, dice| {
+        let k = dice.below(c.tubes() - 1);
+        let at = c.tube_at(k);
+        let second = c.records[at].clone();
+        // The second has the same middle, and is entered where the first is left.
+        let part = dice.between(0.3, 0.9);
+        c.tube_mut(k).exit *= part;
+        let next = (at + 1..c.records.len())
+            .find(|&i| !matches!(c.records[i], Record::Solution(_)))
+            .unwrap();
+        c.records.insert(next, second);
+        c.recount();
+    }),
+    ("slightly shorter tube", |c, dice| {
+        let k = dice.below(c.tubes());
+        c.tube_mut(k).h *= dice.between(0.98, 1.0);
+    }),
+    ("slightly smaller radius", |c, dice| {
+        let k = dice.below(c.tubes());
+        c.tube_mut(k).r *= dice.between(0.9, 1.0) as f32;
+    }),
+    ("slightly different centre", |c, dice| {
+        let k = dice.below(c.tubes());
+        let tube = c.tube_mut(k);
+        let i = dice.below(tube.centre.len());
+        tube.centre[i] += 1e-4 * f64::from(tube.r) * dice.between(-1.0, 1.0);
+    }),
+    ("slightly different normal", |c, dice| {
+        let k = dice.below(c.tubes());
+        let tube = c.tube_mut(k);
+        tube.normal
+            .iter_mut()
+            .for_each(|c| *c += dice.between(-1e-6, 1e-6) as f32);
+    }),
+    ("exit slightly earlier", |c, dice| {
+        let k = dice.below(c.tubes());
+        c.tube_mut(k).exit *= dice.between(0.99, 1.0);
+    }),
+    ("box slightly wider", |c, dice| {
+        let k = dice.below(c.solutions());
+        c.solution_mut(k)
+            .radius
+            .iter_mut()
+            .for_each(|r| *r *= dice.between(1.0, 10.0) as f32);
+    }),
+    ("another title", |c, dice| {
+        let line = c.problem.find('\n').unwrap();
+        c.problem
+            .replace_range(..line, &format!("name = \"{}\"", dice.below(1000)));
+    }),
+    ("another program", |c, dice| {
+        c.program = format!("krawl {}", dice.below(1000))
+    }),
+];
+
+/// Whether the tubes around the k-th are too far from each other to meet.
+fn leaves_a_gap(c: &Certificate, k: usize) -> bool {
+    let [before, tube, after] = [k - 1, k, k + 1].map(|k| c.clone().tube_mut(k).clone());
+    let along = |other: &TubeClaim| -> f64 {
+        let pairs = other.centre.iter().zip(&tube.centre);
+        let away = pairs.map(|(a, b)| a - b);
+        away.zip(&tube.normal).map(|(x, &c)| x * f64::from(c)).sum()
+    };
+    along(&before) + before.exit < along(&after) - 1.02 * after.h
+}
+
+fn outcome(bytes: &[u8]) -> Option<Outcome> {
+    let settings = Settings { threads: 1 };
+    verify(bytes, &settings, &mut |_| ())
+        .ok()
+        .map(|verdict| verdict.outcome)
+}
+
+/// Damages a certificate in each way so many times. Returns how many of which kind.
+fn damage(name: &str, times: usize, kinds: &[(&'static str, Damage)], harmless: bool) {
+    let good = Certificate::read(&shipped(name));
+    let mut counts = BTreeMap::new();
+    let mut dice = Dice(TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    for &(kind, change) in kinds {
+        for round in 0..times {
+            let mut changed = good.clone();
+            change(&mut changed, &mut dice);
+            if changed.problem == good.problem
+                && changed.program == good.program
+                && changed.bytes() == good.bytes()
+            {
+                continue;
+            }
+            let outcome = outcome(&changed.bytes());
+            let accepted = outcome == Some(Outcome::Verified);
+            assert_eq!(
+                accepted, harmless,
+                "{name}, {kind}, round {round}: {outcome:?}"
+            );
+            *counts.entry(kind).or_insert(0) += 1;
+        }
+    }
+    let total: usize = counts.values().sum();
+    let verb = if harmless { "accepted" } else { "refused" };
+    println!("{name}: {total} changes {verb}: {counts:?}");
+    assert!(total + kinds.len() >= times * kinds.len() * 9 / 10);
+}
+
+// 22 kinds: more than 1,000 false claims in all.
+
+#[test]
+fn damaged_octahedron_is_refused() {
+    damage("octahedron", 12, FALSE, false);
+}
+
+#[test]
+fn damaged_dodecagon_is_refused() {
+    damage("dodecagon", 16, FALSE, false);
+}
+
+#[test]
+fn damaged_k33_is_refused() {
+    damage("k33", 10, FALSE, false);
+}
+
+#[test]
+fn damaged_prism_is_refused() {
+    damage("prism", 10, FALSE, false);
+}
+
+#[test]
+fn damaged_disulfide_is_refused() {
+    damage("disulfide", 4, FALSE, false);
+}
+
+#[test]
+fn damaged_icosahedron_is_refused() {
+    damage("icosahedron-c1", 2, FALSE, false);
+}
+
+#[test]
+fn harmless_changes_are_accepted() {
+    for (name, times) in [
+        ("octahedron", 6),
+        ("dodecagon", 6),
+        ("k33", 6),
+        ("prism", 6),
+        ("disulfide", 2),
+        ("icosahedron-c1", 1),
+    ] {
+        damage(name, times, HARMLESS, true);
+    }
+}
+
+/// Bytes at random: an error, a refusal or a harmless change, and never a panic.
+#[test]
+fn random_bytes_do_no_harm() {
+    let mut dice = Dice(TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    for name in ["dodecagon", "k33", "prism"] {
+        let good = shipped(name);
+        for _ in 0..100 {
+            let mut bytes = good.clone();
+            for _ in 0..1 + dice.below(3) {
+                let at = dice.below(bytes.len());
+                bytes[at] = dice.below(256) as u8;
+            }
+            if dice.below(4) == 0 {
+                bytes.truncate(dice.below(bytes.len()));
+            }
+            let _ = outcome(&bytes);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Certificates taken apart, to be damaged and put together again.
+
+use krawl::certificate::{Reader, Record, SolutionClaim, TubeClaim, write_header, write_record};
+use krawl::system::Gauge;
+
+/// The certificates in `certs/`.
+pub const SHIPPED: [&str; 6] = [
+    "octahedron",
+    "disulfide",
+    "dodecagon",
+    "k33",
+    "prism",
+    "icosahedron-c1",
+];
+
+/// A certificate from `certs/`.
+pub fn shipped(name: &str) -> Vec<u8> {
+    std::fs::read(format!("certs/{name}.krawl")).unwrap()
+}
+
+/// A certificate's parts.
+#[derive(Debug, Clone)]
+pub struct Certificate {
+    pub program: String,
+    pub problem: String,
+    pub unit_exponent: i16,
+    pub records: Vec<Record>,
+}
+
+impl Certificate {
+    pub fn read(bytes: &[u8]) -> Self {
+        let mut reader = Reader::new(bytes).unwrap();
+        let header = reader.header().clone();
+        let mut records = Vec::new();
+        while let Some(record) = reader.next_record().unwrap() {
+            records.push(record);
+        }
+        Certificate {
+            program: header.program,
+            problem: header.problem.to_toml(),
+            unit_exponent: header.unit_exponent,
+            records,
+        }
+    }
+
+    /// The file, with hash and counts brought up to date unless they were changed on purpose.
+    pub fn bytes(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        write_header(&mut out, &self.program, &self.problem, self.unit_exponent).unwrap();
+        for record in &self.records {
+            write_record(&mut out, record).unwrap();
+        }
+        out
+    }
+
+    pub fn tubes(&self) -> usize {
+        self.places(|r| matches!(r, Record::Tube(_))).len()
+    }
+
+    pub fn solutions(&self) -> usize {
+        self.places(|r| matches!(r, Record::Solution(_))).len()
+    }
+
+    fn places(&self, wanted: impl Fn(&Record) -> bool) -> Vec<usize> {
+        (0..self.records.len())
+            .filter(|&k| wanted(&self.records[k]))
+            .collect()
+    }
+
+    /// Where the k-th tube stands.
+    pub fn tube_at(&self, k: usize) -> usize {
+        self.places(|r| matches!(r, Record::Tube(_)))[k]
+    }
+
+    /// Where the k-th solution stands.
+    pub fn solution_at(&self, k: usize) -> usize {
+        self.places(|r| matches!(r, Record::Solution(_)))[k]
+    }
+
+    pub fn tube_mut(&mut self, k: usize) -> &mut TubeClaim {
+        let at = self.tube_at(k);
+        match &mut self.records[at] {
+            Record::Tube(tube) => tube,
+            _ => unreachable!(),
+        }
+    }
+
+    pub fn solution_mut(&mut self, k: usize) -> &mut SolutionClaim {
+        let at = self.solution_at(k);
+        match &mut self.records[at] {
+            Record::Solution(solution) => solution,
+            _ => unreachable!(),
+        }
+    }
+
+    pub fn classes_mut(&mut self) -> &mut Vec<u32> {
+        match self.records.last_mut() {
+            Some(Record::End(end)) => &mut end.classes,
+            _ => unreachable!(),
+        }
+    }
+
+    /// Makes the end's count of tubes right.
+    pub fn recount(&mut self) {
+        let tubes = self.tubes() as u64;
+        if let Some(Record::End(end)) = self.records.last_mut() {
+            end.tubes = tubes;
+        }
+    }
+
+    /// Leaves some tubes out.
+    pub fn keep_tubes(&mut self, keep: impl Fn(usize) -> bool) {
+        let mut k = 0;
+        self.records.retain(|record| {
+            if !matches!(record, Record::Tube(_)) {
+                return true;
+            }
+            k += 1;
+            keep(k - 1)
+        });
+        self.recount();
+    }
+
+    /// The unknowns that change their sign in the mirror image.
+    pub fn mirrored_unknowns(&self) -> Vec<usize> {
+        let problem = krawl::problem::Problem::parse(&self.problem, "").unwrap();
+        let d = problem.dimension;
+        let place = Gauge::new(&problem).place;
+        (0..place.len())
+            .filter(|&i| place[i] % d == d - 1)
+            .collect()
+    }
+}
