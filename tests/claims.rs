@@ -258,6 +258,7 @@ fn cancelled_runs_stop() {
         let mut control = Control {
             cancel: Some(&cancel),
             progress: Some(&mut after),
+            ..Control::default()
         };
         let outcome = track::solve(&problem, &way, &mut control).unwrap();
         assert!(
