@@ -144,7 +144,7 @@ fn a_chain_that_jumps_to_the_mirror_image_is_refused() {
 /// A float run with steps that are too long loses its path near another part of it, and closes
 /// nevertheless: tubes around all of its points, each a true one where such a tube exists.
 #[test]
-fn a_float_run_that_jumped_is_refused() {
+fn a_chain_with_tubes_left_out_is_refused() {
     for name in ["octahedron", "k33", "prism"] {
         let good = Certificate::read(&shipped(name));
         for every in [2, 3, 5] {

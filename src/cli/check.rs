@@ -3,7 +3,7 @@
 use super::{BAD_INPUT, CLOSED, output};
 use krawl::plan::Plan;
 use krawl::problem::{Problem, Target};
-use krawl::system::Homotopy;
+use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -31,8 +31,12 @@ pub fn run(arguments: &Arguments) -> u8 {
         }
     };
     let mut text = describe(&problem);
-    if let Some(plan) = construction_plan(&problem, arguments.pattern) {
-        text += &plan;
+    match construction_plan(&problem, arguments.pattern) {
+        Ok(plan) => text += &plan,
+        Err(error) => {
+            output::complain(&format!("{}: {error}", arguments.file.display()));
+            return BAD_INPUT;
+        }
     }
     if output::print(&text) {
         CLOSED
@@ -43,8 +47,8 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 /// The construction plan with its driving parameters and removed constraints, and the pattern of
 /// the Jacobian that comes of it, as lines of text.
-fn construction_plan(problem: &Problem, always: bool) -> Option<String> {
-    let homotopy = Homotopy::new(problem).ok()?;
+fn construction_plan(problem: &Problem, always: bool) -> Result<String, GaugeError> {
+    let homotopy = Homotopy::new(problem)?;
     let plan = Plan::derive(&homotopy);
     let indent = |text: &str| text.lines().map(|line| format!("  {line}\n")).collect();
     let described: String = indent(&plan.describe(problem));
@@ -55,7 +59,7 @@ fn construction_plan(problem: &Problem, always: bool) -> Option<String> {
                  rows: distances, removed constraints last)\n";
         text += &pattern;
     }
-    Some(text)
+    Ok(text)
 }
 
 /// The pattern of the Jacobian under the plan: constraints by name, and coordinates.

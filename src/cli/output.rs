@@ -22,6 +22,14 @@ pub fn print(text: &str) -> bool {
     }
 }
 
+/// Whether two paths lead to the same existing file.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    match (fs::canonicalize(one), fs::canonicalize(other)) {
+        (Ok(one), Ok(other)) => one == other,
+        _ => false,
+    }
+}
+
 /// Where a file of results goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Destination {

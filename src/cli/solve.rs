@@ -135,6 +135,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .map(Destination::new)
         .transpose()?;
 
+    for results in [&arguments.json, &arguments.cert].into_iter().flatten() {
+        if output::is_same_file(results, &arguments.file) {
+            return Err(format!(
+                "{}: is the problem itself; name another file for the results",
+                results.display()
+            ));
+        }
+    }
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let mut witness = cert
         .as_ref()

@@ -66,7 +66,7 @@ fn verdict(outcome: &Outcome) -> String {
                 ),
             };
             format!(
-                "Stopped: {}. {text}; there may be more.{different}",
+                "Stopped: {}. {text}; there may be more.",
                 without_stop(reason)
             )
         }

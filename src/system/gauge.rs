@@ -21,10 +21,16 @@ pub struct Gauge {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GaugeError {
     /// The first two reference points cannot be told apart.
-    #[error("the reference points {0} and {1} coincide in the sketch")]
+    #[error(
+        "the reference points {0} and {1} are too near each other in the sketch to tell a direction from \
+             them in 53 bits; choose others, or move the sketch nearer to the origin"
+    )]
     Coincident(String, String),
     /// The three reference points cannot be told from points of a line.
-    #[error("the reference points {0}, {1} and {2} are collinear in the sketch")]
+    #[error(
+        "the reference points {0}, {1} and {2} are too nearly collinear in the sketch to tell a plane from \
+             them in 53 bits; choose others"
+    )]
     Collinear(String, String, String),
 }
 

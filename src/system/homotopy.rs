@@ -124,24 +124,21 @@ impl Homotopy {
         }
     }
 
-    /// Where a length is nearly zero at t, beside the unit, a remark for people who wonder why the
-    /// run ended there: where two joined points coincide the equations are singular.
+    /// Where a length is nearly zero at t, beside what it is at either end, a remark for people who
+    /// wonder why the run ended there: where two joined points coincide the equations are singular.
     pub fn remark_on_lengths(&self, t: f64) -> String {
-        let (index, length) = self
-            .lengths
-            .iter()
-            .map(|length| length.value(t))
-            .enumerate()
-            .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-            .unwrap_or((0, f64::INFINITY));
-        if length.abs() < 1e-3 {
-            format!(
-                "; the length of {} goes to zero there ({:.1e})",
-                self.names[index],
-                length * self.unit
-            )
-        } else {
-            String::new()
+        let part =
+            |length: &Length| length.value(t).abs() / length.value(0.0).max(length.value(1.0));
+        let parts = self.lengths.iter().map(part).enumerate();
+        match parts.min_by(|a, b| a.1.total_cmp(&b.1)) {
+            Some((index, part)) if part < 1e-3 => {
+                let length = self.lengths[index].value(t).abs() * self.unit;
+                format!(
+                    "; the length of {} goes to zero there ({length:.1e})",
+                    self.names[index]
+                )
+            }
+            _ => String::new(),
         }
     }
 

@@ -48,11 +48,23 @@ pub fn solve(
         // The paper's step sizes are in the lengths of the problem.
         Preset::Paper => Homotopy::with_unit(problem, 1.0)?,
     };
+    if let Some(step) = options.max_step
+        && step < SMALLEST_MAX_STEP * homotopy.unit
+    {
+        return Err(StartError::Unsupported(format!(
+            "the longest step allowed, {step:e}, is too short: at least {:e} is needed to get anywhere",
+            SMALLEST_MAX_STEP * homotopy.unit
+        )));
+    }
     match problem.dimension {
         2 => solve_in::<2>(&homotopy, options, control),
         _ => solve_in::<3>(&homotopy, options, control),
     }
 }
+
+/// Bounds on the step below this, in units of the problem's typical length, are refused: no path
+/// would end.
+const SMALLEST_MAX_STEP: f64 = 1e-7;
 
 fn solve_in<const D: usize>(
     homotopy: &Homotopy,

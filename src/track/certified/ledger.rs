@@ -172,39 +172,25 @@ impl<'a, const D: usize> Ledger<'a, D> {
 
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
     pub fn solutions(&self) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
-        let d = self.homotopy.dimension;
-        let gauge = &self.homotopy.gauge;
-        // The mirror image in the gauge: the last coordinate changes its sign.
-        let mirrored = |i: usize| gauge.place[i] % d == d - 1;
         let mut reason = None;
         let mut classes: Vec<usize> = Vec::new();
         for (k, found) in self.found.iter().enumerate() {
             let mut class = None;
             for (j, other) in self.found[..k].iter().enumerate() {
-                match found.is_same(other, mirrored) {
+                match self.is_congruent(found, other) {
                     Same::Yes => class = Some(classes[j]),
                     Same::No => {}
                     Same::Unknown => {
-                        reason = Some(format!(
-                            "it could not be decided whether solutions {} and {} are mirror images",
+                        reason.get_or_insert(format!(
+                            "it could not be decided whether solutions {} and {} are congruent; \
+                             another reference may help",
                             j + 1,
                             k + 1
-                        ))
+                        ));
                     }
                 }
             }
             classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
-            // Congruent figures have the same or mirrored coordinates only if the reference
-            // points are on the same sides.
-            for (rank, &p) in gauge.reference.iter().enumerate().skip(1) {
-                let i = gauge.variable[p * d + rank - 1];
-                if found.centre[i] - found.radius[i] <= 0.0 {
-                    reason = Some(format!(
-                        "in solution {} the reference is degenerate or turned over",
-                        k + 1
-                    ));
-                }
-            }
         }
         let solutions = self
             .found
@@ -224,6 +210,42 @@ impl<'a, const D: usize> Ledger<'a, D> {
             None => Ok(solutions),
             Some(reason) => Err((reason, solutions)),
         }
+    }
+}
+
+impl<const D: usize> Ledger<'_, D> {
+    /// Whether two different solutions are congruent up to reflection.
+    ///
+    /// The isometries that keep the gauge change the signs of coordinates. The second reference
+    /// point's first coordinate and the third's second one tell which signs they must change;
+    /// that of the last coordinate is free.
+    fn is_congruent(&self, one: &SolutionBox, other: &SolutionBox) -> Same {
+        let gauge = &self.homotopy.gauge;
+        let mut turned = [false; 3];
+        for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
+            let i = gauge.variable[p * D + axis];
+            let side =
+                |s: &SolutionBox| (s.centre[i].abs() > s.radius[i]).then_some(s.centre[i] > 0.0);
+            match (side(one), side(other)) {
+                (Some(a), Some(b)) => turned[axis] = a != b,
+                _ => return Same::Unknown,
+            }
+        }
+        for last in [false, true] {
+            // Without any change of sign they are known to differ.
+            if !last && turned == [false; 3] {
+                continue;
+            }
+            let signs = |i: usize| match gauge.place[i] % D {
+                axis if axis == D - 1 => last,
+                axis => turned[axis],
+            };
+            match one.is_same(other, signs) {
+                Same::No => {}
+                decided => return decided,
+            }
+        }
+        Same::No
     }
 }
 

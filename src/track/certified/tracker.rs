@@ -414,9 +414,13 @@ impl<'a, const D: usize> Tracker<'a, D> {
     fn switched_on(&self) -> Vec<String> {
         let mut list = Vec::new();
         if self.shortened > 0 {
+            let times = match self.shortened {
+                1 => "once".to_owned(),
+                n => format!("{n} times"),
+            };
             list.push(format!(
-                "shorter tubes, {} times: t = 1 could not be separated from a fold or another solution in the longer ones",
-                self.shortened
+                "shorter tubes, {times}: t = 1 could not be separated from a fold or another \
+                 solution in the longer ones"
             ));
         }
         list

@@ -41,8 +41,15 @@ pub fn first_normal<const D: usize>(
     Err(Singular)
 }
 
-/// The length of ẑ between two parameters, the coordinates counted in units of `unit`: Gauss's
-/// rule with two points.
+/// Gauss's rule with five points: half of its nodes and their weights, the middle first
+/// (Abramowitz and Stegun, table 25.4).
+const GAUSS: [(f64, f64); 3] = [
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+/// The length of ẑ between two parameters, the coordinates counted in units of `unit`.
 pub fn path_length<const D: usize>(
     local: &Local<D>,
     from: f64,
@@ -57,6 +64,10 @@ pub fn path_length<const D: usize>(
         let x = dot(&scratch[..t], &scratch[..t]);
         (unit * unit * x + scratch[t] * scratch[t]).sqrt()
     };
-    let offset = half / 3f64.sqrt();
-    half * (speed(middle - offset) + speed(middle + offset))
+    let [(_, first), rest @ ..] = GAUSS;
+    let mut sum = first * speed(middle);
+    for (node, weight) in rest {
+        sum += weight * (speed(middle - node * half) + speed(middle + node * half));
+    }
+    half * sum
 }

@@ -227,9 +227,10 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     fn stopped(&self, why: &str) -> Status {
         Status::Stopped(format!(
-            "{why} at t = {}, step {}",
+            "{why} at t = {:.9} after {} steps{}",
             self.current.t(),
-            self.steps
+            self.steps,
+            self.homotopy.remark_on_lengths(self.current.t())
         ))
     }
 

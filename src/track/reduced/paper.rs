@@ -19,7 +19,7 @@ impl<const D: usize> Tracker<'_, D> {
             match self.step_as_in_the_paper(&mut delta, longest, &mut differences) {
                 Err(status) => return status,
                 Ok(()) if control.is_cancelled(self.progress()) => {
-                    return Status::Stopped("interrupted".into());
+                    return self.stopped("interrupted");
                 }
                 Ok(()) => {}
             }

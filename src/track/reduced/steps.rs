@@ -99,7 +99,7 @@ impl<const D: usize> Tracker<'_, D> {
             self.change_plan(false, RESTORE)?;
         }
         if control.is_cancelled(self.progress()) {
-            return Err(Status::Stopped("interrupted".into()));
+            return Err(self.stopped("interrupted"));
         }
         // The predictor's error grows like h⁴, the turn like h.
         let by_error = (0.5 * ERROR * length / error.max(1e-300)).sqrt().sqrt();

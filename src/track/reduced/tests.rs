@@ -157,7 +157,11 @@ fn stops_when_told_to() {
         witness: None,
     };
     let cancelled = run_with(&problem, &options(), &mut control);
-    assert_eq!(cancelled.status, Status::Stopped("interrupted".into()));
+    assert!(
+        matches!(&cancelled.status, Status::Stopped(why) if why.starts_with("interrupted")),
+        "{:?}",
+        cancelled.status
+    );
     assert_eq!(cancelled.steps, 1);
 }
 
