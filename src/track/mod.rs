@@ -64,7 +64,7 @@ pub fn solve(
 
 /// Bounds on the step below this, in units of the problem's typical length, are refused: no path
 /// would end.
-const SMALLEST_MAX_STEP: f64 = 1e-7;
+const SMALLEST_MAX_STEP: f64 = 1e-8;
 
 fn solve_in<const D: usize>(
     homotopy: &Homotopy,
