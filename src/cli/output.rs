@@ -9,6 +9,14 @@ pub fn complain(message: &str) {
     let _ = writeln!(io::stderr().lock(), "krawl: {message}");
 }
 
+/// The exit code of a verb: its own, or that of bad input after saying what was wrong with it.
+pub fn exit_code(result: Result<u8, String>) -> u8 {
+    result.unwrap_or_else(|message| {
+        complain(&message);
+        super::BAD_INPUT
+    })
+}
+
 /// Prints a text on standard output. A reader who left early has seen enough; any other failure
 /// is complained about. Returns whether all is well.
 pub fn print(text: &str) -> bool {

@@ -28,13 +28,7 @@ pub struct Arguments {
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
-    match try_run(arguments) {
-        Ok(code) => code,
-        Err(message) => {
-            output::complain(&message);
-            BAD_INPUT
-        }
-    }
+    output::exit_code(try_run(arguments))
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {

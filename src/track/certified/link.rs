@@ -78,22 +78,14 @@ impl<const D: usize> Tube<D> {
         let n = self.weights.len() - 1;
         let (local, proof) = (&self.local, &self.proof);
         let c = &local.normal[..n];
-        let s = ball.centre[..n]
-            .iter()
-            .zip(&local.z[0][..n])
-            .zip(c)
-            .map(|((b, z), c)| c * (b - z))
-            .sum::<f64>();
+        let s = local.parameter_of(&ball.centre);
         if s.is_nan() || s.abs() > proof.h {
             return None;
         }
         let (mut along, mut along_error) = (0.0, 0.0);
         let mut widest = 0.0f64;
         for i in 0..n {
-            let z = (0..=ORDER)
-                .rev()
-                .fold(0.0f64, |sum, k| sum.mul_add(s, local.z[k][i]));
-            let away = ball.centre[i] - z;
+            let away = ball.centre[i] - local.entry_at(i, s);
             let error =
                 evaluation_error(local, i, s) + ball.radius[i] + 2.0 * f64::EPSILON * away.abs();
             along += c[i] * away;

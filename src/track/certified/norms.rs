@@ -5,6 +5,7 @@ use crate::track::full::{DEGREE, MAX_DEGREE, ORDER};
 
 /// At most so much of the contraction may be used up by the length of the tube.
 pub(super) const MAX_CONTRACTION: f64 = 0.85;
+
 /// What is proved of a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Proof {

@@ -4,7 +4,7 @@ use super::Record;
 use crate::linalg::{Inverter, Vector};
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
-use crate::track::full::{Equations, Local, Meeting, ORDER, first_normal, path_length};
+use crate::track::full::{Equations, Local, Meeting, ORDER, dot, first_normal, path_length};
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 
@@ -89,7 +89,7 @@ fn run<const D: usize>(
         if refined {
             next.expand(equations);
         }
-        let turned = crate::track::full::dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
+        let turned = dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
         let seen = refined
             && !turned
             && events
@@ -102,7 +102,7 @@ fn run<const D: usize>(
         }
         record.steps += 1;
         record.meet(next.z[0][m]);
-        if let Some(at) = events.passes(&sketch, &direction, &next, step)
+        if let Some(at) = events.passes(&sketch, &direction, &now, &next, step)
             && record.steps > 1
         {
             record.length += events.length(&now, &next, step, at, homotopy.unit);
@@ -184,12 +184,8 @@ impl<const D: usize> Events<D> {
                 )?;
                 record.solution(equations, inverter, &self.scratch)?;
             }
-            if let ((low, high), (slope_low, slope_high)) = time.bounds(from, to)
-                && slope_low < 0.0
-                && slope_high > 0.0
-            {
-                // A fold of t: its extreme value is between these.
-                let _ = (low, high);
+            let (_, (slope_low, slope_high)) = time.bounds(from, to);
+            if slope_low < 0.0 && slope_high > 0.0 {
                 record.meet(extreme(local, from, to, equations.m));
             }
         }
@@ -200,10 +196,7 @@ impl<const D: usize> Events<D> {
     /// two have different normals, so it is not just the rest of the step.
     fn middle(&mut self, now: &Local<D>, next: &Local<D>, half: f64) -> f64 {
         now.at(half, &mut self.scratch);
-        let n = next.y.rows();
-        (0..n)
-            .map(|i| next.normal[i] * (self.scratch[i] - next.z[0][i]))
-            .sum()
+        next.parameter_of(&self.scratch)
     }
 
     /// The path's length from `now` to the parameter `at` of `next`.
@@ -213,23 +206,25 @@ impl<const D: usize> Events<D> {
             + path_length(next, back, at, unit, &mut self.scratch)
     }
 
-    /// Whether the path, followed in `direction`, passed the sketch on the last `step` before `next`:
-    /// at which parameter, if so.
+    /// Whether the path, followed in `direction`, passed the sketch between two points: at which
+    /// parameter of `next`, if so.
     fn passes(
         &mut self,
         sketch: &[f64],
         direction: &[f64],
+        now: &Local<D>,
         next: &Local<D>,
         step: f64,
     ) -> Option<f64> {
         let n = next.y.rows();
         let t = sketch.len() - 2;
-        if next.z[0][t].abs() > step {
+        // Far more than t can change in a step along the path.
+        if next.z[0][t].abs() > 2.0 * step {
             return None;
         }
-        let c = &next.normal[..n];
-        let at: f64 = (0..n).map(|i| c[i] * (sketch[i] - next.z[0][i])).sum();
-        if !(at <= 0.0 && at >= -step) || crate::track::full::dot(c, &direction[..n]) <= 0.0 {
+        // The normals differ, so `now` is not just a step back.
+        let (back, at) = (next.parameter_of(&now.z[0]), next.parameter_of(sketch));
+        if !(back..=0.0).contains(&at) || dot(&next.normal[..n], &direction[..n]) <= 0.0 {
             return None;
         }
         next.at(at, &mut self.scratch);

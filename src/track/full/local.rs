@@ -335,9 +335,7 @@ impl<const D: usize> Local<D> {
         self.at(s, z);
         self.slope(s, normal);
         if let Some(previous) = previous {
-            let back: f64 = (0..n)
-                .map(|i| self.normal[i] * (previous[i] - self.z[0][i]))
-                .sum();
+            let back = self.parameter_of(previous);
             let ratio = s / back;
             let square = ratio * ratio;
             let factor = square * square * square;
@@ -371,6 +369,16 @@ impl<const D: usize> Local<D> {
         self.y.multiply_abs(&vec![1.0; n], &mut sums);
         let condition = jacobian * largest(&sums);
         condition.is_finite().then_some(condition)
+    }
+
+    /// The parameter of the cross-section that holds `point`: c·(point − z₀).
+    pub fn parameter_of(&self, point: &[f64]) -> f64 {
+        let n = self.y.rows();
+        let terms = point[..n]
+            .iter()
+            .zip(&self.z[0][..n])
+            .zip(&self.normal[..n]);
+        terms.map(|((point, z), c)| c * (point - z)).sum()
     }
 
     /// ẑ(s)_i.
