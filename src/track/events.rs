@@ -5,13 +5,12 @@
 //! certified mode the distances are proved; in float mode they are estimates.
 
 use crate::interval::rounding::{gamma, round_up};
-use crate::track::full::ORDER;
 
 /// t along a piece of path, as a polynomial with error bounds.
 #[derive(Debug, Clone, Copy)]
-pub struct TimeAlong {
+pub struct TimeAlong<const N: usize> {
     /// Coefficients of ẑ_t(s) − 1, the first rounded.
-    coefficients: [f64; ORDER + 1],
+    coefficients: [f64; N],
     /// How far the path's t may be from the polynomial, rounding included.
     band: f64,
     /// How far the path's dt/ds may be from the polynomial's derivative.
@@ -45,11 +44,11 @@ enum Piece {
 /// Pieces are not split more often than that: the last are 2⁻⁴⁰ of the tube.
 const MAX_DEPTH: usize = 40;
 
-impl TimeAlong {
+impl<const N: usize> TimeAlong<N> {
     /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
-    pub fn new(z: [f64; ORDER + 1], h: f64, distance: f64, slope_distance: f64) -> Self {
+    pub fn new(z: [f64; N], h: f64, distance: f64, slope_distance: f64) -> Self {
         let (mut curvature, mut size, mut slope, mut power) = (0.0, z[0].abs() + 1.0, 0.0, 1.0);
-        for k in 1..=ORDER {
+        for k in 1..N {
             slope += k as f64 * z[k].abs() * power;
             if k >= 2 {
                 curvature += (k * (k - 1)) as f64 * z[k].abs() * (power / h);
@@ -58,8 +57,8 @@ impl TimeAlong {
             // Once in the value; k times in the slope, which reaches over h at most.
             size += (k + 1) as f64 * z[k].abs() * power;
         }
-        // Horner's rule and the subtraction of 1: fewer than 30 roundings of terms below `size`.
-        let rounding = gamma(30);
+        // Horner's rule and the subtraction of 1: fewer than 40 roundings of terms below `size`.
+        let rounding = gamma(40);
         let mut coefficients = z;
         coefficients[0] -= 1.0;
         TimeAlong {
@@ -76,8 +75,8 @@ impl TimeAlong {
         let c = &self.coefficients;
         let middle = 0.5 * (a + b);
         let half = 0.5 * (b - a) * (1.0 + 4.0 * f64::EPSILON) + 2.0 * f64::EPSILON * middle.abs();
-        let (mut value, mut slope) = (c[ORDER], 0.0);
-        for k in (0..ORDER).rev() {
+        let (mut value, mut slope) = (c[N - 1], 0.0);
+        for k in (0..N - 1).rev() {
             slope = slope * middle + value;
             value = value * middle + c[k];
         }

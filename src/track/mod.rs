@@ -39,10 +39,6 @@ pub fn solve(
     options: &Options,
     control: &mut Control,
 ) -> Result<Outcome, StartError> {
-    if options.mode == Mode::Certified && options.space == Space::Reduced {
-        let message = "certified mode works in the full space; use --space full, or --mode float";
-        return Err(StartError::Unsupported(message.into()));
-    }
     let homotopy = match options.preset {
         Preset::Default => Homotopy::new(problem)?,
         // The paper's step sizes are in the lengths of the problem.

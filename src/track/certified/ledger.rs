@@ -1,13 +1,13 @@
 //! What has been proved along the chain so far: solutions, the range of t, the length.
 
-use super::link::{Ball, Tube};
+use super::link::{Ball, Frame, Tube};
 use super::solution::{Same, SolutionBox, SolutionProver};
 use crate::interval::{Interval, hull, point};
-use crate::linalg::{Inverter, Vector};
+use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::Solution;
 use crate::track::events::{Crossing, TimeAlong, Undecided};
-use crate::track::full::{Equations, path_length};
+use crate::track::full::{Equations, InverseMaker, path_length};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
@@ -52,11 +52,11 @@ impl<'a, const D: usize> Ledger<'a, D> {
 
     /// Finds all solutions in a linked tube, from its entry to its exit, or to the sketch where
     /// the loop is closed at the parameters `closing`. If it fails nothing is changed.
-    pub fn enter(
+    pub fn enter<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
-        tube: &Tube<D>,
+        inverter: &mut InverseMaker,
+        tube: &Tube<D, N, Y>,
         closing: Option<(f64, f64)>,
     ) -> Result<(), Undecided> {
         let time = tube.time();
@@ -90,11 +90,11 @@ impl<'a, const D: usize> Ledger<'a, D> {
 
     /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
     /// in this stretch of it.
-    fn prove_crossing(
+    fn prove_crossing<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
-        tube: &Tube<D>,
+        inverter: &mut InverseMaker,
+        tube: &Tube<D, N, Y>,
         crossing: Crossing,
     ) -> Result<(), Undecided> {
         let (a, b) = crossing.between;
@@ -122,7 +122,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
         Ok(())
     }
 
-    fn widen_t_range(&mut self, time: &TimeAlong, from: f64, to: f64) {
+    fn widen_t_range<const N: usize>(&mut self, time: &TimeAlong<N>, from: f64, to: f64) {
         let shift = |(lo, hi): (f64, f64)| ((lo + 1.0).next_down(), (hi + 1.0).next_up());
         let (lo, hi) = shift(time.bounds(from, to).0);
         if lo >= self.t_range.0 && hi <= self.t_range.1 {

@@ -2,17 +2,49 @@
 
 use super::norms::Proof;
 use crate::interval::rounding::{gamma, round_up};
-use crate::linalg::Vector;
+use crate::linalg::{Matrix, Vector};
 use crate::track::events::TimeAlong;
-use crate::track::full::{Equations, Local, ORDER, dot};
+use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
+
+/// What a preconditioner knows of the box in which a tube was proved.
+pub trait Frame<const D: usize>: Preconditioner<D> {
+    /// By how much the box around ẑ(s), whose size is 1, must be scaled to hold a point: `entry` tells,
+    /// for each index once and in their order, how far it is from ẑ(s), and the error of that.
+    /// `weights` are the tube's.
+    fn extent(&self, weights: &[f64], s: f64, entry: impl FnMut(usize) -> (f64, f64)) -> f64;
+
+    /// A bound on how fast the extent of a fixed point changes with s.
+    fn speed(&self, proof: &Proof) -> f64;
+}
+
+/// In the full space the box is |w|_u ≤ 1.
+impl<const D: usize> Frame<D> for Matrix {
+    #[inline(always)]
+    fn extent(&self, weights: &[f64], _: f64, mut entry: impl FnMut(usize) -> (f64, f64)) -> f64 {
+        let mut widest = 0.0f64;
+        for (i, weight) in weights.iter().enumerate() {
+            let (away, error) = entry(i);
+            let ratio = (away.abs() + error) / weight;
+            // A NaN must not be lost in the comparison.
+            if ratio > widest || ratio.is_nan() {
+                widest = ratio;
+            }
+        }
+        widest
+    }
+
+    fn speed(&self, proof: &Proof) -> f64 {
+        proof.slope
+    }
+}
 
 /// A proved tube: for every |s| ≤ h exactly one point of the path in the cross-section through
-/// ẑ(s), within r of it.
+/// ẑ(s), in the box around it that is the frame's scaled by r.
 #[derive(Debug, Clone)]
-pub struct Tube<const D: usize> {
+pub struct Tube<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// The polynomial ẑ with its normal and preconditioner.
-    pub local: Local<D>,
-    /// The weights u of the norm.
+    pub local: Local<D, N, Y>,
+    /// The weights u of the norm in which distances are stated. The box is in |w|_u ≤ r.
     pub weights: Vector,
     /// What is proved.
     pub proof: Proof,
@@ -49,10 +81,12 @@ impl Ball {
     }
 }
 
-/// More roundings than there are in the evaluation of ẑ or ẑ' at a point.
-const EVALUATION: usize = 4 * ORDER;
+/// More roundings than there are in the evaluation at a point of ẑ or ẑ' with N coefficients.
+const fn evaluation(coefficients: usize) -> usize {
+    4 * coefficients
+}
 
-impl<const D: usize> Tube<D> {
+impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     /// Room for a tube.
     pub fn new(equations: &Equations<D>) -> Self {
         Tube {
@@ -83,21 +117,17 @@ impl<const D: usize> Tube<D> {
             return None;
         }
         let (mut along, mut along_error) = (0.0, 0.0);
-        let mut widest = 0.0f64;
-        for i in 0..n {
+        let widest = local.y.extent(&self.weights[..n], s, |i| {
             let away = ball.centre[i] - local.entry_at(i, s);
             let error =
                 evaluation_error(local, i, s) + ball.radius[i] + 2.0 * f64::EPSILON * away.abs();
             along += c[i] * away;
             along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
-            let ratio = (away.abs() + error) / self.weights[i];
-            // A NaN must not be lost in the comparison.
-            if ratio > widest || ratio.is_nan() {
-                widest = ratio;
-            }
-        }
+            (away, error)
+        });
         let omega = round_up((along.abs() + along_error) / self.least_advance()?, n + 8);
-        let width = round_up(widest + omega * proof.slope, n + 8);
+        let width = round_up(widest + omega * local.y.speed(proof), n + 8);
+        if std::env::var("DBG").is_ok() { eprintln!("L s/h {:.3} omega {omega:.2e} widest {widest:.2e} speed {:.2e} r {:.2e} dist {:.1e}", s/proof.h, local.y.speed(proof), proof.r, proof.distance); }
         (round_up(s.abs() + omega, 2) <= proof.h && width < proof.r)
             .then(|| ((s - omega).next_down(), (s + omega).next_up()))
     }
@@ -108,7 +138,7 @@ impl<const D: usize> Tube<D> {
         let h = self.proof.h;
         let c = &self.local.normal[..n];
         let (mut power, mut least) = (1.0, 0.0);
-        for k in 1..=ORDER {
+        for k in 1..N {
             let z = &self.local.z[k][..n];
             let size: f64 = c.iter().zip(z).map(|(c, z)| (c * z).abs()).sum();
             let sideways = (dot(c, z) - if k == 1 { 1.0 } else { 0.0 }).abs() + gamma(n + 2) * size;
@@ -126,25 +156,25 @@ impl<const D: usize> Tube<D> {
         let n = self.weights.len() - 1;
         let s = 0.5 * (between.0 + between.1);
         let off = (between.1 - between.0).abs();
-        // |ẑ''| ≤ (ORDER − 1)/h times the sum that bounds |ẑ'|, which is `slope` in the norm.
-        let turn = off * (ORDER as f64 / self.proof.h) * self.proof.slope;
+        // |ẑ''| ≤ N/h times the sum that bounds |ẑ'|, which is `slope` in the norm.
+        let turn = off * (N as f64 / self.proof.h) * self.proof.slope;
         let (mut along, mut error) = (0.0, 0.0);
         for i in 0..n {
             let (mut slope, mut size) = (0.0f64, 0.0f64);
-            for k in (1..=ORDER).rev() {
+            for k in (1..N).rev() {
                 let z = k as f64 * self.local.z[k][i];
                 slope = slope.mul_add(s, z);
                 size = size.mul_add(s.abs(), z.abs());
             }
             along += normal[i] * slope;
             let away = (self.proof.slope_distance + turn) * self.weights[i];
-            error += normal[i].abs() * (away + gamma(EVALUATION + n) * size);
+            error += normal[i].abs() * (away + gamma(evaluation(N) + n) * size);
         }
-        along > round_up(error, n + EVALUATION)
+        along > round_up(error, n + evaluation(N))
     }
 
     /// t along the tube.
-    pub fn time(&self) -> TimeAlong {
+    pub fn time(&self) -> TimeAlong<N> {
         let (t, proof) = (self.weights.len() - 2, &self.proof);
         // One rounding each, within what `TimeAlong` adds for its own.
         TimeAlong::new(
@@ -157,9 +187,10 @@ impl<const D: usize> Tube<D> {
 
     /// Proves that the path goes on from this tube into `next`: the point at `exit` of this tube
     /// is in `next` too, and both are followed the same way. Encloses the point's parameter in `next`.
-    pub fn leads_to(&self, next: &Tube<D>) -> Option<(f64, f64)> {
+    pub fn leads_to(&self, next: &Self) -> Option<(f64, f64)> {
         let entry = next.locate(&self.exit)?;
         let normal = &next.local.normal;
+        if std::env::var("DBG").is_ok() { eprintln!("A {} {} {}", self.goes_along((self.exit_at, self.exit_at), normal), self.exit_is_tight && self.exit_goes_along(normal), self.proof.slope_distance); }
         let same_way = self.goes_along((self.exit_at, self.exit_at), normal)
             || self.exit_is_tight && self.exit_goes_along(normal);
         same_way.then_some(entry)
@@ -180,10 +211,14 @@ impl<const D: usize> Tube<D> {
 }
 
 /// How far ẑ(s)_i in floats may be from the exact value.
-pub fn evaluation_error<const D: usize>(local: &Local<D>, i: usize, s: f64) -> f64 {
+pub fn evaluation_error<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    local: &Local<D, N, Y>,
+    i: usize,
+    s: f64,
+) -> f64 {
     let s = s.abs();
-    let size = (0..=ORDER)
+    let size = (0..N)
         .rev()
         .fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
-    round_up(gamma(EVALUATION) * size, EVALUATION)
+    round_up(gamma(evaluation(N)) * size, evaluation(N))
 }

@@ -4,10 +4,29 @@ mod exit;
 mod ledger;
 mod link;
 mod norms;
+mod reduced;
 mod solution;
-mod tracker;
+pub(self) mod tracker;
 mod tube;
 #[cfg(test)]
 mod validation;
 
-pub use tracker::track;
+use crate::system::Homotopy;
+use crate::track::full::ORDER;
+use crate::track::{Control, Options, Outcome, Space};
+
+/// Follows the path and proves every step.
+pub fn track<const D: usize>(
+    homotopy: &Homotopy,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
+    match options.space {
+        Space::Full => {
+            tracker::track::<D, { ORDER + 1 }, tube::KrawczykTest<D>>(homotopy, options, control)
+        }
+        Space::Reduced => tracker::track::<D, { reduced::COEFFICIENTS }, reduced::ReducedTest<D>>(
+            homotopy, options, control,
+        ),
+    }
+}

@@ -2,9 +2,9 @@
 
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
-use crate::linalg::{Inverter, Vector};
+use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::full::{Equations, Local};
+use crate::track::full::{Equations, InverseMaker, Local};
 
 /// A box around a figure that meets the dimensions, proved to hold exactly one.
 #[derive(Debug, Clone)]
@@ -71,7 +71,7 @@ impl<const D: usize> SolutionProver<D> {
     pub fn prove(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
+        inverter: &mut InverseMaker,
         guess: &[f64],
         rising: bool,
     ) -> Option<SolutionBox> {

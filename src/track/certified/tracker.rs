@@ -1,11 +1,10 @@
 //! The chain of tubes from the sketch back to the sketch.
 
 use super::ledger::Ledger;
-use super::link::{Ball, Tube};
-use super::tube::KrawczykTest;
-use crate::linalg::{Inverter, Vector};
+use super::link::{Ball, Frame, Tube};
+use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::full::{Equations, RefineError, first_normal};
+use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use std::time::Instant;
 
@@ -23,14 +22,70 @@ const POINT_TOLERANCE: f64 = 1e-9;
 /// Steps below this, relative to the size of the figure, end the run.
 const SMALLEST_STEP: f64 = 1e-11;
 
-/// Follows the path in the full space and proves every step.
-pub fn track<const D: usize>(
+/// A way of proving tubes: with polynomials of N coefficients, in frames of its own.
+pub trait Test<const D: usize, const N: usize>: Sized {
+    /// The preconditioner of a tube, which also describes its box.
+    type Frame: Frame<D>;
+    /// The space in which it works.
+    const SPACE: Space;
+
+    /// Room for the tubes of a problem.
+    fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self;
+
+    /// Brings a predicted point onto the path, and expands the path there.
+    fn refine(
+        &mut self,
+        equations: &Equations<D>,
+        local: &mut Local<D, N, Self::Frame>,
+        tolerance: f64,
+    ) -> Result<(), RefineError>;
+
+    /// Before the first tube is proved: finds what later ones take over from those before.
+    fn prepare(&mut self, equations: &Equations<D>, tube: &mut Tube<D, N, Self::Frame>, max_h: f64);
+
+    /// Proves the longest tube it can, at most `max_h` to either side, around a refined point: sets
+    /// its proof and weights. False: nothing could be proved, however short.
+    fn prove(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, N, Self::Frame>,
+        max_h: f64,
+    ) -> bool;
+
+    /// What was proved last is in the chain.
+    fn accept(&mut self, tube: &Tube<D, N, Self::Frame>);
+
+    /// What was tried last is given up.
+    fn reject(&mut self);
+
+    /// Encloses the path's point at `exit_at` of the tube that was proved last, as tightly as most
+    /// links need.
+    fn enclose_exit(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, N, Self::Frame>,
+    ) -> Option<()>;
+
+    /// The same, and the path's tangent there, as tightly as floats allow, for a tube proved
+    /// earlier.
+    fn tighten_exit(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, N, Self::Frame>,
+    ) -> Option<()>;
+
+    /// Changes of plan, and the numbers of driving parameters.
+    fn plans(&self) -> (usize, Driving);
+}
+
+/// Follows the path and proves every step by a test.
+pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     homotopy: &Homotopy,
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
     let clock = Instant::now();
-    let mut tracker = Tracker::<D>::new(homotopy);
+    let mut tracker = Tracker::<D, N, T>::new(homotopy, options);
     if let Some(witness) = &mut control.witness {
         witness.begin(homotopy.unit);
     }
@@ -56,15 +111,16 @@ pub fn track<const D: usize>(
         let classes: Vec<usize> = solutions.iter().map(|s| s.class).collect();
         witness.end(&status, &classes);
     }
+    let (plan_changes, driving) = tracker.test.plans();
     Outcome {
         mode: Mode::Certified,
-        space: Space::Full,
+        space: T::SPACE,
         status,
         solutions,
         steps: tracker.steps,
         rejected: tracker.rejected,
-        plan_changes: 0,
-        driving: Driving::default(),
+        plan_changes,
+        driving,
         length: tracker.ledger.length,
         t_range: tracker.ledger.t_range,
         seconds: clock.elapsed().as_secs_f64(),
@@ -96,17 +152,15 @@ impl Rejection {
     }
 }
 
-struct Tracker<'a, const D: usize> {
+struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     homotopy: &'a Homotopy,
     equations: Equations<D>,
-    inverter: Inverter,
-    test: KrawczykTest<D>,
+    /// For the direction at the sketch and for boxes around solutions.
+    inverter: InverseMaker,
+    test: T,
     ledger: Ledger<'a, D>,
-    now: Tube<D>,
-    next: Tube<D>,
-    /// Weights for the next proof, and those to return to if it is rejected.
-    weights: Vector,
-    kept_weights: Vector,
+    now: Tube<D, N, T::Frame>,
+    next: Tube<D, N, T::Frame>,
     /// The point of the tube before, if there is one.
     previous: Option<Vector>,
     sketch: Ball,
@@ -117,10 +171,9 @@ struct Tracker<'a, const D: usize> {
     shortened: usize,
 }
 
-impl<'a, const D: usize> Tracker<'a, D> {
-    fn new(homotopy: &'a Homotopy) -> Self {
+impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
+    fn new(homotopy: &'a Homotopy, options: &Options) -> Self {
         let equations = Equations::<D>::new(homotopy);
-        let n = equations.n();
         let vector = || equations.vector();
         let mut sketch = Ball::new(&equations);
         for (i, &place) in homotopy.gauge.place.iter().enumerate() {
@@ -128,17 +181,13 @@ impl<'a, const D: usize> Tracker<'a, D> {
             sketch.centre[i] = x.mid();
             sketch.radius[i] = x.rad();
         }
-        let mut weights = vector();
-        weights[..n].fill(1.0);
         Tracker {
             homotopy,
             inverter: equations.inverter(),
-            test: KrawczykTest::new(&equations),
+            test: T::new(homotopy, &equations, options),
             ledger: Ledger::new(homotopy, &equations),
             now: Tube::new(&equations),
             next: Tube::new(&equations),
-            kept_weights: weights.clone(),
-            weights,
             previous: None,
             sketch,
             first_normal: vector(),
@@ -182,7 +231,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
                 }
                 Err(rejection) => {
                     self.rejected += 1;
-                    self.weights.copy_from_slice(&self.kept_weights);
+                    self.test.reject();
                     if shorter.is_infinite() {
                         trust *= DISTRUST;
                     }
@@ -244,21 +293,18 @@ impl<'a, const D: usize> Tracker<'a, D> {
     /// Proves the tube around the sketch.
     fn start(&mut self, reverse: bool, max_h: f64) -> Result<(), String> {
         let equations = &self.equations;
+        let mut at_sketch = Local::<D>::new(equations);
+        at_sketch.z[0].copy_from_slice(&self.sketch.centre);
+        first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
+            .map_err(|_| "the sketch is a singular point of its path: no direction of travel could be computed".to_owned())?;
+        self.first_normal.copy_from_slice(&at_sketch.normal);
         let local = &mut self.now.local;
         local.z[0].copy_from_slice(&self.sketch.centre);
-        first_normal(equations, &mut self.inverter, local, reverse)
-            .map_err(|_| "the sketch is a singular point of its path: no direction of travel could be computed".to_owned())?;
-        local.z[0].copy_from_slice(&self.sketch.centre);
-        local
-            .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
+        local.normal.copy_from_slice(&self.first_normal);
+        self.test
+            .refine(equations, local, POINT_TOLERANCE)
             .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
-        local.expand(equations);
-        self.first_normal.copy_from_slice(&local.normal);
-        // The first rounds find the weights.
-        for _ in 0..3 {
-            self.test
-                .prove(equations, &self.now.local, &mut self.weights, max_h);
-        }
+        self.test.prepare(equations, &mut self.now, max_h);
         let mut limit = max_h;
         loop {
             match self.first_tube(limit) {
@@ -284,11 +330,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
     /// Proves the tube around the sketch, at most `limit` to either side, and that the sketch is in it.
     fn first_tube(&mut self, limit: f64) -> Result<(), Rejection> {
         let equations = &self.equations;
-        self.now.proof = self
-            .test
-            .prove(equations, &self.now.local, &mut self.weights, limit)
-            .ok_or(Rejection::Unproved)?;
-        self.now.weights.copy_from_slice(self.test.weights());
+        if !self.test.prove(equations, &mut self.now, limit) {
+            return Err(Rejection::Unproved);
+        }
         self.now.exit_at = EXIT * self.now.proof.h;
         self.test
             .enclose_exit(equations, &mut self.now)
@@ -299,10 +343,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .locate(&self.sketch)
             .filter(|entry| entry.1 < self.now.exit_at)
             .ok_or(Rejection::Unlinked)?;
-        self.kept_weights.copy_from_slice(&self.weights);
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.now, None)
-            .map_err(|_| Rejection::Undecided)
+            .map_err(|_| Rejection::Undecided)?;
+        self.test.accept(&self.now);
+        Ok(())
     }
 
     /// Adds the tube that is `advance` further on. Tells whether it closes the loop.
@@ -315,16 +360,12 @@ impl<'a, const D: usize> Tracker<'a, D> {
             &mut next.local.z[0],
             &mut next.local.normal,
         );
-        next.local
-            .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
+        self.test
+            .refine(equations, &mut next.local, POINT_TOLERANCE)
             .map_err(Rejection::Refine)?;
-        next.local.expand(equations);
-        self.kept_weights.copy_from_slice(&self.weights);
-        next.proof = self
-            .test
-            .prove(equations, &next.local, &mut self.weights, limit)
-            .ok_or(Rejection::Unproved)?;
-        next.weights.copy_from_slice(self.test.weights());
+        if !self.test.prove(equations, next, limit) {
+            return Err(Rejection::Unproved);
+        }
         next.exit_at = EXIT * next.proof.h;
         self.test
             .enclose_exit(equations, next)
@@ -347,6 +388,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.next, closing)
             .map_err(|_| Rejection::Undecided)?;
+        self.test.accept(&self.next);
         match &mut self.previous {
             Some(previous) => previous.copy_from_slice(&self.now.local.z[0]),
             None => self.previous = Some(self.now.local.z[0].clone()),
@@ -357,7 +399,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     /// Whether the sketch lies ahead of the entry in a tube, travelled in the same direction as
     /// at the start: where, if so.
-    fn closes(&self, tube: &Tube<D>) -> Result<Option<(f64, f64)>, Rejection> {
+    fn closes(&self, tube: &Tube<D, N, T::Frame>) -> Result<Option<(f64, f64)>, Rejection> {
         let m = self.equations.m;
         let (h, z) = (tube.proof.h, &tube.local.z[0]);
         // Most tubes are nowhere near: |z − z₀| ≤ 2 h is generous for a tube that holds z.
@@ -395,7 +437,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
     }
 
     fn condition(&self) -> String {
-        match self.now.local.condition(&self.equations) {
+        match condition(&self.equations, &self.now.local.z[0], &self.now.local.normal) {
             Some(condition) => format!(" (condition of the Jacobian about {condition:.1e})"),
             None => String::new(),
         }

@@ -16,10 +16,16 @@
 //! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
+use super::link::Tube;
 use super::norms::{MAX_CONTRACTION, Norms, Proof};
+use super::tracker::Test;
 use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
-use crate::track::full::{DEGREE, Equations, Lengths, Local, MAX_DEGREE, ORDER};
+use crate::system::Homotopy;
+use crate::track::full::{
+    DEGREE, Equations, InverseMaker, Lengths, Local, MAX_DEGREE, ORDER, RefineError,
+};
+use crate::track::{Driving, Options, Space};
 
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
@@ -43,6 +49,10 @@ pub struct KrawczykTest<const D: usize> {
     pub(super) f: Vector,
     u: Vector,
     square_u: Vector,
+    /// Weights for the next proof, and those to return to if it is rejected.
+    next_weights: Vector,
+    kept_weights: Vector,
+    maker: InverseMaker,
 }
 
 impl<const D: usize> KrawczykTest<D> {
@@ -51,6 +61,8 @@ impl<const D: usize> KrawczykTest<D> {
         let n = equations.n();
         let per_axis = || std::array::from_fn(|_| equations.per_edge());
         let entries = equations.pattern().entries();
+        let mut ones = equations.vector();
+        ones[..n].fill(1.0);
         KrawczykTest {
             a: Matrix::zeros(n, n),
             j1: vec![0.0; entries],
@@ -66,6 +78,9 @@ impl<const D: usize> KrawczykTest<D> {
             f: equations.vector(),
             u: equations.vector(),
             square_u: equations.vector(),
+            next_weights: ones.clone(),
+            kept_weights: ones,
+            maker: equations.inverter(),
         }
     }
 
@@ -370,5 +385,63 @@ impl<const D: usize> KrawczykTest<D> {
     /// A of the last proof.
     pub(super) fn moving_matrix(&self) -> &Matrix {
         &self.a
+    }
+}
+
+impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
+    type Frame = Matrix;
+    const SPACE: Space = Space::Full;
+
+    fn new(_: &Homotopy, equations: &Equations<D>, _: &Options) -> Self {
+        KrawczykTest::new(equations)
+    }
+
+    fn refine(
+        &mut self,
+        equations: &Equations<D>,
+        local: &mut Local<D>,
+        tolerance: f64,
+    ) -> Result<(), RefineError> {
+        local.refine(equations, &mut self.maker, tolerance, 8)?;
+        local.expand(equations);
+        Ok(())
+    }
+
+    fn prepare(&mut self, equations: &Equations<D>, tube: &mut Tube<D>, max_h: f64) {
+        // The first rounds find the weights.
+        let mut weights = std::mem::take(&mut self.next_weights);
+        for _ in 0..3 {
+            KrawczykTest::prove(self, equations, &tube.local, &mut weights, max_h);
+        }
+        self.next_weights = weights;
+    }
+
+    fn prove(&mut self, equations: &Equations<D>, tube: &mut Tube<D>, max_h: f64) -> bool {
+        self.kept_weights.copy_from_slice(&self.next_weights);
+        let mut weights = std::mem::take(&mut self.next_weights);
+        let proof = KrawczykTest::prove(self, equations, &tube.local, &mut weights, max_h);
+        self.next_weights = weights;
+        let Some(proof) = proof else { return false };
+        tube.proof = proof;
+        tube.weights.copy_from_slice(&self.u);
+        true
+    }
+
+    fn accept(&mut self, _: &Tube<D>) {}
+
+    fn reject(&mut self) {
+        self.next_weights.copy_from_slice(&self.kept_weights);
+    }
+
+    fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+        KrawczykTest::enclose_exit(self, equations, tube)
+    }
+
+    fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+        KrawczykTest::tighten_exit(self, equations, tube)
+    }
+
+    fn plans(&self) -> (usize, Driving) {
+        (0, Driving::default())
     }
 }

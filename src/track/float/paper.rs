@@ -1,9 +1,9 @@
 //! The paper's tracker in the full space, to set its figures beside ours (RR 8705, section 7.1).
 
 use super::Record;
-use crate::linalg::{Inverter, Matrix, Vector};
+use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
-use crate::track::full::{Equations, dot};
+use crate::track::full::{Equations, InverseMaker, dot};
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 
@@ -39,7 +39,7 @@ pub fn track<const D: usize>(
 struct Paper<'a, const D: usize> {
     homotopy: &'a Homotopy,
     equations: &'a Equations<D>,
-    inverter: Inverter,
+    inverter: InverseMaker,
     inverse: Matrix,
     values: Vec<f64>,
     f: Vector,
@@ -103,7 +103,7 @@ impl<'a, const D: usize> Paper<'a, D> {
                 at += 1;
             }
         }
-        self.inverter.invert(&self.values, &mut self.inverse).ok()
+        self.inverter.0.invert(&self.values, &mut self.inverse).ok()
     }
 
     fn run(

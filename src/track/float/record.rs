@@ -1,8 +1,8 @@
 //! What a float run in the full space has seen so far.
 
-use crate::linalg::{Inverter, Vector};
+use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::full::{Equations, Local};
+use crate::track::full::{Equations, InverseMaker, Local};
 use crate::track::{Driving, Mode, Outcome, Space, Status, observed_solutions};
 
 /// Two figures are the same solution if no coordinate differs by more than this times the
@@ -49,7 +49,7 @@ impl<const D: usize> Record<D> {
     pub fn solution(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
+        inverter: &mut InverseMaker,
         guess: &[f64],
     ) -> Option<()> {
         let m = equations.m;

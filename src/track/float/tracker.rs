@@ -1,10 +1,10 @@
 //! Predictor and corrector with steps chosen from the corrector's contraction.
 
 use super::Record;
-use crate::linalg::{Inverter, Vector};
+use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
-use crate::track::full::{Equations, Local, Meeting, ORDER, dot, first_normal, path_length};
+use crate::track::full::{Equations, InverseMaker, Local, Meeting, ORDER, dot, first_normal, path_length};
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 
@@ -157,7 +157,7 @@ impl<const D: usize> Events<D> {
     fn between(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
+        inverter: &mut InverseMaker,
         now: &Local<D>,
         next: &Local<D>,
         step: f64,
@@ -169,7 +169,7 @@ impl<const D: usize> Events<D> {
         let half = 0.5 * step;
         let back = self.middle(now, next, half);
         for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
-            let z = std::array::from_fn(|k| local.z[k][equations.m]);
+            let z: [f64; ORDER + 1] = std::array::from_fn(|k| local.z[k][equations.m]);
             let reach = 2.0 * (to - from);
             let time = TimeAlong::new(z, reach, error, 12.0 * error / step);
             time.crossings(from, to, &mut self.crossings).ok()?;

@@ -1,6 +1,7 @@
 //! H(X, t) laid out for the inner loops: one vector over all distances for each quantity.
 
 use crate::interval::rounding::{gamma, round_up};
+use super::preconditioner::InverseMaker;
 use crate::linalg::{Inverter, LANE, Sparse, Vector};
 use crate::system::Homotopy;
 
@@ -249,9 +250,12 @@ impl<const D: usize> Equations<D> {
         }
     }
 
-    /// An inverter for the Jacobian with its last row.
-    pub fn inverter(&self) -> Inverter {
-        Inverter::new(&self.bordered)
+    /// An inverter for the Jacobian with its last row, and room for that matrix's values.
+    pub fn inverter(&self) -> InverseMaker {
+        (
+            Inverter::new(&self.bordered),
+            vec![0.0; self.bordered.entries()],
+        )
     }
 
     /// The pattern of the Jacobian's derivatives along a curve, whose last row is zero.

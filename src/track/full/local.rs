@@ -1,12 +1,17 @@
 //! A point of the path with its preconditioner and the path's Taylor expansion there.
 
 use super::equations::{Equations, Lengths, MAX_DEGREE};
-use crate::linalg::{Inverter, LANE, Matrix, Vector};
+use super::preconditioner::Preconditioner;
+use crate::linalg::{LANE, Matrix, Vector};
 
-/// Degree of the Taylor polynomials.
+/// Degree of the Taylor polynomials where nothing else is said.
 pub const ORDER: usize = 5;
-/// The largest power of s in F(ẑ(s)).
+/// The largest power of s in F(ẑ(s)) at that degree.
 pub const DEGREE: usize = MAX_DEGREE * ORDER;
+/// The largest degree of Taylor polynomials anywhere.
+const MAX_ORDER: usize = 8;
+/// Room for the powers of t(s).
+const POWERS: usize = MAX_DEGREE * MAX_ORDER + 1;
 
 /// Why a predicted point could not be brought onto the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,22 +22,23 @@ pub enum RefineError {
     Diverged,
 }
 
-/// A point z₀ near the path, a unit normal c of the cross-section through it, a float matrix
+/// A point z₀ near the path, a unit normal c of the cross-section through it, a preconditioner
 /// Y ≈ [J; c]⁻¹, and the polynomial ẑ(s) = z₀ + s z₁ + … with c·ẑ(s) = c·z₀ + s that follows the path.
+/// It has N coefficients.
 #[derive(Debug, Clone)]
-pub struct Local<const D: usize> {
+pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// Coefficients z₀ … of ẑ.
-    pub z: [Vector; ORDER + 1],
+    pub z: [Vector; N],
     /// Their differences p_i − p_j, per axis and distance.
-    pub d: [[Vector; D]; ORDER + 1],
+    pub d: [[Vector; D]; N],
     /// Taylor coefficients of the lengths at t₀.
     pub lengths: Lengths,
     /// The normal c.
     pub normal: Vector,
     /// The preconditioner.
-    pub y: Matrix,
+    pub y: Y,
     /// Powers of t(s) − t₀: `powers[j - 1][k]` is the coefficient of sᵏ in its j-th power.
-    pub powers: [[f64; DEGREE + 1]; MAX_DEGREE],
+    pub powers: [[f64; POWERS]; MAX_DEGREE],
     /// The size of the first correction: how far the prediction was from the path.
     pub first_correction: f64,
     /// How much the corrections shrank at the first iteration, or zero if one was enough.
@@ -40,28 +46,31 @@ pub struct Local<const D: usize> {
     /// The sign of det [J; c] at the prediction. Along a path that is followed in one direction,
     /// c being near its tangent, it never changes.
     pub negative: bool,
-    /// Values of the sparse matrix [J; c].
-    values: Vec<f64>,
     f: Vector,
     delta: Vector,
 }
 
-impl<const D: usize> Local<D> {
+impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
+    /// The degree of ẑ.
+    pub const ORDER: usize = N - 1;
+    /// The largest power of s in F(ẑ(s)).
+    pub const DEGREE: usize = MAX_DEGREE * Self::ORDER;
+
     /// Room for one point.
     pub fn new(equations: &Equations<D>) -> Self {
-        let (m, n) = (equations.m, equations.n());
+        const { assert!(N > 1 && N - 1 <= MAX_ORDER, "room for the powers of t(s)") };
+        let m = equations.m;
         let vector = || equations.vector();
         Local {
             z: std::array::from_fn(|_| vector()),
             d: std::array::from_fn(|_| std::array::from_fn(|_| equations.per_edge())),
             lengths: Lengths::new(m),
             normal: vector(),
-            y: Matrix::zeros(n, n),
-            powers: [[0.0; DEGREE + 1]; MAX_DEGREE],
+            y: Y::new(equations),
+            powers: [[0.0; POWERS]; MAX_DEGREE],
             first_correction: 0.0,
             contraction: 0.0,
             negative: false,
-            values: vec![0.0; equations.bordered_pattern().entries()],
             f: vector(),
             delta: vector(),
         }
@@ -78,14 +87,13 @@ impl<const D: usize> Local<D> {
     pub fn precondition(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
+        maker: &mut Y::Maker,
     ) -> Result<(), RefineError> {
         self.look(equations);
-        equations.bordered_values(&self.d[0], &self.lengths, &self.normal, &mut self.values);
-        inverter
-            .invert(&self.values, &mut self.y)
+        self.negative = self
+            .y
+            .make(maker, equations, (&self.d[0], &self.lengths, &self.normal))
             .map_err(|_| RefineError::Singular)?;
-        self.negative = inverter.is_negative();
         Ok(())
     }
 
@@ -94,17 +102,17 @@ impl<const D: usize> Local<D> {
     pub fn refine(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
+        maker: &mut Y::Maker,
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<(), RefineError> {
         let (m, n) = (equations.m, equations.n());
-        self.precondition(equations, inverter)?;
+        self.precondition(equations, maker)?;
         let mut last = f64::INFINITY;
         self.contraction = 0.0;
         for iteration in 0..max_iterations {
             equations.residual(&self.d[0], &self.lengths, &mut self.f);
-            self.y.multiply(&self.f[..m], &mut self.delta);
+            self.y.solve(equations, &self.f[..m], &mut self.delta);
             let mut size = 0.0f64;
             for (z, delta) in self.z[0][..n].iter_mut().zip(self.delta.iter()) {
                 *z -= delta;
@@ -149,7 +157,7 @@ impl<const D: usize> Local<D> {
             equations.differences(z, &mut room.d);
             equations.expand_lengths(z[m], &mut room.lengths);
             equations.residual(&room.d, &room.lengths, &mut room.f);
-            self.y.multiply(&room.f[..m], &mut room.delta);
+            self.y.solve(equations, &room.f[..m], &mut room.delta);
             self.slope(s, &mut room.slope);
             // The next point is z − δ + ds ẑ'(s), with the ds that brings its t to the target.
             let ds = (target - z[m] + room.delta[m]) / room.slope[m];
@@ -178,19 +186,19 @@ impl<const D: usize> Local<D> {
     pub fn polish_at(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut Inverter,
+        maker: &mut Y::Maker,
         t: f64,
     ) -> Option<()> {
         let m = equations.m;
         self.normal.fill(0.0);
         self.normal[m] = 1.0;
         self.z[0][m] = t;
-        self.refine(equations, inverter, 1e-6, 20).ok()?;
+        self.refine(equations, maker, 1e-6, 20).ok()?;
         // Newton's method with the preconditioner of the refined point: the first correction
         // tells how near it was, further ones stop shrinking at the limit of precision.
         for _ in 0..3 {
             self.z[0][m] = t;
-            let refined = self.refine(equations, inverter, 1e-13, 20);
+            let refined = self.refine(equations, maker, 1e-13, 20);
             if refined.is_err() && (self.first_correction.is_nan() || self.first_correction > 1e-5)
             {
                 return None;
@@ -205,7 +213,7 @@ impl<const D: usize> Local<D> {
     /// same linear system, with what the earlier ones leave as its right-hand side.
     pub fn expand(&mut self, equations: &Equations<D>) {
         let (m, n) = (equations.m, equations.n());
-        for k in 1..=ORDER {
+        for k in 1..=Self::ORDER {
             // The terms of order k without z_k; the last row asks c·z₁ = 1, c·z_k = 0.
             self.set_power(k, 0.0);
             let mut f = std::mem::take(&mut self.f);
@@ -214,23 +222,25 @@ impl<const D: usize> Local<D> {
                 *lane = lane.map(|x| -x);
             }
             f[m] = if k == 1 { 1.0 } else { 0.0 };
-            self.y.multiply(&f[..n], &mut self.delta);
+            self.y.solve(equations, &f[..n], &mut self.delta);
             self.z[k].copy_from_slice(&self.delta);
-            // One step of iterative refinement, as Y was made at the prediction.
             equations.differences(&self.z[k], &mut self.d[k]);
-            self.subtract_jacobian_times(k, m, &mut f);
-            f[m] -= dot(&self.normal[..n], &self.z[k][..n]);
-            self.y.multiply(&f[..n], &mut self.delta);
-            for (z, delta) in self.z[k].lanes_mut().iter_mut().zip(self.delta.lanes()) {
-                for i in 0..LANE {
-                    z[i] += delta[i];
+            if !Y::FRESH {
+                // One step of iterative refinement, as Y was made at the prediction.
+                self.subtract_jacobian_times(k, m, &mut f);
+                f[m] -= dot(&self.normal[..n], &self.z[k][..n]);
+                self.y.solve(equations, &f[..n], &mut self.delta);
+                for (z, delta) in self.z[k].lanes_mut().iter_mut().zip(self.delta.lanes()) {
+                    for i in 0..LANE {
+                        z[i] += delta[i];
+                    }
                 }
+                equations.differences(&self.z[k], &mut self.d[k]);
             }
-            equations.differences(&self.z[k], &mut self.d[k]);
             self.set_power(k, self.z[k][m]);
             self.f = f;
         }
-        for k in ORDER + 1..=DEGREE {
+        for k in Self::ORDER + 1..=Self::DEGREE {
             self.set_power(k, 0.0);
         }
     }
@@ -257,7 +267,7 @@ impl<const D: usize> Local<D> {
         let [p1, p2, p3, p4] = &mut self.powers;
         p1[k] = t;
         let (mut s2, mut s3, mut s4) = (0.0, 0.0, 0.0);
-        for a in 1..k.min(ORDER + 1) {
+        for a in 1..k.min(Self::ORDER + 1) {
             s2 += p1[a] * p1[k - a];
             s3 += p1[a] * p2[k - a];
             s4 += p1[a] * p3[k - a];
@@ -269,7 +279,7 @@ impl<const D: usize> Local<D> {
     /// 0 for all of them, 1 for those without J z_k.
     #[inline(always)]
     pub fn coefficient(&self, equations: &Equations<D>, k: usize, least: usize, out: &mut Vector) {
-        let least = least.max(k.saturating_sub(ORDER));
+        let least = least.max(k.saturating_sub(Self::ORDER));
         let e2 = equations.e[2].lanes();
         let (square, linear) = (
             self.powers[1][k],
@@ -285,7 +295,7 @@ impl<const D: usize> Local<D> {
         }
         for a in least..=k / 2 {
             let b = k - a;
-            if b > ORDER {
+            if b > Self::ORDER {
                 continue;
             }
             let factor = if a == b { 0.5 } else { 1.0 };
@@ -331,24 +341,17 @@ impl<const D: usize> Local<D> {
     /// The polynomial is raised by one degree so that it also goes through `previous`, the point
     /// of the path where the expansion before was made: that costs no linear algebra.
     pub fn predict(&self, s: f64, previous: Option<&[f64]>, z: &mut Vector, normal: &mut Vector) {
-        let n = self.y.rows();
+        let n = self.z[0].len() - 1;
         self.at(s, z);
         self.slope(s, normal);
         if let Some(previous) = previous {
             let back = self.parameter_of(previous);
             let ratio = s / back;
-            let square = ratio * ratio;
-            let factor = square * square * square;
-            const {
-                assert!(
-                    ORDER == 5,
-                    "the factor is the (ORDER + 1)-st power of the ratio"
-                )
-            };
+            let factor = ratio.powi(Self::ORDER as i32 + 1);
             for i in 0..n {
                 let away = factor * (previous[i] - self.entry_at(i, back));
                 z[i] += away;
-                normal[i] += (ORDER + 1) as f64 / s * away;
+                normal[i] += (Self::ORDER + 1) as f64 / s * away;
             }
         }
         let size = dot(&normal[..n], &normal[..n]).sqrt();
@@ -357,23 +360,9 @@ impl<const D: usize> Local<D> {
         }
     }
 
-    /// A float estimate of the condition of [J; c], |·|_∞ of both factors.
-    pub fn condition(&self, equations: &Equations<D>) -> Option<f64> {
-        let n = equations.n();
-        let mut sums = equations.vector();
-        let largest = |sums: &[f64]| sums.iter().fold(0.0, |max: f64, &x| max.max(x));
-        equations
-            .bordered_pattern()
-            .row_sums_abs(&self.values, &mut sums);
-        let jacobian = largest(&sums);
-        self.y.multiply_abs(&vec![1.0; n], &mut sums);
-        let condition = jacobian * largest(&sums);
-        condition.is_finite().then_some(condition)
-    }
-
     /// The parameter of the cross-section that holds `point`: c·(point − z₀).
     pub fn parameter_of(&self, point: &[f64]) -> f64 {
-        let n = self.y.rows();
+        let n = self.z[0].len() - 1;
         let terms = point[..n]
             .iter()
             .zip(&self.z[0][..n])
@@ -384,7 +373,7 @@ impl<const D: usize> Local<D> {
     /// ẑ(s)_i.
     #[inline(always)]
     pub fn entry_at(&self, i: usize, s: f64) -> f64 {
-        (0..=ORDER)
+        (0..N)
             .rev()
             .fold(0.0, |sum: f64, k| sum.mul_add(s, self.z[k][i]))
     }
@@ -394,7 +383,7 @@ impl<const D: usize> Local<D> {
         let z = self.z.each_ref().map(|z| z.lanes());
         for (l, out) in out.lanes_mut().iter_mut().enumerate() {
             for i in 0..LANE {
-                out[i] = (0..=ORDER)
+                out[i] = (0..N)
                     .rev()
                     .fold(0.0, |sum: f64, k| sum.mul_add(s, z[k][l][i]));
             }
@@ -406,12 +395,34 @@ impl<const D: usize> Local<D> {
         let z = self.z.each_ref().map(|z| z.lanes());
         for (l, out) in out.lanes_mut().iter_mut().enumerate() {
             for i in 0..LANE {
-                out[i] = (1..=ORDER)
+                out[i] = (1..N)
                     .rev()
                     .fold(0.0, |sum: f64, k| sum.mul_add(s, k as f64 * z[k][l][i]));
             }
         }
     }
+}
+
+/// A float estimate of the condition of [J; c] at a point, |·|_∞ of both factors.
+pub fn condition<const D: usize>(
+    equations: &Equations<D>,
+    point: &[f64],
+    normal: &[f64],
+) -> Option<f64> {
+    let n = equations.n();
+    let mut local = Local::<D>::new(equations);
+    local.z[0].copy_from_slice(point);
+    local.normal.copy_from_slice(normal);
+    local.precondition(equations, &mut equations.inverter()).ok()?;
+    let mut values = vec![0.0; equations.bordered_pattern().entries()];
+    equations.bordered_values(&local.d[0], &local.lengths, normal, &mut values);
+    let mut sums = equations.vector();
+    let largest = |sums: &[f64]| sums.iter().fold(0.0, |max: f64, &x| max.max(x));
+    equations.bordered_pattern().row_sums_abs(&values, &mut sums);
+    let jacobian = largest(&sums);
+    local.y.multiply_abs(&vec![1.0; n], &mut sums);
+    let condition = jacobian * largest(&sums);
+    condition.is_finite().then_some(condition)
 }
 
 /// a·b, in four interleaved sums.

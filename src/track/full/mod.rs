@@ -5,8 +5,10 @@
 
 mod equations;
 mod local;
+mod preconditioner;
 mod start;
 
 pub use equations::{Equations, Lengths, MAX_DEGREE};
-pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, dot};
+pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, condition, dot};
+pub use preconditioner::{InverseMaker, Preconditioner};
 pub use start::{first_normal, path_length};

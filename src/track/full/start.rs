@@ -1,7 +1,7 @@
 //! Setting out from the sketch, and measuring what was travelled.
 
-use super::{Equations, Local, dot};
-use crate::linalg::{Inverter, Singular, Vector};
+use super::{Equations, InverseMaker, Local, Preconditioner, dot};
+use crate::linalg::{Singular, Vector};
 
 /// Finds the path's unit tangent at `local.z[0]` and sets it as normal: with t rising, or falling
 /// where `reverse` says so. Where t is stationary, the other way is the opposite direction still.
@@ -10,7 +10,7 @@ use crate::linalg::{Inverter, Singular, Vector};
 /// that is singular, as at a fold of t, with each of the coordinates.
 pub fn first_normal<const D: usize>(
     equations: &Equations<D>,
-    inverter: &mut Inverter,
+    inverter: &mut InverseMaker,
     local: &mut Local<D>,
     reverse: bool,
 ) -> Result<(), Singular> {
@@ -50,8 +50,8 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 /// The length of ẑ between two parameters, the coordinates counted in units of `unit`.
-pub fn path_length<const D: usize>(
-    local: &Local<D>,
+pub fn path_length<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    local: &Local<D, N, Y>,
     from: f64,
     to: f64,
     unit: f64,

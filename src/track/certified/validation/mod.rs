@@ -13,10 +13,10 @@ mod tubes;
 use super::link::Tube;
 use super::tube::KrawczykTest;
 use crate::interval::{Interval, hull, point};
-use crate::linalg::{Inverter, Matrix, Vector};
+use crate::linalg::{Matrix, Vector};
 use crate::problem::{Decimal, Problem};
 use crate::system::Homotopy;
-use crate::track::full::{Equations, ORDER, first_normal};
+use crate::track::full::{Equations, InverseMaker, ORDER, first_normal};
 use nalgebra::DMatrix;
 
 /// SplitMix64 (Steele, Lea, Flood 2014): the same numbers in every run.
@@ -363,7 +363,7 @@ impl<const D: usize> Sample<D> {
 /// What is needed to make tubes by hand.
 pub struct Workshop<const D: usize> {
     pub equations: Equations<D>,
-    pub inverter: Inverter,
+    pub inverter: InverseMaker,
     pub test: KrawczykTest<D>,
     pub weights: Vector,
     pub max_h: f64,

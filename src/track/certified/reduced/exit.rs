@@ -1,0 +1,162 @@
+//! Where the path leaves a tube.
+
+use super::elimination::MAX_KEYS;
+use super::frame::Reduction;
+use super::test::{COEFFICIENTS, ReducedTest};
+use crate::interval::rounding::{gamma, round_up};
+use crate::linalg::LANE;
+use crate::track::certified::link::{Frame, Tube, evaluation_error};
+use crate::track::full::{Equations, dot};
+
+/// Newton's method needs two or three.
+const MAX_STEPS: usize = 8;
+/// Corrections that shrink by less than this are at the limit of floats.
+const STAGNATION: f64 = 0.5;
+
+impl<const D: usize> ReducedTest<D> {
+    /// Encloses the path's point in the cross-section at `exit_at`: Newton's method in floats; then, as Φ contracts by q, the path's point is at most
+    /// |𝒴 G(w)|_ρ / (1 − q) from any w in the box.
+    pub(super) fn enclose(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, COEFFICIENTS, Reduction<D>>,
+    ) -> Option<()> {
+        let (m, n) = (equations.m, equations.n());
+        let (local, s) = (&tube.local, tube.exit_at);
+        let c = &local.normal[..n];
+        let out = &mut tube.exit;
+        local.at(s, &mut out.centre);
+        let mut last = f64::INFINITY;
+        let layout = &local.y.elimination.layout;
+        for step in 0..MAX_STEPS {
+            equations.differences(&out.centre, &mut self.d);
+            equations.expand_lengths(out.centre[m], &mut self.lengths);
+            equations.residual(&self.d, &self.lengths, &mut self.f);
+            // The steps stay in the cross-section.
+            self.f[m] = 0.0;
+            if step == 0 {
+                let at = (&self.d, &self.lengths, &local.normal);
+                self.there.make_like(layout, equations, at).ok()?;
+            }
+            self.there.solve(equations, &self.f[..n], &mut self.step);
+            let mut size = 0.0f64;
+            for (i, (x, step)) in out.centre[..n].iter_mut().zip(self.step.iter()).enumerate() {
+                *x -= step;
+                let ratio = step.abs() / tube.weights[i];
+                size = if ratio <= size { size } else { ratio };
+            }
+            if size.is_nan() || size > STAGNATION * last || size == 0.0 {
+                break;
+            }
+            last = size;
+        }
+        // The defect at the point reached, with what rounding may hide of it.
+        equations.differences(&out.centre, &mut self.d);
+        equations.expand_lengths(out.centre[m], &mut self.lengths);
+        equations.residual(&self.d, &self.lengths, &mut self.f);
+        equations.residual_error(&self.d, out.centre[m], &mut self.hidden);
+        let (mut along, mut error) = (0.0, 0.0);
+        let extent = local.y.extent(&tube.weights[..n], s, |i| {
+            let w = out.centre[i] - local.entry_at(i, s);
+            let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
+            along += c[i] * w;
+            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
+            (w, e)
+        });
+        self.f[m] = along;
+        self.hidden[m] = round_up(error, n + 8);
+        let radius = self.radius_from_defect(equations, &local.y, tube.proof.q)?;
+        if !(round_up(extent, 2 * MAX_KEYS + 40) < tube.proof.r && radius < tube.proof.r) {
+            return None;
+        }
+        for i in 0..n {
+            out.radius[i] = round_up(radius * tube.weights[i], 1);
+        }
+        Some(())
+    }
+
+    /// Encloses the path's tangent T at the exit, c·T = 1, into `tube.exit_slope`; returns its
+    /// radius in the norm of the tube's weights. T solves [J(P); c] T = e_n for the path's point P, which
+    /// is in the box, and is at most |𝒴 ([J(P); c] v − e_n)|_ρ / (1 − q) from any v.
+    pub(super) fn enclose_tangent(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, COEFFICIENTS, Reduction<D>>,
+    ) -> Option<f64> {
+        let (m, n) = (equations.m, equations.n());
+        let (local, s) = (&tube.local, tube.exit_at);
+        let (exit, v) = (&tube.exit, &mut tube.exit_slope);
+        let c = &local.normal[..n];
+        equations.differences(&exit.centre, &mut self.d);
+        equations.sums(&exit.radius, &mut self.sums);
+        equations.expand_lengths(exit.centre[m], &mut self.lengths);
+        let at = (&self.d, &self.lengths, &local.normal);
+        let layout = &local.y.elimination.layout;
+        self.there.make_like(layout, equations, at).ok()?;
+        local.slope(s, v);
+        for step in 0..=MAX_STEPS {
+            equations.differences(v, &mut self.dv);
+            equations.jacobian_times(&self.d, &self.lengths, &self.dv, v[m], &mut self.f);
+            self.f[m] = dot(c, &v[..n]) - 1.0;
+            if step == 3 {
+                break;
+            }
+            self.there.solve(equations, &self.f[..n], &mut self.step);
+            for (v, step) in v[..n].iter_mut().zip(self.step.iter()) {
+                *v -= step;
+            }
+        }
+        let hidden = &mut self.hidden;
+        equations.jacobian_times_error(
+            (&self.d, exit.centre[m]),
+            (&self.sums, exit.radius[m]),
+            (&self.dv, v[m]),
+            hidden,
+        );
+        let size: f64 = c.iter().zip(&v[..n]).map(|(c, v)| (c * v).abs()).sum();
+        hidden[m] = round_up(gamma(n + 4) * (size + 1.0), n + 4);
+        self.radius_from_defect(equations, &local.y, tube.proof.q)
+    }
+
+    /// A bound on |𝒴 g|_ρ / (1 − q) for any g within `hidden` of `f`, entry by entry.
+    fn radius_from_defect(
+        &mut self,
+        equations: &Equations<D>,
+        y: &Reduction<D>,
+        q: f64,
+    ) -> Option<f64> {
+        let (m, layout) = (equations.m, &y.elimination.layout);
+        for e in 0..=m {
+            let size = round_up(self.f[e].abs() + self.hidden[e], 2);
+            self.g[e] = [size, 0.0, 0.0, 0.0];
+        }
+        for block in &layout.blocks {
+            for r in 0..block.size {
+                self.g_a[block.start + r] = self.g[block.rows[r] as usize];
+            }
+        }
+        let resolvent = &y.resolvent;
+        resolvent.bound(equations, layout, &self.g_a, &mut self.y_a, &mut self.v_a);
+        let mut largest = 0.0f64;
+        for block in &layout.blocks {
+            for c in 0..block.size {
+                let ratio = self.v_a[block.start + c][0] / y.rho[block.unknowns[c] as usize];
+                largest = if ratio <= largest { largest } else { ratio };
+            }
+        }
+        let mut values = [0.0; MAX_KEYS];
+        let row = y.elimination.width * LANE;
+        for (z, g) in y.z_size.as_flattened().chunks_exact(row).zip(&self.g) {
+            for (value, z) in values.iter_mut().zip(z) {
+                *value = z.mul_add(g[0], *value);
+            }
+        }
+        for (&key, value) in layout.keys.iter().zip(values) {
+            let ratio = value / y.rho[key as usize];
+            largest = if ratio <= largest { largest } else { ratio };
+        }
+        let radius = round_up(largest, resolvent.roundings() + m + 40) / (1.0 - q);
+        let radius = round_up(radius, 4);
+        radius.is_finite().then_some(radius)
+    }
+}

@@ -1,0 +1,262 @@
+//! Products with the Jacobian and substitution through its blocks, for all key unknowns at once.
+//!
+//! A row holds one number per key unknown, in W lanes. Unknowns have one row each, and a row of
+//! zeros for fixed coordinates; equations have one row per distance, and one for the normal.
+
+use super::layout::{Block, Layout};
+use crate::linalg::{LANE, Vector};
+
+/// Four numbers in one register.
+pub type Lane = [f64; LANE];
+/// The numbers of one row.
+pub type Row<const W: usize> = [Lane; W];
+
+/// A derivative of the Jacobian along the path: differences per axis, and the slopes of the
+/// lengths' half squares.
+#[derive(Debug, Clone, Copy)]
+pub struct Derivative<'a, const D: usize> {
+    /// The ends of the distances, see [`crate::track::full::Equations::ends`].
+    pub ends: &'a [Vec<[u32; 2]>; D],
+    pub d: [&'a [f64]; D],
+    pub slope: &'a [f64],
+    /// Which unknown t is.
+    pub t: usize,
+}
+
+#[inline(always)]
+pub fn add<const W: usize>(sum: &mut Row<W>, factor: f64, row: &Row<W>) {
+    for w in 0..W {
+        for i in 0..LANE {
+            sum[w][i] = row[w][i].mul_add(factor, sum[w][i]);
+        }
+    }
+}
+
+impl<const D: usize> Derivative<'_, D> {
+    /// Row e of J K.
+    #[inline(always)]
+    pub fn row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
+        let mut sum = [[0.0; LANE]; W];
+        for axis in 0..D {
+            let [i, j] = self.ends[axis][e];
+            let (a, b, d) = (&k[i as usize], &k[j as usize], self.d[axis][e]);
+            for w in 0..W {
+                for l in 0..LANE {
+                    sum[w][l] = d.mul_add(a[w][l] - b[w][l], sum[w][l]);
+                }
+            }
+        }
+        add(&mut sum, -self.slope[e], &k[self.t]);
+        sum
+    }
+
+    /// `out += J K`.
+    pub fn times<const W: usize>(&self, k: &[Row<W>], out: &mut [Row<W>]) {
+        for e in 0..self.slope.len() {
+            let row = self.row(e, k);
+            add(&mut out[e], 1.0, &row);
+        }
+    }
+
+    /// `out += Zᵀ J`, without t: rows per equation times J, one row per unknown.
+    pub fn times_left<const W: usize>(&self, z: &[Row<W>], out: &mut [Row<W>]) {
+        for axis in 0..D {
+            for ((ends, d), z) in self.ends[axis].iter().zip(self.d[axis]).zip(z) {
+                let [i, j] = ends.map(|end| end as usize);
+                add(&mut out[i], *d, z);
+                add(&mut out[j], -*d, z);
+            }
+        }
+    }
+
+    /// `out += Zᵀ J` for one equation.
+    #[inline(always)]
+    pub fn add_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
+        for axis in 0..D {
+            let [i, j] = self.ends[axis][e].map(|end| end as usize);
+            add(&mut out[i], self.d[axis][e], z);
+            add(&mut out[j], -self.d[axis][e], z);
+        }
+    }
+
+    /// Sets the rows of A's unknowns so that the rows of A in J K + G vanish. They must be zero
+    /// before; those of key unknowns stay as they are.
+    pub fn substitute<const W: usize>(
+        &self,
+        layout: &Layout,
+        inverses: &[Inverse],
+        g: &[Row<W>],
+        k: &mut [Row<W>],
+    ) {
+        self.substitute_with(layout, inverses, k, |e, sum| add(sum, 1.0, &g[e]));
+    }
+
+    /// The same with G = 0.
+    pub fn substitute_alone<const W: usize>(
+        &self,
+        layout: &Layout,
+        inverses: &[Inverse],
+        k: &mut [Row<W>],
+    ) {
+        self.substitute_with(layout, inverses, k, |_, _| {});
+    }
+
+    #[inline(always)]
+    fn substitute_with<const W: usize>(
+        &self,
+        layout: &Layout,
+        inverses: &[Inverse],
+        k: &mut [Row<W>],
+        known: impl Fn(usize, &mut Row<W>),
+    ) {
+        for (block, inverse) in layout.blocks.iter().zip(inverses) {
+            let mut sums = [[[0.0; LANE]; W]; 3];
+            for r in 0..block.size {
+                let e = block.rows[r] as usize;
+                sums[r] = self.row(e, k);
+                known(e, &mut sums[r]);
+            }
+            for c in 0..block.size {
+                let row = &mut k[block.unknowns[c] as usize];
+                for r in 0..block.size {
+                    add(row, -inverse[c][r], &sums[r]);
+                }
+            }
+        }
+    }
+
+    /// Sets the rows of A's equations so that A's columns in T + Zᵀ J vanish, `t` being changed to
+    /// what is left when those after a block are in.
+    pub fn substitute_left<const W: usize>(
+        &self,
+        layout: &Layout,
+        inverses: &[Inverse],
+        t: &mut [Row<W>],
+        z: &mut [Row<W>],
+    ) {
+        for (block, inverse) in layout.blocks.iter().zip(inverses).rev() {
+            for r in 0..block.size {
+                let mut sum = [[0.0; LANE]; W];
+                for c in 0..block.size {
+                    add(&mut sum, -inverse[c][r], &t[block.unknowns[c] as usize]);
+                }
+                let e = block.rows[r] as usize;
+                z[e] = sum;
+                for axis in 0..D {
+                    let [i, j] = self.ends[axis][e].map(|end| end as usize);
+                    let other = if block.signs[r] > 0.0 { j } else { i };
+                    add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
+                }
+            }
+        }
+    }
+
+    /// The same as [`Derivative::substitute`] for one column of numbers, with `f − J x` to vanish.
+    pub fn solve(&self, layout: &Layout, inverses: &[Inverse], f: &[f64], x: &mut [f64]) {
+        for (block, inverse) in layout.blocks.iter().zip(inverses) {
+            let mut rest = [0.0; 3];
+            for r in 0..block.size {
+                let e = block.rows[r] as usize;
+                rest[r] = f[e] - self.row_of(e, x);
+            }
+            for c in 0..block.size {
+                x[block.unknowns[c] as usize] =
+                    (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
+            }
+        }
+    }
+
+    /// Row e of J x.
+    #[inline(always)]
+    pub fn row_of(&self, e: usize, x: &[f64]) -> f64 {
+        let mut sum = -self.slope[e] * x[self.t];
+        for axis in 0..D {
+            let [i, j] = self.ends[axis][e];
+            sum = self.d[axis][e].mul_add(x[i as usize] - x[j as usize], sum);
+        }
+        sum
+    }
+}
+
+/// The inverse of a diagonal block: `inverse[column][row]`.
+pub type Inverse = [[f64; 3]; 3];
+
+/// The entries of a diagonal block: `entries[row][column]`.
+pub fn entries<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
+    let mut out = [[0.0; 3]; 3];
+    for r in 0..block.size {
+        for c in 0..block.size {
+            let axis = block.axes[c] as usize;
+            out[r][c] = block.signs[r] * d[axis][block.rows[r] as usize];
+        }
+    }
+    out
+}
+
+/// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
+/// The last number is the largest sum of sizes over a row of block times inverse's: a condition.
+pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> (Inverse, f64) {
+    let a = entries(block, d);
+    let mut out = [[0.0; 3]; 3];
+    match block.size {
+        1 => out[0][0] = 1.0 / a[0][0],
+        2 => {
+            let scale = 1.0 / (a[0][0] * a[1][1] - a[0][1] * a[1][0]);
+            out[0] = [a[1][1] * scale, -a[0][1] * scale, 0.0];
+            out[1] = [-a[1][0] * scale, a[0][0] * scale, 0.0];
+        }
+        _ => {
+            let minor = |r: usize, c: usize| {
+                let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
+                a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
+            };
+            let determinant: f64 = (0..3).map(|c| a[0][c] * minor(0, c)).sum();
+            let scale = 1.0 / determinant;
+            for c in 0..3 {
+                for r in 0..3 {
+                    out[c][r] = minor(r, c) * scale;
+                }
+            }
+        }
+    }
+    // |inverse| times the rows' norms: not changed by scaling the equations.
+    let mut condition = 0.0f64;
+    for c in 0..block.size {
+        let mut sum = 0.0;
+        for r in 0..block.size {
+            let norm = (0..block.size).map(|c| a[r][c] * a[r][c]).sum::<f64>().sqrt();
+            sum += out[c][r].abs() * norm;
+        }
+        condition = if sum <= condition { condition } else { sum };
+    }
+    (out, condition)
+}
+
+/// Views of d as slices.
+pub fn slices<const D: usize>(d: &[Vector; D]) -> [&[f64]; D] {
+    d.each_ref().map(|d| &d[..])
+}
+
+/// Calls a function generic over the number of lanes in a row.
+macro_rules! with_width {
+    ($width:expr, $self:ident . $f:ident ( $($arg:expr),* $(,)? )) => {
+        match $width {
+            1 => $self.$f::<1>($($arg),*),
+            2 => $self.$f::<2>($($arg),*),
+            4 => $self.$f::<4>($($arg),*),
+            _ => $self.$f::<8>($($arg),*),
+        }
+    };
+}
+pub(super) use with_width;
+
+/// Lanes for so many key unknowns; `None`: too many.
+pub fn width_for(keys: usize) -> Option<usize> {
+    match keys.div_ceil(LANE) {
+        0 | 1 => Some(1),
+        2 => Some(2),
+        3 | 4 => Some(4),
+        5..=8 => Some(8),
+        _ => None,
+    }
+}
