@@ -127,7 +127,6 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
         });
         let omega = round_up((along.abs() + along_error) / self.least_advance()?, n + 8);
         let width = round_up(widest + omega * local.y.speed(proof), n + 8);
-        if std::env::var("DBG").is_ok() { eprintln!("L s/h {:.3} omega {omega:.2e} widest {widest:.2e} speed {:.2e} r {:.2e} dist {:.1e}", s/proof.h, local.y.speed(proof), proof.r, proof.distance); }
         (round_up(s.abs() + omega, 2) <= proof.h && width < proof.r)
             .then(|| ((s - omega).next_down(), (s + omega).next_up()))
     }
@@ -190,7 +189,6 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     pub fn leads_to(&self, next: &Self) -> Option<(f64, f64)> {
         let entry = next.locate(&self.exit)?;
         let normal = &next.local.normal;
-        if std::env::var("DBG").is_ok() { eprintln!("A {} {} {}", self.goes_along((self.exit_at, self.exit_at), normal), self.exit_is_tight && self.exit_goes_along(normal), self.proof.slope_distance); }
         let same_way = self.goes_along((self.exit_at, self.exit_at), normal)
             || self.exit_is_tight && self.exit_goes_along(normal);
         same_way.then_some(entry)

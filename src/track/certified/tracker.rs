@@ -437,7 +437,11 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     }
 
     fn condition(&self) -> String {
-        match condition(&self.equations, &self.now.local.z[0], &self.now.local.normal) {
+        match condition(
+            &self.equations,
+            &self.now.local.z[0],
+            &self.now.local.normal,
+        ) {
             Some(condition) => format!(" (condition of the Jacobian about {condition:.1e})"),
             None => String::new(),
         }

@@ -4,7 +4,9 @@ use super::Record;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
-use crate::track::full::{Equations, InverseMaker, Local, Meeting, ORDER, dot, first_normal, path_length};
+use crate::track::full::{
+    Equations, InverseMaker, Local, Meeting, ORDER, dot, first_normal, path_length,
+};
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! H(X, t) laid out for the inner loops: one vector over all distances for each quantity.
 
-use crate::interval::rounding::{gamma, round_up};
 use super::preconditioner::InverseMaker;
+use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::{Inverter, LANE, Sparse, Vector};
 use crate::system::Homotopy;
 

@@ -413,12 +413,16 @@ pub fn condition<const D: usize>(
     let mut local = Local::<D>::new(equations);
     local.z[0].copy_from_slice(point);
     local.normal.copy_from_slice(normal);
-    local.precondition(equations, &mut equations.inverter()).ok()?;
+    local
+        .precondition(equations, &mut equations.inverter())
+        .ok()?;
     let mut values = vec![0.0; equations.bordered_pattern().entries()];
     equations.bordered_values(&local.d[0], &local.lengths, normal, &mut values);
     let mut sums = equations.vector();
     let largest = |sums: &[f64]| sums.iter().fold(0.0, |max: f64, &x| max.max(x));
-    equations.bordered_pattern().row_sums_abs(&values, &mut sums);
+    equations
+        .bordered_pattern()
+        .row_sums_abs(&values, &mut sums);
     let jacobian = largest(&sums);
     local.y.multiply_abs(&vec![1.0; n], &mut sums);
     let condition = jacobian * largest(&sums);

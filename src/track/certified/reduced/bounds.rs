@@ -50,7 +50,11 @@ impl Bounds {
         let (mut lo, mut hi) = (0.0, self.h);
         let mut best = None;
         for _ in 0..40 {
-            let h = if lo == 0.0 { 0.7 * hi } else { (lo * hi).sqrt() };
+            let h = if lo == 0.0 {
+                0.7 * hi
+            } else {
+                (lo * hi).sqrt()
+            };
             match self.proof::<N>(h) {
                 Some(proof) => {
                     best = Some(proof);

@@ -85,7 +85,12 @@ impl<const D: usize> Elimination<D> {
         (d, lengths, normal): (&[Vector; D], &Lengths, &Vector),
     ) -> Result<(), Singular> {
         maker.waited += 1;
-        if std::env::var("FRESH").is_ok() { let l = maker.choose(d, maker.alpha); if l != *maker.layout { maker.layout = Arc::new(l); } }
+        if maker.waited > 0 {
+            let layout = maker.choose(d, maker.alpha);
+            if layout != *maker.layout {
+                maker.layout = Arc::new(layout);
+            }
+        }
         if maker.layout.keys() > maker.fewest && maker.waited > PATIENCE {
             let layout = maker.choose(d, RESTORE * maker.alpha);
             if layout.keys() < maker.layout.keys() {

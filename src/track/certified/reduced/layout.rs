@@ -59,16 +59,18 @@ impl<const D: usize> Order<D> {
         let mut distances = vec![Vec::new(); homotopy.points];
         for (edge, distance) in homotopy.edges.iter().enumerate() {
             let [i, j] = distance.points;
-            let (later, sign) = if rank[i] > rank[j] { (i, 1.0) } else { (j, -1.0) };
+            let (later, sign) = if rank[i] > rank[j] {
+                (i, 1.0)
+            } else {
+                (j, -1.0)
+            };
             distances[later].push((edge as u32, sign));
         }
         let spare = equations.n() as u32;
         let placed = |&point: &usize| Placed {
-            unknowns: std::array::from_fn(|axis| {
-                match homotopy.gauge.variable[point * D + axis] {
-                    fixed if fixed == equations.m => spare,
-                    free => free as u32,
-                }
+            unknowns: std::array::from_fn(|axis| match homotopy.gauge.variable[point * D + axis] {
+                fixed if fixed == equations.m => spare,
+                free => free as u32,
             }),
             distances: std::mem::take(&mut distances[point]),
         };
@@ -85,7 +87,9 @@ impl<const D: usize> Order<D> {
     pub fn layout(&self, d: &[Vector; D], alpha: f64) -> Layout {
         let mut layout = Layout::default();
         for point in &self.points {
-            let free: Vec<usize> = (0..D).filter(|&axis| point.unknowns[axis] <= self.t).collect();
+            let free: Vec<usize> = (0..D)
+                .filter(|&axis| point.unknowns[axis] <= self.t)
+                .collect();
             let mut rows: Vec<[f64; D]> = point
                 .distances
                 .iter()
@@ -143,7 +147,11 @@ impl<const D: usize> Order<D> {
             }
             // In the order of the axes and of the distances: which pivot came first does not matter.
             block.sort();
-            let left = point.distances.iter().zip(&taken).filter(|(_, taken)| !**taken);
+            let left = point
+                .distances
+                .iter()
+                .zip(&taken)
+                .filter(|(_, taken)| !**taken);
             layout.ignored.extend(left.map(|((edge, _), _)| edge));
             let keys = free.iter().filter(|&&axis| !used[axis]);
             layout.keys.extend(keys.map(|&axis| point.unknowns[axis]));
@@ -160,7 +168,9 @@ impl<const D: usize> Order<D> {
 impl Block {
     fn sort(&mut self) {
         let size = self.size;
-        let mut columns: Vec<_> = (0..size).map(|c| (self.axes[c], self.unknowns[c])).collect();
+        let mut columns: Vec<_> = (0..size)
+            .map(|c| (self.axes[c], self.unknowns[c]))
+            .collect();
         columns.sort_unstable();
         let mut rows: Vec<_> = (0..size).map(|r| (self.rows[r], self.signs[r])).collect();
         rows.sort_unstable_by_key(|row| row.0);

@@ -224,7 +224,10 @@ pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> (Inverse, f64) 
     for c in 0..block.size {
         let mut sum = 0.0;
         for r in 0..block.size {
-            let norm = (0..block.size).map(|c| a[r][c] * a[r][c]).sum::<f64>().sqrt();
+            let norm = (0..block.size)
+                .map(|c| a[r][c] * a[r][c])
+                .sum::<f64>()
+                .sqrt();
             sum += out[c][r].abs() * norm;
         }
         condition = if sum <= condition { condition } else { sum };

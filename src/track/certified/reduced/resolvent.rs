@@ -36,7 +36,6 @@ pub struct Resolvent<const D: usize> {
     roundings: usize,
 }
 
-
 impl<const D: usize> Resolvent<D> {
     /// Room for one.
     pub fn new(equations: &Equations<D>) -> Self {
@@ -174,7 +173,11 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
             for i in 0..LANE {
-                let one = if chunk + i == block.start + r { 1.0 } else { 0.0 };
+                let one = if chunk + i == block.start + r {
+                    1.0
+                } else {
+                    0.0
+                };
                 self.n[at + chunk + i] = (sums[0][i] - one).abs() + h * sums[1][i].abs();
             }
         }

@@ -7,17 +7,19 @@ use super::passes::{Derivative, Lane, Row, add, slices};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::{Equations, Local};
 
-/// Orders that are looked at with their signs: one more than the series have.
-pub const SIGNED: usize = SERIES + 1;
+/// Orders of J K that are looked at with their signs: two more than the series have.
+pub const SIGNED: usize = SERIES + 2;
+/// The same for Zᵀ J, which matters less.
+pub const SIGNED_LEFT: usize = SERIES + 1;
 
 /// What is left over, order by order, and work space.
 #[derive(Debug, Default)]
 pub struct Series {
-    /// J K at s⁰ … s³: a row per distance, and one for the normal. The ignored ones are S.
+    /// J K at s⁰ … s⁴: a row per distance, and one for the normal. The ignored ones are S.
     pub jk: [Vec<Lane>; SIGNED + 1],
     /// Zᵀ J at s⁰ … s³: a row per unknown, of which A's count.
-    pub zj: [Vec<Lane>; SIGNED + 1],
-    /// Slopes of the lengths' half squares at s⁰ … s³.
+    pub zj: [Vec<Lane>; SIGNED_LEFT + 1],
+    /// Slopes of the lengths' half squares at s⁰ … s⁴.
     pub slopes: [Vector; SIGNED + 1],
     t: Vec<Lane>,
     products: Vec<Lane>,
@@ -70,7 +72,7 @@ impl Series {
         let [k1, k2] = &mut y.k;
         let k0 = y.elimination.k.as_chunks::<W>().0;
         let (k1, k2) = (k1.as_chunks_mut::<W>().0, k2.as_chunks_mut::<W>().0);
-        let [jk0, jk1, jk2, jk3] = self.jk.each_mut().map(|rows| rows.as_chunks_mut::<W>().0);
+        let [jk0, jk1, jk2, jk3, jk4] = self.jk.each_mut().map(|rows| rows.as_chunks_mut::<W>().0);
         jacobians[0].times(k0, jk0);
         normal_times(normal, k0, &mut jk0[m]);
         jacobians[1].times(k0, jk1);
@@ -85,6 +87,9 @@ impl Series {
         jacobians[3].times(k0, jk3);
         jacobians[2].times(k1, jk3);
         jacobians[1].times(k2, jk3);
+        jacobians[4].times(k0, jk4);
+        jacobians[3].times(k1, jk4);
+        jacobians[2].times(k2, jk4);
 
         // Z: order by order, first the ignored equations' rows from S, then those of A so that
         // (Zᵀ J)_q = 0 in the columns of A.
@@ -140,10 +145,10 @@ impl Series {
                 }
             }
         }
-        let zj = self.zj[SIGNED].as_chunks_mut::<W>().0;
+        let zj = self.zj[SIGNED_LEFT].as_chunks_mut::<W>().0;
         for (i, z) in y.z.iter().enumerate() {
             let z = z.as_chunks::<W>().0;
-            jacobians[SIGNED - i].times_left(&z[..m], zj);
+            jacobians[SIGNED_LEFT - i].times_left(&z[..m], zj);
         }
     }
 
@@ -164,6 +169,7 @@ impl Series {
 }
 
 /// `products[j] += Σ_l S[l][j] P[l]`: the columns of P S, P's rows being transposed.
+#[inline(always)]
 pub fn add_product<const W: usize>(
     rows: &[usize],
     p: &[Row<W>],

@@ -78,8 +78,8 @@ pub struct ReducedTest<const D: usize> {
     kept: Vector,
     /// The expected half length of the next tube.
     expected: f64,
-    /// Σ_{k≥j} |d_k| Hᵏ for j = 0, 2, 3, 4, and Σ k |d_k| Hᵏ⁻¹.
-    sizes: [[Vector; D]; 5],
+    /// Σ_{k≥j} |d_k| Hᵏ for j = 0, 2, 3, 4, 5, and Σ k |d_k| Hᵏ⁻¹.
+    sizes: [[Vector; D]; 6],
     /// |K_i| Hⁱ times the key unknowns' weights; their sum, then |w|; ρ; A's part of it.
     moved: [Vector; SERIES + 1],
     omega: Vector,
@@ -172,7 +172,7 @@ impl<const D: usize> ReducedTest<D> {
         // roundings than this.
         let per_entry = gamma(m + 2 * MAX_KEYS + 200);
         self.add_sizes(local, &hs);
-        let [all, from2, from3, from4, slopes] = &self.sizes;
+        let [all, from2, from3, from4, from5, slopes] = &self.sizes;
 
         // |A(s)⁻¹|.
         for (axis, spread) in local.y.resolvent.spread_mut().iter_mut().enumerate() {
@@ -183,8 +183,10 @@ impl<const D: usize> ReducedTest<D> {
         }
         let d = [&local.d[0], &local.d[1]];
         let y = &mut local.y;
-        if !y.resolvent.make(equations, &layout, &y.elimination.inverses, d, h) {
-            if std::env::var("DBG").is_ok() { eprintln!("resolvent"); }
+        if !y
+            .resolvent
+            .make(equations, &layout, &y.elimination.inverses, d, h)
+        {
             return None;
         }
         let roundings = y.resolvent.roundings();
@@ -271,16 +273,16 @@ impl<const D: usize> ReducedTest<D> {
         }
         // First round of right-hand sides, with the key unknowns' weights for the box: low, cubic,
         // width, high.
-        let jk3 = self.series.jk[SIGNED].as_chunks::<W>().0;
+        let [jk3, jk4] = [3, 4].map(|q| self.series.jk[q].as_chunks::<W>().0);
         let sum2 = |x: &Vector, ends: [u32; 2]| x[ends[0] as usize] + x[ends[1] as usize];
         let t = m;
         for e in 0..m {
             let (mut cubic, mut width, mut size) = (slope_tail(e) * self.omega[t], 0.0, 0.0);
             for axis in 0..D {
                 let ends = equations.ends[axis][e];
-                cubic += from4[axis][e] * sum2(&self.moved[0], ends)
-                    + from3[axis][e] * sum2(&self.moved[1], ends)
-                    + from2[axis][e] * sum2(&self.moved[2], ends);
+                cubic += from5[axis][e] * sum2(&self.moved[0], ends)
+                    + from4[axis][e] * sum2(&self.moved[1], ends)
+                    + from3[axis][e] * sum2(&self.moved[2], ends);
                 let both = sum2(&self.omega, ends);
                 width += both * both;
                 size += all[axis][e] * all[axis][e];
@@ -293,7 +295,6 @@ impl<const D: usize> ReducedTest<D> {
         self.g[m] = [0.0; LANE];
         let resolvent = &y.resolvent;
         let zhat = y.z_size.as_chunks::<W>().0;
-        // Ignored equations first, as those of A have E₃ besides.
         let through_z = |g: &[Lane]| -> [PerKey; LANE] {
             let mut out = [[0.0; MAX_KEYS]; LANE];
             for (z, g) in zhat.iter().zip(g) {
@@ -308,8 +309,10 @@ impl<const D: usize> ReducedTest<D> {
         for block in &layout.blocks {
             for r in 0..block.size {
                 let e = block.rows[r] as usize;
-                self.g[e][1] += hs[SIGNED] * weigh(&jk3[e], &kappa_rows);
-                self.g_a[block.start + r] = self.g[e];
+                let mut g = self.g[e];
+                // For the key unknowns these are counted with their signs, see `left_over_of_s`.
+                g[1] += hs[3] * weigh(&jk3[e], &kappa_rows) + hs[4] * weigh(&jk4[e], &kappa_rows);
+                self.g_a[block.start + r] = g;
             }
         }
         resolvent.bound(equations, &layout, &self.g_a, &mut self.y_a, &mut self.v_a);
@@ -333,7 +336,6 @@ impl<const D: usize> ReducedTest<D> {
         };
         let (used, widest) = (largest(&cubic), largest(&width));
         if !(used < TOO_LONG && widest > 0.0) {
-            if std::env::var("DBG").is_ok() { eprintln!("used {used} left3 {:?} cubic {:?}", &left3[..keys], &cubic[..keys]); }
             return None;
         }
         let scale = 0.5 * (1.0 - used) / widest;
@@ -458,14 +460,16 @@ impl<const D: usize> ReducedTest<D> {
     fn add_sizes(&mut self, local: &Locals<D>, hs: &[f64; DEGREE + 1]) {
         for axis in 0..D {
             let d: [&[Lane]; COEFFICIENTS] = std::array::from_fn(|k| local.d[k][axis].lanes());
-            let [all, from2, from3, from4, slopes] =
+            let [all, from2, from3, from4, from5, slopes] =
                 self.sizes.each_mut().map(|v| v[axis].lanes_mut());
             for l in 0..all.len() {
                 for i in 0..LANE {
                     let size = |k: usize| d[k][l][i].abs() * hs[k];
-                    let four = (4..=ORDER).rev().fold(0.0, |sum: f64, k| sum + size(k));
+                    let five = (5..=ORDER).rev().fold(0.0, |sum: f64, k| sum + size(k));
+                    let four = five + size(4);
                     let three = four + size(3);
                     let two = three + size(2);
+                    from5[l][i] = five;
                     from4[l][i] = four;
                     from3[l][i] = three;
                     from2[l][i] = two;
@@ -499,7 +503,7 @@ impl<const D: usize> ReducedTest<D> {
                 }
             }
         }
-        let [_, from2, from3, from4, _] = &self.sizes;
+        let [_, from2, from3, from4, _, _] = &self.sizes;
         let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
         for e in 0..equations.m {
             let mut tails = [0.0; 3];
@@ -546,7 +550,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 }
 
-/// |P S − I| times the key unknowns' weights: what does not get smaller with s, and what does like s³.
+/// |P S − V E − I| times the key unknowns' weights, but for what V E has at low orders by rounding: what does not get smaller with s, and what does like s³.
 fn left_over_of_s<const W: usize>(
     series: &Series,
     products: &mut Vec<Lane>,
@@ -565,10 +569,16 @@ fn left_over_of_s<const W: usize>(
         products.resize(keys * W, [0.0; LANE]);
         let columns = products.as_chunks_mut::<W>().0;
         for i in q.saturating_sub(SIGNED)..=SERIES.min(q) {
-            let s = series.jk[q - i].as_chunks::<W>().0;
-            add_product(&rows[..keys], zs[i], s, columns);
+            let jk = series.jk[q - i].as_chunks::<W>().0;
+            add_product(&rows[..keys], zs[i], jk, columns);
+            if q - i > SERIES {
+                for block in &layout.blocks {
+                    let rows = block.rows.map(|e| e as usize);
+                    add_product(&rows[..block.size], zs[i], jk, columns);
+                }
+            }
         }
-        let out = &mut out[(q >= SIGNED) as usize];
+        let out = &mut out[(q > SERIES) as usize];
         for (j, column) in columns.iter_mut().enumerate() {
             if q == 0 {
                 column[j / LANE][j % LANE] -= 1.0;
@@ -640,8 +650,7 @@ impl Time {
     fn slope<const D: usize>(&self, equations: &Equations<D>, e: usize) -> (f64, f64) {
         let t = self.t;
         let [c, r] = coefficients(equations, e);
-        let value =
-            |c: [f64; 5]| c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + 4.0 * t * c[4]));
+        let value = |c: [f64; 5]| c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + 4.0 * t * c[4]));
         (value(c), value(r))
     }
 
@@ -677,7 +686,9 @@ pub(super) fn weigh<const W: usize>(k: &Row<W>, kappa: &Row<W>) -> f64 {
 }
 
 fn rows_of<const W: usize>(values: &PerKey) -> Row<W> {
-    values.as_chunks::<LANE>().0[..W].try_into().expect("W lanes")
+    values.as_chunks::<LANE>().0[..W]
+        .try_into()
+        .expect("W lanes")
 }
 
 /// 1, h, h², …: each with at most DEGREE roundings.
@@ -737,7 +748,6 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         for _ in 0..120 {
             let width = tube.local.y.elimination.width;
             let bounds = with_width!(width, self.bounds(equations, tube, h));
-            if std::env::var("DBG").is_ok() { eprintln!("T H {h:.3e} {:?} {:?}", bounds, bounds.and_then(|b| b.longest::<COEFFICIENTS>()).map(|p| (p.h, p.r, p.distance, p.q))); }
             if let Some(proof) = bounds.and_then(|bounds| bounds.longest::<COEFFICIENTS>()) {
                 tube.proof = proof;
                 tube.weights[..n].copy_from_slice(&self.omega[..n]);
