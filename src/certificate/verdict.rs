@@ -73,11 +73,9 @@ pub enum Flaw {
     /// A solution that the path does not meet.
     #[error("solution {0} was not met by the path")]
     Unmet(usize),
-    /// The reference is turned over.
-    #[error(
-        "in solution {0} the reference is degenerate or turned over, so that classes are not decided by coordinates"
-    )]
-    Reference(usize),
+    /// Nothing is proved about two figures.
+    #[error("it could not be decided whether solutions {0} and {1} are congruent")]
+    Congruence(usize, usize),
     /// A wrong class.
     #[error("solution {0} is listed in class {1}, which is not proved")]
     Class(usize, u32),

@@ -45,12 +45,6 @@ impl Equations {
         }
     }
 
-    /// Whether an unknown changes its sign in the mirror image.
-    pub fn is_mirrored(&self, i: usize) -> bool {
-        let d = self.homotopy.dimension;
-        self.homotopy.gauge.place[i] % d == d - 1
-    }
-
     pub fn differences(&self, z: &[Interval]) -> Differences {
         let ends = self.ends.iter();
         ends.map(|e| e.map(|[i, j]| if i == j { ZERO } else { z[i] - z[j] }))

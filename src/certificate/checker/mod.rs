@@ -295,15 +295,12 @@ impl Chain {
             if let Some(j) = (0..k).find(touching) {
                 return Err(Flaw::Overlap(j + 1, k + 1));
             }
-            if !solution.has_reference(&self.eq) {
-                return Err(Flaw::Reference(k + 1));
-            }
             let mut class = None;
             for j in 0..k {
-                match solution.is_mirror_image(&self.solutions[j], &self.eq) {
-                    Some(true) => class = Some(verdict.classes[j]),
-                    Some(false) => {}
-                    None => return Err(Flaw::Class(k + 1, end.classes[k])),
+                let other = &self.solutions[j];
+                let congruent = solution.is_congruent(other, &self.eq);
+                if congruent.ok_or(Flaw::Congruence(j + 1, k + 1))? {
+                    class = Some(verdict.classes[j]);
                 }
             }
             let next = verdict.classes.iter().max().map_or(0, |c| c + 1);

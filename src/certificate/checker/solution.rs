@@ -88,11 +88,39 @@ impl Solution {
         pairs.into_iter().any(|(a, b)| !(*a - *b).contains(0.0))
     }
 
-    /// Whether the other box holds this one's solution mirrored. `None`: it cannot be told.
-    pub fn is_mirror_image(&self, other: &Solution, eq: &Equations) -> Option<bool> {
+    /// Whether the two boxes' different solutions are congruent up to reflection. `None`: it
+    /// cannot be told.
+    ///
+    /// The isometries that keep the gauge change signs of coordinates. The second reference
+    /// point's first coordinate and the third's second tell which signs one of them has to change
+    /// to make the figures equal; that of the last coordinate is free.
+    pub fn is_congruent(&self, other: &Solution, eq: &Equations) -> Option<bool> {
+        let (gauge, d) = (&eq.homotopy.gauge, eq.homotopy.dimension);
+        let mut turned = [false; 3];
+        for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
+            let i = gauge.variable[p * d + axis];
+            let sides = self.figure[i] * other.figure[i];
+            if sides.contains(0.0) {
+                return None;
+            }
+            turned[axis] = sides.sup() < 0.0;
+        }
+        for last in [false, true] {
+            turned[d - 1] = last;
+            // Without any change of sign they differ: their boxes are disjoint.
+            if turned != [false; 3] && self.is_image(other, turned, eq)? {
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    /// Whether the other box holds this one's solution with signs changed along some axes.
+    fn is_image(&self, other: &Solution, turned: [bool; 3], eq: &Equations) -> Option<bool> {
         let (mut apart, mut same) = (false, true);
         for i in 0..eq.m {
-            let x = if eq.is_mirrored(i) {
+            let axis = eq.homotopy.gauge.place[i] % eq.homotopy.dimension;
+            let x = if turned[axis] {
                 -self.figure[i]
             } else {
                 self.figure[i]
@@ -100,21 +128,11 @@ impl Solution {
             apart |= !(x - other.figure[i]).contains(0.0);
             same &= size(x - other.centre[i]).sup() < other.alone_within.inf();
         }
-        // The mirror image is a solution too, and the other is the only one that near.
+        // The image is a solution too, and the other is the only one that near.
         if same {
             Some(true)
         } else {
             apart.then_some(false)
         }
-    }
-
-    /// Whether the reference is seen the right way round: congruent figures have coordinates
-    /// that are equal or mirrored only then.
-    pub fn has_reference(&self, eq: &Equations) -> bool {
-        let (gauge, d) = (&eq.homotopy.gauge, eq.homotopy.dimension);
-        let reference = gauge.reference.iter().enumerate().skip(1);
-        reference
-            .into_iter()
-            .all(|(rank, &p)| self.figure[gauge.variable[p * d + rank - 1]].inf() > 0.0)
     }
 }
