@@ -56,12 +56,9 @@ pub enum Flaw {
     /// There is nothing to travel.
     #[error("in tube {0} the path's exit does not lie behind its entry for certain")]
     Backwards(u64),
-    /// Crossings cannot be counted.
-    #[error("in tube {0} it cannot be decided whether the path meets t = 1")]
-    Undecided(u64),
     /// A crossing without a solution.
     #[error(
-        "in tube {0} the path meets t = 1 between s = {1:e} and {2:e}, and none of the solutions listed so far lies there for certain"
+        "tube {0} may meet t = 1 between {1} and {2} of its half length, and none of the solutions listed so far is certain to be all that lies there"
     )]
     Unlisted(u64, f64, f64),
     /// A box is no box.
