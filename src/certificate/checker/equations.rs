@@ -56,7 +56,11 @@ impl Equations {
 
     /// E'' on a range of t.
     pub fn bend(&self, e: usize, t: Interval) -> Interval {
-        let c = self.homotopy.lengths[e].half_square();
-        c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0)))
+        let length = &self.homotopy.lengths[e];
+        let c = length.half_square();
+        match length.degree {
+            2 => c[2] * point(2.0),
+            _ => c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))),
+        }
     }
 }

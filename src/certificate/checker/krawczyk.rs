@@ -2,7 +2,7 @@
 //! polynomial. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
-use super::whole::{Columns, J_BITS, LIMIT, Whole, exact, invert, power, size, split};
+use super::whole::{Columns, J_BITS, LIMIT, Whole, above, exact, invert, power, size, split};
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::interval::{Interval, point};
 
@@ -121,8 +121,9 @@ impl<'a> Curve<'a> {
             if k == 0 {
                 return half - l[0];
             }
-            let terms = (1..=self.eq.homotopy.lengths[e].degree).map(|j| l[j] * self.powers[j][k]);
-            terms.fold(half, |sum, x| sum - x)
+            let powers = (1..=self.eq.homotopy.lengths[e].degree).map(|j| (j, self.powers[j][k]));
+            let powers = powers.filter(|&(_, power)| power != ZERO);
+            powers.fold(half, |sum, (j, power)| sum - l[j] * power)
         };
         // Beyond 2 ORDER there are only powers of t, in the one length that bends.
         let zero = |e: usize| k > 2 * ORDER && e != self.eq.homotopy.bend;
@@ -146,7 +147,10 @@ impl<'a> Curve<'a> {
     /// of it lost to `rests`.
     fn jacobian(&self, k: usize, u: &[u16], rests: &mut [Interval]) -> Result<Columns, Fault> {
         let m = self.eq.m;
-        let shift = u32::try_from(self.bits + WEIGHT_BITS - J_BITS).map_err(|_| LARGE)?;
+        let shift = self.bits + WEIGHT_BITS - J_BITS;
+        if shift < 1 {
+            return Err(LARGE);
+        }
         let mut columns: Columns = vec![Vec::new(); m + 1];
         for e in 0..m {
             for (ends, &d) in self.eq.ends[e].iter().zip(&self.differences[k][e]) {
@@ -166,10 +170,10 @@ impl<'a> Curve<'a> {
         Ok(columns)
     }
 
-    /// Per distance and axis the weights of the two coordinates, added.
-    fn widths(&self, e: usize, u: &[u16]) -> [Interval; 3] {
-        let weight_of = |i: usize| u.get(i).map_or(ZERO, |&u| weight(u));
-        self.eq.ends[e].map(|[i, j]| weight_of(i) + weight_of(j))
+    /// Per axis the weights of a distance's two coordinates, added.
+    fn widths(&self, e: usize, u: &[u16]) -> [u64; 3] {
+        let weight = |i: usize| u.get(i).map_or(0, |&u| u.into());
+        self.eq.ends[e].map(|[i, j]| weight(i) + weight(j))
     }
 
     /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `inverse`, near
@@ -198,44 +202,43 @@ impl<'a> Curve<'a> {
         }
         let t = polynomial(&self.z, m, around(point(1.0))) + around(r * weight(u[m]));
         let (mut wide, mut turn) = (vec![ZERO; n], vec![ZERO; n]);
+        let t_slope = (1..=order).fold(ZERO, |sum, k| sum + point(k as f64) * size(self.z[k][m]));
         for e in 0..m {
-            // Sizes of differences have 53 bits.
-            let largest = |k: usize, axis: usize| {
-                let whole = self.differences[k][e][axis].abs();
-                point(whole as f64 * power(-self.bits))
-            };
-            let bend = size(self.eq.bend(e, t)) * weight(u[m]);
-            let slopes =
-                (1..=order).fold(ZERO, |sum, k| sum + point(k as f64) * size(self.z[k][m]));
-            wide[e] = bend * weight(u[m]);
-            turn[e] = bend * slopes;
-            for (axis, width) in self.widths(e, u).into_iter().enumerate() {
-                wide[e] += width.sqr();
-                for k in 1..=order {
-                    let change = width * largest(k, axis);
-                    turn[e] += point(k as f64) * change;
-                    rests[e] += if k > 2 { change } else { ZERO };
-                }
+            let widths = self.widths(e, u);
+            let square: u64 = widths.iter().map(|w| w * w).sum();
+            let (mut beyond, mut slope) = (0u128, 0u128);
+            for (k, differences) in self.differences.iter().enumerate().skip(1) {
+                let sizes = differences[e].iter().zip(widths);
+                let sizes = sizes.map(|(d, w)| u128::from(d.unsigned_abs()) * u128::from(w));
+                let change: u128 = sizes.sum();
+                slope += k as u128 * change;
+                beyond += if k > 2 { change } else { 0 };
             }
             let degree = self.eq.homotopy.lengths[e].degree;
             let slopes = (3..=(degree - 1) * order).map(|k| size(self.slope(e, k)));
-            rests[e] += slopes.fold(ZERO, |sum, x| sum + x) * weight(u[m]);
+            let slopes = slopes.fold(ZERO, |sum, x| sum + x) * weight(u[m]);
+            rests[e] += above(beyond, self.bits + WEIGHT_BITS) + slopes;
+            let bend = size(self.eq.bend(e, t)) * weight(u[m]);
+            wide[e] = above(square.into(), 2 * WEIGHT_BITS) + bend * weight(u[m]);
+            turn[e] = above(slope, self.bits + WEIGHT_BITS) + bend * t_slope;
         }
 
         // The first coefficients of F(ẑ(σ)) are as good as zero: their sizes will do.
-        let mut small = [vec![ZERO; n], vec![ZERO; n]];
-        let mut defects = [ZERO; 2];
+        let (mut small, mut small_slope) = (vec![ZERO; n], vec![ZERO; n]);
+        let (mut defect, mut defect_slope) = (ZERO, ZERO);
         for k in 0..=if order > 0 { DEGREE } else { 0 } {
             let mut f = self.residual(k);
-            let times = [point(1.0), point(k as f64)];
-            for (d, times) in times.into_iter().enumerate() {
-                if (1..=ORDER).contains(&k) || k > 2 * ORDER {
-                    let sums = small[d].iter_mut().zip(&f);
-                    sums.for_each(|(sum, &f)| *sum += times * size(f));
-                } else {
-                    f.resize(n, ZERO);
-                    defects[d] += times * y.image(&f);
+            let times = point(k as f64);
+            if (1..=ORDER).contains(&k) || k > 2 * ORDER {
+                for (e, &f) in f.iter().enumerate() {
+                    small[e] += size(f);
+                    small_slope[e] += times * size(f);
                 }
+            } else {
+                f.resize(n, ZERO);
+                let image = y.image(&f);
+                defect += image;
+                defect_slope += times * image;
             }
         }
         let bound = |v: &[Interval]| {
@@ -245,8 +248,8 @@ impl<'a> Curve<'a> {
         Ok(Test {
             stiff: upper(moving * (stiff + bound(&rests)) + square),
             width: upper(moving * bound(&wide)),
-            defect: upper(moving * (defects[0] + bound(&small[0]))),
-            defect_slope: upper(moving * (defects[1] + bound(&small[1]))),
+            defect: upper(moving * (defect + bound(&small))),
+            defect_slope: upper(moving * (defect_slope + bound(&small_slope))),
             turn: upper(moving * bound(&turn)),
         })
     }
@@ -349,13 +352,17 @@ impl Inverse {
     }
 }
 
-/// The last row of [J; c] U. It loses less than half a unit per entry.
+/// The last row of [J; c] U, rounded.
 fn add_normal(j0: &mut Columns, c: &[f64], u: &[u16], rests: &mut [Interval]) -> Result<(), Fault> {
     let m = c.len() - 1;
-    for (i, column) in j0.iter_mut().enumerate() {
-        let (entry, rest) = split(exact(c[i]) * weight(u[i])).ok_or(LARGE)?;
-        column.push((m, entry));
-        rests[m] += rest;
+    for ((column, &c), &u) in j0.iter_mut().zip(c).zip(u) {
+        // Normals have 24 bits and weights 16: all is exact up to the rounding to a whole number.
+        let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS)).round();
+        if entry.abs() >= LIMIT {
+            return Err(LARGE);
+        }
+        column.push((m, entry as i64));
+        rests[m] += point(power(-J_BITS));
     }
     Ok(())
 }

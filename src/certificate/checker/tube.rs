@@ -123,7 +123,7 @@ impl Tube {
     /// Accounts for all parameters of a range: the path meets t = 1 in no other point of it than
     /// these solutions, which have t = 1. `Err`: a range where this fails.
     pub fn account(&self, range: Interval, solutions: &[Place]) -> Result<Stretch, (f64, f64)> {
-        const PARTS: u32 = 32;
+        const PARTS: u32 = 16;
         let width = range.sup() - range.inf();
         let cut = |k: u32| match k {
             PARTS => range.sup(),

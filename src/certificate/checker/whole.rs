@@ -68,7 +68,7 @@ pub fn split(x: Interval) -> Option<(i64, Interval)> {
 }
 
 /// At least x 2^−bits: the conversion rounds to nearest, and one step up covers it.
-fn above(x: u128, bits: i32) -> Interval {
+pub fn above(x: u128, bits: i32) -> Interval {
     exact(((x as f64).next_up() * power(-bits)).next_up())
 }
 
@@ -183,36 +183,36 @@ impl Whole {
     }
 }
 
-/// A float inverse, or nothing where there is none: Gauss and Jordan, with row pivots.
+/// A float inverse, or nothing where there is none: Gauss and Jordan in place, with row pivots.
 pub fn invert(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
-    let mut y = vec![0.0; n * n];
-    (0..n).for_each(|i| y[i * n + i] = 1.0);
+    let mut pivots = Vec::with_capacity(n);
     for k in 0..n {
         let size = |i: &usize| a[i * n + k].abs();
         let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
-        let scale = 1.0 / a[pivot * n + k];
+        pivots.push(pivot);
+        (0..n).for_each(|j| a.swap(k * n + j, pivot * n + j));
+        let scale = 1.0 / a[k * n + k];
         if !scale.is_finite() {
             return None;
         }
-        for matrix in [&mut a, &mut y] {
-            let row: Vec<f64> = (0..n).map(|j| matrix[pivot * n + j]).collect();
-            matrix.copy_within(k * n..(k + 1) * n, pivot * n);
-            let scaled = row.iter().map(|x| x * scale);
-            matrix[k * n..(k + 1) * n]
-                .iter_mut()
-                .zip(scaled)
-                .for_each(|(x, y)| *x = y);
-        }
-        let pivots = [&a, &y].map(|matrix| matrix[k * n..(k + 1) * n].to_vec());
-        for i in (0..n).filter(|&i| i != k) {
-            let factor = a[i * n + k];
+        a[k * n + k] = 1.0;
+        let row: Vec<f64> = a[k * n..(k + 1) * n].iter().map(|x| x * scale).collect();
+        for (i, other) in a.chunks_mut(n).enumerate() {
+            if i == k {
+                other.copy_from_slice(&row);
+                continue;
+            }
+            let factor = std::mem::take(&mut other[k]);
             if factor != 0.0 {
-                for (matrix, pivot) in [&mut a, &mut y].into_iter().zip(&pivots) {
-                    let row = matrix[i * n..(i + 1) * n].iter_mut();
-                    row.zip(pivot).for_each(|(x, p)| *x -= factor * p);
-                }
+                other
+                    .iter_mut()
+                    .zip(&row)
+                    .for_each(|(x, y)| *x -= factor * y);
             }
         }
     }
-    Some(y)
+    for (k, &pivot) in pivots.iter().enumerate().rev() {
+        (0..n).for_each(|i| a.swap(i * n + k, i * n + pivot));
+    }
+    Some(a)
 }
