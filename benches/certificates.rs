@@ -1,9 +1,9 @@
 //! What a check costs beside the run that it checks, on one thread: `cargo bench --bench certificates`.
 //!
-//! The run's time is without writing the certificate. Run and check take turns, so that the ratios
-//! hold on a machine whose speed drifts; figures are the best of many, which other work on the
-//! machine disturbs least. The budget is printed last.
+//! The run's time is without writing the certificate. Times are those that the processor spent, so that other work on the machine disturbs them little: averages over about a
+//! second of each, taking turns. The budget is printed last.
 
+use cpu_time::ProcessTime;
 use krawl::certificate::{Outcome, Settings, Writer, verify};
 use krawl::problem::Problem;
 use krawl::track::{Control, Options, solve};
@@ -45,17 +45,19 @@ fn main() {
         let check = || verify(&certificate[..], &settings, &mut |_| ()).expect("a certificate");
         let verdict = check();
         assert_eq!(verdict.outcome, Outcome::Verified, "{name}");
-        let (mut runs, mut checks) = (Vec::new(), Vec::new());
-        let start = Instant::now();
-        while runs.len() < 9 || start.elapsed().as_secs_f64() < 2.0 {
-            let outcome = solve(&problem, &Options::certified(), &mut Control::default());
-            runs.push(outcome.expect("a run").seconds);
-            let clock = Instant::now();
+        let run = || {
+            solve(&problem, &Options::certified(), &mut Control::default()).expect("a run");
+        };
+        let check = || {
             check();
-            checks.push(clock.elapsed().as_secs_f64());
+        };
+        let (mut run_seconds, mut check_seconds) = (0.0, 0.0);
+        const ROUNDS: u32 = 4;
+        for _ in 0..ROUNDS {
+            run_seconds += average(&run) / f64::from(ROUNDS);
+            check_seconds += average(&check) / f64::from(ROUNDS);
         }
-        let best = |seconds: Vec<f64>| seconds.into_iter().fold(f64::INFINITY, f64::min);
-        let (run, check) = (best(runs), best(checks));
+        let (run, check) = (run_seconds, check_seconds);
         println!(
             "{name:<15} {:>6} {:>9} {:>8.4} {:>9.2} {:>9.2} {:>9.1} {:>7.1}",
             verdict.tubes,
@@ -73,4 +75,15 @@ fn main() {
         let verdict = if ratio <= BUDGET { "met" } else { "MISSED" };
         println!("  {name:<15} check / run {ratio:>6.1}  at most {BUDGET:>4.1}  {verdict}");
     }
+}
+
+/// The processor's seconds that one of many calls takes, which take a quarter of a second together.
+fn average(work: &dyn Fn()) -> f64 {
+    let (clock, processor) = (Instant::now(), ProcessTime::now());
+    let mut calls = 0;
+    while calls == 0 || clock.elapsed().as_secs_f64() < 0.25 {
+        work();
+        calls += 1;
+    }
+    processor.elapsed().as_secs_f64() / f64::from(calls)
 }
