@@ -124,7 +124,7 @@ impl Chain {
             .iter()
             .map(|x| x.mid())
             .collect();
-        let place = Place::prove(&self.eq, &sketch, &tube.normal, &tube.weights);
+        let place = Place::prove(&self.eq, &sketch, &tube.normal, &tube.weights, 0.0);
         place.is_ok_and(|place| place.is_alone_in(&self.eq.sketch) && place.goes_along(&self.start))
     }
 

@@ -76,9 +76,10 @@ impl<'a> Curve<'a> {
         };
         for k in known {
             for j in 2..5 {
-                let terms =
-                    (1..k.min(ORDER + 1)).map(|a| self.powers[1][a] * self.powers[j - 1][k - a]);
-                self.powers[j][k] = terms.fold(ZERO, |sum, x| sum + x);
+                let factors =
+                    (1..k.min(ORDER + 1)).map(|a| (self.powers[1][a], self.powers[j - 1][k - a]));
+                let factors = factors.filter(|&(_, y)| y != ZERO);
+                self.powers[j][k] = factors.fold(ZERO, |sum, (x, y)| sum + x * y);
             }
         }
         Ok(())
@@ -224,32 +225,29 @@ impl<'a> Curve<'a> {
         }
 
         // The first coefficients of F(ẑ(σ)) are as good as zero: their sizes will do.
-        let (mut small, mut small_slope) = (vec![ZERO; n], vec![ZERO; n]);
+        let mut small = vec![ZERO; n];
         let (mut defect, mut defect_slope) = (ZERO, ZERO);
         for k in 0..=if order > 0 { DEGREE } else { 0 } {
             let mut f = self.residual(k);
-            let times = point(k as f64);
             if (1..=ORDER).contains(&k) || k > 2 * ORDER {
-                for (e, &f) in f.iter().enumerate() {
-                    small[e] += size(f);
-                    small_slope[e] += times * size(f);
-                }
+                small.iter_mut().zip(f).for_each(|(sum, f)| *sum += size(f));
             } else {
                 f.resize(n, ZERO);
                 let image = y.image(&f);
                 defect += image;
-                defect_slope += times * image;
+                defect_slope += point(k as f64) * image;
             }
         }
         let bound = |v: &[Interval]| {
             let sizes: Vec<Interval> = v.iter().map(|&x| around(x)).collect();
             y.image(&sizes)
         };
+        let small = bound(&small);
         Ok(Test {
             stiff: upper(moving * (stiff + bound(&rests)) + square),
             width: upper(moving * bound(&wide)),
-            defect: upper(moving * (defect + bound(&small))),
-            defect_slope: upper(moving * (defect_slope + bound(&small_slope))),
+            defect: upper(moving * (defect + small)),
+            defect_slope: upper(moving * (defect_slope + point(DEGREE as f64) * small)),
             turn: upper(moving * bound(&turn)),
         })
     }

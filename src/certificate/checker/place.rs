@@ -23,15 +23,19 @@ pub struct Place {
 const HALF: u16 = 1 << 15;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
-/// Newton's steps, with one inverse for all of them: they end where they are small enough, or do
-/// not shrink any more.
+/// More Newton's steps than any place needs.
 const STEPS: usize = 50;
-/// See [`STEPS`].
-const ENOUGH: f64 = 1e-13;
 
 impl Place {
-    /// Proves that there is a zero near a point, in the cross-section c·(z − point) = 0.
-    pub fn prove(eq: &Equations, near: &[f64], c: &[f64], u: &[u16]) -> Result<Place, Fault> {
+    /// Proves that there is a zero near a point, in a cross-section c·z = const. Newton's steps, with
+    /// one inverse for all, end below `enough`, or where they do not shrink any more.
+    pub fn prove(
+        eq: &Equations,
+        near: &[f64],
+        c: &[f64],
+        u: &[u16],
+        enough: f64,
+    ) -> Result<Place, Fault> {
         let mut curve = Curve::at(eq, near)?;
         let inverse = Inverse::new(&curve, c, u)?;
         let mut z: Vec<f64> = near.to_vec();
@@ -44,7 +48,7 @@ impl Place {
             z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
             curve = Curve::at(eq, &z)?;
             let size = step.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-            if !(ENOUGH < size && size < 0.5 * last) {
+            if !(enough < size && size < 0.5 * last) {
                 break;
             }
             last = size;
@@ -79,7 +83,7 @@ impl Place {
         let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
         let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
         (c[eq.m], u[eq.m]) = (1.0, 1);
-        let mut place = Place::prove(eq, &near, &c, &u)?;
+        let mut place = Place::prove(eq, &near, &c, &u, 0.0)?;
         let radius = around(point(claim.radius.into()));
         for i in 0..eq.m {
             let figure = point(near[i]) + radius;

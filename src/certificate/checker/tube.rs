@@ -69,10 +69,11 @@ impl Tube {
         let z = curve.z;
         // A parameter in [−1, 1], whatever is rounded.
         let exit = (claim.exit / claim.h).clamp(-1.0, 1.0);
-        let near: Vec<f64> = (0..n)
-            .map(|i| polynomial(&z, i, point(exit)).mid())
-            .collect();
-        let exit = Place::prove(eq, &near, c, u).map_err(|_| "its exit cannot be enclosed")?;
+        let near = |i: usize| z.iter().rev().fold(0.0, |sum, z| sum * exit + z[i].mid());
+        let near: Vec<f64> = (0..n).map(near).collect();
+        let enough = 1e-6 * r.sup();
+        let exit =
+            Place::prove(eq, &near, c, u, enough).map_err(|_| "its exit cannot be enclosed")?;
         let mut tube = Tube {
             z,
             u: u.iter().map(|&u| weight(u)).collect(),
