@@ -125,7 +125,7 @@ impl Chain {
             .map(|x| x.mid())
             .collect();
         let place = Place::prove(&self.eq, &sketch, &tube.normal, &tube.weights, 0.0);
-        place.is_ok_and(|place| place.is_alone_in(&self.eq.sketch) && place.goes_along(&self.start))
+        place.is_ok_and(|place| place.is_near(&self.eq.sketch) && place.goes_along(&self.start))
     }
 
     /// What remains to be proved when all tubes are linked.

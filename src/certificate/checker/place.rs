@@ -1,7 +1,7 @@
 //! Boxes around points of curves of F = 0: where one tube leads to the next, and the figures with t = 1.
 
 use super::equations::{Equations, ZERO};
-use super::krawczyk::{Curve, Fault, Inverse, around, weight};
+use super::krawczyk::{Curve, Fault, Inverse, around, upper, weight};
 use super::whole::size;
 use crate::certificate::format::SolutionClaim;
 use crate::interval::{Interval, point};
@@ -14,7 +14,7 @@ pub struct Place {
     centre: Vec<Interval>,
     /// At most so far from that point, entry by entry, there is no other zero in the cross-section.
     alone_within: Vec<f64>,
-    /// A vector along the curve, c·T = 1.
+    /// A vector along the curve, c·T = 1, at the zero or any other one within [`NEAR`] of that.
     tangent: Vec<Interval>,
     pub margin: f64,
 }
@@ -23,6 +23,8 @@ pub struct Place {
 const HALF: u16 = 1 << 15;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
+/// The part of that distance in which the direction of curves is known.
+const NEAR: f64 = 1e-4;
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
 
@@ -58,10 +60,16 @@ impl Place {
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
-        // [J; c] U T = e_n, and with |I − Y [J; c] U| ≤ q, T is near the last column of Y.
+        // [J; c] U T = e_n, and with |I − Y [J; c] U| ≤ q, T is near the last column of Y, for J at any
+        // point within `reach`.
         let column = inverse.last_column();
         let largest = column.iter().fold(0.0, |max: f64, x| max.max(x.mag()));
-        let off = around(proof.q / (point(1.0) - proof.q) * point(largest));
+        let reach = alone * point(2.0 * NEAR);
+        let q = upper(test.stiff + test.width * reach);
+        let off = match proof.distance.sup() < reach.inf() {
+            true => around(q / (point(1.0) - q) * point(largest)),
+            false => Interval::ENTIRE,
+        };
         let weights = || u.iter().map(|&u| weight(u));
         let centre = curve.z.swap_remove(0);
         let radii = weights().map(|u| around(proof.distance * u)).chain([ZERO]);
@@ -105,6 +113,12 @@ impl Place {
     /// Whether all zeros of F in a box that lie in this place's cross-section are this one.
     pub fn is_alone_in(&self, z: &[Interval]) -> bool {
         let near = |i: usize| size(z[i] - self.centre[i]).sup() < self.alone_within[i];
+        (0..self.alone_within.len()).all(near)
+    }
+
+    /// Whether the direction is known at all zeros of F in a box.
+    pub fn is_near(&self, z: &[Interval]) -> bool {
+        let near = |i: usize| size(z[i] - self.centre[i]).sup() < NEAR * self.alone_within[i];
         (0..self.alone_within.len()).all(near)
     }
 
