@@ -1,7 +1,7 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
-use super::equations::{Equations, ZERO};
-use super::place::Place;
+use super::equations::{Equations, unknown};
+use super::place::{NEAR, Place};
 use super::tube::{Stretch, Tube};
 use crate::certificate::format::{EndClaim, SolutionClaim, TubeClaim};
 use crate::certificate::verdict::{Flaw, Verdict};
@@ -125,17 +125,16 @@ impl Chain {
             .map(|x| x.mid())
             .collect();
         let place = Place::prove(&self.eq, &sketch, &tube.normal, &tube.weights, 0.0);
-        place.is_ok_and(|place| place.is_near(&self.eq.sketch) && place.goes_along(&self.start))
+        place
+            .is_ok_and(|place| place.covers(&self.eq.sketch, NEAR) && place.goes_along(&self.start))
     }
 
     /// What remains to be proved when all tubes are linked.
     pub fn conclude(&self, end: &EndClaim, verdict: &mut Verdict) -> Result<(), Flaw> {
-        if self.last.is_none() {
-            return if end.stopped.is_some() {
-                Ok(())
-            } else {
-                Err(Flaw::Empty)
-            };
+        match (&self.last, &end.stopped) {
+            (None, None) => return Err(Flaw::Empty),
+            (None, Some(_)) => return Ok(()),
+            _ => {}
         }
         for (k, solution) in self.solutions.iter().enumerate() {
             verdict.margin = verdict.margin.min(solution.margin);
@@ -175,16 +174,11 @@ impl Chain {
 
     /// The coordinates of all points of a solution in the problem's units.
     pub fn points(&self, solution: &Place) -> Vec<[Interval; 3]> {
-        let (homotopy, d) = (&self.eq.homotopy, self.eq.homotopy.dimension);
-        let coordinate = |p: usize, axis: usize| match homotopy.gauge.variable.get(p * d + axis) {
-            Some(&free) if axis < d && free < self.eq.m => {
-                solution.figure[free] * point(homotopy.unit)
-            }
-            _ => ZERO,
-        };
+        let homotopy = &self.eq.homotopy;
+        let unit = point(homotopy.unit);
+        let coordinate = |p, axis| solution.figure[unknown(homotopy, p, axis)] * unit;
         let points = 0..homotopy.points;
-        points
-            .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
-            .collect()
+        let points = points.map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
+        points.collect()
     }
 }

@@ -17,20 +17,23 @@ pub struct Equations {
 
 pub const ZERO: Interval = inari::const_interval!(0.0, 0.0);
 
+/// The unknown that a point's coordinate is, or the entry that is always zero.
+pub fn unknown(homotopy: &Homotopy, point: usize, axis: usize) -> usize {
+    let (m, d) = (homotopy.equations, homotopy.dimension);
+    match homotopy.gauge.variable.get(point * d + axis) {
+        Some(&free) if axis < d && free < m => free,
+        _ => m + 1,
+    }
+}
+
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
-        let (m, d) = (homotopy.equations, homotopy.dimension);
-        let unknown =
-            |point: usize, axis: usize| match homotopy.gauge.variable.get(point * d + axis) {
-                Some(&free) if axis < d && free < m => free,
-                _ => m + 1,
-            };
-        let ends = homotopy.edges.iter();
-        let ends =
-            ends.map(|edge| std::array::from_fn(|axis| edge.points.map(|p| unknown(p, axis))));
+        let ends = homotopy.edges.iter().map(|edge| {
+            std::array::from_fn(|axis| edge.points.map(|p| unknown(&homotopy, p, axis)))
+        });
         let place = homotopy.gauge.place.iter().map(|&p| homotopy.sketch_box[p]);
         Equations {
-            m,
+            m: homotopy.equations,
             ends: ends.collect(),
             sketch: place.chain([ZERO; 2]).collect(),
             homotopy,

@@ -2,7 +2,7 @@
 //! polynomial. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
-use super::whole::{Columns, J_BITS, LIMIT, Whole, above, exact, invert, power, size, split};
+use super::whole::{Columns, J_BITS, LIMIT, Whole, above, exact, power, size, split};
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::interval::{Interval, point};
 
@@ -15,12 +15,12 @@ const WEIGHT_BITS: i32 = 16;
 
 /// What fails in a test.
 pub type Fault = &'static str;
-const LARGE: Fault = "its numbers are too large for the test";
+pub const LARGE: Fault = "its numbers are too large for the test";
 
 /// A polynomial ẑ(σ) = Σ z_k σᵏ, |σ| ≤ 1, whose coefficients are multiples of 2^−bits: differences of
 /// coordinates and their products are exact.
 pub struct Curve<'a> {
-    eq: &'a Equations,
+    pub eq: &'a Equations,
     bits: i32,
     /// Its coefficients, each with n entries and a zero.
     pub z: Vec<Vec<Interval>>,
@@ -51,7 +51,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Adds the next coefficient, rounded.
-    fn push(&mut self, z: &[f64]) -> Result<(), Fault> {
+    pub fn push(&mut self, z: &[f64]) -> Result<(), Fault> {
         let round = |x: &f64| (x * power(self.bits)).round();
         let whole: Vec<f64> = z.iter().map(round).chain([0.0]).collect();
         // Then differences have 53 bits, and the sums of products 112.
@@ -69,11 +69,7 @@ impl<'a> Curve<'a> {
         }
         self.z.push(z);
         // What is known now of the powers of τ: all of them once ẑ is complete.
-        let known = if k == ORDER {
-            k + 1..=DEGREE
-        } else {
-            k + 1..=k + 1
-        };
+        let known = k + 1..=if k == ORDER { DEGREE } else { k + 1 };
         for k in known {
             for j in 2..5 {
                 let factors =
@@ -81,17 +77,6 @@ impl<'a> Curve<'a> {
                 let factors = factors.filter(|&(_, y)| y != ZERO);
                 self.powers[j][k] = factors.fold(ZERO, |sum, (x, y)| sum + x * y);
             }
-        }
-        Ok(())
-    }
-
-    /// Makes a curve of degree 5 whose F(ẑ(σ)) has small coefficients: with y near the inverse of
-    /// the Jacobian at z₀, whose last row is the normal, and `advance` the product of normal and z₁.
-    pub fn extend(&mut self, y: &Inverse, advance: f64) -> Result<(), Fault> {
-        for k in 1..=ORDER {
-            let mut f: Vec<f64> = self.residual(k).iter().map(|f| -f.mid()).collect();
-            f.push(if k == 1 { advance } else { 0.0 });
-            self.push(&y.times(&f))?;
         }
         Ok(())
     }
@@ -108,16 +93,9 @@ impl<'a> Curve<'a> {
                         .sum::<i128>();
                 }
             }
-            // The nearest float, and its neighbours for what was rounded. Scaling is exact.
-            let near = sum as f64;
-            let exact = near as i128 == sum;
-            let (low, high) = if exact {
-                (near, near)
-            } else {
-                (near.next_down(), near.next_up())
-            };
-            let scale = power(-2 * self.bits - 1);
-            let half = between(low * scale, high * scale);
+            // Between the neighbours of the nearest float. Scaling is exact.
+            let (near, scale) = (sum as f64, power(-2 * self.bits - 1));
+            let half = between(near.next_down() * scale, near.next_up() * scale);
             let l = &self.half_squares[e];
             if k == 0 {
                 return half - l[0];
@@ -171,28 +149,34 @@ impl<'a> Curve<'a> {
         Ok(columns)
     }
 
+    /// [J(z₀); c] U, rounded in the same way.
+    pub fn bordered(&self, c: &[f64], u: &[u16], rests: &mut [Interval]) -> Result<Columns, Fault> {
+        let mut columns = self.jacobian(0, u, rests)?;
+        for ((column, &c), &u) in columns.iter_mut().zip(c).zip(u) {
+            // Normals have 24 bits and weights 16: all is exact up to the rounding to a whole number.
+            let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS)).round();
+            if entry.abs() >= LIMIT {
+                return Err(LARGE);
+            }
+            column.push((self.eq.m, entry as i64));
+            rests[self.eq.m] += point(power(-J_BITS));
+        }
+        Ok(columns)
+    }
+
     /// Per axis the weights of a distance's two coordinates, added.
     fn widths(&self, e: usize, u: &[u16]) -> [u64; 3] {
         let weight = |i: usize| u.get(i).map_or(0, |&u| u.into());
         self.eq.ends[e].map(|[i, j]| weight(i) + weight(j))
     }
 
-    /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `inverse`, near
-    /// that of [J(z₀); c] U, is any matrix.
-    pub fn test(
-        &self,
-        inverse: &Inverse,
-        c: &[f64],
-        u: &[u16],
-        r: Interval,
-    ) -> Result<Test, Fault> {
+    /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `y`, near the
+    /// inverse of [J(z₀); c] U, is any matrix.
+    pub fn test(&self, y: &Whole, c: &[f64], u: &[u16], r: Interval) -> Result<Test, Fault> {
         let (m, n) = (self.eq.m, self.eq.m + 1);
-        let y = &inverse.whole;
         let order = self.z.len() - 1;
         let mut rests = vec![ZERO; n];
-        let mut j0 = self.jacobian(0, u, &mut rests)?;
-        add_normal(&mut j0, c, u, &mut rests)?;
-        let mut stiff = y.defect(&j0);
+        let mut stiff = y.defect(&self.bordered(c, u, &mut rests)?);
         let (mut moving, mut square) = (point(1.0), ZERO);
         if order > 0 {
             let [j1, j2] = [1, 2].map(|k| self.jacobian(k, u, &mut rests));
@@ -266,8 +250,6 @@ pub struct Test {
 
 /// That every cross-section has exactly one zero φ(σ) in its box.
 pub struct Proof {
-    /// A bound on |I − Ỹ DG| up to the zero.
-    pub q: Interval,
     /// It is at most so far from ẑ(σ).
     pub distance: Interval,
     /// And φ'(σ) from ẑ'(σ).
@@ -298,71 +280,11 @@ impl Test {
         let distance = upper(self.defect / (one - q));
         let slope_distance = upper((self.defect_slope + self.turn * distance) / (one - q));
         Ok(Proof {
-            q,
             distance,
             slope_distance,
             margin,
         })
     }
-}
-
-/// A matrix near the inverse of [J(z₀); c] U.
-pub struct Inverse {
-    whole: Whole,
-    /// U Y: in the unknowns' own units.
-    unscaled: Vec<f64>,
-}
-
-impl Inverse {
-    /// At the first coefficient of a curve.
-    pub fn new(curve: &Curve, c: &[f64], u: &[u16]) -> Result<Inverse, Fault> {
-        let n = curve.eq.m + 1;
-        let mut rests = vec![ZERO; n];
-        let mut j0 = curve.jacobian(0, u, &mut rests)?;
-        add_normal(&mut j0, c, u, &mut rests)?;
-        let mut matrix = vec![0.0; n * n];
-        for (i, column) in j0.iter().enumerate() {
-            column
-                .iter()
-                .for_each(|&(e, x)| matrix[e * n + i] = x as f64 * power(-J_BITS));
-        }
-        let floats = invert(n, matrix).ok_or("its Jacobian is singular")?;
-        let entries = floats.iter().enumerate();
-        let unscaled = entries
-            .map(|(k, y)| y * WEIGHT_UNIT * f64::from(u[k / n]))
-            .collect();
-        Ok(Inverse {
-            whole: Whole::nearest(n, &floats).ok_or(LARGE)?,
-            unscaled,
-        })
-    }
-
-    /// U Y f, in floats.
-    pub fn times(&self, f: &[f64]) -> Vec<f64> {
-        let rows = self.unscaled.chunks(f.len());
-        rows.map(|row| row.iter().zip(f).map(|(y, f)| y * f).sum())
-            .collect()
-    }
-
-    /// The last column of Y.
-    pub fn last_column(&self) -> Vec<Interval> {
-        self.whole.last_column()
-    }
-}
-
-/// The last row of [J; c] U, rounded.
-fn add_normal(j0: &mut Columns, c: &[f64], u: &[u16], rests: &mut [Interval]) -> Result<(), Fault> {
-    let m = c.len() - 1;
-    for ((column, &c), &u) in j0.iter_mut().zip(c).zip(u) {
-        // Normals have 24 bits and weights 16: all is exact up to the rounding to a whole number.
-        let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS)).round();
-        if entry.abs() >= LIMIT {
-            return Err(LARGE);
-        }
-        column.push((m, entry as i64));
-        rests[m] += point(power(-J_BITS));
-    }
-    Ok(())
 }
 
 /// A weight.

@@ -5,6 +5,7 @@
 
 mod chain;
 mod equations;
+mod guess;
 mod krawczyk;
 mod place;
 mod tube;

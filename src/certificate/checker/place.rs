@@ -1,7 +1,8 @@
 //! Boxes around points of curves of F = 0: where one tube leads to the next, and the figures with t = 1.
 
 use super::equations::{Equations, ZERO};
-use super::krawczyk::{Curve, Fault, Inverse, around, upper, weight};
+use super::guess::newton;
+use super::krawczyk::{Fault, around, upper, weight};
 use super::whole::size;
 use crate::certificate::format::SolutionClaim;
 use crate::interval::{Interval, point};
@@ -24,13 +25,10 @@ const HALF: u16 = 1 << 15;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
 /// The part of that distance in which the direction of curves is known.
-const NEAR: f64 = 1e-4;
-/// More Newton's steps than any place needs.
-const STEPS: usize = 50;
-
+pub const NEAR: f64 = 1e-4;
 impl Place {
-    /// Proves that there is a zero near a point, in a cross-section c·z = const. Newton's steps, with
-    /// one inverse for all, end below `enough`, or where they do not shrink any more.
+    /// Proves that there is a zero near a point, in a cross-section c·z = const. Newton's steps
+    /// towards it end below `enough`.
     pub fn prove(
         eq: &Equations,
         near: &[f64],
@@ -38,31 +36,15 @@ impl Place {
         u: &[u16],
         enough: f64,
     ) -> Result<Place, Fault> {
-        let mut curve = Curve::at(eq, near)?;
-        let inverse = Inverse::new(&curve, c, u)?;
-        let mut z: Vec<f64> = near.to_vec();
-        let mut last = f64::INFINITY;
-        for _ in 0..STEPS {
-            let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
-            // In the cross-section through the first point.
-            f.push(0.0);
-            let step = inverse.times(&f);
-            z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
-            curve = Curve::at(eq, &z)?;
-            let size = step.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-            if !(enough < size && size < 0.5 * last) {
-                break;
-            }
-            last = size;
-        }
-        let test = curve.test(&inverse, c, u, point(SIGHT))?;
+        let (mut curve, inverse) = newton(eq, near, c, u, enough)?;
+        let test = curve.test(&inverse.whole, c, u, point(SIGHT))?;
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
         // [J; c] U T = e_n, and with |I − Y [J; c] U| ≤ q, T is near the last column of Y, for J at any
         // point within `reach`.
-        let column = inverse.last_column();
+        let column = inverse.whole.last_column();
         let largest = column.iter().fold(0.0, |max: f64, x| max.max(x.mag()));
         let reach = alone * point(2.0 * NEAR);
         let q = upper(test.stiff + test.width * reach);
@@ -110,15 +92,11 @@ impl Place {
         Ok(place)
     }
 
-    /// Whether all zeros of F in a box that lie in this place's cross-section are this one.
-    pub fn is_alone_in(&self, z: &[Interval]) -> bool {
-        let near = |i: usize| size(z[i] - self.centre[i]).sup() < self.alone_within[i];
-        (0..self.alone_within.len()).all(near)
-    }
-
-    /// Whether the direction is known at all zeros of F in a box.
-    pub fn is_near(&self, z: &[Interval]) -> bool {
-        let near = |i: usize| size(z[i] - self.centre[i]).sup() < NEAR * self.alone_within[i];
+    /// Whether a box lies within a part of the distance in which this zero is alone: all zeros of
+    /// F in it that lie in this place's cross-section are this one; if the part is [`NEAR`], the
+    /// direction is known at all zeros in it.
+    pub fn covers(&self, z: &[Interval], part: f64) -> bool {
+        let near = |i: usize| size(z[i] - self.centre[i]).sup() < part * self.alone_within[i];
         (0..self.alone_within.len()).all(near)
     }
 
@@ -163,7 +141,7 @@ impl Place {
                 continue;
             }
             // The image is a solution too.
-            if other.is_alone_in(&image) {
+            if other.covers(&image, 1.0) {
                 return Some(true);
             }
             let mut pairs = image.iter().zip(&other.figure);

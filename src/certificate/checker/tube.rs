@@ -1,9 +1,8 @@
 //! One tube, proved again. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
-use super::krawczyk::{
-    Curve, Fault, Inverse, ORDER, around, between, derivative, polynomial, weight,
-};
+use super::guess::{Inverse, expand};
+use super::krawczyk::{Curve, Fault, ORDER, around, between, derivative, polynomial, weight};
 use super::place::Place;
 use super::whole::size;
 use crate::certificate::format::TubeClaim;
@@ -37,10 +36,8 @@ pub struct Stretch {
     pub t: Interval,
 }
 
-/// Ranges of parameters are not split more often than that.
-const DEPTH: u32 = 40;
-/// Nor into more pieces.
-const PIECES: u32 = 10_000;
+/// Ranges of parameters are not split into more pieces.
+const PIECES: usize = 10_000;
 
 impl Tube {
     pub fn prove(eq: &Equations, claim: &TubeClaim) -> Result<Tube, Fault> {
@@ -49,9 +46,9 @@ impl Tube {
         let (c, u) = (&normal, &claim.weights);
         let mut curve = Curve::at(eq, &claim.centre)?;
         let inverse = Inverse::new(&curve, c, u)?;
-        curve.extend(&inverse, claim.h)?;
+        expand(&mut curve, &inverse, claim.h)?;
         let r = point(claim.r.into());
-        let proof = curve.test(&inverse, c, u, r)?.within(r)?;
+        let proof = curve.test(&inverse.whole, c, u, r)?.within(r)?;
 
         let along = |k: usize| {
             let products = c.iter().zip(&curve.z[k]).map(|(&c, &z)| point(c) * z);
@@ -146,23 +143,20 @@ impl Tube {
         let here = solutions.iter().enumerate();
         let here = here.filter_map(|(k, solution)| Some((k, self.locate(&solution.figure)?)));
         let here: Vec<(usize, Interval)> = here.collect();
-        let mut stack: Vec<(Interval, u32)> = parts.map(|part| (part, 0)).collect();
-        let mut pieces = 0;
-        while let Some((part, depth)) = stack.pop() {
+        let mut pieces: Vec<Interval> = parts.collect();
+        let mut next = 0;
+        while let Some(&part) = pieces.get(next) {
+            next += 1;
             // Where t is monotone from a solution on, it is the only one.
             let only = |s: Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
             if !self.time(part).contains(1.0) || here.iter().any(|&(_, s)| only(s)) {
                 continue;
             }
-            pieces += 1;
-            if depth == DEPTH || pieces == PIECES {
+            if pieces.len() > PIECES {
                 return Err((part.inf(), part.sup()));
             }
-            let halves = [
-                between(part.inf(), part.mid()),
-                between(part.mid(), part.sup()),
-            ];
-            stack.extend(halves.map(|half| (half, depth + 1)));
+            pieces.push(between(part.inf(), part.mid()));
+            pieces.push(between(part.mid(), part.sup()));
         }
         stretch.met = here.into_iter().map(|(k, _)| k).collect();
         Ok(stretch)

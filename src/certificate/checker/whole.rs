@@ -182,37 +182,3 @@ impl Whole {
         above(sums.max().unwrap_or(0), Y_BITS + bits)
     }
 }
-
-/// A float inverse, or nothing where there is none: Gauss and Jordan in place, with row pivots.
-pub fn invert(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
-    let mut pivots = Vec::with_capacity(n);
-    for k in 0..n {
-        let size = |i: &usize| a[i * n + k].abs();
-        let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
-        pivots.push(pivot);
-        (0..n).for_each(|j| a.swap(k * n + j, pivot * n + j));
-        let scale = 1.0 / a[k * n + k];
-        if !scale.is_finite() {
-            return None;
-        }
-        a[k * n + k] = 1.0;
-        let row: Vec<f64> = a[k * n..(k + 1) * n].iter().map(|x| x * scale).collect();
-        for (i, other) in a.chunks_mut(n).enumerate() {
-            if i == k {
-                other.copy_from_slice(&row);
-                continue;
-            }
-            let factor = std::mem::take(&mut other[k]);
-            if factor != 0.0 {
-                other
-                    .iter_mut()
-                    .zip(&row)
-                    .for_each(|(x, y)| *x -= factor * y);
-            }
-        }
-    }
-    for (k, &pivot) in pivots.iter().enumerate().rev() {
-        (0..n).for_each(|i| a.swap(i * n + k, i * n + pivot));
-    }
-    Some(a)
-}
