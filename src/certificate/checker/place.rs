@@ -16,7 +16,7 @@ pub struct Place {
     /// At most so far from that point, entry by entry, there is no other zero in the cross-section.
     alone_within: Vec<f64>,
     /// A vector along the curve, c·T = 1, at the zero or any other one within [`NEAR`] of that.
-    tangent: Vec<Interval>,
+    pub tangent: Vec<Interval>,
     pub margin: f64,
 }
 

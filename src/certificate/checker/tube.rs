@@ -162,3 +162,53 @@ impl Tube {
         Ok(stretch)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::format::Record;
+    use crate::certificate::reader::Reader;
+    use crate::system::Homotopy;
+
+    /// Bounds over whole tubes against what the test proves at single points: where the path is,
+    /// and where it goes.
+    #[test]
+    fn the_path_and_its_slope_are_where_tubes_say() {
+        for name in ["k33", "dodecagon", "prism"] {
+            let file = std::fs::File::open(format!("certs/{name}.krawl")).unwrap();
+            let mut reader = Reader::new(std::io::BufReader::new(file)).unwrap();
+            let unit = 2f64.powi(reader.header().unit_exponent.into());
+            let homotopy = Homotopy::with_unit(&reader.header().problem, unit).unwrap();
+            let eq = Equations::new(homotopy);
+            // Bounds may be generous, but not so much that nothing was compared.
+            let mut nearest = f64::INFINITY;
+            while let Some(record) = reader.next_record().unwrap() {
+                let Record::Tube(claim) = record else {
+                    continue;
+                };
+                let tube = Tube::prove(&eq, &claim).unwrap();
+                for s in [-0.99, -0.7, -0.2, 0.0, 0.4, 0.8, 1.0].map(point) {
+                    let n = eq.m + 1;
+                    let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
+                    let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
+                    let place = Place::prove(&eq, &middle, &tube.normal, &tube.weights, 0.0);
+                    let place = place.unwrap();
+                    for i in 0..n {
+                        let off = (place.figure[i] - z[i]).mig();
+                        let bound = (tube.distance * tube.u[i]).sup();
+                        assert!(off <= bound, "{name}: {off:e} from the middle, {bound:e}");
+                        nearest = nearest.min(bound / off);
+                        // With c·T = 1 and c·φ' = c·ẑ'.
+                        let slope = place.tangent[i] * tube.advance - derivative(&tube.z, i, s);
+                        let bound = (tube.slope_distance * tube.u[i]).sup();
+                        assert!(
+                            slope.mig() <= bound,
+                            "{name}: slope off by {slope:?}, {bound:e}"
+                        );
+                    }
+                }
+            }
+            assert!(nearest < 100.0, "{name}: {nearest}");
+        }
+    }
+}
