@@ -34,7 +34,12 @@ pub(super) fn close(mut frame: Frame, loops: usize, random: &mut Random) -> Stru
         let [from, to] = bodies[j];
         let [next_from, next_to] = if j == 0 { bodies[loops] } else { bodies[j + 1] };
         // The far halves of the bodies.
-        let far = lever(&frame, hinge, next_from.midpoint(next_to)..next_to, f64::INFINITY);
+        let far = lever(
+            &frame,
+            hinge,
+            next_from.midpoint(next_to)..next_to,
+            f64::INFINITY,
+        );
         let reach = distance_to_axis(&frame, hinge, far);
         let near = lever(&frame, hinge, from..from.midpoint(to), 0.6 * reach);
         let angle = match j {

@@ -31,7 +31,16 @@ pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Str
     for k in 0..octahedra {
         let [a, b, c, d, e, f] = std::array::from_fn(|j| 3 * k + j);
         // The turn by a sixth puts d between a and b.
-        let regular = [[a, d], [b, d], [b, e], [c, e], [d, e], [c, f], [a, f], [e, f]];
+        let regular = [
+            [a, d],
+            [b, d],
+            [b, e],
+            [c, e],
+            [d, e],
+            [c, f],
+            [a, f],
+            [e, f],
+        ];
         bars.extend(regular.map(|bar| (bar, None)));
         if is_plain(k) {
             closing.push([d, f]);
@@ -39,7 +48,12 @@ pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Str
             bars.push(([c, d], None));
         }
     }
-    bars.extend(closing.into_iter().rev().map(|bar| (bar, Some(1.0 + 0.02 * random.symmetric()))));
+    bars.extend(
+        closing
+            .into_iter()
+            .rev()
+            .map(|bar| (bar, Some(1.0 + 0.02 * random.symmetric()))),
+    );
     Structure {
         dimension: 3,
         points: places,

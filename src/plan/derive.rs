@@ -4,7 +4,8 @@ use super::boundary::{gamma_three, gamma_two};
 use super::change::place;
 use super::{Arm, Instruction, Plan};
 use crate::system::Homotopy;
-use std::collections::HashSet;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashSet};
 
 /// Bounds the search: `SEARCH / n²` sets of points are kept for each number of driving
 /// parameters. For a dozen points those are nearly all that matter and the number found is the
@@ -20,18 +21,9 @@ impl Plan {
     /// and the reference points of driving parameters are placed to suit the sketch.
     pub fn derive(homotopy: &Homotopy) -> Plan {
         let graph = Graph::new(homotopy);
-        let instructions = graph
-            .order()
-            .into_iter()
-            .map(|(point, arity, earlier)| graph.instruction(homotopy, point, arity, &earlier));
-        let mut plan = Plan {
-            dimension: homotopy.dimension,
-            points: homotopy.points,
-            edges: homotopy.edges.len(),
-            instructions: instructions.collect(),
-        };
-        plan.place_references(&homotopy.sketch);
-        plan
+        let order = graph.order();
+        let plan = graph.plan(homotopy, &order);
+        graph.with_shorter_arms(homotopy, &order, plan)
     }
 }
 
@@ -109,9 +101,8 @@ impl Graph {
         }
     }
 
-    /// The points in an order of construction, each with the number of its arms and its
-    /// neighbours among the earlier ones. The first reference point needs no construction.
-    fn order(&self) -> Vec<Placed> {
+    /// The points in an order of construction.
+    fn order(&self) -> Vec<usize> {
         let n = self.neighbours.len();
         let beam = (SEARCH / (n * n)).max(10);
         let mut start = Partial {
@@ -134,7 +125,7 @@ impl Graph {
         let mut levels: Vec<Vec<Partial>> = vec![vec![start]];
         let mut seen: HashSet<Set> = HashSet::new();
         let mut cost = 0;
-        let order = 'search: loop {
+        'search: loop {
             let mut level = std::mem::take(&mut levels[cost]);
             level.retain(|partial| seen.insert(partial.placed.clone()));
             level.sort_by_key(|partial| std::cmp::Reverse(partial.order.len()));
@@ -169,9 +160,13 @@ impl Graph {
                 let rest = (0..n).filter(|p| !self.reference.contains(p));
                 break self.reference.iter().copied().chain(rest).collect();
             }
-        };
+        }
+    }
 
-        let mut rank = vec![0; n];
+    /// For each point but the first, which needs no construction, the number of its arms and its
+    /// neighbours among the earlier ones.
+    fn placed(&self, order: &[usize]) -> Vec<Placed> {
+        let mut rank = vec![0; order.len()];
         for (k, &p) in order.iter().enumerate() {
             rank[p] = k;
         }
@@ -188,55 +183,186 @@ impl Graph {
             .collect()
     }
 
-    /// The instruction for a point with its neighbours among the earlier points: among all
-    /// choices of arms the one with the largest γ in the sketch.
-    fn instruction(
+    /// The plan that constructs the points in this order, with those arms that are farthest from
+    /// a boundary configuration in the sketch.
+    fn plan(&self, homotopy: &Homotopy, order: &[usize]) -> Plan {
+        let instructions = self
+            .placed(order)
+            .into_iter()
+            .map(|(point, arity, earlier)| {
+                let choices = self.choices(homotopy, point, arity, &earlier).into_iter();
+                match choices.reduce(|x, y| if y.gamma > x.gamma { y } else { x }) {
+                    Some(best) => instruction(point, arity, &best.arms),
+                    None => instruction(point, arity, &earlier),
+                }
+            });
+        let mut plan = Plan {
+            dimension: homotopy.dimension,
+            points: homotopy.points,
+            edges: homotopy.edges.len(),
+            instructions: instructions.collect(),
+        };
+        plan.place_references(&homotopy.sketch);
+        plan
+    }
+
+    /// The choices of arms for a point among its earlier neighbours, where it has any: each set
+    /// once, in the order with the largest γ in the sketch.
+    fn choices(
         &self,
         homotopy: &Homotopy,
         point: usize,
         arity: usize,
         earlier: &[(usize, usize)],
-    ) -> Instruction {
+    ) -> Vec<Choice> {
         let at = |p: usize| place(&homotopy.sketch, self.dimension, p);
         let p = at(point);
-        let mut best = earlier.iter().copied().take(arity).collect::<Vec<_>>();
-        let mut best_gamma = -1.0;
-        let mut consider = |choice: &[(usize, usize)]| {
-            let c = |k: usize| at(choice[k].0);
-            let mut gamma = gamma_two(p, c(0), c(1));
-            if choice.len() == 3 {
-                gamma = gamma.min(gamma_three(p, c(0), c(1), c(2)));
-            }
-            if gamma > best_gamma {
-                best_gamma = gamma;
-                best = choice.to_vec();
+        let gamma_of = |arms: &[(usize, usize)]| {
+            let c = |k: usize| at(arms[k].0);
+            let gamma = gamma_two(p, c(0), c(1));
+            match arms.len() {
+                3 => gamma.min(gamma_three(p, c(0), c(1), c(2))),
+                _ => gamma,
             }
         };
-        if arity >= 2 && earlier.len() >= 2 {
-            for (i, &a) in earlier.iter().enumerate() {
-                for (j, &b) in earlier.iter().enumerate().skip(i + 1) {
-                    if arity == 2 || earlier.len() == 2 {
-                        consider(&[a, b]);
-                        continue;
-                    }
-                    for (k, &c) in earlier.iter().enumerate() {
-                        if k != i && k != j {
-                            consider(&[a, b, c]);
-                        }
-                    }
+        let mut choices = Vec::new();
+        if arity < 2 {
+            return choices;
+        }
+        for (i, &a) in earlier.iter().enumerate() {
+            for (j, &b) in earlier.iter().enumerate().skip(i + 1) {
+                if arity == 2 || earlier.len() == 2 {
+                    choices.push(Choice {
+                        gamma: gamma_of(&[a, b]),
+                        arms: vec![a, b],
+                    });
+                    continue;
+                }
+                for &c in &earlier[j + 1..] {
+                    let best = [[a, b, c], [a, c, b], [b, c, a]]
+                        .into_iter()
+                        .map(|arms| (gamma_of(&arms), arms))
+                        .reduce(|x, y| if y.0 > x.0 { y } else { x });
+                    choices.extend(best.map(|(gamma, arms)| Choice {
+                        gamma,
+                        arms: arms.to_vec(),
+                    }));
                 }
             }
         }
-        let mut arms = [Arm::Driving { place: [0.0; 3] }; 3];
-        for (arm, &(centre, edge)) in arms.iter_mut().zip(&best) {
-            *arm = Arm::Edge { centre, edge };
+        choices
+    }
+
+    /// Another plan with as many driving parameters, if the removed constraints are longer in it.
+    ///
+    /// A point that is held by a long bar from far away follows it, off the path, and not the
+    /// body that it belongs to; all that is built on it is then turned by as much as the body is
+    /// long. With several such bars in a row these factors multiply, and corrections in the
+    /// driving parameters converge nowhere but next to the path. So each point is constructed
+    /// from the latest that there are, and the longest bars are left over.
+    fn with_shorter_arms(&self, homotopy: &Homotopy, order: &[usize], plan: Plan) -> Plan {
+        let length = |edge: usize| homotopy.lengths[edge].value(0.0);
+        let product = |plan: &Plan| -> f64 {
+            plan.removed()
+                .into_iter()
+                .map(|edge| length(edge).ln())
+                .sum()
+        };
+        let order = self.from_the_latest(order);
+        let mut other = self.plan(homotopy, &order);
+        for (k, (point, arity, earlier)) in self.placed(&order).into_iter().enumerate() {
+            if earlier.len() <= arity {
+                continue;
+            }
+            let sum = |choice: &Choice| {
+                choice
+                    .arms
+                    .iter()
+                    .map(|&(_, edge)| length(edge))
+                    .sum::<f64>()
+            };
+            let clear = self.choices(homotopy, point, arity, &earlier).into_iter();
+            let shortest = clear
+                .filter(|choice| choice.gamma > CLEAR)
+                .min_by(|a, b| sum(a).total_cmp(&sum(b)));
+            if let Some(shortest) = shortest {
+                other.instructions[k] = instruction(point, arity, &shortest.arms);
+            }
         }
-        Instruction {
-            point,
-            arity,
-            arms,
-            original: [None; 2],
+        if product(&other) > product(&plan) + LONGER.ln() {
+            other
+        } else {
+            plan
         }
+    }
+
+    /// The same order as to where driving parameters are needed; what follows without is
+    /// constructed from the latest points first.
+    fn from_the_latest(&self, order: &[usize]) -> Vec<usize> {
+        let mut rank = vec![usize::MAX; order.len()];
+        let mut new: Vec<usize> = Vec::with_capacity(order.len());
+        let mut ready: BinaryHeap<(usize, Reverse<usize>)> = BinaryHeap::new();
+        let mut given = self.reference.iter().chain(order);
+        while new.len() < order.len() {
+            let next = match ready.pop() {
+                Some((_, Reverse(p))) => Some(p),
+                // Only what needs a driving parameter is left.
+                None => given.next().copied(),
+            };
+            let Some(p) = next else { break };
+            if rank[p] != usize::MAX {
+                continue;
+            }
+            rank[p] = new.len();
+            new.push(p);
+            if new.len() < self.reference.len() {
+                continue;
+            }
+            let from: &[usize] = if new.len() == self.reference.len() {
+                &new
+            } else {
+                &[p]
+            };
+            for &(q, _) in from.iter().flat_map(|&p| &self.neighbours[p]) {
+                let mut known: Vec<usize> = self.neighbours[q]
+                    .iter()
+                    .map(|&(r, _)| rank[r])
+                    .filter(|&rank| rank != usize::MAX)
+                    .collect();
+                if rank[q] == usize::MAX && known.len() >= self.dimension {
+                    known.sort_unstable_by_key(|&rank| Reverse(rank));
+                    // Entries from when there were fewer neighbours come later, and are skipped.
+                    ready.push((known[self.dimension - 1], Reverse(q)));
+                }
+            }
+        }
+        new
+    }
+}
+
+/// Shorter arms are taken where they are this far from a boundary configuration in the sketch.
+const CLEAR: f64 = 0.2;
+
+/// And where that makes the product of the removed constraints' lengths larger by this factor.
+const LONGER: f64 = 2.0;
+
+/// Some arms for a point, and their γ in the sketch.
+struct Choice {
+    gamma: f64,
+    arms: Vec<(usize, usize)>,
+}
+
+/// The construction of a point with arms along some distances; driving parameters are the rest.
+fn instruction(point: usize, arity: usize, distances: &[(usize, usize)]) -> Instruction {
+    let mut arms = [Arm::Driving { place: [0.0; 3] }; 3];
+    for (arm, &(centre, edge)) in arms[..arity].iter_mut().zip(distances) {
+        *arm = Arm::Edge { centre, edge };
+    }
+    Instruction {
+        point,
+        arity,
+        arms,
+        original: [None; 2],
     }
 }
 
