@@ -19,6 +19,8 @@ pub(super) struct Corrector {
     /// The sign of the determinant of the Jacobian with the tangent as last row, which stays the
     /// same as long as plan and branch do.
     orientation: f64,
+    /// How much the second correction was smaller than the first; zero if one was enough.
+    pub contraction: f64,
     places: usize,
 }
 
@@ -51,6 +53,7 @@ impl Corrector {
             apart: Elimination::default(),
             apart_sizes: Vec::new(),
             orientation: 1.0,
+            contraction: 0.0,
             places,
         }
     }
@@ -133,7 +136,8 @@ impl Corrector {
         let small = (1e-4 * h).clamp(1e-12, SMALL);
         // About what is left to correct.
         let mut left = size;
-        for _ in 0..MOST {
+        self.contraction = 0.0;
+        for turn in 0..MOST {
             if left <= small {
                 break;
             }
@@ -142,6 +146,9 @@ impl Corrector {
             }
             self.there.solve(evaluation.residual(), &mut self.step);
             let smaller = self.step_size();
+            if turn == 0 {
+                self.contraction = smaller / size;
+            }
             if !(smaller <= CONTRACTION * size || smaller <= small) {
                 return false;
             }
