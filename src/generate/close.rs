@@ -5,13 +5,13 @@ use super::random::Random;
 
 /// The angle at the first hinge between its levers, to either end of the closing bar, where the
 /// bar is shortest at 0: in the sketch, in the target, and as far as the bend lets it go.
-const ANGLES: [f64; 3] = [0.45, 0.35, 0.7];
+const ANGLES: [f64; 3] = [0.45, 0.5, 0.75];
 
 /// The angle at the other hinges: far from where their closing bars are shortest or longest.
 const OTHERS: f64 = 1.4;
 
 /// How much the other closing bars change.
-const CHANGE: f64 = 0.02;
+const CHANGE: f64 = 0.01;
 
 /// Opens a frame at `loops` hinges and closes it by as many bars. The bend goes from the first
 /// body to the last one; every other bar braces two neighbouring bodies.

@@ -14,7 +14,7 @@ pub(super) const JITTER: f64 = 0.08;
 
 /// The regular lengths change by this fraction, divided by the root of their number: what many
 /// small changes add up to then does not depend on the size.
-const CHANGE: f64 = 0.15;
+const CHANGE: f64 = 0.1;
 
 /// A rigid chain, its points numbered along it.
 pub(super) struct Frame {

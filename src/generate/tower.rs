@@ -9,7 +9,8 @@ use std::f64::consts::TAU;
 /// d, e, f above, joined to two of these each.
 ///
 /// In `loops` octahedra, evenly spread, there are the edges and nothing else. In the others the
-/// diagonal from d to c stands in for the edge d f.
+/// diagonal c d stands in for the edge a f. So the triangles keep all their edges: with one left out,
+/// each would take its shape from the one below, and small changes would grow from layer to layer.
 pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Structure {
     let octahedra = points / 3 - 1;
     // The height of an octahedron over a face, and the distance of its points from the middle,
@@ -24,7 +25,10 @@ pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Str
             places.push(plus(regular, random.jitter(3, JITTER)));
         }
     }
-    let is_plain = |k: usize| (k + 1) * loops / octahedra > k * loops / octahedra;
+    let is_plain = |k: usize| {
+        let before = |k: usize| (k * loops + octahedra / 2) / octahedra;
+        before(k + 1) > before(k)
+    };
     let mut bars: Vec<([usize; 2], Option<f64>)> =
         [[0, 1], [0, 2], [1, 2]].map(|bar| (bar, None)).to_vec();
     let mut closing = Vec::new();
@@ -38,22 +42,17 @@ pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Str
             [c, e],
             [d, e],
             [c, f],
-            [a, f],
+            [d, f],
             [e, f],
         ];
         bars.extend(regular.map(|bar| (bar, None)));
         if is_plain(k) {
-            closing.push([d, f]);
+            closing.push([a, f]);
         } else {
             bars.push(([c, d], None));
         }
     }
-    bars.extend(
-        closing
-            .into_iter()
-            .rev()
-            .map(|bar| (bar, Some(1.0 + 0.02 * random.symmetric()))),
-    );
+    bars.extend(closing.into_iter().rev().map(|bar| (bar, None)));
     Structure {
         dimension: 3,
         points: places,
