@@ -39,6 +39,9 @@ const CONVERGED: f64 = 1e-8;
 /// Derivatives that have changed by more than this, relatively, are computed anew.
 const CHANGE: f64 = 0.01;
 
+/// Refined is what the last correction moves by less than this, relative to the figure.
+const REFINED: f64 = 2e-10;
+
 /// Each correction must be smaller than the one before by this factor.
 const CONTRACTION: f64 = 0.3;
 
@@ -301,7 +304,7 @@ impl Corrector {
                 break;
             }
         }
-        best < 1e-9
+        best < REFINED * dot(z, z).sqrt()
     }
 }
 
