@@ -68,8 +68,8 @@ impl Family {
     /// Free coordinates of the smallest structure with so many loops.
     pub fn smallest(self, loops: usize) -> usize {
         match self {
-            Family::Strip => 2 * (5 + 5 * loops) - 3,
-            Family::Tetrahedra => 3 * (6 + 6 * loops) - 6,
+            Family::Strip => 2 * (6 + 8 * loops) - 3,
+            Family::Tetrahedra => 3 * (4 + 8 * loops) - 6,
             Family::Chain => 12 * (2 + 2 * loops),
             Family::Tower => 9 * loops + 3,
         }
