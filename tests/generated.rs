@@ -109,6 +109,20 @@ fn small_ones_are_solved_in_all_modes() {
     }
 }
 
+/// Their removed constraints are the long bars, which come last: with one of them for an arm within
+/// a rigid body, the body would be bent by it off the path.
+#[test]
+fn closing_bars_are_left_over() {
+    for family in [Family::Strip, Family::Tetrahedra, Family::Chain] {
+        for seed in 1..4 {
+            let problem = recipe(family, 1000, 3, seed).problem().unwrap();
+            let plan = Plan::derive(&Homotopy::new(&problem).unwrap());
+            let m = problem.free_coordinates();
+            assert_eq!(plan.removed(), [m - 3, m - 2, m - 1], "{family:?} {seed}");
+        }
+    }
+}
+
 /// Thousands of coordinates: in the reduced space alone, where a step costs in proportion.
 #[test]
 fn large_ones_are_followed_in_the_reduced_space() {

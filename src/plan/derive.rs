@@ -1,8 +1,6 @@
 //! Finding a plan with few driving parameters in the constraint graph.
 
-use super::boundary::{gamma_three, gamma_two};
-use super::change::place;
-use super::{Arm, Instruction, Plan};
+use super::Plan;
 use crate::system::Homotopy;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
@@ -50,10 +48,10 @@ struct Partial {
 
 /// A point to be constructed, the number of its arms, and its neighbours among the earlier
 /// points with the distances to them.
-type Placed = (usize, usize, Vec<(usize, usize)>);
+pub(super) type Placed = (usize, usize, Vec<(usize, usize)>);
 
-struct Graph {
-    dimension: usize,
+pub(super) struct Graph {
+    pub(super) dimension: usize,
     /// For each point its neighbours and the distances to them.
     neighbours: Vec<Vec<(usize, usize)>>,
     reference: Vec<usize>,
@@ -165,7 +163,7 @@ impl Graph {
 
     /// For each point but the first, which needs no construction, the number of its arms and its
     /// neighbours among the earlier ones.
-    fn placed(&self, order: &[usize]) -> Vec<Placed> {
+    pub(super) fn placed(&self, order: &[usize]) -> Vec<Placed> {
         let mut rank = vec![0; order.len()];
         for (k, &p) in order.iter().enumerate() {
             rank[p] = k;
@@ -183,122 +181,9 @@ impl Graph {
             .collect()
     }
 
-    /// The plan that constructs the points in this order, with those arms that are farthest from
-    /// a boundary configuration in the sketch.
-    fn plan(&self, homotopy: &Homotopy, order: &[usize]) -> Plan {
-        let instructions = self
-            .placed(order)
-            .into_iter()
-            .map(|(point, arity, earlier)| {
-                let choices = self.choices(homotopy, point, arity, &earlier).into_iter();
-                match choices.reduce(|x, y| if y.gamma > x.gamma { y } else { x }) {
-                    Some(best) => instruction(point, arity, &best.arms),
-                    None => instruction(point, arity, &earlier),
-                }
-            });
-        let mut plan = Plan {
-            dimension: homotopy.dimension,
-            points: homotopy.points,
-            edges: homotopy.edges.len(),
-            instructions: instructions.collect(),
-        };
-        plan.place_references(&homotopy.sketch);
-        plan
-    }
-
-    /// The choices of arms for a point among its earlier neighbours, where it has any: each set
-    /// once, in the order with the largest γ in the sketch.
-    fn choices(
-        &self,
-        homotopy: &Homotopy,
-        point: usize,
-        arity: usize,
-        earlier: &[(usize, usize)],
-    ) -> Vec<Choice> {
-        let at = |p: usize| place(&homotopy.sketch, self.dimension, p);
-        let p = at(point);
-        let gamma_of = |arms: &[(usize, usize)]| {
-            let c = |k: usize| at(arms[k].0);
-            let gamma = gamma_two(p, c(0), c(1));
-            match arms.len() {
-                3 => gamma.min(gamma_three(p, c(0), c(1), c(2))),
-                _ => gamma,
-            }
-        };
-        let mut choices = Vec::new();
-        if arity < 2 {
-            return choices;
-        }
-        for (i, &a) in earlier.iter().enumerate() {
-            for (j, &b) in earlier.iter().enumerate().skip(i + 1) {
-                if arity == 2 || earlier.len() == 2 {
-                    choices.push(Choice {
-                        gamma: gamma_of(&[a, b]),
-                        arms: vec![a, b],
-                    });
-                    continue;
-                }
-                for &c in &earlier[j + 1..] {
-                    let best = [[a, b, c], [a, c, b], [b, c, a]]
-                        .into_iter()
-                        .map(|arms| (gamma_of(&arms), arms))
-                        .reduce(|x, y| if y.0 > x.0 { y } else { x });
-                    choices.extend(best.map(|(gamma, arms)| Choice {
-                        gamma,
-                        arms: arms.to_vec(),
-                    }));
-                }
-            }
-        }
-        choices
-    }
-
-    /// Another plan with as many driving parameters, if the removed constraints are longer in it.
-    ///
-    /// A point that is held by a long bar from far away follows it, off the path, and not the
-    /// body that it belongs to; all that is built on it is then turned by as much as the body is
-    /// long. With several such bars in a row these factors multiply, and corrections in the
-    /// driving parameters converge nowhere but next to the path. So each point is constructed
-    /// from the latest that there are, and the longest bars are left over.
-    fn with_shorter_arms(&self, homotopy: &Homotopy, order: &[usize], plan: Plan) -> Plan {
-        let length = |edge: usize| homotopy.lengths[edge].value(0.0);
-        let product = |plan: &Plan| -> f64 {
-            plan.removed()
-                .into_iter()
-                .map(|edge| length(edge).ln())
-                .sum()
-        };
-        let order = self.from_the_latest(order);
-        let mut other = self.plan(homotopy, &order);
-        for (k, (point, arity, earlier)) in self.placed(&order).into_iter().enumerate() {
-            if earlier.len() <= arity {
-                continue;
-            }
-            let sum = |choice: &Choice| {
-                choice
-                    .arms
-                    .iter()
-                    .map(|&(_, edge)| length(edge))
-                    .sum::<f64>()
-            };
-            let clear = self.choices(homotopy, point, arity, &earlier).into_iter();
-            let shortest = clear
-                .filter(|choice| choice.gamma > CLEAR)
-                .min_by(|a, b| sum(a).total_cmp(&sum(b)));
-            if let Some(shortest) = shortest {
-                other.instructions[k] = instruction(point, arity, &shortest.arms);
-            }
-        }
-        if product(&other) > product(&plan) + LONGER.ln() {
-            other
-        } else {
-            plan
-        }
-    }
-
     /// The same order as to where driving parameters are needed; what follows without is
     /// constructed from the latest points first.
-    fn from_the_latest(&self, order: &[usize]) -> Vec<usize> {
+    pub(super) fn latest_first(&self, order: &[usize]) -> Vec<usize> {
         let mut rank = vec![usize::MAX; order.len()];
         let mut new: Vec<usize> = Vec::with_capacity(order.len());
         let mut ready: BinaryHeap<(usize, Reverse<usize>)> = BinaryHeap::new();
@@ -340,35 +225,10 @@ impl Graph {
     }
 }
 
-/// Shorter arms are taken where they are this far from a boundary configuration in the sketch.
-const CLEAR: f64 = 0.2;
-
-/// And where that makes the product of the removed constraints' lengths larger by this factor.
-const LONGER: f64 = 2.0;
-
-/// Some arms for a point, and their γ in the sketch.
-struct Choice {
-    gamma: f64,
-    arms: Vec<(usize, usize)>,
-}
-
-/// The construction of a point with arms along some distances; driving parameters are the rest.
-fn instruction(point: usize, arity: usize, distances: &[(usize, usize)]) -> Instruction {
-    let mut arms = [Arm::Driving { place: [0.0; 3] }; 3];
-    for (arm, &(centre, edge)) in arms[..arity].iter_mut().zip(distances) {
-        *arm = Arm::Edge { centre, edge };
-    }
-    Instruction {
-        point,
-        arity,
-        arms,
-        original: [None; 2],
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Arm;
     use crate::plan::testing::{rigid, shipped};
     use proptest::prelude::*;
 
