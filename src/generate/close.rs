@@ -33,15 +33,15 @@ pub(super) fn close(mut frame: Frame, loops: usize, random: &mut Random) -> Stru
         let hinge = &hinges[j];
         let [from, to] = bodies[j];
         let [next_from, next_to] = if j == 0 { bodies[loops] } else { bodies[j + 1] };
-        // The far halves of the bodies.
-        let far = lever(
-            &frame,
-            hinge,
-            next_from.midpoint(next_to)..next_to,
-            f64::INFINITY,
-        );
+        // The far halves of the bodies; no point is the end of two bars, which would place it.
+        let free = |range: std::ops::Range<usize>| {
+            range.filter(|p| !closing[j + 1..].as_flattened().contains(p))
+        };
+        let next_half = free(next_from.midpoint(next_to)..next_to);
+        let far = lever(&frame, hinge, next_half, f64::INFINITY);
         let reach = distance_to_axis(&frame, hinge, far);
-        let near = lever(&frame, hinge, from..from.midpoint(to), 0.6 * reach);
+        let half = free(from..from.midpoint(to));
+        let near = lever(&frame, hinge, half, 0.6 * reach);
         let angle = match j {
             0 => ANGLES[0],
             _ if j % 2 == 0 => -OTHERS + 0.2 * random.symmetric(),
@@ -77,7 +77,7 @@ pub(super) fn close(mut frame: Frame, loops: usize, random: &mut Random) -> Stru
 }
 
 /// The point whose distance to the hinge's axis is nearest to the one wanted.
-fn lever(frame: &Frame, hinge: &Hinge, among: std::ops::Range<usize>, wanted: f64) -> usize {
+fn lever(frame: &Frame, hinge: &Hinge, among: impl Iterator<Item = usize>, wanted: f64) -> usize {
     let off = |p: usize| {
         let distance = distance_to_axis(frame, hinge, p);
         if wanted.is_finite() {
