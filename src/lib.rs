@@ -43,6 +43,7 @@
 //! The modules, from the ground up; each knows only those before it:
 //!
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
+//! - [`generate`]: large problems made to measure
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
@@ -51,6 +52,7 @@
 //! - [`report`]: tables, JSON, progress
 
 pub mod certificate;
+pub mod generate;
 pub mod interval;
 pub mod linalg;
 pub mod plan;

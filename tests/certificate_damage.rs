@@ -144,10 +144,8 @@ const FALSE: &[(&str, Damage)] = &[
         let k = dice.below(c.solutions());
         let factor = dice.about(5.0, 1e6);
         let solution = c.solution_mut(k);
-        let widest = (0..solution.radius.len())
-            .max_by(|&i, &j| solution.radius[i].total_cmp(&solution.radius[j]));
-        let i = widest.unwrap();
-        solution.centre[i] += factor * f64::from(solution.radius[i]);
+        let i = dice.below(solution.centre.len());
+        solution.centre[i] += factor * f64::from(solution.radius);
     }),
     ("solution replaced by another", |c, dice| {
         let (a, b) = (dice.below(c.solutions()), dice.below(c.solutions() - 1));
@@ -160,10 +158,7 @@ const FALSE: &[(&str, Damage)] = &[
     ("box too narrow for its solution", |c, dice| {
         let k = dice.below(c.solutions());
         let factor = dice.about(1e-9, 1e-3) as f32;
-        c.solution_mut(k)
-            .radius
-            .iter_mut()
-            .for_each(|r| *r *= factor);
+        c.solution_mut(k).radius *= factor;
     }),
     ("box widened over its neighbour", |c, dice| {
         let count = c.solutions();
@@ -171,19 +166,18 @@ const FALSE: &[(&str, Damage)] = &[
         let b = if b < a { b } else { b + 1 };
         let other = c.solution_mut(b).centre.clone();
         let solution = c.solution_mut(a);
-        for i in 0..other.len() {
-            let distance = (solution.centre[i] - other[i]).abs();
-            solution.radius[i] = solution.radius[i].max(1.01 * distance as f32);
-        }
+        let pairs = other.iter().zip(&solution.centre);
+        let distance = pairs.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()));
+        solution.radius = 1.01 * distance as f32;
     }),
     ("last digit of a number of the problem", |c, dice| {
         // Of a length, a coordinate of the sketch, or the bend's coefficient.
-        let digits: Vec<usize> = (0..c.problem.len() - 1)
+        let numbers = c.problem.find("[points]").unwrap();
+        let digits: Vec<usize> = (numbers..c.problem.len() - 1)
             .filter(|&i| {
                 let byte = |i: usize| c.problem.as_bytes()[i];
                 byte(i).is_ascii_digit() && matches!(byte(i + 1), b',' | b']' | b'\n')
             })
-            .skip(1)
             .collect();
         let at = digits[dice.below(digits.len())];
         let digit = (c.problem.as_bytes()[at] - b'0' + 1 + dice.below(9) as u8) % 10;
@@ -275,10 +269,7 @@ const HARMLESS: &[(&str, Damage)] = &[
     }),
     ("box slightly wider", |c, dice| {
         let k = dice.below(c.solutions());
-        c.solution_mut(k)
-            .radius
-            .iter_mut()
-            .for_each(|r| *r *= dice.between(1.0, 10.0) as f32);
+        c.solution_mut(k).radius *= dice.between(1.0, 10.0) as f32;
     }),
     ("another title", |c, dice| {
         let line = c.problem.find('\n').unwrap();

@@ -5,20 +5,14 @@ mod common;
 use common::certificate::{Certificate, SHIPPED, shipped};
 use krawl::certificate::{Flaw, FormatError, Outcome, Record, Settings, Verdict, verify};
 use krawl::problem::Problem;
-use krawl::track::{Control, Options, solve};
+use krawl::track::Options;
 
 fn check(bytes: &[u8]) -> Result<Verdict, FormatError> {
     verify(bytes, &Settings::default(), &mut |_| ())
 }
 
 fn written(problem: &Problem, options: &Options) -> Vec<u8> {
-    let mut writer = krawl::certificate::Writer::new(Vec::new(), problem);
-    let mut control = Control {
-        witness: Some(&mut writer),
-        ..Control::default()
-    };
-    solve(problem, options, &mut control).unwrap();
-    writer.finish().unwrap()
+    common::certificate::of(problem, options).1
 }
 
 #[test]
@@ -70,6 +64,30 @@ fn other_ways_of_tracking_leave_certificates_too() {
         assert_eq!(verdict.outcome, Outcome::Verified);
         assert_eq!(verdict.solutions.len(), 12);
     }
+}
+
+/// On the path the reference turns over, as the third point falls on the line of the others: the
+/// two solutions are one figure, its two sides up.
+#[test]
+fn a_figure_that_turns_over_is_proved_congruent_to_itself() {
+    let problem = Problem::build("triangle", 3)
+        .point("a", ["0", "0", "0"])
+        .point("b", ["1", "0", "0"])
+        .point("c", ["0", "1", "0"])
+        .distance("a", "b", "1.1")
+        .distance("b", "c", "1.5")
+        .distance("a", "c", "1.2")
+        .finish()
+        .unwrap();
+    let bytes = written(&problem, &Options::certified());
+    let verdict = check(&bytes).unwrap();
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert_eq!(verdict.classes, [0, 0]);
+    // And it is no other figure.
+    let mut different = Certificate::read(&bytes);
+    different.classes_mut()[1] = 1;
+    let verdict = check(&different.bytes()).unwrap();
+    assert_eq!(verdict.outcome, Outcome::Refuted(Flaw::Class(2, 1)));
 }
 
 #[test]
@@ -170,8 +188,8 @@ fn files_that_are_none_are_told_from_refuted_ones() {
         FormatError::NotACertificate
     ));
     let mut future = good.clone();
-    future[18] = 2;
-    assert!(matches!(error(&future), FormatError::Version(2)));
+    future[18] = 3;
+    assert!(matches!(error(&future), FormatError::Version(3)));
     for length in (0..good.len()).step_by(97) {
         assert!(check(&good[..length]).is_err(), "{length}");
     }

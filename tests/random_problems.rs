@@ -9,6 +9,7 @@ mod common;
 use common::boxes::{View, check, float_matching, matching};
 use common::random::{Recipe, recipe};
 use common::{FLOAT_SPACES, solve};
+use krawl::certificate::{self, Settings, verify};
 use krawl::problem::Problem;
 use krawl::track::{Options, Outcome, Status};
 use proptest::prelude::*;
@@ -38,10 +39,11 @@ fn limited(options: Options) -> Options {
 }
 
 /// The laws. A run closes, or says why it does not; what it says about solutions is true in either
-/// case; the other way round the loop are the same solutions; and float tracking agrees.
+/// case, and a closed run leaves a certificate that verifies; the other way round the loop are the same solutions; and float tracking agrees.
 fn laws(problem: &Problem, tally: &mut Tally) -> Result<(), String> {
-    let outcome = solve(problem, &limited(Options::certified()));
+    let (outcome, certificate) = common::certificate::of(problem, &limited(Options::certified()));
     check(problem, &outcome.solutions)?;
+    same_verdict(&outcome, &certificate)?;
     if let Status::Stopped(reason) = &outcome.status {
         tally.stopped += 1;
         tally
@@ -78,6 +80,28 @@ fn laws(problem: &Problem, tally: &mut Tally) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// The checker proves what the run claims: all of it if the path closed.
+fn same_verdict(outcome: &Outcome, certificate: &[u8]) -> Result<(), String> {
+    let verdict = verify(certificate, &Settings { threads: 1 }, &mut |_| ())
+        .map_err(|e| format!("its certificate: {e}"))?;
+    let expected = match &outcome.status {
+        Status::Closed => certificate::Outcome::Verified,
+        Status::Stopped(reason) => certificate::Outcome::Partial(reason.clone()),
+    };
+    let classes: Vec<u32> = outcome.solutions.iter().map(|s| s.class as u32).collect();
+    // What stops a run last may be a claim of the classes or lengths, which a checker finds first.
+    let stopped =
+        outcome.status != Status::Closed && verdict.outcome != certificate::Outcome::Verified;
+    if stopped || verdict.outcome == expected && verdict.classes == classes {
+        Ok(())
+    } else {
+        Err(format!(
+            "its certificate: {:?}, {:?}",
+            verdict.outcome, verdict.classes
+        ))
+    }
 }
 
 /// A closed curve that crosses t = 1 and nowhere touches it crosses it as often up as down.

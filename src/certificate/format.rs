@@ -5,7 +5,7 @@ use crate::problem::Problem;
 /// The first bytes of every certificate.
 pub const MAGIC: &[u8; 18] = b"krawl certificate\n";
 /// The version of the format that is written and read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Longest text that names a program, or gives a reason.
 pub const MAX_TEXT: usize = 4096;
 /// Longest text of a problem.
@@ -73,8 +73,8 @@ pub struct TubeClaim {
 pub struct SolutionClaim {
     /// The middle, the free coordinates.
     pub centre: Vec<f64>,
-    /// How far the solution may be from it, entry by entry.
-    pub radius: Vec<f32>,
+    /// How far the solution may be from it, in any entry.
+    pub radius: f32,
 }
 
 /// How the chain ends.

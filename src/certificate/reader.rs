@@ -127,16 +127,11 @@ impl<R: Read> Reader<R> {
         let m = self.header.problem.free_coordinates();
         let solution = SolutionClaim {
             centre: floats(&mut self.input, m, WHAT)?,
-            radius: (0..m)
-                .map(|_| Ok(f32::from_le_bytes(array(&mut self.input, WHAT)?)))
-                .collect::<Result<_>>()?,
+            radius: f32::from_le_bytes(array(&mut self.input, WHAT)?),
         };
         let numbers = solution.centre.iter().all(|&x| in_range(x));
-        let radii = solution
-            .radius
-            .iter()
-            .all(|&x| x >= 0.0 && in_range(x.into()));
-        if !(numbers && radii) {
+        let radius = f64::from(solution.radius);
+        if !(numbers && radius > 0.0 && in_range(radius)) {
             return Err(self.fault("a coordinate of a solution is out of range"));
         }
         if self.tubes == 0 {

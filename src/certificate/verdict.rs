@@ -56,12 +56,9 @@ pub enum Flaw {
     /// There is nothing to travel.
     #[error("in tube {0} the path's exit does not lie behind its entry for certain")]
     Backwards(u64),
-    /// Crossings cannot be counted.
-    #[error("in tube {0} it cannot be decided whether the path meets t = 1")]
-    Undecided(u64),
     /// A crossing without a solution.
     #[error(
-        "in tube {0} the path meets t = 1 between s = {1:e} and {2:e}, and none of the solutions listed so far lies there for certain"
+        "tube {0} may meet t = 1 between {1} and {2} of its half length, and none of the solutions listed so far is certain to be all that lies there"
     )]
     Unlisted(u64, f64, f64),
     /// A box is no box.
@@ -73,11 +70,9 @@ pub enum Flaw {
     /// A solution that the path does not meet.
     #[error("solution {0} was not met by the path")]
     Unmet(usize),
-    /// The reference is turned over.
-    #[error(
-        "in solution {0} the reference is degenerate or turned over, so that classes are not decided by coordinates"
-    )]
-    Reference(usize),
+    /// Nothing is proved about two figures.
+    #[error("it could not be decided whether solutions {0} and {1} are congruent")]
+    Congruence(usize, usize),
     /// A wrong class.
     #[error("solution {0} is listed in class {1}, which is not proved")]
     Class(usize, u32),

@@ -9,11 +9,12 @@ use crate::track::{Status, TubeSeen, Witness};
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
-/// Boxes are written wider than they were proved, so that a checker that rounds more coarsely
-/// has room; the claim is weaker, not stronger.
+/// Boxes are written wider than they were proved, by this factor and by a few roundings of the
+/// largest coordinate, so that a checker that rounds more coarsely has room; the claim is weaker,
+/// not stronger.
 const WIDER: f64 = 2.0;
-/// And in no direction narrower than this, relative to the widest: an entry may be known exactly.
-const LEAST: f64 = 1.0 / 1024.0;
+/// See [`WIDER`].
+const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 /// Writes what a certified run lets it see: to be given to [`crate::track::Control::witness`].
 ///
@@ -78,13 +79,10 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn solution(&mut self, centre: &[f64], radius: &[f64]) {
-        let least = LEAST * radius.iter().fold(0.0, |max: f64, &r| max.max(r));
+        let largest = |v: &[f64]| v.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         self.put(&Record::Solution(SolutionClaim {
             centre: centre.to_vec(),
-            radius: radius
-                .iter()
-                .map(|&r| (WIDER * (r + least)) as f32)
-                .collect(),
+            radius: (WIDER * largest(radius) + ROUNDINGS * largest(centre)) as f32,
         }));
     }
 
@@ -144,10 +142,7 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
             for x in &solution.centre {
                 out.write_all(&x.to_le_bytes())?;
             }
-            for x in &solution.radius {
-                out.write_all(&x.to_le_bytes())?;
-            }
-            Ok(())
+            out.write_all(&solution.radius.to_le_bytes())
         }
         Record::End(end) => {
             out.write_all(&[TAG_END, end.stopped.is_some().into()])?;

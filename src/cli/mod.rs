@@ -1,6 +1,7 @@
 //! The command line: one file per verb.
 
 mod check;
+mod generate;
 mod interrupt;
 mod output;
 mod processor;
@@ -34,6 +35,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Verb {
     Check(check::Arguments),
+    Generate(generate::Arguments),
     Solve(solve::Arguments),
     Verify(verify::Arguments),
 }
@@ -46,6 +48,7 @@ pub fn run() -> ExitCode {
     }
     let code = match Arguments::parse().verb {
         Verb::Check(arguments) => check::run(&arguments),
+        Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
     };

@@ -1,10 +1,9 @@
 //! Finding a plan with few driving parameters in the constraint graph.
 
-use super::boundary::{gamma_three, gamma_two};
-use super::change::place;
-use super::{Arm, Instruction, Plan};
+use super::Plan;
 use crate::system::Homotopy;
-use std::collections::HashSet;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashSet};
 
 /// Bounds the search: `SEARCH / n²` sets of points are kept for each number of driving
 /// parameters. For a dozen points those are nearly all that matter and the number found is the
@@ -20,18 +19,9 @@ impl Plan {
     /// and the reference points of driving parameters are placed to suit the sketch.
     pub fn derive(homotopy: &Homotopy) -> Plan {
         let graph = Graph::new(homotopy);
-        let instructions = graph
-            .order()
-            .into_iter()
-            .map(|(point, arity, earlier)| graph.instruction(homotopy, point, arity, &earlier));
-        let mut plan = Plan {
-            dimension: homotopy.dimension,
-            points: homotopy.points,
-            edges: homotopy.edges.len(),
-            instructions: instructions.collect(),
-        };
-        plan.place_references(&homotopy.sketch);
-        plan
+        let order = graph.order();
+        let plan = graph.plan(homotopy, &order);
+        graph.with_shorter_arms(homotopy, &order, plan)
     }
 }
 
@@ -58,10 +48,10 @@ struct Partial {
 
 /// A point to be constructed, the number of its arms, and its neighbours among the earlier
 /// points with the distances to them.
-type Placed = (usize, usize, Vec<(usize, usize)>);
+pub(super) type Placed = (usize, usize, Vec<(usize, usize)>);
 
-struct Graph {
-    dimension: usize,
+pub(super) struct Graph {
+    pub(super) dimension: usize,
     /// For each point its neighbours and the distances to them.
     neighbours: Vec<Vec<(usize, usize)>>,
     reference: Vec<usize>,
@@ -109,9 +99,8 @@ impl Graph {
         }
     }
 
-    /// The points in an order of construction, each with the number of its arms and its
-    /// neighbours among the earlier ones. The first reference point needs no construction.
-    fn order(&self) -> Vec<Placed> {
+    /// The points in an order of construction.
+    fn order(&self) -> Vec<usize> {
         let n = self.neighbours.len();
         let beam = (SEARCH / (n * n)).max(10);
         let mut start = Partial {
@@ -134,7 +123,7 @@ impl Graph {
         let mut levels: Vec<Vec<Partial>> = vec![vec![start]];
         let mut seen: HashSet<Set> = HashSet::new();
         let mut cost = 0;
-        let order = 'search: loop {
+        'search: loop {
             let mut level = std::mem::take(&mut levels[cost]);
             level.retain(|partial| seen.insert(partial.placed.clone()));
             level.sort_by_key(|partial| std::cmp::Reverse(partial.order.len()));
@@ -169,9 +158,13 @@ impl Graph {
                 let rest = (0..n).filter(|p| !self.reference.contains(p));
                 break self.reference.iter().copied().chain(rest).collect();
             }
-        };
+        }
+    }
 
-        let mut rank = vec![0; n];
+    /// For each point but the first, which needs no construction, the number of its arms and its
+    /// neighbours among the earlier ones.
+    pub(super) fn placed(&self, order: &[usize]) -> Vec<Placed> {
+        let mut rank = vec![0; order.len()];
         for (k, &p) in order.iter().enumerate() {
             rank[p] = k;
         }
@@ -188,61 +181,54 @@ impl Graph {
             .collect()
     }
 
-    /// The instruction for a point with its neighbours among the earlier points: among all
-    /// choices of arms the one with the largest γ in the sketch.
-    fn instruction(
-        &self,
-        homotopy: &Homotopy,
-        point: usize,
-        arity: usize,
-        earlier: &[(usize, usize)],
-    ) -> Instruction {
-        let at = |p: usize| place(&homotopy.sketch, self.dimension, p);
-        let p = at(point);
-        let mut best = earlier.iter().copied().take(arity).collect::<Vec<_>>();
-        let mut best_gamma = -1.0;
-        let mut consider = |choice: &[(usize, usize)]| {
-            let c = |k: usize| at(choice[k].0);
-            let mut gamma = gamma_two(p, c(0), c(1));
-            if choice.len() == 3 {
-                gamma = gamma.min(gamma_three(p, c(0), c(1), c(2)));
+    /// The same order as to where driving parameters are needed; what follows without is
+    /// constructed from the latest points first.
+    pub(super) fn latest_first(&self, order: &[usize]) -> Vec<usize> {
+        let mut rank = vec![usize::MAX; order.len()];
+        let mut new: Vec<usize> = Vec::with_capacity(order.len());
+        let mut ready: BinaryHeap<(usize, Reverse<usize>)> = BinaryHeap::new();
+        let mut given = self.reference.iter().chain(order);
+        while new.len() < order.len() {
+            let next = match ready.pop() {
+                Some((_, Reverse(p))) => Some(p),
+                // Only what needs a driving parameter is left.
+                None => given.next().copied(),
+            };
+            let Some(p) = next else { break };
+            if rank[p] != usize::MAX {
+                continue;
             }
-            if gamma > best_gamma {
-                best_gamma = gamma;
-                best = choice.to_vec();
+            rank[p] = new.len();
+            new.push(p);
+            if new.len() < self.reference.len() {
+                continue;
             }
-        };
-        if arity >= 2 && earlier.len() >= 2 {
-            for (i, &a) in earlier.iter().enumerate() {
-                for (j, &b) in earlier.iter().enumerate().skip(i + 1) {
-                    if arity == 2 || earlier.len() == 2 {
-                        consider(&[a, b]);
-                        continue;
-                    }
-                    for (k, &c) in earlier.iter().enumerate() {
-                        if k != i && k != j {
-                            consider(&[a, b, c]);
-                        }
-                    }
+            let from: &[usize] = if new.len() == self.reference.len() {
+                &new
+            } else {
+                &[p]
+            };
+            for &(q, _) in from.iter().flat_map(|&p| &self.neighbours[p]) {
+                let mut known: Vec<usize> = self.neighbours[q]
+                    .iter()
+                    .map(|&(r, _)| rank[r])
+                    .filter(|&rank| rank != usize::MAX)
+                    .collect();
+                if rank[q] == usize::MAX && known.len() >= self.dimension {
+                    known.sort_unstable_by_key(|&rank| Reverse(rank));
+                    // Entries from when there were fewer neighbours come later, and are skipped.
+                    ready.push((known[self.dimension - 1], Reverse(q)));
                 }
             }
         }
-        let mut arms = [Arm::Driving { place: [0.0; 3] }; 3];
-        for (arm, &(centre, edge)) in arms.iter_mut().zip(&best) {
-            *arm = Arm::Edge { centre, edge };
-        }
-        Instruction {
-            point,
-            arity,
-            arms,
-            original: [None; 2],
-        }
+        new
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Arm;
     use crate::plan::testing::{rigid, shipped};
     use proptest::prelude::*;
 

@@ -14,6 +14,7 @@
 //! triangular with one small block per point, but for the removed constraints' rows and the
 //! driving parameters' columns: [`Plan::jacobian`].
 
+mod arms;
 pub mod boundary;
 mod change;
 mod derive;

@@ -175,9 +175,9 @@ pub enum ProblemError {
 
 /// Most points that are read.
 ///
-/// The solvers work on dense matrices with as many columns as free coordinates; beyond this size
-/// those alone would fill a machine's memory.
-pub const MAX_POINTS: usize = 1000;
+/// Large enough for structures of ten thousand free coordinates; small enough that the checks, which
+/// for the densest graphs take time like the cube of the number, come to an end.
+pub const MAX_POINTS: usize = 4000;
 
 /// Most characters of a name.
 pub const MAX_NAME: usize = 64;

@@ -165,7 +165,14 @@ impl Problem {
     /// assert!(error.to_string().starts_with("bad.toml:1: dimension: "));
     /// ```
     pub fn parse(text: &str, file: &str) -> Result<Problem, FileError> {
-        Reader { text, file }.problem()
+        let bytes = text.bytes().enumerate();
+        let line_ends = bytes.filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at);
+        Reader {
+            text,
+            file,
+            line_ends: line_ends.collect(),
+        }
+        .problem()
     }
 }
 
@@ -173,6 +180,8 @@ impl Problem {
 struct Reader<'a> {
     text: &'a str,
     file: &'a str,
+    /// Where the lines end.
+    line_ends: Vec<usize>,
 }
 
 /// Where the parts of a problem stand in the file.
@@ -451,8 +460,8 @@ impl Reader<'_> {
 
     /// The line on which a span begins.
     fn line(&self, span: Option<Range<usize>>) -> Line {
-        let before = self.text.as_bytes().get(..span?.start)?;
-        Some(1 + before.iter().filter(|&&byte| byte == b'\n').count())
+        let start = span?.start;
+        Some(1 + self.line_ends.partition_point(|&end| end < start))
     }
 
     fn syntax(&self, error: &toml_edit::TomlError) -> FileError {

@@ -44,6 +44,13 @@ pub fn solve(
         // The paper's step sizes are in the lengths of the problem.
         Preset::Paper => Homotopy::with_unit(problem, 1.0)?,
     };
+    if options.space == Space::Full && homotopy.equations > LARGEST_FULL {
+        return Err(StartError::Unsupported(format!(
+            "there are {} free coordinates, more than the {LARGEST_FULL} of which the full space keeps \
+             square matrices; use --space reduced",
+            homotopy.equations
+        )));
+    }
     if let Some(step) = options.max_step
         && step < SMALLEST_MAX_STEP * homotopy.unit
     {
@@ -57,6 +64,10 @@ pub fn solve(
         _ => solve_in::<3>(&homotopy, options, control),
     }
 }
+
+/// Most free coordinates in the full space: its trackers keep half a dozen dense matrices with as
+/// many rows and columns, 288 MB each here.
+const LARGEST_FULL: usize = 6000;
 
 /// Bounds on the step below this, in units of the problem's typical length, are refused: no path
 /// would end.

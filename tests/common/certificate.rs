@@ -1,7 +1,11 @@
 //! Certificates taken apart, to be damaged and put together again.
 
-use krawl::certificate::{Reader, Record, SolutionClaim, TubeClaim, write_header, write_record};
+use krawl::certificate::{
+    Reader, Record, SolutionClaim, TubeClaim, Writer, write_header, write_record,
+};
+use krawl::problem::Problem;
 use krawl::system::Gauge;
+use krawl::track::{Control, Options, Outcome, solve};
 
 /// The certificates in `certs/`.
 pub const SHIPPED: [&str; 6] = [
@@ -16,6 +20,17 @@ pub const SHIPPED: [&str; 6] = [
 /// A certificate from `certs/`.
 pub fn shipped(name: &str) -> Vec<u8> {
     std::fs::read(format!("certs/{name}.krawl")).unwrap()
+}
+
+/// A run with the certificate that it leaves.
+pub fn of(problem: &Problem, options: &Options) -> (Outcome, Vec<u8>) {
+    let mut writer = Writer::new(Vec::new(), problem);
+    let mut control = Control {
+        witness: Some(&mut writer),
+        ..Control::default()
+    };
+    let outcome = solve(problem, options, &mut control).unwrap();
+    (outcome, writer.finish().unwrap())
 }
 
 /// A certificate's parts.

@@ -1,6 +1,5 @@
 //! The equations in intervals: F_e = ½|p_i − p_j|² − E_e(t), E_e = ½ a_e².
 
-use super::whole::{Rows, exact, size, split};
 use crate::interval::{Interval, point};
 use crate::system::Homotopy;
 
@@ -16,73 +15,29 @@ pub struct Equations {
     pub sketch: Vec<Interval>,
 }
 
-/// p_i − p_j per distance and axis.
-pub type Differences = Vec<[Interval; 3]>;
 pub const ZERO: Interval = inari::const_interval!(0.0, 0.0);
+
+/// The unknown that a point's coordinate is, or the entry that is always zero.
+pub fn unknown(homotopy: &Homotopy, point: usize, axis: usize) -> usize {
+    let (m, d) = (homotopy.equations, homotopy.dimension);
+    match homotopy.gauge.variable.get(point * d + axis) {
+        Some(&free) if axis < d && free < m => free,
+        _ => m + 1,
+    }
+}
 
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
-        let (m, d) = (homotopy.equations, homotopy.dimension);
-        let unknown = |point: usize, axis: usize| match homotopy.gauge.variable[point * d + axis] {
-            fixed if fixed == m => m + 1,
-            free => free,
-        };
         let ends = homotopy.edges.iter().map(|edge| {
-            std::array::from_fn(|axis| {
-                edge.points
-                    .map(|p| if axis < d { unknown(p, axis) } else { m + 1 })
-            })
+            std::array::from_fn(|axis| edge.points.map(|p| unknown(&homotopy, p, axis)))
         });
-        let place = homotopy.gauge.place.iter();
+        let place = homotopy.gauge.place.iter().map(|&p| homotopy.sketch_box[p]);
         Equations {
-            m,
+            m: homotopy.equations,
             ends: ends.collect(),
-            sketch: place
-                .map(|&p| homotopy.sketch_box[p])
-                .chain([ZERO; 2])
-                .collect(),
+            sketch: place.chain([ZERO; 2]).collect(),
             homotopy,
         }
-    }
-
-    /// Whether an unknown changes its sign in the mirror image.
-    pub fn is_mirrored(&self, i: usize) -> bool {
-        let d = self.homotopy.dimension;
-        self.homotopy.gauge.place[i] % d == d - 1
-    }
-
-    pub fn differences(&self, z: &[Interval]) -> Differences {
-        let ends = self.ends.iter();
-        ends.map(|e| e.map(|[i, j]| if i == j { ZERO } else { z[i] - z[j] }))
-            .collect()
-    }
-
-    /// F(X, t) with the differences of X.
-    pub fn residual(
-        &self,
-        d: &Differences,
-        half_square: impl Fn(usize) -> Interval,
-    ) -> Vec<Interval> {
-        let square = |d: &[Interval; 3]| (d[0].sqr() + d[1].sqr() + d[2].sqr()) * HALF;
-        d.iter()
-            .enumerate()
-            .map(|(e, d)| square(d) - half_square(e))
-            .collect()
-    }
-
-    /// The same in floats, roughly.
-    pub fn float_residual(&self, z: &[f64]) -> Vec<f64> {
-        let lengths = self.ends.iter().zip(&self.homotopy.lengths);
-        let value = lengths.map(|(ends, length)| {
-            let square: f64 = ends.iter().map(|[i, j]| (z[*i] - z[*j]).powi(2)).sum();
-            0.5 * square
-                - length
-                    .e
-                    .iter()
-                    .rev()
-                    .fold(0.0, |sum, e| sum * z[self.m] + e)
-        });
-        value.collect()
     }
 
     /// The coefficients of E_e(t₀ + τ) in τ.
@@ -95,79 +50,20 @@ impl Equations {
                 c[k] += t * c[k + 1];
             }
         }
+        if t == point(1.0) {
+            // Known better than from its way there.
+            c[0] = length.target_half_square();
+        }
         c
     }
 
-    /// |E''| for all t in a range.
-    pub fn bend_of(&self, e: usize, t: Interval) -> Interval {
-        let c = self.homotopy.lengths[e].half_square();
-        size(c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))))
-    }
-
-    /// The rows of a derivative: coordinates' entries from differences, those of t from `time`.
-    fn row(
-        &self,
-        e: usize,
-        d: &[Interval; 3],
-        time: Interval,
-    ) -> impl Iterator<Item = (usize, Interval)> {
-        let (n, m) = (self.m + 1, self.m);
-        let ends = self.ends[e];
-        let signed = (0..3)
-            .flat_map(move |axis| [(ends[axis][0], axis, false), (ends[axis][1], axis, true)]);
-        let d = *d;
-        signed
-            .filter(move |&(i, ..)| i < n)
-            .map(move |(i, axis, minus)| (i, if minus { -d[axis] } else { d[axis] }))
-            .chain([(m, time)])
-    }
-
-    /// Rows as whole numbers, and Σ |rest| u ≤ Σ |rest| per row: no weight exceeds 1.
-    pub fn whole_rows(&self, d: &Differences, time: &[Interval]) -> Option<(Rows, Vec<Interval>)> {
-        let mut rests = Vec::with_capacity(self.m + 1);
-        let rows = (0..self.m).map(|e| {
-            let mut rest_sum = ZERO;
-            let row = self.row(e, &d[e], time[e]).map(|(i, x)| {
-                let (whole, rest) = split(x)?;
-                rest_sum += rest;
-                Some((i, whole))
-            });
-            let row = row.collect::<Option<Vec<_>>>();
-            rests.push(rest_sum);
-            row
-        });
-        let rows = rows.collect::<Option<Rows>>()?;
-        Some((rows, rests))
-    }
-
-    /// The rows in floats, with `last` for the last of the square matrix.
-    pub fn float_matrix(&self, d: &Differences, time: &[Interval], last: &[f64]) -> Vec<f64> {
-        let n = self.m + 1;
-        let mut out = vec![0.0; n * n];
-        for e in 0..self.m {
-            for (i, x) in self.row(e, &d[e], time[e]) {
-                out[e * n + i] = x.mid();
-            }
+    /// E'' on a range of t.
+    pub fn bend(&self, e: usize, t: Interval) -> Interval {
+        let length = &self.homotopy.lengths[e];
+        let c = length.half_square();
+        match length.degree {
+            2 => c[2] * point(2.0),
+            _ => c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))),
         }
-        out[self.m * n..].copy_from_slice(&last[..n]);
-        out
     }
-
-    /// Σ u_j over the coordinates of a distance's ends, per axis.
-    pub fn weight(&self, e: usize, u: &[Interval]) -> [Interval; 3] {
-        self.ends[e].map(|[i, j]| u[i] + u[j])
-    }
-}
-
-pub const HALF: Interval = inari::const_interval!(0.5, 0.5);
-
-/// The same for one row of floats.
-pub fn whole_row(row: &[f64]) -> Option<(Vec<(usize, i64)>, Interval)> {
-    let mut rest_sum = ZERO;
-    let whole = row.iter().enumerate().map(|(i, &x)| {
-        let (whole, rest) = split(exact(x))?;
-        rest_sum += rest;
-        Some((i, whole))
-    });
-    Some((whole.collect::<Option<Vec<_>>>()?, rest_sum))
 }

@@ -229,7 +229,12 @@ impl<const D: usize> Events<D> {
         if !(back..=0.0).contains(&at) || dot(&next.normal[..n], &direction[..n]) <= 0.0 {
             return None;
         }
-        next.at(at, &mut self.scratch);
+        // The expansion that is nearer is much the better one.
+        if at < 0.5 * back {
+            now.at(now.parameter_of(sketch), &mut self.scratch);
+        } else {
+            next.at(at, &mut self.scratch);
+        }
         let away = (0..n).fold(0.0, |max: f64, i| {
             max.max((self.scratch[i] - sketch[i]).abs())
         });

@@ -19,6 +19,8 @@ pub(super) struct Corrector {
     /// The sign of the determinant of the Jacobian with the tangent as last row, which stays the
     /// same as long as plan and branch do.
     orientation: f64,
+    /// How much the second correction was smaller than the first; zero if one was enough.
+    pub contraction: f64,
     places: usize,
 }
 
@@ -37,6 +39,9 @@ const CONVERGED: f64 = 1e-8;
 /// Derivatives that have changed by more than this, relatively, are computed anew.
 const CHANGE: f64 = 0.01;
 
+/// Refined is what the last correction moves by less than this, relative to the figure.
+const REFINED: f64 = 2e-10;
+
 /// Each correction must be smaller than the one before by this factor.
 const CONTRACTION: f64 = 0.3;
 
@@ -51,6 +56,7 @@ impl Corrector {
             apart: Elimination::default(),
             apart_sizes: Vec::new(),
             orientation: 1.0,
+            contraction: 0.0,
             places,
         }
     }
@@ -133,7 +139,8 @@ impl Corrector {
         let small = (1e-4 * h).clamp(1e-12, SMALL);
         // About what is left to correct.
         let mut left = size;
-        for _ in 0..MOST {
+        self.contraction = 0.0;
+        for turn in 0..MOST {
             if left <= small {
                 break;
             }
@@ -142,6 +149,9 @@ impl Corrector {
             }
             self.there.solve(evaluation.residual(), &mut self.step);
             let smaller = self.step_size();
+            if turn == 0 {
+                self.contraction = smaller / size;
+            }
             if !(smaller <= CONTRACTION * size || smaller <= small) {
                 return false;
             }
@@ -294,7 +304,7 @@ impl Corrector {
                 break;
             }
         }
-        best < 1e-9
+        best < REFINED * dot(z, z).sqrt()
     }
 }
 

@@ -4,6 +4,9 @@ use super::Tracker;
 use super::cubic::Passages;
 use super::station::{Piece, distance, dot};
 
+/// Points nearer than this, relative to the figure, are the same.
+const SAME: f64 = 2e-8;
+
 /// What was found on a piece of the path.
 pub(super) enum Events {
     /// Solutions, if any, were recorded; the path goes on.
@@ -112,7 +115,7 @@ impl<const D: usize> Tracker<'_, D> {
                 return Err(());
             }
             let same_way = dot(&self.next.tangent, &start.tangent) > 0.0;
-            if same_way && distance(guess, &start.z) < 1e-7 {
+            if same_way && distance(guess, &start.z) < SAME * dot(&start.z, &start.z).sqrt() {
                 return Ok(Some(s));
             }
         }

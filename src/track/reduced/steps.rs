@@ -12,6 +12,10 @@ const FIRST_STEP: f64 = 0.01;
 /// times larger, the results on the shipped problems are the same: there is room.)
 const ERROR: f64 = 0.05;
 
+/// The step is chosen so that the corrector's second correction is this part of the first. (At
+/// 0.3 it gives up.)
+const CONTRACTION: f64 = 0.1;
+
 /// The tangent may turn by this angle in a step, in radians.
 const TURN: f64 = 0.3;
 
@@ -84,6 +88,7 @@ impl<const D: usize> Tracker<'_, D> {
             Attempt::Boundary | Attempt::Failed => return self.reject(pace),
         };
         // Looking between the stations evaluates the plan elsewhere.
+        let contraction = self.corrector.contraction;
         let near = self.evaluation.is_near_boundary() || self.evaluation.is_out_of_order();
         match self.look_between(length, 0.25 * error + 1e-9) {
             Events::None => self.advance(length, length),
@@ -101,9 +106,14 @@ impl<const D: usize> Tracker<'_, D> {
         if control.is_cancelled(self.progress()) {
             return Err(self.stopped("interrupted"));
         }
-        // The predictor's error grows like h⁴, the turn like h.
+        // The predictor's error grows like h⁴, and with it what the corrector's contraction is
+        // lacking; the turn like h.
         let by_error = (0.5 * ERROR * length / error.max(1e-300)).sqrt().sqrt();
-        let growth = by_error.min(0.8 * TURN / turn.max(1e-300)).clamp(0.5, 2.0);
+        let by_contraction = (CONTRACTION / contraction.max(1e-300)).sqrt().sqrt();
+        let growth = by_error
+            .min(by_contraction)
+            .min(0.8 * TURN / turn.max(1e-300))
+            .clamp(0.5, 2.0);
         pace.h = (pace.h * growth).min(pace.longest);
         (pace.looks, pace.failures) = (0, 0);
         Ok(())

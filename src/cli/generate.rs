@@ -1,0 +1,74 @@
+//! `krawl generate`: makes a large problem of a family.
+
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED};
+use clap::ValueEnum;
+use krawl::generate::{Family, Recipe};
+use std::path::PathBuf;
+
+/// Make a large well-constrained problem with few key unknowns
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// What it is made of
+    #[arg(value_enum)]
+    family: FamilyName,
+    /// The least number of free coordinates; the problem is the smallest of its family with as many
+    #[arg(long, value_name = "N")]
+    size: usize,
+    /// The number of loops, each of which costs one driving parameter and one key unknown
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    loops: usize,
+    /// Where the random places and lengths start: equal seeds make equal problems
+    #[arg(long, value_name = "X", default_value_t = 1)]
+    seed: u64,
+    /// Write the problem to a file [default: standard output]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FamilyName {
+    /// Strips of triangles in the plane, hinged, with closing bars
+    Strip,
+    /// Strips of tetrahedra, hinged, with closing bars
+    Tetrahedra,
+    /// Octahedra edge to edge, some of them hinged, with closing bars
+    Chain,
+    /// Octahedra face to face, most of them braced
+    Tower,
+}
+
+impl From<FamilyName> for Family {
+    fn from(name: FamilyName) -> Self {
+        match name {
+            FamilyName::Strip => Family::Strip,
+            FamilyName::Tetrahedra => Family::Tetrahedra,
+            FamilyName::Chain => Family::Chain,
+            FamilyName::Tower => Family::Tower,
+        }
+    }
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let out = match &arguments.out {
+        Some(file) => Destination::new(file)?,
+        None => Destination::StandardOutput,
+    };
+    let recipe = Recipe {
+        family: arguments.family.into(),
+        size: arguments.size,
+        loops: arguments.loops,
+        seed: arguments.seed,
+    };
+    let problem = recipe.problem().map_err(|error| error.to_string())?;
+    Ok(if out.write(&problem.to_toml()) {
+        CLOSED
+    } else {
+        BAD_INPUT
+    })
+}

@@ -1,0 +1,45 @@
+//! Tetrahedra face to face.
+
+use super::frame::{Frame, Hinge, JITTER, RADIUS, on_circle, plus};
+use super::random::Random;
+use std::f64::consts::TAU;
+
+/// Each point is joined to the three before it. Without the bar to the third of these, what comes
+/// after turns about the line through the two others.
+pub(super) fn frame(points: usize, random: &mut Random) -> Frame {
+    // Boerdijk and Coxeter's helix, bent round: a step forward by 1/√10, a turn by arccos(−2/3),
+    // at a distance of √(27/100) from the middle, for edges of length 1.
+    let (step, turn) = (0.1f64.sqrt(), (-2.0f64 / 3.0).acos());
+    let middle = 0.27f64.sqrt();
+    let places = (0..points).map(|k| {
+        let angle = (k as f64 * turn) % TAU;
+        let regular = on_circle(
+            k as f64 * step / RADIUS,
+            middle * angle.cos(),
+            middle * angle.sin(),
+        );
+        plus(regular, random.jitter(3, JITTER))
+    });
+    let points = places.collect::<Vec<_>>();
+    let (mut bars, mut hinges) = (Vec::new(), Vec::new());
+    for k in 1..points.len() {
+        bars.push([k - 1, k]);
+        if k >= 2 {
+            bars.push([k - 2, k]);
+        }
+        if k >= 3 {
+            hinges.push(Hinge {
+                axis: [k - 1, k - 2],
+                first: k,
+                bar: bars.len(),
+            });
+            bars.push([k - 3, k]);
+        }
+    }
+    Frame {
+        dimension: 3,
+        points,
+        bars,
+        hinges,
+    }
+}

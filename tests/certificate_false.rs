@@ -1,0 +1,163 @@
+//! Certificates with a false claim that looks true, made by hand, and extreme ones.
+
+mod common;
+
+use common::certificate::{Certificate, shipped};
+use krawl::certificate::{Flaw, Outcome, Record, Settings, verify};
+
+fn outcome(certificate: &Certificate) -> Outcome {
+    let bytes = certificate.bytes();
+    let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ());
+    verdict.unwrap().outcome
+}
+
+/// The tubes of a certificate again, behind its own: true, and the loop is closed a second time.
+fn twice_round(name: &str) -> Certificate {
+    let mut twice = Certificate::read(&shipped(name));
+    let end = twice.records.pop().unwrap();
+    let tubes = twice
+        .records
+        .iter()
+        .filter(|r| matches!(r, Record::Tube(_)));
+    // The last tube of the first round leads on into the second one.
+    let again: Vec<Record> = tubes.cloned().collect();
+    twice.records.extend(again);
+    twice.records.push(end);
+    twice.recount();
+    twice
+}
+
+#[test]
+fn twice_round_the_loop_is_as_true_as_once() {
+    for name in ["dodecagon", "k33"] {
+        let twice = twice_round(name);
+        // Where the last tube reaches over the sketch the first one may lie behind its exit.
+        let outcome = outcome(&twice);
+        let seam = twice.tubes() as u64 / 2 + 1;
+        let accepted = outcome == Outcome::Verified;
+        let refused =
+            matches!(outcome, Outcome::Refuted(Flaw::Link(k) | Flaw::Backwards(k)) if k == seam);
+        assert!(accepted || refused, "{name}: {outcome:?}");
+    }
+}
+
+/// One tube that holds the sketch begins and ends there, and goes nowhere.
+#[test]
+fn one_tube_closes_no_loop() {
+    let mut one = Certificate::read(&shipped("prism"));
+    one.keep_tubes(|k| k == 0);
+    one.records.retain(|r| !matches!(r, Record::Solution(_)));
+    one.classes_mut().clear();
+    assert_eq!(outcome(&one), Outcome::Refuted(Flaw::Open(1)));
+    // Nor do two that are the same.
+    let mut two = one.clone();
+    two.records.insert(0, one.records[0].clone());
+    two.recount();
+    assert!(matches!(
+        outcome(&two),
+        Outcome::Refuted(Flaw::Backwards(2) | Flaw::Open(2))
+    ));
+}
+
+/// The tail of the loop, and the sketch only at its end: it does not begin there.
+#[test]
+fn a_loop_begins_at_the_sketch() {
+    let mut tail = Certificate::read(&shipped("k33"));
+    tail.keep_tubes(|k| k > 5);
+    assert_eq!(outcome(&tail), Outcome::Refuted(Flaw::Start));
+}
+
+/// Out and back again: the last tube holds the sketch, entered from the wrong side.
+#[test]
+fn a_path_that_turns_back_closes_no_loop() {
+    let mut back = Certificate::read(&shipped("dodecagon"));
+    let tubes: Vec<Record> = back
+        .records
+        .iter()
+        .filter(|r| matches!(r, Record::Tube(_)))
+        .cloned()
+        .collect();
+    back.keep_tubes(|k| k < 3);
+    back.records.retain(|r| !matches!(r, Record::Solution(_)));
+    back.classes_mut().clear();
+    let end = back.records.pop().unwrap();
+    for tube in tubes[..3].iter().rev() {
+        let mut tube = tube.clone();
+        if let Record::Tube(tube) = &mut tube {
+            tube.normal.iter_mut().for_each(|c| *c = -*c);
+        }
+        back.records.push(tube);
+    }
+    back.records.push(end);
+    back.recount();
+    assert_eq!(outcome(&back), Outcome::Refuted(Flaw::Direction(4)));
+}
+
+/// A box that reaches to another solution, where both are met: one of them claims what it cannot.
+#[test]
+fn a_box_holds_one_solution() {
+    let good = Certificate::read(&shipped("prism"));
+    for k in 0..good.solutions() {
+        let mut wide = good.clone();
+        wide.solution_mut(k).radius = 0.5;
+        assert!(matches!(outcome(&wide), Outcome::Refuted(Flaw::Solution(n, _)) if n == k + 1));
+    }
+}
+
+/// A solution has to be listed where the path first meets it, wherever a reader's buffer ends.
+#[test]
+fn a_solution_is_listed_where_it_is_met() {
+    let good = Certificate::read(&shipped("prism"));
+    let mut late = good.clone();
+    let at = late.solution_at(0);
+    let solution = late.records.remove(at);
+    let next = late.records[at..]
+        .iter()
+        .position(|r| matches!(r, Record::Tube(_)))
+        .unwrap();
+    late.records.insert(at + next + 2, solution);
+    assert!(matches!(
+        outcome(&late),
+        Outcome::Refuted(Flaw::Unlisted(..))
+    ));
+}
+
+/// Numbers within the format's range in which products overflow, vanish, or lose all digits.
+#[test]
+fn extreme_numbers_are_refused_without_a_panic() {
+    let good = Certificate::read(&shipped("dodecagon"));
+    let large = (0..=40).map(|k| 2f64.powi(k));
+    let small = [0.0, 1e-320, 1e-300, 1e-160, 1e-45, 1e-38, 1e-20];
+    for x in large.chain(small) {
+        for what in 0..8 {
+            let mut extreme = good.clone();
+            let tube = extreme.tube_mut(7);
+            match what {
+                0 => tube.centre[3] = x,
+                1 => tube.centre.fill(x),
+                2 => tube.normal.fill(x as f32),
+                3 => tube.normal[0] = -x as f32,
+                4 if x > 0.0 => (tube.h, tube.exit) = (x, 0.5 * x),
+                5 if x as f32 > 0.0 => tube.r = x as f32,
+                6 => tube.weights.fill((x as u16).max(1)),
+                7 if x as f32 > 0.0 => {
+                    let solution = extreme.solution_mut(1);
+                    solution.centre[2] = x;
+                    solution.radius = x as f32;
+                }
+                _ => continue,
+            }
+            let verdict = outcome(&extreme);
+            // Other weights, all alike, may do, and other cross-sections.
+            assert!(
+                matches!(what, 3 | 6) || matches!(verdict, Outcome::Refuted(_)),
+                "{what}, {x:e}: {verdict:?}"
+            );
+        }
+    }
+    for unit in [-220, -100, 100, 220] {
+        let mut scaled = good.clone();
+        scaled.unit_exponent = unit;
+        assert!(matches!(outcome(&scaled), Outcome::Refuted(_)));
+    }
+}
