@@ -101,11 +101,6 @@ impl<const D: usize> KrawczykTest<D> {
         proof
     }
 
-    /// The weights used in the last proof.
-    pub fn weights(&self) -> &Vector {
-        &self.u
-    }
-
     /// Weights for the next tube: towards the Perron vector of |A² − A₂|, in whose norm that
     /// matrix is smallest.
     fn improve(&self, weights: &mut Vector) {

@@ -2,16 +2,23 @@
 
 use super::elimination::MAX_KEYS;
 use super::frame::Reduction;
-use super::test::{COEFFICIENTS, ReducedTest};
+use super::test::{COEFFICIENTS, ReducedTest, Tubes};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::LANE;
 use crate::track::certified::link::{Frame, Tube, evaluation_error};
-use crate::track::full::{Equations, dot};
+use crate::track::certified::tracker::Test;
+use crate::track::full::Equations;
 
 /// Newton's method needs two or three.
 const MAX_STEPS: usize = 8;
 /// Corrections that shrink by less than this are at the limit of floats.
 const STAGNATION: f64 = 0.5;
+/// How far before a tube's exit its path is looked at more closely, in half lengths, and how short
+/// the tube is with which that is done.
+const BEFORE: f64 = 1e-5;
+const SHORT: f64 = 1e-3;
+/// Accuracy of the point there before it is proved.
+const POINT_TOLERANCE: f64 = 1e-11;
 
 impl<const D: usize> ReducedTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at`: Newton's method in floats; then, as Φ contracts by q, the path's point is at most
@@ -75,47 +82,44 @@ impl<const D: usize> ReducedTest<D> {
         Some(())
     }
 
-    /// Encloses the path's tangent T at the exit, c·T = 1, into `tube.exit_slope`; returns its
-    /// radius in the norm of the tube's weights. T solves [J(P); c] T = e_n for the path's point P, which
-    /// is in the box, and is at most |𝒴 ([J(P); c] v − e_n)|_ρ / (1 − q) from any v.
-    pub(super) fn enclose_tangent(
+    /// Encloses the path's point and tangent a little before the exit of a tube proved earlier, much
+    /// more tightly: by a very short tube of its own there, in whose box the bound on A(s)⁻¹ is that at
+    /// a point. Its zero is the path's if it is in the long tube's box.
+    pub(super) fn tie(
         &mut self,
         equations: &Equations<D>,
-        tube: &mut Tube<D, COEFFICIENTS, Reduction<D>>,
-    ) -> Option<f64> {
-        let (m, n) = (equations.m, equations.n());
-        let (local, s) = (&tube.local, tube.exit_at);
-        let (exit, v) = (&tube.exit, &mut tube.exit_slope);
-        let c = &local.normal[..n];
-        equations.differences(&exit.centre, &mut self.d);
-        equations.sums(&exit.radius, &mut self.sums);
-        equations.expand_lengths(exit.centre[m], &mut self.lengths);
-        let at = (&self.d, &self.lengths, &local.normal);
-        let layout = &local.y.elimination.layout;
-        self.there.make_like(layout, equations, at).ok()?;
-        local.slope(s, v);
-        for step in 0..=MAX_STEPS {
-            equations.differences(v, &mut self.dv);
-            equations.jacobian_times(&self.d, &self.lengths, &self.dv, v[m], &mut self.f);
-            self.f[m] = dot(c, &v[..n]) - 1.0;
-            if step == 3 {
-                break;
-            }
-            self.there.solve(equations, &self.f[..n], &mut self.step);
-            for (v, step) in v[..n].iter_mut().zip(self.step.iter()) {
-                *v -= step;
-            }
+        tube: &mut Tubes<D>,
+        knot: &mut Tubes<D>,
+    ) -> Option<()> {
+        let n = equations.n();
+        let (h, last) = (tube.proof.h, tube.exit_at);
+        let at = last - BEFORE * h;
+        tube.local.at(at, &mut knot.local.z[0]);
+        knot.local.normal.copy_from_slice(&tube.local.normal);
+        self.refine(equations, &mut knot.local, POINT_TOLERANCE)
+            .ok()?;
+        if !self.prove(equations, knot, SHORT * h) {
+            return None;
         }
-        let hidden = &mut self.hidden;
-        equations.jacobian_times_error(
-            (&self.d, exit.centre[m]),
-            (&self.sums, exit.radius[m]),
-            (&self.dv, v[m]),
-            hidden,
-        );
-        let size: f64 = c.iter().zip(&v[..n]).map(|(c, v)| (c * v).abs()).sum();
-        hidden[m] = round_up(gamma(n + 4) * (size + 1.0), n + 4);
-        self.radius_from_defect(equations, &local.y, tube.proof.q)
+        let exit = &mut tube.exit;
+        exit.centre.copy_from_slice(&knot.local.z[0]);
+        let mut slope_radius = 0.0f64;
+        for i in 0..n {
+            exit.radius[i] = round_up(knot.proof.distance * knot.weights[i], 2);
+            let ratio = knot.proof.slope_distance * knot.weights[i] / tube.weights[i];
+            slope_radius = if ratio <= slope_radius {
+                slope_radius
+            } else {
+                ratio
+            };
+        }
+        // What lies between this point and the tube's exit is travelled twice, and nothing is left out.
+        tube.locate(&tube.exit)
+            .filter(|between| between.1 <= last)?;
+        tube.exit_slope.copy_from_slice(&knot.local.z[1]);
+        tube.exit_slope_radius = round_up(slope_radius, 4);
+        tube.exit_is_tight = true;
+        Some(())
     }
 
     /// A bound on |𝒴 g|_ρ / (1 − q) for any g within `hidden` of `f`, entry by entry.

@@ -52,17 +52,19 @@ const ORDER: usize = COEFFICIENTS - 1;
 /// The largest power of s in F(ẑ(s)).
 const DEGREE: usize = MAX_DEGREE * ORDER;
 
-type Tubes<const D: usize> = Tube<D, COEFFICIENTS, Reduction<D>>;
+pub(super) type Tubes<const D: usize> = Tube<D, COEFFICIENTS, Reduction<D>>;
 type Locals<const D: usize> = Local<D, COEFFICIENTS, Reduction<D>>;
 
 /// Bounds are taken for a tube so much longer than the last one.
 const GROWTH: f64 = 1.25;
 /// And tried again with so much of that.
 const SHRINK: f64 = 0.75;
+/// Bounds are good enough for a tube if they were taken for one not much longer.
+const NEAR: f64 = 0.7;
 /// The box of A's unknowns is so much larger than what was found to be needed.
 const ROOM: f64 = 2.5;
 /// And at least this part of what the key unknowns' own box takes along.
-const LEAST: f64 = 0.02;
+const LEAST: f64 = 0.25;
 /// The smallest weight of a key unknown beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.05;
 /// The contraction that comes with the reference length may be that at most.
@@ -96,13 +98,13 @@ pub struct ReducedTest<const D: usize> {
     /// Work space for correcting points.
     pub(super) there: Elimination<D>,
     pub(super) d: [Vector; D],
-    pub(super) dv: [Vector; D],
-    pub(super) sums: [Vector; D],
     pub(super) lengths: crate::track::full::Lengths,
     pub(super) f: Vector,
     pub(super) hidden: Vector,
     pub(super) step: Vector,
     products: Vec<Lane>,
+    /// A very short tube, see `exit.rs`.
+    knot: Option<Box<Tubes<D>>>,
     last_layout: Option<Arc<Layout>>,
     plan_changes: usize,
     tubes: usize,
@@ -140,13 +142,12 @@ impl<const D: usize> ReducedTest<D> {
             v_a: lanes(m),
             there: Elimination::new(equations),
             d: per_axis(),
-            dv: per_axis(),
-            sums: per_axis(),
             lengths: crate::track::full::Lengths::new(m),
             f: equations.vector(),
             hidden: equations.vector(),
             step: equations.vector(),
             products: Vec::new(),
+            knot: None,
             last_layout: None,
             plan_changes: 0,
             tubes: 0,
@@ -449,7 +450,7 @@ impl<const D: usize> ReducedTest<D> {
             raise(&mut bounds.slope, up(slope_of(i) / self.omega[i]));
         }
         bounds.normal = normal;
-        let speed = up(speed_of::<D, W>(y, rho, &layout, slope_of));
+        let speed = up(speed_of::<D, W>(y, rho, &layout, &bounds, slope_of));
         let y = &mut tube.local.y;
         y.rho.copy_from_slice(&self.rho);
         y.speed = speed;
@@ -592,30 +593,35 @@ fn left_over_of_s<const W: usize>(
     (constant, cubic)
 }
 
-/// How fast v = T(s)⁻¹ (z − ẑ(s)) changes with s for a fixed point z, in the norm |·|_ρ.
+/// How fast v = T(s)⁻¹ (z − ẑ(s)) changes with s for a fixed point z in the box, in the norm |·|_ρ.
+///
+/// v_K' = −ẑ_K'. As A (K ẑ_K' − ẑ_A') = E ẑ_K' − F_A(ẑ)', v_A' = A⁻¹ (E ẑ_K' − F_A(ẑ)') − K' v_K; and
+/// |A⁻¹ E| ρ_K and |A⁻¹ F_A(ẑ)'| are among the things that the bounds bound.
 fn speed_of<const D: usize, const W: usize>(
     y: &Reduction<D>,
     rho: &[f64],
     layout: &Layout,
+    bounds: &Bounds,
     slope_of: impl Fn(usize) -> f64,
 ) -> f64 {
-    let (mut slopes, mut sizes) = ([0.0; MAX_KEYS], [0.0; MAX_KEYS]);
-    let mut speed = 0.0f64;
+    let mut sizes = [0.0; MAX_KEYS];
+    let mut along = 0.0f64;
     for (i, &key) in layout.keys.iter().enumerate() {
-        (slopes[i], sizes[i]) = (slope_of(key as usize), rho[key as usize]);
-        speed = speed.max(slopes[i] / sizes[i]);
+        let rho = rho[key as usize];
+        sizes[i] = rho;
+        along = along.max(slope_of(key as usize) / rho);
     }
-    let (slopes, sizes): (Row<W>, Row<W>) = (rows_of(&slopes), rows_of(&sizes));
-    let (size, slope) = (y.k_size.as_chunks::<W>().0, y.k_slope.as_chunks::<W>().0);
+    let sizes: Row<W> = rows_of(&sizes);
+    let slope = y.k_slope.as_chunks::<W>().0;
+    let mut turning = 0.0f64;
     for block in &layout.blocks {
         for &unknown in &block.unknowns[..block.size] {
             let i = unknown as usize;
-            let v = slope_of(i) + weigh(&size[i], &slopes) + weigh(&slope[i], &sizes);
-            let v = v / rho[i];
-            speed = if v <= speed { speed } else { v };
+            turning = turning.max(weigh(&slope[i], &sizes) / rho[i]);
         }
     }
-    speed
+    let residual = (DEGREE as f64 * bounds.low + COEFFICIENTS as f64 * bounds.high) / bounds.h;
+    along.max(along * (bounds.constant + bounds.cubic) + residual + turning)
 }
 
 /// What t does along a tube.
@@ -748,13 +754,20 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         for _ in 0..120 {
             let width = tube.local.y.elimination.width;
             let bounds = with_width!(width, self.bounds(equations, tube, h));
-            if let Some(proof) = bounds.and_then(|bounds| bounds.longest::<COEFFICIENTS>()) {
-                tube.proof = proof;
-                tube.weights[..n].copy_from_slice(&self.omega[..n]);
-                return true;
+            let proof = bounds.and_then(|bounds| bounds.longest::<COEFFICIENTS>());
+            match proof {
+                // For a much longer tube than this one the bounds are much too large.
+                Some(proof) if proof.h < NEAR * h => {
+                    h = (GROWTH * proof.h).max(SHRINK * SHRINK * h)
+                }
+                Some(proof) => {
+                    tube.proof = proof;
+                    tube.weights[..n].copy_from_slice(&self.omega[..n]);
+                    return true;
+                }
+                None => h *= SHRINK,
             }
             self.weights.copy_from_slice(&self.kept);
-            h *= SHRINK;
         }
         false
     }
@@ -785,10 +798,15 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     }
 
     fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
-        self.enclose(equations, tube)?;
-        tube.exit_slope_radius = self.enclose_tangent(equations, tube)?;
-        tube.exit_is_tight = true;
-        Some(())
+        let mut knot = self
+            .knot
+            .take()
+            .unwrap_or_else(|| Box::new(Tube::new(equations)));
+        let kept = (self.weights.clone(), self.kept.clone());
+        let tightened = self.tie(equations, tube, &mut knot);
+        (self.weights, self.kept) = kept;
+        self.knot = Some(knot);
+        tightened
     }
 
     fn plans(&self) -> (usize, Driving) {
