@@ -141,6 +141,17 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         Err(RefineError::Diverged)
     }
 
+    /// Corrects `z[0]` once more with the preconditioner as it is.
+    pub fn correct(&mut self, equations: &Equations<D>) {
+        let m = equations.m;
+        equations.residual(&self.d[0], &self.lengths, &mut self.f);
+        self.y.solve(equations, &self.f[..m], &mut self.delta);
+        for (z, delta) in self.z[0][..=m].iter_mut().zip(self.delta.iter()) {
+            *z -= delta;
+        }
+        self.look(equations);
+    }
+
     /// The path's point with t = `target` near the parameter `s`, found along the path: chord
     /// corrections in the cross-section alternate with Newton steps in s. `None`: no convergence.
     pub fn meet(

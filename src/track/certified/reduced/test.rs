@@ -70,6 +70,10 @@ const MIN_WEIGHT: f64 = 0.05;
 /// The contraction that comes with the reference length may be that at most.
 const TOO_LONG: f64 = 0.8;
 
+/// More roundings than any term of a coefficient of F along ẑ goes through: the differences and their
+/// sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
+const COEFFICIENT: usize = 100;
+
 /// Work space of the test.
 #[derive(Debug)]
 pub struct ReducedTest<const D: usize> {
@@ -290,7 +294,7 @@ impl<const D: usize> ReducedTest<D> {
             }
             width += time.curvature(equations, e) * (self.omega[t] * self.omega[t]);
             let (length_size, length_radius) = time.length(equations, e);
-            let low = self.low[e] + gamma(400) * (size + length_size) + length_radius;
+            let low = self.low[e] + gamma(COEFFICIENT) * (size + length_size) + length_radius;
             self.g[e] = [low, cubic, width, self.high[e]];
         }
         self.g[m] = [0.0; LANE];
@@ -722,6 +726,8 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     ) -> Result<(), RefineError> {
         local.refine(equations, &mut self.maker, tolerance, 8)?;
         local.precondition(equations, &mut self.maker)?;
+        // To the limit of floats: what is left of the residual is multiplied along chains of points.
+        local.correct(equations);
         local.expand(equations);
         match local.y.elimination.width {
             1 => self.series.make::<D, COEFFICIENTS, 1>(equations, local),
