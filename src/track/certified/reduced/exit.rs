@@ -101,11 +101,18 @@ impl<const D: usize> ReducedTest<D> {
         if !self.prove(equations, knot, SHORT * h) {
             return None;
         }
+        // |v| ≤ |Φ(0)| + |Φ'| |v|, row by row, with |Φ'|_ρ as it is within the distance that was proved.
+        let (bounds, distance) = (&self.last, knot.proof.distance);
+        let share = bounds.constant + bounds.cubic + bounds.width * distance;
+        let rho = &knot.local.y.rho;
+        for (i, defect) in self.defect[..n].iter_mut().enumerate() {
+            *defect = round_up(*defect + share * distance * rho[i], 8);
+        }
         let exit = &mut tube.exit;
         exit.centre.copy_from_slice(&knot.local.z[0]);
+        knot.local.y.take_along(&self.defect, &mut exit.radius);
         let mut slope_radius = 0.0f64;
         for i in 0..n {
-            exit.radius[i] = round_up(knot.proof.distance * knot.weights[i], 2);
             let ratio = knot.proof.slope_distance * knot.weights[i] / tube.weights[i];
             slope_radius = if ratio <= slope_radius {
                 slope_radius

@@ -3,6 +3,7 @@
 use super::elimination::{Elimination, Maker};
 use super::passes::{Lane, with_width};
 use super::resolvent::Resolvent;
+use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::certified::link::Frame;
 use crate::track::certified::norms::Proof;
@@ -108,6 +109,24 @@ impl<const D: usize> Reduction<D> {
             }
         }
         widest
+    }
+}
+
+impl<const D: usize> Reduction<D> {
+    /// Bounds on |w| = |T(s) v| from bounds on |v|.
+    pub fn take_along(&self, v: &[f64], w: &mut [f64]) {
+        let layout = &*self.elimination.layout;
+        w.copy_from_slice(v);
+        let row = self.elimination.width * LANE;
+        let sizes = self.k_size.as_flattened();
+        for block in &layout.blocks {
+            for &unknown in &block.unknowns[..block.size] {
+                let i = unknown as usize;
+                let k = &sizes[i * row..(i + 1) * row];
+                let along: f64 = layout.keys.iter().zip(k).map(|(&key, k)| k * v[key as usize]).sum();
+                w[i] = round_up(v[i] + along, layout.keys() + 4);
+            }
+        }
     }
 }
 

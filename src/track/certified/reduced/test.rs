@@ -91,6 +91,9 @@ pub struct ReducedTest<const D: usize> {
     omega: Vector,
     rho: Vector,
     rho_a: Vector,
+    /// What bounds Φ(0), row by row, and all bounds, of the last attempt.
+    pub(super) defect: Vector,
+    pub(super) last: Bounds,
     coefficient: Vector,
     low: Vector,
     high: Vector,
@@ -137,6 +140,8 @@ impl<const D: usize> ReducedTest<D> {
             omega: equations.vector(),
             rho: equations.vector(),
             rho_a: equations.vector(),
+            defect: equations.vector(),
+            last: Bounds::default(),
             coefficient: equations.per_edge(),
             low: equations.per_edge(),
             high: equations.per_edge(),
@@ -379,8 +384,10 @@ impl<const D: usize> ReducedTest<D> {
         let up = |x: f64| round_up(x, roundings + 4 * m + 200);
         for block in &layout.blocks {
             for c in 0..block.size {
-                let rho = rho[block.unknowns[c] as usize];
+                let i = block.unknowns[c] as usize;
+                let rho = rho[i];
                 let [v_low, v_cubic, _, v_high] = self.v_a[block.start + c];
+                self.defect[i] = up(v_low + v_high);
                 raise(&mut bounds.low, up(v_low / rho));
                 raise(&mut bounds.high, up(v_high / rho));
                 raise(&mut bounds.cubic, up(scale * v_cubic / rho));
@@ -389,6 +396,7 @@ impl<const D: usize> ReducedTest<D> {
         let (box0, box3) = self.left_over_of_z::<W>(equations, y, &layout, &hs);
         for i in 0..keys {
             let rho = scale * kappa[i];
+            self.defect[layout.keys[i] as usize] = up(low[i] + high[i]);
             raise(&mut bounds.low, up(low[i] / rho));
             raise(&mut bounds.high, up(high[i] / rho));
             raise(&mut bounds.cubic, up((scale * cubic[i] + box3[i]) / rho));
@@ -459,6 +467,7 @@ impl<const D: usize> ReducedTest<D> {
         y.rho.copy_from_slice(&self.rho);
         y.speed = speed;
         self.set_next_weights(&layout, &kappa, &width);
+        self.last = bounds;
         (bounds.is_in_range() && speed.is_finite()).then_some(bounds)
     }
 
