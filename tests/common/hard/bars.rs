@@ -53,7 +53,7 @@ fn minus(a: &Place, b: &Place) -> Place {
     std::array::from_fn(|k| &a[k] - &b[k])
 }
 
-/// `p` in the frame with the origin `o` and the first axis towards `x`, to 300 binary digits.
+/// `p` in the frame with the origin `o` and the first axis towards `x`, to 250 binary digits.
 fn in_frame(o: &Place, x: &Place, p: &Place) -> Place {
     let axis = minus(x, o);
     let length = root(&dot(&axis, &axis));
@@ -179,7 +179,7 @@ impl Linkage {
 /// `close`: so many solutions lie closer together than the samples, which see them as one if their
 /// number is odd and as none if it is even.
 pub fn answer(problem: &Problem, close: usize) -> Answer {
-    const SAMPLES: usize = 200_000;
+    const SAMPLES: usize = 20_000;
     let sketch: [Place; 6] = std::array::from_fn(|p| {
         let [x, y, _] = &problem.points[p].sketch;
         [x.value().clone(), y.value().clone()]

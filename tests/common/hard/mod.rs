@@ -4,9 +4,10 @@
 pub mod bars;
 mod families;
 pub mod polynomial;
+mod shapes;
 pub mod trees;
 
-pub use families::FAMILIES;
+pub use families::Family;
 
 /// What is known of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,4 +18,9 @@ pub enum Answer {
     NeverCloses,
     /// Nobody has worked it out; what a closed run says must stand the checks that every run does.
     Unknown,
+}
+
+/// All of them.
+pub fn families() -> impl Iterator<Item = &'static Family> {
+    families::FAMILIES.iter().chain(shapes::FAMILIES)
 }

@@ -1,6 +1,6 @@
 //! Polynomials in exact arithmetic, and their real roots by Sturm's theorem.
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -14,10 +14,15 @@ pub fn two_to(exponent: i32) -> BigRational {
     if exponent < 0 { power.recip() } else { power }
 }
 
-/// √x, from below, to 300 binary digits behind the point.
+/// √x, from below, to so many binary digits behind the point.
+pub fn root_to(bits: i32, x: &BigRational) -> BigRational {
+    let scaled = (x * two_to(2 * bits)).floor().to_integer();
+    BigRational::from(scaled.sqrt()) * two_to(-bits)
+}
+
+/// √x, from below, to 250 binary digits behind the point.
 pub fn root(x: &BigRational) -> BigRational {
-    let scaled = (x * two_to(600)).floor().to_integer();
-    BigRational::from(scaled.sqrt()) * two_to(-300)
+    root_to(250, x)
 }
 
 impl Polynomial {
@@ -107,11 +112,38 @@ impl Polynomial {
     }
 }
 
+/// m / 2^e.
+#[derive(Debug, Clone)]
+struct Dyadic(BigInt, u32);
+
+/// Whole coefficients, in the same proportions.
+fn whole(p: &Polynomial) -> Vec<BigInt> {
+    let one = BigRational::one();
+    let common = p.0.iter().fold(one, |common, c| {
+        let rest = BigRational::from((c * &common).denom().clone());
+        common * rest
+    });
+    p.0.iter().map(|c| (c * &common).to_integer()).collect()
+}
+
+/// The sign of a polynomial, from Σ c_k m^k 2^(e (n − k)).
+fn sign(p: &[BigInt], x: &Dyadic) -> Sign {
+    let mut sum = BigInt::zero();
+    for (j, c) in p.iter().rev().enumerate() {
+        sum = sum * &x.0 + (c << (x.1 as usize * j));
+    }
+    sum.sign()
+}
+
 /// Sturm's sequence of a polynomial.
-pub struct Sturm(Vec<Polynomial>);
+struct Sturm {
+    sequence: Vec<Vec<BigInt>>,
+    /// The common factor of the polynomial and its derivative, which has the multiple roots.
+    multiple: Polynomial,
+}
 
 impl Sturm {
-    pub fn new(p: &Polynomial) -> Self {
+    fn new(p: &Polynomial) -> Self {
         let mut sequence = vec![p.clone().normed(), p.derivative().normed()];
         while !sequence[sequence.len() - 1].0.is_empty() {
             let k = sequence.len();
@@ -119,23 +151,21 @@ impl Sturm {
             sequence.push(rest.scaled(&-BigRational::one()).normed());
         }
         sequence.pop();
-        Sturm(sequence)
+        Sturm {
+            multiple: sequence[sequence.len() - 1].clone(),
+            sequence: sequence.iter().map(whole).collect(),
+        }
     }
 
-    fn changes(&self, x: &BigRational) -> usize {
-        let values = self.0.iter().map(|q| q.value(x)).filter(|v| !v.is_zero());
-        let signs: Vec<bool> = values.map(|v| v.is_positive()).collect();
+    fn changes(&self, x: &Dyadic) -> usize {
+        let signs = self.sequence.iter().map(|q| sign(q, x));
+        let signs: Vec<Sign> = signs.filter(|s| *s != Sign::NoSign).collect();
         signs.windows(2).filter(|w| w[0] != w[1]).count()
     }
 
     /// The number of different roots in (a, b].
-    pub fn roots(&self, a: &BigRational, b: &BigRational) -> usize {
+    fn roots(&self, a: &Dyadic, b: &Dyadic) -> usize {
         self.changes(a) - self.changes(b)
-    }
-
-    /// The common factor of the polynomial and its derivative, which has the multiple roots.
-    fn multiple(&self) -> &Polynomial {
-        &self.0[self.0.len() - 1]
     }
 }
 
@@ -146,37 +176,41 @@ pub struct Root {
     pub simple: bool,
 }
 
-/// The least root above 0, to 260 binary digits beside the bound on all roots.
+/// The least root above 0, to 2⁻¹⁶⁰ times a bound on all roots.
 pub fn first_positive(p: &Polynomial) -> Option<Root> {
     if p.0.len() < 2 {
         return None;
     }
     let sturm = Sturm::new(p);
-    let (mut lo, mut hi) = (BigRational::zero(), p.bound());
+    let (mut lo, mut hi) = (Dyadic(BigInt::zero(), 0), Dyadic(p.bound().to_integer(), 0));
     if sturm.roots(&lo, &hi) == 0 {
         return None;
     }
-    let half = BigRational::new(1.into(), 2.into());
-    let multiple = Sturm::new(sturm.multiple());
+    let has_multiple = sturm.multiple.0.len() > 1;
     let mut alone = false;
-    for _ in 0..260 {
-        let middle = (&lo + &hi) * &half;
-        // Once the root is alone a change of sign would do, but for those of even order.
-        let below = if alone && !p.value(&hi).is_zero() && sturm.multiple().0.len() == 1 {
-            p.value(&middle).is_positive() != p.value(&lo).is_positive()
-                || p.value(&middle).is_zero()
+    for _ in 0..160 {
+        let middle = Dyadic((&lo.0 << (hi.1 - lo.1)) + &hi.0, hi.1 + 1);
+        // Once a simple root is alone a change of sign tells where it is.
+        let below = if alone {
+            sign(&sturm.sequence[0], &middle) != sign(&sturm.sequence[0], &lo)
         } else {
             sturm.roots(&lo, &middle) > 0
         };
         if below {
+            lo = Dyadic(&lo.0 << (middle.1 - lo.1), middle.1);
             hi = middle;
         } else {
+            hi = Dyadic(&hi.0 << 1, middle.1);
             lo = middle;
         }
-        alone = alone || sturm.roots(&lo, &hi) == 1 && !p.value(&lo).is_zero();
+        alone = alone
+            || !has_multiple
+                && sign(&sturm.sequence[0], &lo) != Sign::NoSign
+                && sturm.roots(&lo, &hi) == 1;
     }
-    let simple = sturm.multiple().0.len() < 2 || multiple.roots(&lo, &hi) == 0;
-    Some(Root { at: hi, simple })
+    let simple = !has_multiple || Sturm::new(&sturm.multiple).roots(&lo, &hi) == 0;
+    let at = BigRational::from(hi.0) * two_to(-(hi.1 as i32));
+    Some(Root { at, simple })
 }
 
 /// The largest root below 0.

@@ -7,17 +7,20 @@
 //! those values of t twice, otherwise four times. A sketch that is flat itself is one of the ends.
 
 use super::Answer;
-use super::polynomial::{Polynomial, Root, first_negative, first_positive, root, two_to};
+use super::polynomial::{Polynomial, Root, first_negative, first_positive, root_to, two_to};
 use krawl::problem::Problem;
 use krawl::problem::Target;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
+/// Binary digits of lengths that are no rational numbers.
+const DIGITS: i32 = 150;
+
 fn whole(x: i64) -> BigRational {
     BigRational::from_integer(x.into())
 }
 
-/// a(t) of every distance; lengths that are no rational numbers to 300 binary digits.
+/// a(t) of every distance.
 pub fn lengths(problem: &Problem) -> Vec<Polynomial> {
     let of = |(index, distance): (usize, &krawl::problem::Distance)| {
         let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
@@ -27,10 +30,10 @@ pub fn lengths(problem: &Problem) -> Vec<Polynomial> {
                 &d * &d
             })
             .sum();
-        let sketch = root(&squared);
+        let sketch = root_to(DIGITS, &squared);
         let target = match &distance.target {
             Target::Length(length) => length.value().clone(),
-            Target::SquaredLength(square) => root(square.value()),
+            Target::SquaredLength(square) => root_to(DIGITS, square.value()),
         };
         let c = if index == problem.homotopy.bend {
             problem.homotopy.bend_coefficient.value().clone()
@@ -98,8 +101,8 @@ pub fn answer(problem: &Problem) -> Answer {
         .iter()
         .map(|corners| gram(problem, &squares, corners))
         .collect();
-    // Lengths that are roots are known to 300 binary digits only.
-    let tolerance = two_to(-150);
+    // Lengths that are roots are known to 150 binary digits only.
+    let tolerance = two_to(-100);
     let near = |a: &BigRational, b: &BigRational| (a - b).abs() < tolerance;
     let mut ends = vec![
         nearest(&volumes, first_negative, &tolerance),
