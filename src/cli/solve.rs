@@ -137,6 +137,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             ));
         }
     }
+    // Before any file is begun, so that an interrupt leaves none behind.
+    let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let mut witness = cert
         .as_ref()
@@ -144,7 +146,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut line = ProgressLine::new(!arguments.quiet);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
-        cancel: Some(interrupt::flag()),
+        cancel: Some(cancel),
         progress: Some(&mut show),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
     };
