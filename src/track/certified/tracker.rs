@@ -318,6 +318,14 @@ impl<'a, const D: usize> Tracker<'a, D> {
         next.local
             .refine(equations, &mut self.inverter, POINT_TOLERANCE, 8)
             .map_err(Rejection::Refine)?;
+        #[cfg(test)]
+        super::validation::inject_fault(
+            equations,
+            &mut self.inverter,
+            &self.now.local,
+            advance,
+            &mut next.local,
+        );
         next.local.expand(equations);
         self.kept_weights.copy_from_slice(&self.weights);
         next.proof = self
