@@ -104,7 +104,7 @@ pub fn answer(problem: &Problem) -> Answer {
     // Lengths that are roots are known to 150 binary digits only.
     let tolerance = two_to(-100);
     let near = |a: &BigRational, b: &BigRational| (a - b).abs() < tolerance;
-    let mut ends = vec![
+    let mut ends = [
         nearest(&volumes, first_negative, &tolerance),
         nearest(&volumes, first_positive, &tolerance),
     ];
@@ -123,7 +123,7 @@ pub fn answer(problem: &Problem) -> Answer {
         }
         _ => return Answer::NeverCloses,
     }
-    let [End::At(i, below), End::At(j, above)] = &ends[..] else {
+    let [End::At(i, below), End::At(j, above)] = &ends else {
         return Answer::NeverCloses;
     };
     let one = whole(1);
