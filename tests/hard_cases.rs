@@ -7,7 +7,7 @@ use common::boxes::check;
 use common::hard::{Answer, Family, families};
 use common::{FLOAT_SPACES, solve};
 use krawl::problem::Problem;
-use krawl::track::{Options, Outcome, Space, Status};
+use krawl::track::{Options, Outcome, Status};
 use std::fs;
 
 const MAX_STEPS: usize = 50_000;
@@ -83,25 +83,31 @@ fn certified_runs_are_right_or_stop() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Float runs that closed with a wrong count when this was written, and must not be believed: the
-/// certified run of the same problem closes with the right one, or stops.
+/// Float runs that close with a wrong count: which of these do depends on the last bit, that some do
+/// does not. The certified run of the same problem closes with the right one, or stops.
 #[test]
 fn float_runs_jump_where_certified_ones_do_not() {
-    for (name, k, space) in [
-        ("crowd", 2, Space::Full),
-        ("crowd", 2, Space::Reduced),
-        ("triple", 3, Space::Reduced),
+    let mut wrong = 0;
+    for (name, k) in [
+        ("crowd", 2),
+        ("crowd", 8),
+        ("triple", 3),
+        ("triple", 6),
+        ("triple", 9),
     ] {
         let (problem, answer) = (family(name).problem(k), family(name).answer(k));
         let Answer::Path { solutions, .. } = answer else {
             panic!("{name} has a path");
         };
-        let float = solve(&problem, &limited(Options::float(space)));
-        assert_eq!(float.status, Status::Closed, "{name}, {space:?}");
-        assert_ne!(float.solutions.len(), solutions, "{name}, {space:?}");
+        for space in FLOAT_SPACES {
+            let float = solve(&problem, &limited(Options::float(space)));
+            wrong +=
+                usize::from(float.status == Status::Closed && float.solutions.len() != solutions);
+        }
         let certified = solve(&problem, &limited(Options::certified()));
         is_right(&problem, answer, &certified).unwrap();
     }
+    assert!(wrong > 1, "{wrong}");
 }
 
 /// What the README of the folder says must come out of a file.
