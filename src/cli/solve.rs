@@ -86,13 +86,6 @@ impl Arguments {
             Space::Full => track::Space::Full,
             Space::Reduced => track::Space::Reduced,
         };
-        if self.mode == Mode::Certified && space == track::Space::Reduced {
-            return Err(
-                "certified mode tracks in the full space only: leave out `--space reduced`, \
-                        or add `--mode float`"
-                    .to_owned(),
-            );
-        }
         if self.mode == Mode::Certified && self.preset == Preset::Paper {
             return Err("`--preset paper` is a way of float mode: add `--mode float`".to_owned());
         }
@@ -102,7 +95,10 @@ impl Arguments {
             );
         }
         let options = match (self.mode, self.preset) {
-            (Mode::Certified, _) => Options::certified(),
+            (Mode::Certified, _) => Options {
+                space,
+                ..Options::certified()
+            },
             (Mode::Float, Preset::Default) => Options::float(space),
             (Mode::Float, Preset::Paper) => Options::paper(space),
         };
@@ -137,6 +133,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             ));
         }
     }
+    // Before any file is begun, so that an interrupt leaves none behind.
+    let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let mut witness = cert
         .as_ref()
@@ -144,7 +142,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut line = ProgressLine::new(!arguments.quiet);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
-        cancel: Some(interrupt::flag()),
+        cancel: Some(cancel),
         progress: Some(&mut show),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
     };

@@ -4,7 +4,7 @@
 //! exactly that decimal. Every message names the file, the line and the key.
 
 use super::builder::ProblemBuilder;
-use super::error::{Place, did_you_mean};
+use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
 use super::names::nearest;
 use super::{Decimal, DecimalError, Problem, ProblemError};
 use std::fmt;
@@ -248,7 +248,7 @@ impl Reader<'_> {
         if let Some((line, item)) = self.get(root, "source") {
             builder = builder.source(&self.string(line, "source", item)?);
         }
-        builder = self.points(root, builder, &mut places)?;
+        builder = self.points(root, dimension, builder, &mut places)?;
         builder = self.constraints(root, builder, &mut places)?;
         builder = self.homotopy(root, builder, &mut places)?;
         builder
@@ -259,6 +259,7 @@ impl Reader<'_> {
     fn points(
         &self,
         root: &dyn TableLike,
+        dimension: usize,
         mut builder: ProblemBuilder,
         places: &mut Places,
     ) -> Result<ProblemBuilder, FileError> {
@@ -268,16 +269,29 @@ impl Reader<'_> {
         };
         places.points_table = line;
         let table = self.table(line, "points", item)?;
-        for (name, item) in table.iter() {
+        // Before numbers are made of them: a file has room for many.
+        if table.len() > MAX_POINTS {
+            return Err(self.in_problem(places, ProblemError::TooManyPoints(table.len())));
+        }
+        for (index, (name, item)) in table.iter().enumerate() {
             let line = self.line(table.key(name).and_then(Key::span));
             let key = format!("points.{name}");
             let wanted = "coordinates in brackets";
             let Some(array) = item.as_array() else {
                 return Err(self.wrong_kind(line, &key, wanted, item));
             };
+            places.points.push(line);
+            if array.len() != dimension {
+                let error = ProblemError::CoordinateCount {
+                    index,
+                    name: name.chars().take(MAX_NAME).collect(),
+                    given: array.len(),
+                    wanted: dimension,
+                };
+                return Err(self.in_problem(places, error));
+            }
             let coordinates = array.iter().map(|value| self.number(line, &key, value));
             builder = builder.point(name, coordinates.collect::<Result<Vec<Decimal>, _>>()?);
-            places.points.push(line);
         }
         Ok(builder)
     }

@@ -43,6 +43,9 @@ enum Piece {
 
 /// Pieces are not split more often than that: the last are 2⁻⁴⁰ of the tube.
 const MAX_DEPTH: usize = 40;
+/// Nor is there more of them: a polynomial with huge coefficients, which no path has, would be cut
+/// into pieces without end.
+const MAX_PIECES: usize = 10_000;
 
 impl<const N: usize> TimeAlong<N> {
     /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
@@ -100,6 +103,7 @@ impl<const N: usize> TimeAlong<N> {
         let mut scan = Scan {
             above: above_at_start,
             open: None,
+            pieces: 0,
             out,
         };
         self.split(from, to, 0, &mut scan)?;
@@ -109,10 +113,11 @@ impl<const N: usize> TimeAlong<N> {
     /// Moves an end outwards until t ≠ 1 is certain there; also tells whether t > 1.
     fn clear_end(&self, end: f64, direction: f64) -> Result<(f64, bool), Undecided> {
         let mut step = 0.0;
-        loop {
+        // Enough to get from the first step to h, were it not for steps that underflow or are NaN.
+        for _ in 0..64 {
             let at = end + direction * step;
             if at.abs() > self.h {
-                return Err(Undecided);
+                break;
             }
             let ((low, high), _) = self.bounds(at, at);
             if low > 0.0 || high < 0.0 {
@@ -124,10 +129,12 @@ impl<const N: usize> TimeAlong<N> {
                 2.0 * step
             };
         }
+        Err(Undecided)
     }
 
     fn split(&self, a: f64, b: f64, depth: usize, scan: &mut Scan) -> Result<(), Undecided> {
         let ((low, high), (slope_low, slope_high)) = self.bounds(a, b);
+        scan.pieces += 1;
         let piece = if low > 0.0 {
             Piece::Above
         } else if high < 0.0 {
@@ -136,7 +143,7 @@ impl<const N: usize> TimeAlong<N> {
             Piece::Rising
         } else if slope_high < 0.0 {
             Piece::Falling
-        } else if depth == MAX_DEPTH {
+        } else if depth == MAX_DEPTH || scan.pieces >= MAX_PIECES {
             return Err(Undecided);
         } else {
             let middle = 0.5 * (a + b);
@@ -153,6 +160,8 @@ struct Scan<'a> {
     above: bool,
     /// The monotone stretch being read: its start, its end, and whether t rises.
     open: Option<(f64, f64, bool)>,
+    /// How many pieces were looked at.
+    pieces: usize,
     out: &'a mut Vec<Crossing>,
 }
 

@@ -6,6 +6,7 @@
 pub mod boxes;
 pub mod certificate;
 pub mod exact;
+pub mod hard;
 pub mod moves;
 pub mod random;
 

@@ -20,7 +20,7 @@ pub struct Recipe {
     bend_coefficient: i32,
 }
 
-/// Recipes for `points` points in the plane or in space, at most nine.
+/// Recipes for `points` points in the plane or in space, at most ten.
 pub fn recipe(
     dimension: usize,
     points: std::ops::RangeInclusive<usize>,
@@ -28,8 +28,8 @@ pub fn recipe(
     let first = dimension;
     let step = (any::<bool>(), [0usize..60, 0usize..60, 0usize..60]);
     let coordinate = || -200i32..=200;
-    let sketch = prop::collection::vec([coordinate(), coordinate(), coordinate()], 9);
-    let stretch = prop::collection::vec(-20i32..=20, 21);
+    let sketch = prop::collection::vec([coordinate(), coordinate(), coordinate()], 10);
+    let stretch = prop::collection::vec(-20i32..=20, 24);
     let steps = prop::collection::vec(step, points.start() - first..=points.end() - first);
     (steps, sketch, stretch, 0usize..60, 1i32..=20).prop_map(
         move |(steps, sketch, stretch, bend, bend_coefficient)| Recipe {

@@ -32,12 +32,19 @@ pub trait Test<const D: usize, const N: usize>: Sized {
     /// Room for the tubes of a problem.
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self;
 
-    /// Brings a predicted point onto the path, and expands the path there.
+    /// Brings a predicted point onto the path.
     fn refine(
         &mut self,
         equations: &Equations<D>,
         local: &mut Local<D, N, Self::Frame>,
         tolerance: f64,
+    ) -> Result<(), RefineError>;
+
+    /// Expands the path there.
+    fn expand(
+        &mut self,
+        equations: &Equations<D>,
+        local: &mut Local<D, N, Self::Frame>,
     ) -> Result<(), RefineError>;
 
     /// Before the first tube is proved: finds what later ones take over from those before.
@@ -277,12 +284,17 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             return;
         };
         let (n, tube) = (self.equations.n(), &self.now);
+        // Weights for a checker are at most 1.
+        let top = tube.weights[..n]
+            .iter()
+            .fold(0.0, |max: f64, &u| max.max(u));
+        let weights: Vec<f64> = tube.weights[..n].iter().map(|u| u / top).collect();
         witness.tube(TubeSeen {
             centre: &tube.local.z[0][..n],
             normal: &tube.local.normal[..n],
-            weights: &tube.weights[..n],
+            weights: &weights,
             h: tube.proof.h,
-            r: tube.proof.r,
+            r: top * tube.proof.r,
             exit: tube.exit_at,
         });
         for found in &self.ledger.found()[known..] {
@@ -303,6 +315,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         local.normal.copy_from_slice(&self.first_normal);
         self.test
             .refine(equations, local, POINT_TOLERANCE)
+            .and_then(|()| self.test.expand(equations, local))
             .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
         self.test.prepare(equations, &mut self.now, max_h);
         let mut limit = max_h;
@@ -362,6 +375,22 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         );
         self.test
             .refine(equations, &mut next.local, POINT_TOLERANCE)
+            .map_err(Rejection::Refine)?;
+        #[cfg(test)]
+        if super::validation::inject_fault(
+            equations,
+            &mut self.inverter,
+            &self.now.local,
+            advance,
+            &mut next.local,
+        ) {
+            // Its preconditioner as well is that of the other point.
+            self.test
+                .refine(equations, &mut next.local, POINT_TOLERANCE)
+                .map_err(Rejection::Refine)?;
+        }
+        self.test
+            .expand(equations, &mut next.local)
             .map_err(Rejection::Refine)?;
         if !self.test.prove(equations, next, limit) {
             return Err(Rejection::Unproved);

@@ -123,7 +123,12 @@ impl<const D: usize> Reduction<D> {
             for &unknown in &block.unknowns[..block.size] {
                 let i = unknown as usize;
                 let k = &sizes[i * row..(i + 1) * row];
-                let along: f64 = layout.keys.iter().zip(k).map(|(&key, k)| k * v[key as usize]).sum();
+                let along: f64 = layout
+                    .keys
+                    .iter()
+                    .zip(k)
+                    .map(|(&key, k)| k * v[key as usize])
+                    .sum();
                 w[i] = round_up(v[i] + along, layout.keys() + 4);
             }
         }

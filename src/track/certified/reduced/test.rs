@@ -733,7 +733,14 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         local: &mut Locals<D>,
         tolerance: f64,
     ) -> Result<(), RefineError> {
-        local.refine(equations, &mut self.maker, tolerance, 8)?;
+        local.refine(equations, &mut self.maker, tolerance, 8)
+    }
+
+    fn expand(
+        &mut self,
+        equations: &Equations<D>,
+        local: &mut Locals<D>,
+    ) -> Result<(), RefineError> {
         local.precondition(equations, &mut self.maker)?;
         // To the limit of floats: what is left of the residual is multiplied along chains of points.
         local.correct(equations);

@@ -3,12 +3,16 @@
 //!
 //! A test here that fails shows a claim that is false, or one that is made without a proof.
 
+mod components;
 mod crossings;
+mod faults;
 mod known_paths;
 mod reruns;
 mod sabotage;
 mod solutions;
 mod tubes;
+
+pub use faults::inject as inject_fault;
 
 use super::link::Tube;
 use super::tube::KrawczykTest;

@@ -1,0 +1,208 @@
+//! Whole runs of a tracker that goes wrong: what it proves in spite of that must still be true.
+//!
+//! Predictor and corrector are not part of any proof. Here they are made to lie, between the
+//! corrector and the test: a run may stop then, but what it claims has to be what a sound run claims.
+
+use super::*;
+use crate::track::full::{InverseMaker, Local, Preconditioner};
+use crate::track::{Control, Options, Outcome, Solution, Status, solve};
+use std::cell::RefCell;
+
+/// What goes wrong, and how often.
+struct Faults {
+    random: Random,
+    /// The share of steps in which something does.
+    rate: f64,
+    /// Points seen before, with their normals: to come back to.
+    seen: Vec<(Vec<f64>, Vec<f64>)>,
+    /// How many of each kind.
+    injected: [usize; 7],
+}
+
+thread_local! {
+    static FAULTS: RefCell<Option<Faults>> = const { RefCell::new(None) };
+}
+
+/// The hook in the tracker: does nothing but in the tests below. Tells whether the point was moved to
+/// another place of the path, or of another.
+pub fn inject<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    equations: &Equations<D>,
+    inverter: &mut InverseMaker,
+    now: &Local<D, N, Y>,
+    advance: f64,
+    next: &mut Local<D, N, Y>,
+) -> bool {
+    FAULTS.with_borrow_mut(|faults| {
+        let Some(faults) = faults else { return false };
+        {
+            // In a point of the full space, whatever the space of the run.
+            let mut point = Local::new(equations);
+            point.z[0].copy_from_slice(&next.z[0]);
+            point.normal.copy_from_slice(&next.normal);
+            let moved = faults.inject(equations, inverter, now, advance, &mut point);
+            next.z[0].copy_from_slice(&point.z[0]);
+            next.normal.copy_from_slice(&point.normal);
+            moved
+        }
+    });
+}
+
+impl Faults {
+    fn inject<const D: usize, const N: usize, Y: Preconditioner<D>>(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut InverseMaker,
+        now: &Local<D, N, Y>,
+        advance: f64,
+        next: &mut Local<D>,
+    ) -> bool {
+        let (m, n) = (equations.m, equations.n());
+        let random = &mut self.random;
+        if self.seen.len() < 200 {
+            self.seen
+                .push((next.z[0][..n].to_vec(), next.normal[..n].to_vec()));
+        }
+        if random.unit() >= self.rate {
+            return false;
+        }
+        let before = next.clone();
+        let kind = random.below(self.injected.len());
+        match kind {
+            // The corrector lands on another branch at the same t.
+            0 => {
+                let spread = 10f64.powf(random.between(-3.0, 0.5));
+                for x in &mut next.z[0][..m] {
+                    *x += spread * random.between(-1.0, 1.0);
+                }
+                let t = next.z[0][m];
+                if next.polish_at(equations, inverter, t).is_none() {
+                    *next = before;
+                    return false;
+                }
+            }
+            // The prediction is shifted, perhaps to a neighbouring component.
+            1 => {
+                let spread = 10f64.powf(random.between(-4.0, 0.5));
+                for x in &mut next.z[0][..n] {
+                    *x += spread * random.between(-1.0, 1.0);
+                }
+            }
+            // Links are skipped.
+            2 => now.predict(
+                advance * random.between(1.2, 20.0),
+                None,
+                &mut next.z[0],
+                &mut next.normal,
+            ),
+            // Back the way it came.
+            3 => next.normal[..n].iter_mut().for_each(|c| *c = -*c),
+            // To a place seen before, the sketch perhaps, and on from there.
+            4 => {
+                let (z, normal) = &self.seen[random.below(self.seen.len())];
+                next.z[0][..n].copy_from_slice(z);
+                next.normal[..n].copy_from_slice(normal);
+            }
+            // To the mirror image.
+            5 => {
+                for x in next.z[0][..m].iter_mut().chain(&mut next.normal[..m]) {
+                    if random.below(2) == 0 {
+                        *x = -*x;
+                    }
+                }
+            }
+            // Not refined, and not quite on the path.
+            _ => {
+                let spread = 10f64.powf(random.between(-14.0, -5.0));
+                for x in &mut next.z[0][..n] {
+                    *x += spread * random.between(-1.0, 1.0);
+                }
+                self.injected[kind] += 1;
+                return false;
+            }
+        }
+        // The corrector again, so that the lie is a good one.
+        if next.refine(equations, inverter, 1e-9, 8).is_err() {
+            *next = before;
+            return false;
+        }
+        self.injected[kind] += 1;
+        true
+    }
+}
+
+fn boxes_meet(a: &Solution, b: &Solution) -> bool {
+    let pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
+    pairs.into_iter().all(|(x, y)| !x.disjoint(*y))
+}
+
+/// All that is claimed is claimed by the sound run, too.
+fn claims_are_true(sound: &Outcome, faulty: &Outcome, context: &str) {
+    for solution in &faulty.solutions {
+        let partners = sound.solutions.iter().filter(|s| boxes_meet(s, solution));
+        assert_eq!(partners.count(), 1, "no solution of this path: {context}");
+    }
+    if faulty.status == Status::Closed {
+        assert_eq!(
+            faulty.solutions.len(),
+            sound.solutions.len(),
+            "closed with other solutions: {context}"
+        );
+    }
+}
+
+#[test]
+fn no_fault_leads_to_a_false_claim() {
+    let mut random = Random::new(11);
+    let (mut injected, mut closed, mut stopped) = ([0; 7], 0, 0);
+    for round in 0..effort(150) {
+        let problem = match round % 5 {
+            0 => {
+                let mut problems = shipped();
+                problems.swap_remove(random.below(problems.len()))
+            }
+            k => {
+                let dimension = 2 + k % 2;
+                let points = dimension + 1 + random.below(5);
+                random_problem(&mut random, dimension, points, 0.3)
+            }
+        };
+        let run = |options| solve(&problem, &options, &mut Control::default()).unwrap();
+        let limited = Options {
+            max_steps: 3000,
+            ..Options::certified()
+        };
+        let sound = run(limited.clone());
+        if sound.status != Status::Closed {
+            continue;
+        }
+        for _ in 0..6 {
+            let rate = [0.03, 0.3, 0.9][random.below(3)];
+            let seed = random.bits() % 1_000_000;
+            FAULTS.set(Some(Faults {
+                random: Random::new(seed),
+                rate,
+                seen: Vec::new(),
+                injected: [0; 7],
+            }));
+            let reverse = random.below(2) == 0;
+            let faulty = run(Options {
+                reverse,
+                max_steps: 600,
+                ..limited.clone()
+            });
+            let faults = FAULTS.take().expect("set above");
+            for (sum, count) in injected.iter_mut().zip(faults.injected) {
+                *sum += count;
+            }
+            let context = format!("seed {seed}, rate {rate}, {}", problem.to_toml());
+            claims_are_true(&sound, &faulty, &context);
+            match faulty.status {
+                Status::Closed => closed += 1,
+                Status::Stopped(_) => stopped += 1,
+            }
+        }
+    }
+    println!("{injected:?} faults; {closed} runs closed, {stopped} stopped");
+    assert!(injected.iter().all(|&count| count > 50), "{injected:?}");
+    assert!(closed > 100);
+}

@@ -1,0 +1,228 @@
+//! Polynomials in exact arithmetic, and their real roots by Sturm's theorem.
+
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+/// Coefficients, the constant first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polynomial(pub Vec<BigRational>);
+
+/// A power of two.
+pub fn two_to(exponent: i32) -> BigRational {
+    let power = BigRational::from(BigInt::one() << exponent.unsigned_abs());
+    if exponent < 0 { power.recip() } else { power }
+}
+
+/// √x, from below, to so many binary digits behind the point.
+pub fn root_to(bits: i32, x: &BigRational) -> BigRational {
+    let scaled = (x * two_to(2 * bits)).floor().to_integer();
+    BigRational::from(scaled.sqrt()) * two_to(-bits)
+}
+
+/// √x, from below, to 250 binary digits behind the point.
+pub fn root(x: &BigRational) -> BigRational {
+    root_to(250, x)
+}
+
+impl Polynomial {
+    pub fn constant(x: BigRational) -> Self {
+        Polynomial(vec![x]).trimmed()
+    }
+
+    fn trimmed(mut self) -> Self {
+        while self.0.last().is_some_and(Zero::is_zero) {
+            self.0.pop();
+        }
+        self
+    }
+
+    pub fn plus(&self, other: &Self) -> Self {
+        let zero = BigRational::zero();
+        let at = |p: &Self, k: usize| p.0.get(k).unwrap_or(&zero).clone();
+        let terms = self.0.len().max(other.0.len());
+        Polynomial((0..terms).map(|k| at(self, k) + at(other, k)).collect()).trimmed()
+    }
+
+    pub fn scaled(&self, factor: &BigRational) -> Self {
+        Polynomial(self.0.iter().map(|c| c * factor).collect()).trimmed()
+    }
+
+    pub fn minus(&self, other: &Self) -> Self {
+        self.plus(&other.scaled(&-BigRational::one()))
+    }
+
+    pub fn times(&self, other: &Self) -> Self {
+        let mut out = vec![BigRational::zero(); self.0.len() + other.0.len()];
+        for (i, a) in self.0.iter().enumerate() {
+            for (j, b) in other.0.iter().enumerate() {
+                out[i + j] += a * b;
+            }
+        }
+        Polynomial(out).trimmed()
+    }
+
+    pub fn value(&self, x: &BigRational) -> BigRational {
+        let zero = BigRational::zero();
+        self.0.iter().rev().fold(zero, |sum, c| sum * x + c)
+    }
+
+    pub fn derivative(&self) -> Self {
+        let terms = self.0.iter().enumerate().skip(1);
+        Polynomial(
+            terms
+                .map(|(k, c)| c * BigRational::from_integer(k.into()))
+                .collect(),
+        )
+    }
+
+    /// What a division leaves.
+    fn rest(&self, divisor: &Self) -> Self {
+        let mut rest = self.0.clone();
+        let b = &divisor.0;
+        while rest.len() >= b.len() {
+            let factor = &rest[rest.len() - 1] / &b[b.len() - 1];
+            let shift = rest.len() - b.len();
+            for (k, c) in b.iter().enumerate() {
+                rest[k + shift] = &rest[k + shift] - &factor * c;
+            }
+            rest.pop();
+        }
+        Polynomial(rest).trimmed()
+    }
+
+    /// Scaled to a leading coefficient ±1.
+    fn normed(self) -> Self {
+        match self.0.last().cloned() {
+            Some(leading) => self.scaled(&leading.abs().recip()),
+            None => self,
+        }
+    }
+
+    /// A bound on the size of all roots (Cauchy), a power of two.
+    fn bound(&self) -> BigRational {
+        let leading = self.0.last().expect("not the zero polynomial");
+        let largest = self.0.iter().map(|c| (c / leading).abs()).max();
+        let wanted = largest.expect("a coefficient") + BigRational::one();
+        let mut bound = BigRational::one();
+        while bound <= wanted {
+            bound *= BigRational::from_integer(2.into());
+        }
+        bound
+    }
+}
+
+/// m / 2^e.
+#[derive(Debug, Clone)]
+struct Dyadic(BigInt, u32);
+
+/// Whole coefficients, in the same proportions.
+fn whole(p: &Polynomial) -> Vec<BigInt> {
+    let one = BigRational::one();
+    let common = p.0.iter().fold(one, |common, c| {
+        let rest = BigRational::from((c * &common).denom().clone());
+        common * rest
+    });
+    p.0.iter().map(|c| (c * &common).to_integer()).collect()
+}
+
+/// The sign of a polynomial, from Σ c_k m^k 2^(e (n − k)).
+fn sign(p: &[BigInt], x: &Dyadic) -> Sign {
+    let mut sum = BigInt::zero();
+    for (j, c) in p.iter().rev().enumerate() {
+        sum = sum * &x.0 + (c << (x.1 as usize * j));
+    }
+    sum.sign()
+}
+
+/// Sturm's sequence of a polynomial.
+struct Sturm {
+    sequence: Vec<Vec<BigInt>>,
+    /// The common factor of the polynomial and its derivative, which has the multiple roots.
+    multiple: Polynomial,
+}
+
+impl Sturm {
+    fn new(p: &Polynomial) -> Self {
+        let mut sequence = vec![p.clone().normed(), p.derivative().normed()];
+        while !sequence[sequence.len() - 1].0.is_empty() {
+            let k = sequence.len();
+            let rest = sequence[k - 2].rest(&sequence[k - 1]);
+            sequence.push(rest.scaled(&-BigRational::one()).normed());
+        }
+        sequence.pop();
+        Sturm {
+            multiple: sequence[sequence.len() - 1].clone(),
+            sequence: sequence.iter().map(whole).collect(),
+        }
+    }
+
+    fn changes(&self, x: &Dyadic) -> usize {
+        let signs = self.sequence.iter().map(|q| sign(q, x));
+        let signs: Vec<Sign> = signs.filter(|s| *s != Sign::NoSign).collect();
+        signs.windows(2).filter(|w| w[0] != w[1]).count()
+    }
+
+    /// The number of different roots in (a, b].
+    fn roots(&self, a: &Dyadic, b: &Dyadic) -> usize {
+        self.changes(a) - self.changes(b)
+    }
+}
+
+/// A root, and whether it is a simple one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Root {
+    pub at: BigRational,
+    pub simple: bool,
+}
+
+/// The least root above 0, to 2⁻¹⁶⁰ times a bound on all roots.
+pub fn first_positive(p: &Polynomial) -> Option<Root> {
+    if p.0.len() < 2 {
+        return None;
+    }
+    let sturm = Sturm::new(p);
+    let (mut lo, mut hi) = (Dyadic(BigInt::zero(), 0), Dyadic(p.bound().to_integer(), 0));
+    if sturm.roots(&lo, &hi) == 0 {
+        return None;
+    }
+    let has_multiple = sturm.multiple.0.len() > 1;
+    let mut alone = false;
+    for _ in 0..160 {
+        let middle = Dyadic((&lo.0 << (hi.1 - lo.1)) + &hi.0, hi.1 + 1);
+        // Once a simple root is alone a change of sign tells where it is.
+        let below = if alone {
+            sign(&sturm.sequence[0], &middle) != sign(&sturm.sequence[0], &lo)
+        } else {
+            sturm.roots(&lo, &middle) > 0
+        };
+        if below {
+            lo = Dyadic(&lo.0 << (middle.1 - lo.1), middle.1);
+            hi = middle;
+        } else {
+            hi = Dyadic(&hi.0 << 1, middle.1);
+            lo = middle;
+        }
+        alone = alone
+            || !has_multiple
+                && sign(&sturm.sequence[0], &lo) != Sign::NoSign
+                && sturm.roots(&lo, &hi) == 1;
+    }
+    let simple = !has_multiple || Sturm::new(&sturm.multiple).roots(&lo, &hi) == 0;
+    let at = BigRational::from(hi.0) * two_to(-(hi.1 as i32));
+    Some(Root { at, simple })
+}
+
+/// The largest root below 0.
+pub fn first_negative(p: &Polynomial) -> Option<Root> {
+    let turned = p.0.iter().enumerate();
+    let turned = Polynomial(
+        turned
+            .map(|(k, c)| if k % 2 == 1 { -c } else { c.clone() })
+            .collect(),
+    );
+    first_positive(&turned).map(|root| Root {
+        at: -root.at,
+        ..root
+    })
+}
