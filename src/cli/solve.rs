@@ -19,7 +19,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Mode::Certified)]
     mode: Mode,
     /// Track in all free coordinates, or in the driving parameters of a construction plan
-    /// [default: full for certified, reduced for float]
+    /// [default: reduced for float, and for certified from 90 free coordinates on; otherwise full]
     #[arg(long, value_enum)]
     space: Option<Space>,
     /// How float mode steps: well, or as in the paper (RR 8705, 7.1 to 7.3)
@@ -78,14 +78,9 @@ fn max_step(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
+    /// The options, but for the space, which may depend on the problem.
     fn options(&self) -> Result<Options, String> {
-        let space = match self.space.unwrap_or(match self.mode {
-            Mode::Certified => Space::Full,
-            Mode::Float => Space::Reduced,
-        }) {
-            Space::Full => track::Space::Full,
-            Space::Reduced => track::Space::Reduced,
-        };
+        let space = track::Space::Full;
         if self.mode == Mode::Certified && self.preset == Preset::Paper {
             return Err("`--preset paper` is a way of float mode: add `--mode float`".to_owned());
         }
@@ -111,6 +106,18 @@ impl Arguments {
     }
 }
 
+impl Arguments {
+    fn space(&self, problem: &Problem) -> track::Space {
+        match (self.space, self.mode) {
+            (Some(Space::Full), _) => track::Space::Full,
+            (Some(Space::Reduced), _) | (None, Mode::Float) => track::Space::Reduced,
+            // A certificate's tubes are those of the full space.
+            (None, Mode::Certified) if self.cert.is_some() => track::Space::Full,
+            (None, Mode::Certified) => track::Space::for_certified(problem.distances.len()),
+        }
+    }
+}
+
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
     output::exit_code(try_run(arguments))
@@ -119,6 +126,10 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let options = arguments.options()?;
     let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let options = Options {
+        space: arguments.space(&problem),
+        ..options
+    };
     let json = arguments
         .json
         .as_deref()

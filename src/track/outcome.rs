@@ -20,6 +20,18 @@ pub enum Space {
     Reduced,
 }
 
+impl Space {
+    /// The space in which certified runs are faster, by the number of free coordinates (which is
+    /// that of distances): the reduced one from about 90 on (docs/reduced.md).
+    pub fn for_certified(coordinates: usize) -> Self {
+        if coordinates < 90 {
+            Space::Full
+        } else {
+            Space::Reduced
+        }
+    }
+}
+
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Status {

@@ -21,12 +21,22 @@ pub fn track<const D: usize>(
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
-    match options.space {
-        Space::Full => {
-            tracker::track::<D, { ORDER + 1 }, tube::KrawczykTest<D>>(homotopy, options, control)
+    let full = tracker::track::<D, { ORDER + 1 }, tube::KrawczykTest<D>>;
+    match (options.space, control.witness.is_some()) {
+        (Space::Full, _) => full(homotopy, options, control),
+        (Space::Reduced, false) => {
+            tracker::track::<D, { reduced::COEFFICIENTS }, reduced::ReducedTest<D>>(
+                homotopy, options, control,
+            )
         }
-        Space::Reduced => tracker::track::<D, { reduced::COEFFICIENTS }, reduced::ReducedTest<D>>(
-            homotopy, options, control,
-        ),
+        // A certificate's tubes are boxes in the full space.
+        (Space::Reduced, true) => {
+            let mut outcome = full(homotopy, options, control);
+            outcome.switched_on.push(
+                "full space: a certificate was asked for, and its tubes are those of the full space"
+                    .to_owned(),
+            );
+            outcome
+        }
     }
 }

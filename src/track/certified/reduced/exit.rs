@@ -97,6 +97,7 @@ impl<const D: usize> ReducedTest<D> {
         tube.local.at(at, &mut knot.local.z[0]);
         knot.local.normal.copy_from_slice(&tube.local.normal);
         self.refine(equations, &mut knot.local, POINT_TOLERANCE)
+            .and_then(|()| self.expand(equations, &mut knot.local))
             .ok()?;
         if !self.prove(equations, knot, SHORT * h) {
             return None;
