@@ -68,7 +68,9 @@ pub fn solve(
     }?;
     if let Status::Stopped(reason) = &mut outcome.status {
         let wish = match options.mode {
-            Mode::Certified => options.tube_radius.map(|r| format!("tubes of radius {r:e}")),
+            Mode::Certified => options
+                .tube_radius
+                .map(|r| format!("tubes of radius {r:e}")),
             Mode::Float => options.tolerance.map(|x| format!("points good to {x:e}")),
         };
         if let Some(wish) = wish {

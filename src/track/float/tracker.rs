@@ -84,9 +84,7 @@ fn run<const D: usize>(
             ));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
-        let refined = next
-            .refine(equations, &mut inverter, tolerance, 6)
-            .is_ok()
+        let refined = next.refine(equations, &mut inverter, tolerance, 6).is_ok()
             && next.contraction <= LARGEST_CONTRACTION
             && next.negative == now.negative;
         if refined {
@@ -241,7 +239,8 @@ impl<const D: usize> Events<D> {
         let away = (0..n).fold(0.0, |max: f64, i| {
             max.max((self.scratch[i] - sketch[i]).abs())
         });
-        (away <= 10.0 * next.first_correction + 100.0 * self.tolerance.max(POINT_TOLERANCE)).then_some(at)
+        (away <= 10.0 * next.first_correction + 100.0 * self.tolerance.max(POINT_TOLERANCE))
+            .then_some(at)
     }
 }
 
