@@ -18,7 +18,6 @@ pub fn cost_against_accuracy(comparison: &Comparison) -> String {
 }
 
 fn draw<'a>(area: &super::style::Area<'a>, comparison: &Comparison) -> Result<(), Failure<'a>> {
-    let (head, body) = area.split_vertically(px(54));
     let ways: Vec<Way> = Way::all()
         .filter(|way| points(comparison, *way, |_| true).next().is_some())
         .collect();
@@ -46,15 +45,15 @@ fn draw<'a>(area: &super::style::Area<'a>, comparison: &Comparison) -> Result<()
             text: text.into(),
         });
     }
-    legend(&head, &entries, (18, 10))?;
+    let body = legend(area, &entries)?;
     let times = comparison.sweep.iter().filter_map(milliseconds);
     let times = with_room_log(times, 0.05);
-    let (one, other) = body.split_horizontally(px(556));
+    let (one, other) = body.split_horizontally(px(550));
     panel(
         &one,
         comparison,
         &ways,
-        "radius of tubes (certified), tolerance of points (float), in typical lengths",
+        "tube radius (certified) or tolerance (float), in typical lengths",
         |knob| knob != Knob::MaxStep,
         times.clone(),
     )?;
@@ -86,18 +85,20 @@ fn panel<'a>(
     mesh(&mut chart, (label, &power), ("median time, ms", &power))?;
     for &way in ways {
         let colour = colour(way);
-        let line = points(comparison, way, knobs).map(|(x, y, _)| (x, y));
-        chart.draw_series(LineSeries::new(line, colour.stroke_width(2 * SCALE)))?;
+        // Times of runs that gave up, or went astray, do not lie on one curve with those of others.
+        let all: Vec<(f64, f64, &Row)> = points(comparison, way, knobs).collect();
+        for stretch in all.split(|&(_, _, row)| !is_good(row)) {
+            let line = stretch.iter().map(|&(x, y, _)| (x, y));
+            chart.draw_series(LineSeries::new(line, colour.stroke_width(2 * SCALE)))?;
+        }
     }
     let area = chart.plotting_area();
     for &way in ways {
         for (x, y, row) in points(comparison, way, knobs) {
-            let closed = row.measured().is_some_and(|m| m.is_closed());
             let sign = match row.verdict {
-                Verdict::Wrong(_) => Sign::Cross(INK),
-                Verdict::Stopped => Sign::Ring(colour(way)),
-                Verdict::Unjudged if !closed => Sign::Ring(colour(way)),
-                Verdict::Right | Verdict::Unjudged => Sign::Disc(colour(way)),
+                Verdict::Wrong(_) => Sign::Cross(colour(way)),
+                _ if is_good(row) => Sign::Disc(colour(way)),
+                _ => Sign::Ring(colour(way)),
             };
             draw_sign(area, (x, y), sign)?;
         }
@@ -116,6 +117,12 @@ fn points(
         let setting = row.setting.filter(|setting| knobs(setting.knob))?;
         Some((setting.relative, milliseconds(row)?, row))
     })
+}
+
+/// Whether a row closed, and rightly, as far as that is known.
+fn is_good(row: &Row) -> bool {
+    let closed = row.measured().is_some_and(|m| m.is_closed());
+    closed && !matches!(row.verdict, Verdict::Wrong(_))
 }
 
 fn milliseconds(row: &Row) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! The path's curve between its stations, and the sizes of its steps.
 
-use super::style::{CLASSES, Entry, Sign, size_colour};
+use super::style::{CLASSES, Entry, SCALE, Sign, size_colour};
 use crate::compare::{PathStation, RecordedPath};
 use plotters::style::RGBColor;
 
@@ -9,6 +9,7 @@ pub struct Curve {
     /// The size class of a piece and its points.
     pub pieces: Vec<(usize, Vec<(f64, Vec<f64>)>)>,
     bounds: Vec<f64>,
+    stations: usize,
 }
 
 /// So many points are drawn at most, beside the stations.
@@ -36,12 +37,25 @@ impl Curve {
                 }
             }
         }
-        Curve { pieces, bounds }
+        Curve {
+            pieces,
+            bounds,
+            stations: path.stations.len(),
+        }
     }
 
     /// All points.
     pub fn points(&self) -> impl Iterator<Item = &(f64, Vec<f64>)> {
         self.pieces.iter().flat_map(|(_, points)| points)
+    }
+
+    /// How wide to draw it: long paths finely.
+    pub fn width(&self) -> u32 {
+        if self.stations > 2000 {
+            SCALE
+        } else {
+            2 * SCALE
+        }
     }
 
     /// What the colours mean.

@@ -2,8 +2,8 @@
 
 use super::curve::Curve;
 use super::style::{
-    BLUE, Entry, Failure, INK, SCALE, Sign, VERMILION, draw_sign, legend, letters, mesh, picture,
-    plain, px, with_room,
+    Entry, Failure, INK, Sign, VERMILION, draw_sign, legend, mesh, number_signs, picture, plain,
+    px, with_room,
 };
 use crate::compare::RecordedPath;
 use plotters::prelude::*;
@@ -13,7 +13,7 @@ use plotters::prelude::*;
 ///
 /// The coordinates are the one that varies most along the path, and the one that varies most once
 /// what follows linearly from the first is taken away. So the projection is a picture of places of
-/// points, as in the figures of Imbach, Mathis and Schreck (J. Symbolic Computation, 2017).
+/// points.
 pub fn projection(path: &RecordedPath) -> String {
     let curve = Curve::new(path);
     let axes = two_coordinates(path);
@@ -27,7 +27,6 @@ fn draw<'a>(
     curve: &Curve,
     [a, b]: [usize; 2],
 ) -> Result<(), Failure<'a>> {
-    let (head, body) = area.split_vertically(px(66));
     let mut entries = vec![
         Entry {
             sign: Sign::Ring(VERMILION),
@@ -39,7 +38,7 @@ fn draw<'a>(
         },
     ];
     entries.extend(curve.legend());
-    legend(&head, &entries, (18, 10))?;
+    let body = legend(area, &entries)?;
 
     let along = |k: usize| with_room(curve.points().map(move |(_, z)| z[k]), 0.05);
     let mut chart = ChartBuilder::on(&body)
@@ -56,7 +55,7 @@ fn draw<'a>(
         let line = points.iter().map(|(_, z)| (z[a], z[b]));
         chart.draw_series(LineSeries::new(
             line,
-            curve.colour(*class).stroke_width(2 * SCALE),
+            curve.colour(*class).stroke_width(curve.width()),
         ))?;
     }
     let area = chart.plotting_area();
@@ -66,12 +65,10 @@ fn draw<'a>(
     if let Some(sketch) = path.stations.first() {
         draw_sign(area, (sketch.z[a], sketch.z[b]), Sign::Disc(INK))?;
     }
-    if path.solutions.len() <= 30 {
-        for (k, solution) in path.solutions.iter().enumerate() {
-            let at = EmptyElement::at((solution.z[a], solution.z[b]))
-                + Text::new(format!("{}", k + 1), (px(6), px(-16)), letters(13, BLUE));
-            area.draw(&at)?;
-        }
+    // More would be a black cloud.
+    if path.solutions.len() <= 60 {
+        let places: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.z[a], s.z[b])).collect();
+        number_signs(&chart, &places)?;
     }
     Ok(())
 }

@@ -108,13 +108,14 @@ where
         .y_desc(y)
         .axis_desc_style(letters(15, INK))
         .label_style(letters(14, INK))
-        .x_labels(10)
+        .x_labels(9)
         .y_labels(8)
         .x_label_formatter(&|x| format_x(x))
         .y_label_formatter(&|y| format_y(y))
         .light_line_style(TRANSPARENT)
         .bold_line_style(FAINT.stroke_width(SCALE))
         .axis_style(GREY.stroke_width(SCALE))
+        .set_all_tick_mark_size(px(5))
         .draw()
 }
 
@@ -171,31 +172,32 @@ pub enum Sign {
     Cross(RGBColor),
 }
 
-/// Draws entries in rows from the left; each row is 20 high. `origin` is the first one's middle.
-pub fn legend<'a>(
-    area: &Area<'a>,
-    entries: &[Entry],
-    origin: (i32, i32),
-) -> Result<(), Failure<'a>> {
-    let width = area.dim_in_pixel().0 as i32;
-    let (mut x, mut y) = (px(origin.0), px(origin.1));
+/// Draws entries in rows from the left, each 20 high, and returns the area below.
+pub fn legend<'a>(all: &Area<'a>, entries: &[Entry]) -> Result<Area<'a>, Failure<'a>> {
+    let width = all.dim_in_pixel().0 as i32;
+    let needed = |entry: &Entry| px(28) + width_of(&entry.text, 14) + px(14);
+    let (mut x, mut y) = (px(18), px(10));
+    let mut places = Vec::new();
     for entry in entries {
-        let needed = px(28) + width_of(&entry.text, 14) + px(16);
-        if x + needed > width && x > px(origin.0) {
-            (x, y) = (px(origin.0), y + px(20));
+        if x + needed(entry) > width && x > px(18) {
+            (x, y) = (px(18), y + px(20));
         }
+        places.push((x, y));
+        x += needed(entry);
+    }
+    let (area, below) = all.split_vertically(y + px(14));
+    for (entry, &(x, y)) in entries.iter().zip(&places) {
         match entry.sign {
             Sign::Line(colour) => {
                 let ends = [(x, y), (x + px(22), y)];
                 area.draw(&PathElement::new(ends, colour.stroke_width(3 * SCALE)))?;
             }
-            sign => draw_sign(area, (x + px(11), y), sign)?,
+            sign => draw_sign(&area, (x + px(11), y), sign)?,
         }
         let text = Text::new(entry.text.clone(), (x + px(28), y), left(14, INK));
         area.draw(&text)?;
-        x += needed;
     }
-    Ok(())
+    Ok(below)
 }
 
 /// Draws a sign at a place.
@@ -217,12 +219,66 @@ where
             area.draw(&Circle::new(at, px(4), colour.stroke_width(2 * SCALE)))
         }
         Sign::Cross(colour) => {
-            area.draw(&Cross::new(
-                at.clone(),
-                px(6),
-                WHITE.stroke_width(5 * SCALE),
-            ))?;
-            area.draw(&Cross::new(at, px(5), colour.stroke_width(3 * SCALE)))
+            area.draw(&Cross::new(at.clone(), px(6), INK.stroke_width(5 * SCALE)))?;
+            area.draw(&Cross::new(at, px(5), colour.stroke_width(2 * SCALE)))
         }
     }
+}
+
+/// Where numbers stand beside their signs, as offsets in pixels: the first of eight places that no
+/// sign and no other number takes, or nowhere.
+pub fn places_for_numbers(signs: &[(i32, i32)]) -> Vec<Option<(i32, i32)>> {
+    const DIRECTIONS: [(f64, f64); 8] = [
+        (-0.8, -0.8),
+        (0.8, -0.8),
+        (0.8, 0.8),
+        (-0.8, 0.8),
+        (0.0, -1.0),
+        (0.0, 1.0),
+        (1.1, 0.0),
+        (-1.1, 0.0),
+    ];
+    let mut taken: Vec<(i32, i32)> = Vec::new();
+    let free = |at: (i32, i32), others: &[(i32, i32)], room: (i32, i32)| {
+        let hits =
+            |other: &(i32, i32)| (at.0 - other.0).abs() < room.0 && (at.1 - other.1).abs() < room.1;
+        !others.iter().any(hits)
+    };
+    signs
+        .iter()
+        .map(|&(x, y)| {
+            let offsets = DIRECTIONS.map(|(dx, dy)| {
+                let reach = f64::from(px(14));
+                ((dx * reach) as i32, (dy * reach) as i32)
+            });
+            let offset = offsets.into_iter().find(|&(dx, dy)| {
+                let at = (x + dx, y + dy);
+                free(at, signs, (px(11), px(10))) && free(at, &taken, (px(17), px(12)))
+            })?;
+            taken.push((x + offset.0, y + offset.1));
+            Some(offset)
+        })
+        .collect()
+}
+
+/// Numbers beside signs at the given places, 1 and up, where there is room.
+pub fn number_signs<'a, X, Y>(
+    chart: &ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
+    signs: &[(f64, f64)],
+) -> Result<(), Failure<'a>>
+where
+    X: Ranged<ValueType = f64>,
+    Y: Ranged<ValueType = f64>,
+{
+    let pixels: Vec<(i32, i32)> = signs.iter().map(|at| chart.backend_coord(at)).collect();
+    let style = letters(13, BLUE).pos(Pos::new(HPos::Center, VPos::Center));
+    for (k, (&at, offset)) in signs.iter().zip(places_for_numbers(&pixels)).enumerate() {
+        if let Some(offset) = offset {
+            let number = Text::new(format!("{}", k + 1), offset, style.clone());
+            chart
+                .plotting_area()
+                .draw(&(EmptyElement::at(at) + number))?;
+        }
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::style::{
-    BLUE, Entry, Failure, GREY, INK, SCALE, Sign, VERMILION, draw_sign, legend, letters, mesh,
+    Entry, Failure, GREY, INK, SCALE, Sign, VERMILION, draw_sign, legend, mesh, number_signs,
     picture, plain, px, with_room,
 };
 use crate::compare::RecordedPath;
@@ -26,7 +26,6 @@ fn draw<'a>(
     path: &RecordedPath,
     curve: &Curve,
 ) -> Result<(), Failure<'a>> {
-    let (head, body) = area.split_vertically(px(46));
     let mut entries = vec![
         Entry {
             sign: Sign::Ring(VERMILION),
@@ -38,7 +37,7 @@ fn draw<'a>(
         },
     ];
     entries.extend(curve.legend());
-    legend(&head, &entries, (18, 10))?;
+    let body = legend(area, &entries)?;
 
     let t_of = |z: &[f64]| z[z.len() - 1];
     let all = curve.points().map(|(_, z)| t_of(z)).chain([0.0, 1.0]);
@@ -47,7 +46,7 @@ fn draw<'a>(
         .margin(px(12))
         .x_label_area_size(px(42))
         .y_label_area_size(px(58))
-        .build_cartesian_2d(-0.01 * length..1.01 * length, with_room(all, 0.06))?;
+        .build_cartesian_2d(-0.01 * length..1.01 * length, with_room(all, 0.12))?;
     mesh(
         &mut chart,
         (
@@ -69,7 +68,7 @@ fn draw<'a>(
         let line = points.iter().map(|(at, z)| (*at, t_of(z)));
         chart.draw_series(LineSeries::new(
             line,
-            curve.colour(*class).stroke_width(2 * SCALE),
+            curve.colour(*class).stroke_width(curve.width()),
         ))?;
     }
     let area = chart.plotting_area();
@@ -84,13 +83,10 @@ fn draw<'a>(
     {
         draw_sign(area, (station.at, t_of(&station.z)), Sign::Disc(INK))?;
     }
-    // Beyond some thirty the numbers would cover each other.
-    if path.solutions.len() <= 30 {
-        for (k, solution) in path.solutions.iter().enumerate() {
-            let at = EmptyElement::at((solution.at, 1.0))
-                + Text::new(format!("{}", k + 1), (px(5), px(-17)), letters(13, BLUE));
-            area.draw(&at)?;
-        }
+    // More would be a black cloud.
+    if path.solutions.len() <= 60 {
+        let places: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.at, 1.0)).collect();
+        number_signs(&chart, &places)?;
     }
     Ok(())
 }
