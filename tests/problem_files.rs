@@ -241,7 +241,7 @@ const BAD: &[Case] = &[
     ("lonely point", "d = [0.0, 1.0]", "d = [0.0, 1.0]\ne = [3.0, 3.0]", 12, &["2 are missing", "the point e"]),
     ("coincident", "d = [0.0, 1.0]", "d = [1.0, 1.00]", 15, &["c-d", "coincide"]),
     ("reference unknown", "reference = [\"a\", \"b\"]", "reference = [\"a\", \"z\"]", 21, &["homotopy.reference", "no point `z`"]),
-    ("reference too short", "reference = [\"a\", \"b\"]", "reference = [\"a\"]", 21, &["homotopy.reference", "1 points", "needs 2"]),
+    ("reference too short", "reference = [\"a\", \"b\"]", "reference = [\"a\"]", 21, &["homotopy.reference", "1 point, ", "needs 2"]),
     ("reference too long", "reference = [\"a\", \"b\"]", "reference = [\"a\", \"b\", \"c\"]", 21, &["3 points", "needs 2"]),
     ("reference repeated", "reference = [\"a\", \"b\"]", "reference = [\"a\", \"a\"]", 21, &["`a` twice"]),
     ("reference numbers", "reference = [\"a\", \"b\"]", "reference = [1, 2]", 21, &["homotopy.reference", "`1`"]),

@@ -41,13 +41,14 @@ pub fn track<const D: usize>(
     if status == Status::Closed
         && let Err(reason) = tracker.ledger.check_closed()
     {
-        status = Status::Stopped(reason);
+        status = Status::Stopped(format!("{reason} (on a loop of {} tubes)", tracker.steps));
     }
     let solutions = match tracker.ledger.solutions() {
         Ok(solutions) => solutions,
         Err((reason, solutions)) => {
             if status == Status::Closed {
-                status = Status::Stopped(reason);
+                status =
+                    Status::Stopped(format!("{reason} (on a loop of {} tubes)", tracker.steps));
             }
             solutions
         }
