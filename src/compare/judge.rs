@@ -197,3 +197,131 @@ fn distance(boxes: &[[Interval; 3]], figure: &[[Interval; 3]]) -> f64 {
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Row, Way};
+    use super::*;
+    use crate::interval::{hull, point};
+    use crate::track::{Driving, Space, Status};
+
+    /// A run that met figures of one moving point, and how far it went.
+    fn measured(mode: Mode, met: &[f64], length: f64, closed: bool, residual: f64) -> Measured {
+        let radius = if mode == Mode::Certified { 1e-12 } else { 0.0 };
+        let solution = |&x: &f64| Solution {
+            points: vec![
+                [point(0.0); 3],
+                [hull(x - radius, x + radius), point(1.0), point(0.0)],
+            ],
+            class: 0,
+            width: 2.0 * radius,
+        };
+        Measured {
+            outcome: Outcome {
+                mode,
+                space: Space::Full,
+                status: match closed {
+                    true => Status::Closed,
+                    false => Status::Stopped("somewhere".into()),
+                },
+                solutions: met.iter().map(solution).collect(),
+                steps: 1,
+                rejected: 0,
+                plan_changes: 0,
+                driving: Driving::default(),
+                length,
+                t_range: (0.0, 1.0),
+                seconds: 1.0,
+                switched_on: Vec::new(),
+            },
+            seconds: vec![1.0],
+            median: 1.0,
+            residual: Some(residual),
+        }
+    }
+
+    const PROVED: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
+
+    fn verdict(met: &[f64], length: f64, closed: bool, residual: f64) -> Verdict {
+        let row = Row {
+            way: Way {
+                method: Method::Certified,
+                space: Space::Full,
+            },
+            setting: None,
+            result: Ok(measured(Mode::Certified, &PROVED, 10.0, true, 1e-12)),
+            verdict: Verdict::Unjudged,
+        };
+        let reference = Reference::new(&row).unwrap();
+        reference.judge(&measured(Mode::Float, met, length, closed, residual))
+    }
+
+    #[test]
+    fn finds_each_fault() {
+        use Verdict::{Right, Stopped, Wrong};
+        assert_eq!(verdict(&PROVED, 10.0, true, 1e-15), Right);
+        assert_eq!(
+            verdict(&[0.1 + 1e-9, 0.2, 0.3, 0.4], 9.8, true, 1e-15),
+            Right
+        );
+        assert_eq!(verdict(&[0.4, 0.3, 0.2, 0.1], 10.0, true, 1e-15), Right);
+        assert_eq!(
+            verdict(&[0.1, 0.2, 0.4], 10.0, true, 1e-15),
+            Wrong(vec![Fault::Lost(1)])
+        );
+        assert_eq!(
+            verdict(&[0.1, 0.2, 0.3, 0.35, 0.4], 10.0, true, 1e-15),
+            Wrong(vec![Fault::Jumped(1)])
+        );
+        assert_eq!(
+            verdict(&[0.1, 0.2, 0.3, 0.35, 0.4], 10.0, true, 1e-3),
+            Wrong(vec![Fault::Invented(1)])
+        );
+        assert_eq!(
+            verdict(&[0.1, 0.2, 0.2, 0.3, 0.4], 10.0, true, 1e-15),
+            Wrong(vec![Fault::Invented(1)])
+        );
+        assert_eq!(
+            verdict(&[0.1, 0.3, 0.2, 0.4], 10.0, true, 1e-15),
+            Wrong(vec![Fault::Order])
+        );
+        assert_eq!(
+            verdict(&PROVED, 20.0, true, 1e-15),
+            Wrong(vec![Fault::Length(2.0)])
+        );
+        assert_eq!(
+            verdict(&PROVED, 5.0, true, 1e-15),
+            Wrong(vec![Fault::Length(0.5)])
+        );
+        // Runs that stopped are wrong in what they say, not in what they do not.
+        assert_eq!(verdict(&[0.1, 0.2], 5.0, false, 1e-15), Stopped);
+        assert_eq!(verdict(&[0.4, 0.3], 5.0, false, 1e-15), Stopped);
+        assert_eq!(verdict(&[], 0.0, false, 1e-15), Stopped);
+        assert_eq!(
+            verdict(&[0.1, 0.3], 7.0, false, 1e-15),
+            Wrong(vec![Fault::Lost(1)])
+        );
+        assert_eq!(
+            verdict(&[0.1, 0.9], 7.0, false, 1e-15),
+            Wrong(vec![Fault::Jumped(1)])
+        );
+        assert_eq!(
+            verdict(&PROVED, 30.0, false, 1e-15),
+            Wrong(vec![Fault::NotClosed(3.0)])
+        );
+    }
+
+    #[test]
+    fn a_stopped_run_is_no_reference() {
+        let row = Row {
+            way: Way {
+                method: Method::Certified,
+                space: Space::Full,
+            },
+            setting: None,
+            result: Ok(measured(Mode::Certified, &PROVED, 10.0, false, 1e-12)),
+            verdict: Verdict::Unjudged,
+        };
+        assert!(Reference::new(&row).is_none());
+    }
+}
