@@ -32,7 +32,7 @@ pub enum Fault {
     /// This many figures do not even meet the dimensions, or were reported twice.
     Invented(usize),
     /// It met the solutions in another order than the path does: it jumped from one part of the
-    /// path to another.
+    /// path to another, or took one solution for another.
     Order,
     /// It closed after this many times the path's length: not the loop through the sketch, or not
     /// once.
@@ -47,7 +47,7 @@ impl fmt::Display for Fault {
             Fault::Lost(n) => write!(f, "lost {n}"),
             Fault::Jumped(n) => write!(f, "jumped: {n} of other paths"),
             Fault::Invented(n) => write!(f, "invented {n}"),
-            Fault::Order => write!(f, "jumped: another order"),
+            Fault::Order => write!(f, "another order"),
             Fault::Length(x) => write!(f, "closed at {x:.2} times the length"),
             Fault::NotClosed(x) => write!(f, "not closed at {x:.2} times the length"),
         }
@@ -60,8 +60,9 @@ impl fmt::Display for Fault {
 const PLACE: f64 = 1e-6;
 /// Figures meet the dimensions if their residual (see [`super::residual_bound`]) is below this.
 const MEETS: f64 = 1e-8;
-/// The lengths of a path that two runs measure agree to this: chords of long steps are shorter.
-const LENGTHS: std::ops::RangeInclusive<f64> = 0.9..=1.01;
+/// The lengths of a path that two runs measure agree to this. Chords are shorter than arcs, by the part
+/// δ²/24 where steps turn by δ: less than a quarter even if all of them turn by 2 radians.
+const LENGTHS: std::ops::RangeInclusive<f64> = 0.75..=1.01;
 
 /// A closed certified run.
 pub(super) struct Reference {
