@@ -36,7 +36,7 @@ fn draw<'a>(area: &super::style::Area<'a>, comparison: &Comparison) -> Result<()
         (Sign::Disc(GREY), right),
         (
             Sign::Cross(INK),
-            "wrong: solutions lost, or of other paths, or closed wrongly",
+            "wrong: lost solutions, jumped, or closed wrongly",
         ),
         (Sign::Ring(GREY), "stopped, and said so"),
     ] {

@@ -2,12 +2,22 @@
 
 use super::style::{CLASSES, Entry, SCALE, Sign, size_colour};
 use crate::compare::{PathStation, RecordedPath};
-use plotters::style::RGBColor;
 
-/// Pieces of the path of the same colour, as points (length of path, free coordinates and t).
+/// A point of the path: the length up to it, the free coordinates and t.
+pub type Point = (f64, Vec<f64>);
+
+/// A stretch of the path along which the steps are of one class of sizes.
+pub struct Piece {
+    /// The class.
+    pub class: usize,
+    /// Its points, the last of the piece before among them.
+    pub points: Vec<Point>,
+}
+
+/// The path as it is drawn.
 pub struct Curve {
-    /// The size class of a piece and its points.
-    pub pieces: Vec<(usize, Vec<(f64, Vec<f64>)>)>,
+    /// In the order of the path.
+    pub pieces: Vec<Piece>,
     bounds: Vec<f64>,
     stations: usize,
 }
@@ -25,15 +35,16 @@ impl Curve {
             .collect();
         let bounds = bounds_of(&steps);
         let parts = (POINTS / steps.len().max(1)).clamp(1, 24);
-        let mut pieces: Vec<(usize, Vec<(f64, Vec<f64>)>)> = Vec::new();
+        let mut pieces: Vec<Piece> = Vec::new();
         for (ends, &step) in path.stations.windows(2).zip(&steps) {
             let class = bounds.iter().filter(|&&bound| step > bound).count();
             let points = (1..=parts).map(|k| between(&ends[0], &ends[1], k as f64 / parts as f64));
             match pieces.last_mut() {
-                Some((last, known)) if *last == class => known.extend(points),
+                Some(last) if last.class == class => last.points.extend(points),
                 _ => {
                     let first = (ends[0].at, ends[0].z.clone());
-                    pieces.push((class, std::iter::once(first).chain(points).collect()));
+                    let points = std::iter::once(first).chain(points).collect();
+                    pieces.push(Piece { class, points });
                 }
             }
         }
@@ -45,8 +56,8 @@ impl Curve {
     }
 
     /// All points.
-    pub fn points(&self) -> impl Iterator<Item = &(f64, Vec<f64>)> {
-        self.pieces.iter().flat_map(|(_, points)| points)
+    pub fn points(&self) -> impl Iterator<Item = &Point> {
+        self.pieces.iter().flat_map(|piece| &piece.points)
     }
 
     /// How wide to draw it: long paths finely.
@@ -73,16 +84,11 @@ impl Curve {
                     (Some(low), None) => format!("above {}", number(low)),
                 };
                 Entry {
-                    sign: Sign::Line(self.colour(class)),
+                    sign: Sign::Line(size_colour(class)),
                     text,
                 }
             })
             .collect()
-    }
-
-    /// The colour of a class.
-    pub fn colour(&self, class: usize) -> RGBColor {
-        size_colour(class)
     }
 }
 
@@ -98,7 +104,7 @@ fn bounds_of(steps: &[f64]) -> Vec<f64> {
 }
 
 /// Hermite's cubic between two stations.
-fn between(from: &PathStation, to: &PathStation, u: f64) -> (f64, Vec<f64>) {
+fn between(from: &PathStation, to: &PathStation, u: f64) -> Point {
     let h = to.at - from.at;
     let (v, w) = (u * u, u * u * u);
     let (a, b) = (2.0 * w - 3.0 * v + 1.0, 3.0 * v - 2.0 * w);

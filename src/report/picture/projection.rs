@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::style::{
     Entry, Failure, INK, Sign, VERMILION, draw_sign, legend, mesh, number_signs, picture, plain,
-    px, with_room,
+    px, size_colour, with_room,
 };
 use crate::compare::RecordedPath;
 use plotters::prelude::*;
@@ -51,11 +51,11 @@ fn draw<'a>(
         (&path.coordinates[a], &plain),
         (&path.coordinates[b], &plain),
     )?;
-    for (class, points) in &curve.pieces {
-        let line = points.iter().map(|(_, z)| (z[a], z[b]));
+    for piece in &curve.pieces {
+        let line = piece.points.iter().map(|(_, z)| (z[a], z[b]));
         chart.draw_series(LineSeries::new(
             line,
-            curve.colour(*class).stroke_width(curve.width()),
+            size_colour(piece.class).stroke_width(curve.width()),
         ))?;
     }
     let area = chart.plotting_area();

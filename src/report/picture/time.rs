@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::style::{
     Entry, Failure, GREY, INK, SCALE, Sign, VERMILION, draw_sign, legend, mesh, number_signs,
-    picture, plain, px, with_room,
+    picture, plain, px, size_colour, with_room,
 };
 use crate::compare::RecordedPath;
 use plotters::prelude::*;
@@ -64,11 +64,11 @@ fn draw<'a>(
             GREY.stroke_width(SCALE),
         ))?;
     }
-    for (class, points) in &curve.pieces {
-        let line = points.iter().map(|(at, z)| (*at, t_of(z)));
+    for piece in &curve.pieces {
+        let line = piece.points.iter().map(|(at, z)| (*at, t_of(z)));
         chart.draw_series(LineSeries::new(
             line,
-            curve.colour(*class).stroke_width(curve.width()),
+            size_colour(piece.class).stroke_width(curve.width()),
         ))?;
     }
     let area = chart.plotting_area();
