@@ -72,13 +72,14 @@ fn run<const D: usize>(
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations, tolerance);
     let mut step = FIRST_STEP.min(longest);
+    let mut failure = "";
     loop {
         let place = |record: &Record<D>, now: &Local<D>| {
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
             return Err(format!(
-                "the corrector fails at the smallest step, {}{}",
+                "{failure} at the smallest step, {}{}",
                 place(record, &now),
                 homotopy.remark_on_lengths(now.z[0][m])
             ));
@@ -97,6 +98,11 @@ fn run<const D: usize>(
                 .between(equations, &mut inverter, &now, &next, step, record)
                 .is_some();
         if !seen {
+            failure = match refined {
+                false => "the corrector fails",
+                true if turned => "the path turns too much",
+                true => "it cannot be told whether the path meets t = 1",
+            };
             record.rejected += 1;
             step *= 0.5;
             continue;
