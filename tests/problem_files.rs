@@ -212,7 +212,7 @@ const BAD: &[Case] = &[
     ("repeated point", "c = [1.0, 1.0]", "a = [1.0, 1.0]", 8, &["`a`", "twice"]),
     ("unknown point", "[\"c\", \"d\", 1.3]", "[\"c\", \"x\", 1.3]", 15, &["constraints.distances", "c-x", "no point `x`"]),
     ("similar point", "c = [1.0", "elbow = [1.0", 14, &["no point `c`"]),
-    ("too few coordinates", "c = [1.0, 1.0]", "c = [1.0]", 8, &["`c`", "1 coordinates", "needs 2"]),
+    ("too few coordinates", "c = [1.0, 1.0]", "c = [1.0]", 8, &["`c`", "1 coordinate, ", "needs 2"]),
     ("too many coordinates", "c = [1.0, 1.0]", "c = [1.0, 1.0, 0.0]", 8, &["`c`", "3 coordinates", "needs 2"]),
     ("coordinates no list", "c = [1.0, 1.0]", "c = 1.0", 8, &["points.c", "1.0"]),
     ("coordinate text", "c = [1.0, 1.0]", "c = [1.0, \"1.0\"]", 8, &["points.c", "without quotes"]),
