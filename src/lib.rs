@@ -49,9 +49,11 @@
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
-//! - [`report`]: tables, JSON, progress
+//! - [`compare`]: all modes and spaces beside each other, timed and judged
+//! - [`report`]: tables, JSON, pictures, progress
 
 pub mod certificate;
+pub mod compare;
 pub mod generate;
 pub mod interval;
 pub mod linalg;

@@ -1,6 +1,7 @@
 //! The command line: one file per verb.
 
 mod check;
+mod compare;
 mod generate;
 mod interrupt;
 mod output;
@@ -35,6 +36,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Verb {
     Check(check::Arguments),
+    Compare(compare::Arguments),
     Generate(generate::Arguments),
     Solve(solve::Arguments),
     Verify(verify::Arguments),
@@ -48,6 +50,7 @@ pub fn run() -> ExitCode {
     }
     let code = match Arguments::parse().verb {
         Verb::Check(arguments) => check::run(&arguments),
+        Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),

@@ -29,8 +29,14 @@ pub struct Arguments {
     #[arg(long, value_name = "X", default_value = "0.1", value_parser = alpha)]
     alpha: f64,
     /// Longest step allowed, in arc length
-    #[arg(long, value_name = "X", value_parser = max_step)]
+    #[arg(long, value_name = "X", value_parser = positive)]
     max_step: Option<f64>,
+    /// Certified mode: how far the path may be from the middle of a tube
+    #[arg(long, value_name = "X", value_parser = positive)]
+    tube_radius: Option<f64>,
+    /// Float mode: points are corrected until a correction is about this small
+    #[arg(long, value_name = "X", value_parser = positive)]
+    tolerance: Option<f64>,
     /// Follow the loop the other way round
     #[arg(long)]
     reverse: bool,
@@ -70,7 +76,7 @@ fn alpha(text: &str) -> Result<f64, String> {
     }
 }
 
-fn max_step(text: &str) -> Result<f64, String> {
+fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
         _ => Err("must be a finite number greater than 0".to_owned()),
@@ -89,6 +95,18 @@ impl Arguments {
                 "float mode proves nothing: leave out `--cert`, or `--mode float`".to_owned(),
             );
         }
+        if self.mode == Mode::Certified && self.tolerance.is_some() {
+            return Err(
+                "`--tolerance` is for float mode: add `--mode float`, or use `--tube-radius`"
+                    .to_owned(),
+            );
+        }
+        if self.mode == Mode::Float && self.tube_radius.is_some() {
+            return Err(
+                "float mode has no tubes: leave out `--tube-radius`, or use `--tolerance`"
+                    .to_owned(),
+            );
+        }
         let options = match (self.mode, self.preset) {
             (Mode::Certified, _) => Options {
                 space,
@@ -99,6 +117,8 @@ impl Arguments {
         };
         Ok(Options {
             max_step: self.max_step,
+            tube_radius: self.tube_radius,
+            tolerance: self.tolerance,
             reverse: self.reverse,
             alpha: self.alpha,
             ..options
@@ -156,6 +176,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         cancel: Some(cancel),
         progress: Some(&mut show),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
+        ..Control::default()
     };
     let outcome = track::solve(&problem, &options, &mut control);
     line.clear();

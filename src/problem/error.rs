@@ -26,7 +26,8 @@ pub enum ProblemError {
     TooManyPoints(usize),
     /// Fewer points than a reference needs.
     #[error(
-        "there are {given} points, but a problem of dimension {dimension} needs at least {dimension}"
+        "there {} {}, but a problem of dimension {dimension} needs at least {dimension}",
+        if *.given == 1 { "is" } else { "are" }, counted(*.given, "point")
     )]
     TooFewPoints {
         /// How many there are.
@@ -43,7 +44,7 @@ pub enum ProblemError {
         name: String,
     },
     /// Not one number per dimension.
-    #[error("the point `{name}` has {given} coordinates, but needs {wanted}")]
+    #[error("the point `{name}` has {}, but needs {wanted}", counted(*.given, "coordinate"))]
     CoordinateCount {
         /// Which point.
         index: usize,
@@ -137,7 +138,7 @@ pub enum ProblemError {
         name: String,
     },
     /// Not one reference point per dimension.
-    #[error("the reference has {given} points, but needs {wanted}")]
+    #[error("the reference has {}, but needs {wanted}", counted(*.given, "point"))]
     ReferenceCount {
         /// How many there are.
         given: usize,
@@ -163,7 +164,7 @@ pub enum ProblemError {
     )]
     CollinearSketch,
     /// The bend is not two points.
-    #[error("the bend has {0} points, but must be the two points of a distance")]
+    #[error("the bend has {}, but must be the two points of a distance", counted(*.0, "point"))]
     BendCount(usize),
     /// The bend is not among the distances.
     #[error("the bend {0} is not one of the distances: name the two points of one")]
@@ -241,6 +242,11 @@ pub(super) fn did_you_mean(nearest: &Option<String>) -> String {
         .map_or(String::new(), |name| format!("; did you mean `{name}`?"))
 }
 
+/// `1 point`, `2 points`.
+fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
 fn count_message(
     dimension: usize,
     points: usize,
@@ -258,13 +264,14 @@ fn count_message(
         1 => "1 is too many".to_owned(),
         n => format!("{n} are too many"),
     };
+    let are = if given == 1 { "is" } else { "are" };
     let parts = if parts.is_empty() {
         String::new()
     } else {
         format!("; {parts}")
     };
     format!(
-        "{points} points in {space} need {formula} = {needed} distances, and there are {given}: \
+        "{points} points in {space} need {formula} = {needed} distances, and there {are} {given}: \
          {verdict}{parts}"
     )
 }

@@ -6,7 +6,7 @@
 use super::builder::ProblemBuilder;
 use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
 use super::names::nearest;
-use super::{Decimal, DecimalError, Problem, ProblemError};
+use super::{Decimal, DecimalError, Problem, ProblemError, Published};
 use std::fmt;
 use std::io::Read;
 use std::ops::Range;
@@ -116,27 +116,8 @@ impl Problem {
     /// # Ok::<(), krawl::problem::FileError>(())
     /// ```
     pub fn read(path: impl AsRef<Path>) -> Result<Problem, FileError> {
-        let path = path.as_ref();
-        let file = path.display().to_string();
-        let fail = |line, fault| FileError {
-            file: file.clone(),
-            line,
-            fault: Box::new(fault),
-        };
-        let mut bytes = Vec::new();
-        std::fs::File::open(path)
-            // One byte more than allowed tells that the file is too large, however large it is.
-            .and_then(|open| open.take(MAX_FILE_SIZE + 1).read_to_end(&mut bytes))
-            .map_err(|error| fail(None, FileFault::Unreadable(error)))?;
-        if bytes.len() as u64 > MAX_FILE_SIZE {
-            return Err(fail(None, FileFault::TooLarge));
-        }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
-            fail(Some(line), FileFault::NotUtf8)
-        })?;
-        Problem::parse(&text, &file)
+        let (problem, _) = read(path.as_ref())?;
+        Ok(problem)
     }
 
     /// Reads and checks a problem from the text of a file. `file` is for messages, and its stem
@@ -165,15 +146,33 @@ impl Problem {
     /// assert!(error.to_string().starts_with("bad.toml:1: dimension: "));
     /// ```
     pub fn parse(text: &str, file: &str) -> Result<Problem, FileError> {
-        let bytes = text.bytes().enumerate();
-        let line_ends = bytes.filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at);
-        Reader {
-            text,
-            file,
-            line_ends: line_ends.collect(),
-        }
-        .problem()
+        let (problem, _) = Reader::new(text, file).problem()?;
+        Ok(problem)
     }
+}
+
+/// Reads and checks a problem file, with what was published about the problem.
+pub(super) fn read(path: &Path) -> Result<(Problem, Vec<Published>), FileError> {
+    let file = path.display().to_string();
+    let fail = |line, fault| FileError {
+        file: file.clone(),
+        line,
+        fault: Box::new(fault),
+    };
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)
+        // One byte more than allowed tells that the file is too large, however large it is.
+        .and_then(|open| open.take(MAX_FILE_SIZE + 1).read_to_end(&mut bytes))
+        .map_err(|error| fail(None, FileFault::Unreadable(error)))?;
+    if bytes.len() as u64 > MAX_FILE_SIZE {
+        return Err(fail(None, FileFault::TooLarge));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
+        fail(Some(line), FileFault::NotUtf8)
+    })?;
+    Reader::new(&text, &file).problem()
 }
 
 /// A text and its name.
@@ -201,8 +200,18 @@ struct Places {
 
 type Line = Option<usize>;
 
-impl Reader<'_> {
-    fn problem(&self) -> Result<Problem, FileError> {
+impl<'a> Reader<'a> {
+    fn new(text: &'a str, file: &'a str) -> Self {
+        let bytes = text.bytes().enumerate();
+        let line_ends = bytes.filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at);
+        Reader {
+            text,
+            file,
+            line_ends: line_ends.collect(),
+        }
+    }
+
+    fn problem(&self) -> Result<(Problem, Vec<Published>), FileError> {
         let document = Document::parse(self.text).map_err(|error| self.syntax(&error))?;
         let root = document.as_table();
         self.known_keys(
@@ -215,6 +224,7 @@ impl Reader<'_> {
                 "points",
                 "constraints",
                 "homotopy",
+                "published",
             ],
         )?;
         let mut places = Places::default();
@@ -251,9 +261,71 @@ impl Reader<'_> {
         builder = self.points(root, dimension, builder, &mut places)?;
         builder = self.constraints(root, builder, &mut places)?;
         builder = self.homotopy(root, builder, &mut places)?;
-        builder
-            .finish()
-            .map_err(|error| self.in_problem(&places, error))
+        let published = self.published(root)?;
+        let problem = builder.finish();
+        let problem = problem.map_err(|error| self.in_problem(&places, error))?;
+        Ok((problem, published))
+    }
+
+    fn published(&self, root: &dyn TableLike) -> Result<Vec<Published>, FileError> {
+        let Some((line, item)) = self.get(root, "published") else {
+            return Ok(Vec::new());
+        };
+        let Some(tables) = item.as_array_of_tables() else {
+            let wanted = "tables, each with the heading [[published]]";
+            return Err(self.wrong_kind(line, "published", wanted, item));
+        };
+        tables
+            .iter()
+            .map(|table| {
+                self.known_keys(table, "published.", &Published::KEYS)?;
+                let text = |name: &str| {
+                    let found = self.get(table, name);
+                    found
+                        .map(|(line, item)| self.string(line, &format!("published.{name}"), item))
+                        .transpose()
+                };
+                let count = |name: &str| {
+                    let Some((line, item)) = self.get(table, name) else {
+                        return Ok(None);
+                    };
+                    let number = item.as_integer().and_then(|n| usize::try_from(n).ok());
+                    let key = format!("published.{name}");
+                    number
+                        .map(Some)
+                        .ok_or_else(|| self.wrong_kind(line, &key, "a whole number", item))
+                };
+                let seconds = match self.get(table, "seconds") {
+                    None => None,
+                    Some((line, item)) => {
+                        let number = item
+                            .as_float()
+                            .or_else(|| item.as_integer().map(|n| n as f64))
+                            .filter(|x| *x > 0.0 && x.is_finite());
+                        let wanted = "a number greater than 0";
+                        let wrong = || self.wrong_kind(line, "published.seconds", wanted, item);
+                        Some(number.ok_or_else(wrong)?)
+                    }
+                };
+                let space = text("space")?;
+                if let Some(space) = &space
+                    && !["full", "reduced"].contains(&space.as_str())
+                {
+                    let (line, item) = self.get(table, "space").expect("it was just read");
+                    let wanted = "\"full\" or \"reduced\"";
+                    return Err(self.wrong_kind(line, "published.space", wanted, item));
+                }
+                Ok(Published {
+                    method: text("method")?.ok_or_else(|| {
+                        self.missing("published.method", "method = \"whose method, and where\"")
+                    })?,
+                    space,
+                    steps: count("steps")?,
+                    seconds,
+                    solutions: count("solutions")?,
+                })
+            })
+            .collect()
     }
 
     fn points(

@@ -10,6 +10,7 @@ mod decimal;
 mod error;
 mod file;
 mod names;
+mod published;
 mod reference;
 mod write;
 
@@ -18,6 +19,7 @@ pub use check::{Rigidity, rigidity};
 pub use decimal::{Decimal, DecimalError};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};
+pub use published::Published;
 
 /// A Point Distance Satisfaction Problem with its sketch (RR 8705, section 2.1).
 #[derive(Debug, Clone, PartialEq)]

@@ -1,11 +1,14 @@
 //! What people and programs get to see of a run.
 
+mod comparison;
 mod digits;
 mod json;
+pub mod picture;
 mod progress;
 mod table;
 mod theorem;
 
+pub use comparison::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
 pub use digits::certain_digits;
 pub use json::to_json;
 pub use progress::ProgressLine;

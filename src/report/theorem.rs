@@ -25,8 +25,10 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
                  Theorem. Let H(X, t) = 0 be the distance equations of the problem in this certificate, \
                  for the exact decimals in it, and S the connected component of the sketch at t = 0.\n\
                  1. S is a closed curve, regular along its whole length.\n\
-                 2. S has exactly {count} points with t = 1, one in each of {count} disjoint boxes; {}.\n\
+                 2. S has exactly {} with t = 1, one in each of {}; {}.\n\
                  3. On S t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+                counted(count, "point"),
+                counted(count, "disjoint box"),
                 classes_in_words(&verdict.classes)
             )?;
         }
@@ -34,9 +36,9 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
             out,
             "{name}: INCOMPLETE. The run stopped: {reason}.\n\
              Verified so far: a regular arc of the curve through the sketch, with t between {low:.6} and \
-             {high:.6}, and on it exactly {} points with t = 1. Nothing is claimed of the rest of \
+             {high:.6}, and on it exactly {} with t = 1. Nothing is claimed of the rest of \
              the curve.",
-            verdict.solutions.len()
+            counted(verdict.solutions.len(), "point")
         )?,
         Outcome::Refuted(flaw) => writeln!(out, "{name}: REFUTED: {flaw}.")?,
     }
@@ -58,6 +60,15 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
         time.as_secs_f64(),
         verdict.program.escape_debug()
     )
+}
+
+/// `1 point`, `2 points`, `2 disjoint boxes`.
+fn counted(n: usize, what: &str) -> String {
+    match what {
+        _ if n == 1 => format!("1 {what}"),
+        _ if what.ends_with('x') => format!("{n} {what}es"),
+        _ => format!("{n} {what}s"),
+    }
 }
 
 fn classes_in_words(classes: &[u32]) -> String {

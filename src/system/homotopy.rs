@@ -51,6 +51,19 @@ impl Homotopy {
         Self::with_unit(problem, typical_length(problem))
     }
 
+    /// The same as the paper has it, in the lengths of the problem: the steps of RR 8705, section 7,
+    /// are in them. Where the typical length is beyond 1/64 or 64 the paper's numbers would make no
+    /// sense, and the unit is the typical length.
+    pub fn for_the_paper(problem: &Problem) -> Result<Self, GaugeError> {
+        let typical = typical_length(problem);
+        let unit = if (1.0 / 64.0..=64.0).contains(&typical) {
+            1.0
+        } else {
+            typical
+        };
+        Self::with_unit(problem, unit)
+    }
+
     /// The same, with a unit of one's own choice.
     ///
     /// # Panics

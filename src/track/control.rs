@@ -2,6 +2,7 @@
 
 use super::Witness;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 /// Where a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,11 +17,22 @@ pub struct Progress {
     pub length: f64,
 }
 
+/// Where to give up a run, as if it were cancelled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// When the path followed is longer than this.
+    pub length: f64,
+    /// When the clock shows this; looked at every [`Control::EVERY`] steps.
+    pub deadline: Instant,
+}
+
 /// Hooks for a run.
 #[derive(Default)]
 pub struct Control<'a> {
     /// Set from outside (Ctrl-C) to end the run after the current step.
     pub cancel: Option<&'a AtomicBool>,
+    /// Where to give up.
+    pub limit: Option<Limit>,
     /// Called now and then, every [`Control::EVERY`] steps.
     pub progress: Option<&'a mut dyn FnMut(Progress)>,
     /// Sees the proof of a certified run.
@@ -38,6 +50,11 @@ impl Control<'_> {
         {
             progress(now);
         }
+        let passed = |limit: &Limit| {
+            now.length > limit.length
+                || now.steps.is_multiple_of(Self::EVERY) && Instant::now() > limit.deadline
+        };
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+            || self.limit.as_ref().is_some_and(passed)
     }
 }

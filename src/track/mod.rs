@@ -12,7 +12,7 @@ pub mod reduced;
 mod witness;
 
 pub use congruence::{congruence_classes, observed_solutions};
-pub use control::{Control, Progress};
+pub use control::{Control, Limit, Progress};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
 pub use witness::{TubeSeen, Witness};
@@ -41,8 +41,7 @@ pub fn solve(
 ) -> Result<Outcome, StartError> {
     let homotopy = match options.preset {
         Preset::Default => Homotopy::new(problem)?,
-        // The paper's step sizes are in the lengths of the problem.
-        Preset::Paper => Homotopy::with_unit(problem, 1.0)?,
+        Preset::Paper => Homotopy::for_the_paper(problem)?,
     };
     if options.space == Space::Full && homotopy.equations > LARGEST_FULL {
         return Err(StartError::Unsupported(format!(
@@ -59,10 +58,22 @@ pub fn solve(
             SMALLEST_MAX_STEP * homotopy.unit
         )));
     }
-    match problem.dimension {
+    let mut outcome = match problem.dimension {
         2 => solve_in::<2>(&homotopy, options, control),
         _ => solve_in::<3>(&homotopy, options, control),
+    }?;
+    if let Status::Stopped(reason) = &mut outcome.status {
+        let wish = match options.mode {
+            Mode::Certified => options
+                .tube_radius
+                .map(|r| format!("tubes of radius {r:e}")),
+            Mode::Float => options.tolerance.map(|x| format!("points good to {x:e}")),
+        };
+        if let Some(wish) = wish {
+            *reason += &format!(" ({wish} were asked for)");
+        }
     }
+    Ok(outcome)
 }
 
 /// Most free coordinates in the full space: its trackers keep half a dozen dense matrices with as

@@ -17,9 +17,17 @@ pub struct Options {
     pub space: Space,
     /// How float mode steps.
     pub preset: Preset,
-    /// Steps are never longer than this, in arc length with lengths in the homotopy's unit.
-    /// `None`: as long as the step control allows.
+    /// Steps are never longer than this, in arc length, in the lengths of the problem. `None`: as
+    /// long as the step control allows.
     pub max_step: Option<f64>,
+    /// Float mode: a point counts as one of the path when Newton's correction is about this small,
+    /// in the lengths of the problem. Solutions are corrected to the end of precision whatever it
+    /// is. `None`: 1e-8 typical lengths (in the reduced space 1e-6, or less where steps are short).
+    pub tolerance: Option<f64>,
+    /// Certified mode: every point of the path is proved to be no further than this from the middle
+    /// of its tube, coordinate by coordinate, in the lengths of the problem. `None`: as far as a proof
+    /// goes.
+    pub tube_radius: Option<f64>,
     /// Follow the loop the other way round.
     pub reverse: bool,
     /// The threshold α on the distance to a boundary configuration (RR 8705, section 4.2) at
@@ -35,7 +43,10 @@ pub enum Preset {
     /// High-order predictor, steps chosen from the predictor's error, exact derivatives.
     Default,
     /// As in RR 8705, sections 7.1 to 7.3: Euler predictor, finite differences, steps doubled and
-    /// halved in [1e-10, δmax] with δmax 0.1 (full) and 0.05 (reduced), lengths unscaled.
+    /// halved in [1e-10, δmax] with δmax 0.1 (full) and 0.05 (reduced) in the lengths of the problem,
+    /// or in typical lengths where those are far from 1 ([`Homotopy::for_the_paper`]).
+    ///
+    /// [`Homotopy::for_the_paper`]: crate::system::Homotopy::for_the_paper
     Paper,
 }
 
@@ -47,6 +58,8 @@ impl Options {
             space: Space::Full,
             preset: Preset::Default,
             max_step: None,
+            tolerance: None,
+            tube_radius: None,
             reverse: false,
             alpha: 0.1,
             max_steps: 10_000_000,
@@ -74,6 +87,22 @@ impl Options {
     pub fn with_max_step(self, max_step: f64) -> Self {
         Options {
             max_step: Some(max_step),
+            ..self
+        }
+    }
+
+    /// With a tolerance for the points of a float run.
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        Options {
+            tolerance: Some(tolerance),
+            ..self
+        }
+    }
+
+    /// With a bound on the radius of a certified run's tubes.
+    pub fn with_tube_radius(self, tube_radius: f64) -> Self {
+        Options {
+            tube_radius: Some(tube_radius),
             ..self
         }
     }

@@ -49,6 +49,8 @@ pub(super) struct Norms {
     pub normal: f64,
     /// Where the bounds that depend on s were taken; they hold below.
     pub h: f64,
+    /// The path is wanted nearer than this to ẑ(s); not a bound, but a wish.
+    pub radius: f64,
 }
 
 impl Norms {
@@ -134,7 +136,8 @@ impl Norms {
         let near = round_up(defect / (1.0 - q), 400);
         let nearer_q = round_up(contraction + width * near.min(r), 4);
         let distance = round_up(defect / (1.0 - nearer_q), 400);
-        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
+        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r && distance <= self.radius)
+        {
             return None;
         }
         // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.

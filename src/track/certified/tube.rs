@@ -33,6 +33,8 @@ const MIN_WEIGHT: f64 = 0.1;
 /// Work space of the test.
 #[derive(Debug, Clone)]
 pub struct KrawczykTest<const D: usize> {
+    /// Tubes are cut short where the path may be further than this from their middle.
+    pub radius: f64,
     pub(super) a: Matrix,
     /// Values of the sparse matrices J₁, J₂ and [J₀; c].
     j1: Vec<f64>,
@@ -64,6 +66,7 @@ impl<const D: usize> KrawczykTest<D> {
         let mut ones = equations.vector();
         ones[..n].fill(1.0);
         KrawczykTest {
+            radius: f64::INFINITY,
             a: Matrix::zeros(n, n),
             j1: vec![0.0; entries],
             j2: vec![0.0; entries],
@@ -184,6 +187,7 @@ impl<const D: usize> KrawczykTest<D> {
             slope_of_t,
             normal,
             h,
+            radius: self.radius,
         };
         norms.is_in_range().then_some(norms)
     }

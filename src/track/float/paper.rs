@@ -11,7 +11,7 @@ use std::time::Instant;
 const LARGEST_STEP: f64 = 0.1;
 /// δmin.
 const SMALLEST_STEP: f64 = 1e-10;
-/// The paper does not say when a correction has succeeded; this is ours.
+/// The paper does not say when a correction has succeeded; this is ours, if none is asked for.
 const TOLERANCE: f64 = 1e-8;
 const MAX_CORRECTIONS: usize = 5;
 /// The step of the finite differences, about √u.
@@ -125,13 +125,15 @@ impl<'a, const D: usize> Paper<'a, D> {
         self.set_tangent();
         std::mem::swap(&mut self.tangent, &mut self.next_tangent);
         let direction = self.tangent.clone();
-        let largest = options.max_step.unwrap_or(LARGEST_STEP);
+        let unit = self.homotopy.unit;
+        let largest = options.max_step.map_or(LARGEST_STEP, |step| step / unit);
+        let tolerance = options.tolerance.map_or(TOLERANCE, |x| x / unit);
         let mut step = largest;
         loop {
             for i in 0..n {
                 self.next[i] = self.tangent[i].mul_add(step, self.z[i]);
             }
-            if !self.correct() {
+            if !self.correct(tolerance) {
                 record.rejected += 1;
                 if step < 2.0 * SMALLEST_STEP {
                     return Err(format!(
@@ -180,7 +182,7 @@ impl<'a, const D: usize> Paper<'a, D> {
     }
 
     /// Newton–Raphson in the hyperplane normal to the tangent.
-    fn correct(&mut self) -> bool {
+    fn correct(&mut self, tolerance: f64) -> bool {
         let (m, n) = (self.equations.m, self.equations.n());
         for _ in 0..MAX_CORRECTIONS {
             if self.differentiate().is_none() {
@@ -193,7 +195,7 @@ impl<'a, const D: usize> Paper<'a, D> {
                 self.next[i] -= self.shifted[i];
                 size = size.max(self.shifted[i].abs());
             }
-            if size <= TOLERANCE {
+            if size <= tolerance {
                 return true;
             }
             if size.is_nan() {

@@ -11,7 +11,7 @@ use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 
 /// Points of the path are corrected until the last correction is below this, in the homotopy's
-/// unit; the next would be smaller still by the contraction.
+/// unit, if nothing else is asked for; the next would be smaller still by the contraction.
 const POINT_TOLERANCE: f64 = 1e-8;
 /// The step is chosen so that the corrector's first two corrections shrink by this factor. The
 /// factor is about |[J; c]⁻¹ F''| times the prediction's error, Kantorovich's number: it says how
@@ -50,6 +50,9 @@ fn run<const D: usize>(
     record: &mut Record<D>,
 ) -> Result<(), String> {
     let (m, n) = (equations.m, equations.n());
+    let tolerance = options
+        .tolerance
+        .map_or(POINT_TOLERANCE, |tolerance| tolerance / homotopy.unit);
     let mut inverter = equations.inverter();
     let (mut now, mut next) = (Local::new(equations), Local::new(equations));
     let mut sketch = equations.vector();
@@ -60,7 +63,7 @@ fn run<const D: usize>(
     first_normal(equations, &mut inverter, &mut now, options.reverse)
         .map_err(|_| "the sketch is a singular point of its path".to_owned())?;
     now.z[0].copy_from_slice(&sketch);
-    now.refine(equations, &mut inverter, POINT_TOLERANCE, 8)
+    now.refine(equations, &mut inverter, tolerance, 8)
         .map_err(|_| "the sketch could not be corrected onto its path".to_owned())?;
     now.expand(equations);
     let direction = now.normal.clone();
@@ -69,23 +72,22 @@ fn run<const D: usize>(
         .max_step
         .map_or(f64::INFINITY, |step| step / homotopy.unit);
     let mut previous: Option<Vector> = None;
-    let mut events = Events::new(equations);
+    let mut events = Events::new(equations, tolerance);
     let mut step = FIRST_STEP.min(longest);
+    let mut failure = "";
     loop {
         let place = |record: &Record<D>, now: &Local<D>| {
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
             return Err(format!(
-                "the corrector fails at the smallest step, {}{}",
+                "{failure} at the smallest step, {}{}",
                 place(record, &now),
                 homotopy.remark_on_lengths(now.z[0][m])
             ));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
-        let refined = next
-            .refine(equations, &mut inverter, POINT_TOLERANCE, 6)
-            .is_ok()
+        let refined = next.refine(equations, &mut inverter, tolerance, 6).is_ok()
             && next.contraction <= LARGEST_CONTRACTION
             && next.negative == now.negative;
         if refined {
@@ -98,6 +100,11 @@ fn run<const D: usize>(
                 .between(equations, &mut inverter, &now, &next, step, record)
                 .is_some();
         if !seen {
+            failure = match refined {
+                false => "the corrector fails",
+                true if turned => "the path turns too much",
+                true => "it cannot be told whether the path meets t = 1",
+            };
             record.rejected += 1;
             step *= 0.5;
             continue;
@@ -140,14 +147,16 @@ fn run<const D: usize>(
 
 /// Finds what happens between two points of the path.
 struct Events<const D: usize> {
+    tolerance: f64,
     crossings: Vec<Crossing>,
     meeting: Meeting<D>,
     scratch: Vector,
 }
 
 impl<const D: usize> Events<D> {
-    fn new(equations: &Equations<D>) -> Self {
+    fn new(equations: &Equations<D>, tolerance: f64) -> Self {
         Events {
+            tolerance,
             crossings: Vec::new(),
             meeting: Meeting::new(equations),
             scratch: equations.vector(),
@@ -167,7 +176,7 @@ impl<const D: usize> Events<D> {
     ) -> Option<()> {
         // The expansions are off by 2^-(ORDER + 1) of the prediction's error at half the way, and
         // their slopes by (ORDER + 1) / (step / 2) times that.
-        let error = next.first_correction / 32.0 + 10.0 * POINT_TOLERANCE;
+        let error = next.first_correction / 32.0 + 10.0 * self.tolerance;
         let half = 0.5 * step;
         let back = self.middle(now, next, half);
         for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
@@ -238,7 +247,8 @@ impl<const D: usize> Events<D> {
         let away = (0..n).fold(0.0, |max: f64, i| {
             max.max((self.scratch[i] - sketch[i]).abs())
         });
-        (away <= 10.0 * next.first_correction + 1e-6).then_some(at)
+        (away <= 10.0 * next.first_correction + 100.0 * self.tolerance.max(POINT_TOLERANCE))
+            .then_some(at)
     }
 }
 

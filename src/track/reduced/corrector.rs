@@ -21,10 +21,14 @@ pub(super) struct Corrector {
     orientation: f64,
     /// How much the second correction was smaller than the first; zero if one was enough.
     pub contraction: f64,
+    /// How far a station may be from the path, in the figure, by default and as in the paper.
+    small: f64,
+    converged: f64,
     places: usize,
 }
 
-/// A station is at most about this far from the path (in the figure, homotopy's unit).
+/// A station is at most about this far from the path (in the figure, homotopy's unit), if nothing
+/// else is asked for.
 const SMALL: f64 = 1e-6;
 
 /// Corrections in a step, at most, beside the first.
@@ -46,7 +50,7 @@ const REFINED: f64 = 2e-10;
 const CONTRACTION: f64 = 0.3;
 
 impl Corrector {
-    pub fn new(places: usize) -> Self {
+    pub fn new(places: usize, tolerance: Option<f64>) -> Self {
         Corrector {
             q: Vec::new(),
             step: Vec::new(),
@@ -57,6 +61,8 @@ impl Corrector {
             apart_sizes: Vec::new(),
             orientation: 1.0,
             contraction: 0.0,
+            small: tolerance.unwrap_or(SMALL),
+            converged: tolerance.unwrap_or(CONVERGED),
             places,
         }
     }
@@ -136,7 +142,7 @@ impl Corrector {
         }
         self.there.solve(evaluation.residual(), &mut self.step);
         let mut size = self.move_by_step(evaluation, z);
-        let small = (1e-4 * h).clamp(1e-12, SMALL);
+        let small = (1e-4 * h).clamp(self.small.min(1e-12), self.small);
         // About what is left to correct.
         let mut left = size;
         self.contraction = 0.0;
@@ -241,7 +247,7 @@ impl Corrector {
                 .sum()
                 .sqrt();
             self.move_by_step(evaluation, &mut next.z);
-            if size <= CONVERGED {
+            if size <= self.converged {
                 let error = distance(&next.z, &next.tangent);
                 lift_unit(evaluation, &self.null, self.places, way, &mut next.tangent)?;
                 return Some(error);

@@ -85,7 +85,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
             homotopy,
             options,
             started,
-            corrector: Corrector::new(places),
+            corrector: Corrector::new(places, options.tolerance.map(|x| x / homotopy.unit)),
             evaluation,
             plan,
             start: station.clone(),

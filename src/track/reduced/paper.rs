@@ -12,7 +12,10 @@ const LONGEST_STEP: f64 = 0.05;
 impl<const D: usize> Tracker<'_, D> {
     /// Algorithm 1 with the path tracking of section 7.1.
     pub(super) fn follow_as_in_the_paper(&mut self, control: &mut Control) -> Status {
-        let longest = self.options.max_step.unwrap_or(LONGEST_STEP);
+        let longest = self
+            .options
+            .max_step
+            .map_or(LONGEST_STEP, |step| step / self.homotopy.unit);
         let mut differences = Differences::default();
         let mut delta = longest;
         loop {

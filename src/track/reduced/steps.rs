@@ -55,7 +55,10 @@ enum Attempt {
 impl<const D: usize> Tracker<'_, D> {
     /// Algorithm 1 with adaptive steps.
     pub(super) fn follow(&mut self, control: &mut Control) -> Status {
-        let longest = self.options.max_step.unwrap_or(f64::INFINITY);
+        let longest = self
+            .options
+            .max_step
+            .map_or(f64::INFINITY, |step| step / self.homotopy.unit);
         let mut pace = Pace {
             h: FIRST_STEP.min(longest),
             longest,

@@ -153,8 +153,7 @@ fn stops_when_told_to() {
     let flag = AtomicBool::new(true);
     let mut control = Control {
         cancel: Some(&flag),
-        progress: None,
-        witness: None,
+        ..Control::default()
     };
     let cancelled = run_with(&problem, &options(), &mut control);
     assert!(

@@ -1,0 +1,222 @@
+//! `krawl compare`: what each mode and space, and each degree of accuracy, costs on problems.
+
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use krawl::compare::{Comparison, Effort, Hooks, Method, compare, record_path};
+use krawl::problem::{Problem, Published};
+use krawl::report::{
+    Compared, ProgressLine, comparison_to_table, comparisons_to_csv, comparisons_to_json, picture,
+};
+use krawl::system::Homotopy;
+use krawl::track::Progress;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Follow the path in every mode and space, several times each, and set them beside each other
+///
+/// Exit codes: 0 all ran and the certified runs closed, 1 one stopped, or interrupted, 2 bad input.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The problem files (TOML)
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Runs of each mode, taking turns; the median counts
+    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u16).range(1..=9999))]
+    repeat: u16,
+    /// Also with tube radii and tolerances of 1e-4 to 1e-14 and with bounds on the step, each
+    /// judged against the certified run
+    #[arg(long)]
+    sweep: bool,
+    /// Give up a run after so many seconds
+    #[arg(long, value_name = "SECONDS", default_value = "120", value_parser = seconds)]
+    limit: f64,
+    /// Write JSON, CSV and pictures (SVG) into this directory, which is created
+    #[arg(long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Write the results as JSON; `-` writes them to standard output in place of the tables
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the results as CSV; `-` likewise
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Print no tables and no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1e9 => Ok(x),
+        _ => Err("must be a number of seconds greater than 0".to_owned()),
+    }
+}
+
+/// A problem to run, and what was published about it.
+struct Subject {
+    problem: Problem,
+    published: Vec<Published>,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    // Whatever is wrong is said before anything runs.
+    let subjects = arguments.files.iter().map(|file| read(file));
+    let subjects = subjects.collect::<Result<Vec<Subject>, String>>()?;
+    let destination = |path: &Option<PathBuf>| path.as_deref().map(Destination::new).transpose();
+    let (json, csv) = (destination(&arguments.json)?, destination(&arguments.csv)?);
+    let standard = Some(Destination::StandardOutput);
+    if json == standard && csv == standard {
+        return Err("only one of `--json` and `--csv` can go to standard output".to_owned());
+    }
+    for results in [&arguments.json, &arguments.csv].into_iter().flatten() {
+        for file in &arguments.files {
+            if output::is_same_file(results, file) {
+                return Err(format!(
+                    "{}: is a problem itself; name another file for the results",
+                    results.display()
+                ));
+            }
+        }
+    }
+    let folder = arguments.output.as_deref();
+    if let Some(folder) = folder {
+        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+
+    let silent = arguments.quiet || json == standard || csv == standard;
+    let effort = Effort {
+        repeats: arguments.repeat.into(),
+        sweep: arguments.sweep,
+        limit: arguments.limit,
+    };
+    let cancel = interrupt::flag();
+    let is_cancelled = || cancel.load(std::sync::atomic::Ordering::Relaxed);
+    let mut all: Vec<Compared> = Vec::new();
+    let mut written = true;
+    for (subject, file) in subjects.into_iter().zip(&arguments.files) {
+        let mut line = ProgressLine::new(!arguments.quiet);
+        let mut show = |now: Progress| line.show(now);
+        let mut hooks = Hooks {
+            cancel: Some(cancel),
+            progress: Some(&mut show),
+        };
+        let result = compare(&subject.problem, &effort, &mut hooks);
+        line.clear();
+        let comparison = result.map_err(|error| format!("{}: {error}", file.display()))?;
+        let compared = Compared {
+            comparison,
+            published: subject.published,
+        };
+        if !silent {
+            let gap = if all.is_empty() { "" } else { "\n" };
+            written &= output::print(&(gap.to_owned() + &comparison_to_table(&compared)));
+        }
+        if let Some(folder) = folder {
+            written &= draw(
+                folder,
+                &stem(file, &arguments.files),
+                &subject.problem,
+                &compared.comparison,
+            )?;
+        }
+        all.push(compared);
+        if is_cancelled() {
+            break;
+        }
+    }
+
+    let json_text = || comparisons_to_json(&all) + "\n";
+    if let Some(json) = &json {
+        written &= json.write(&json_text());
+    }
+    if let Some(csv) = &csv {
+        written &= csv.write(&comparisons_to_csv(&all));
+    }
+    if let Some(folder) = folder {
+        written &= write(folder, "comparison.json", &json_text())?;
+        written &= write(folder, "comparison.csv", &comparisons_to_csv(&all))?;
+    }
+    Ok(match written {
+        false => BAD_INPUT,
+        true if is_cancelled() || !all.iter().all(|c| is_closed(&c.comparison)) => STOPPED,
+        true => CLOSED,
+    })
+}
+
+/// Reads a problem and makes sure that it can be run.
+fn read(file: &Path) -> Result<Subject, String> {
+    let problem = Problem::read(file).map_err(|error| error.to_string())?;
+    let published = Published::read(file).map_err(|error| error.to_string())?;
+    Homotopy::new(&problem).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(Subject { problem, published })
+}
+
+/// Whether all certified runs closed.
+fn is_closed(comparison: &Comparison) -> bool {
+    let mut certified = comparison
+        .rows
+        .iter()
+        .filter(|row| row.way.method == Method::Certified)
+        .filter_map(|row| row.measured());
+    certified.all(|measured| measured.is_closed())
+}
+
+/// What the pictures of a file are called: its stem, with a number where others have the same.
+fn stem(file: &Path, files: &[PathBuf]) -> String {
+    let stem_of = |file: &Path| {
+        file.file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    };
+    let stem = stem_of(file);
+    let same: Vec<&PathBuf> = files
+        .iter()
+        .filter(|other| stem_of(other) == stem)
+        .collect();
+    match same.iter().position(|other| other.as_path() == file) {
+        Some(k) if k > 0 => format!("{stem}-{}", k + 1),
+        _ => stem,
+    }
+}
+
+/// Draws the pictures of a problem. The path is followed once more for them.
+fn draw(
+    folder: &Path,
+    stem: &str,
+    problem: &Problem,
+    comparison: &Comparison,
+) -> Result<bool, String> {
+    let mut written = true;
+    if !comparison.sweep.is_empty() {
+        let svg = picture::cost_against_accuracy(comparison);
+        written &= write(folder, &format!("{stem}-cost.svg"), &svg)?;
+    }
+    if comparison.interrupted {
+        return Ok(written);
+    }
+    let path = record_path(problem, Some(interrupt::flag()));
+    if let Ok(path) = path
+        && path.stations.len() > 1
+    {
+        written &= write(
+            folder,
+            &format!("{stem}-time.svg"),
+            &picture::time_along_path(&path),
+        )?;
+        written &= write(
+            folder,
+            &format!("{stem}-path.svg"),
+            &picture::projection(&path),
+        )?;
+    }
+    Ok(written)
+}
+
+fn write(folder: &Path, name: &str, text: &str) -> Result<bool, String> {
+    Ok(Destination::new(&folder.join(name))?.write(text))
+}

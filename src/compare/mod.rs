@@ -1,0 +1,137 @@
+//! What accuracy costs: a problem in all modes and spaces, timed, judged against the certified run.
+//!
+//! ```
+//! use krawl::compare::{Effort, Hooks, Verdict, compare};
+//! use krawl::problem::Problem;
+//! let problem = Problem::read("problems/k33.toml")?;
+//! let effort = Effort { repeats: 1, ..Effort::default() };
+//! let comparison = compare(&problem, &effort, &mut Hooks::default())?;
+//! let certified = &comparison.rows[0];
+//! assert_eq!(certified.measured().unwrap().outcome.solutions.len(), 8);
+//! assert!(comparison.rows.iter().all(|row| row.verdict != Verdict::Unjudged));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! - `ways`: the modes and spaces that there are, and the settings of a sweep
+//! - `measure`: runs taking turns, medians
+//! - `judge`: the solutions of a run beside the boxes of the certified one
+//! - `residual`: how well reported figures meet the dimensions
+//! - `path`: the path as the certified run sees it, for pictures
+
+mod judge;
+mod measure;
+mod path;
+mod residual;
+mod ways;
+
+pub use judge::{Fault, Verdict};
+pub use measure::{Effort, Hooks, Measured};
+pub use path::{PathStation, RecordedPath, record_path};
+pub use residual::residual_bound;
+pub use ways::{Knob, Method, Setting, Way};
+
+use crate::problem::Problem;
+use crate::system::{GaugeError, Homotopy};
+use crate::track::Space;
+use judge::Reference;
+use measure::Session;
+
+/// One line of a comparison: a way, at its usual settings or at one of a sweep.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The mode and the space.
+    pub way: Way,
+    /// What was set, if anything.
+    pub setting: Option<Setting>,
+    /// What came of it, or why this way is not to be had.
+    pub result: Result<Measured, String>,
+    /// What it is worth beside the certified run.
+    pub verdict: Verdict,
+}
+
+impl Row {
+    /// The measurement, where there is one.
+    pub fn measured(&self) -> Option<&Measured> {
+        self.result.as_ref().ok()
+    }
+}
+
+/// All that was measured on a problem.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The problem's name.
+    pub problem: String,
+    /// The length that settings are multiples of.
+    pub typical_length: f64,
+    /// Each way at its usual settings, in the order of [`Way::all`].
+    pub rows: Vec<Row>,
+    /// The sweep, if there was one.
+    pub sweep: Vec<Row>,
+    /// Whether the runs were broken off from outside: what is here is then not all.
+    pub interrupted: bool,
+}
+
+impl Comparison {
+    /// The least median among the rows that closed, or, where none did, among all.
+    pub fn fastest(&self) -> Option<f64> {
+        let least = |only_closed: bool| {
+            let measured = self.rows.iter().filter_map(Row::measured);
+            measured
+                .filter(|m| m.is_closed() || !only_closed)
+                .map(|m| m.median)
+                .min_by(f64::total_cmp)
+        };
+        least(true).or_else(|| least(false))
+    }
+
+    /// Whether the certified run closed, so that others can be judged.
+    pub fn has_reference(&self) -> bool {
+        self.rows
+            .iter()
+            .any(|row| row.way.method == Method::Certified && row.verdict == Verdict::Right)
+    }
+}
+
+/// Runs a problem in all modes and spaces, each several times, and if wanted at the settings of a
+/// sweep. A way that krawl does not have (yet) is a row that says so.
+///
+/// Fails where the sketch cannot be seen from the reference, which no way could mend.
+pub fn compare(
+    problem: &Problem,
+    effort: &Effort,
+    hooks: &mut Hooks,
+) -> Result<Comparison, GaugeError> {
+    let typical_length = Homotopy::new(problem)?.unit;
+    let mut session = Session::new(problem, effort);
+    let mut rows = session.run(Way::all().map(|way| (way, None)), hooks);
+    let reference = rows.iter().find_map(Reference::new);
+    judge::all(&mut rows, reference.as_ref());
+    let mut sweep = Vec::new();
+    if effort.sweep && !hooks.is_cancelled() {
+        session.limit_length(reference.as_ref().map(Reference::length));
+        let settings = rows
+            .iter()
+            .filter(|row| row.result.is_ok())
+            .flat_map(|row| {
+                let settings = ways::settings(row.way, typical_length);
+                settings.map(|setting| (row.way, Some(setting)))
+            });
+        sweep = session.run(settings, hooks);
+        judge::all(&mut sweep, reference.as_ref());
+    }
+    Ok(Comparison {
+        problem: problem.name.clone(),
+        typical_length,
+        rows,
+        sweep,
+        interrupted: hooks.is_cancelled(),
+    })
+}
+
+/// What a space is called.
+pub(crate) fn name_of(space: Space) -> &'static str {
+    match space {
+        Space::Full => "full",
+        Space::Reduced => "reduced",
+    }
+}

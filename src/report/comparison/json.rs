@@ -1,0 +1,162 @@
+//! Comparisons for programs.
+
+use super::{Compared, status, verdict};
+use crate::compare::{Fault, Row, Verdict};
+use crate::problem::Published;
+use serde::Serialize;
+
+/// Comparisons as one line of JSON:
+///
+/// ```json
+/// {"program": "krawl 0.1.0", "problems": [
+///   {"problem": "...", "typical_length": 1.0, "interrupted": false, "reference": true,
+///    "rows": [{"mode": "certified", "space": "full", "setting": null, "value": null,
+///      "relative": null, "status": "closed", "reason": null, "steps": 0, "rejected": 0,
+///      "runs": [0.0], "seconds": 0.0, "ratio": 1.0, "solutions": 0, "widest": 0.0,
+///      "narrowest": 0.0, "residual": 0.0, "length": 0.0, "verdict": "right", "faults": [],
+///      "published": {"method": "...", "steps": 0, "seconds": 0.0, "solutions": 0}}],
+///    "sweep": [],
+///    "published": [{"method": "...", "steps": null, "seconds": 0.0, "solutions": 0}]}]}
+/// ```
+///
+/// `sweep` has rows of the same form, with the name of the option that was set and its value in the
+/// problem's lengths and in typical lengths. `seconds` is the median of `runs`. `status` is
+/// `closed`, `stopped` or `unsupported`; `verdict` is `right`, `wrong`, `stopped` or `unjudged`,
+/// and `faults` has entries like `{"fault": "lost", "amount": 3.0}` with `lost`, `jumped`,
+/// `invented`, `order`, `length`, `not_closed`. Where there is nothing to say stands `null`.
+pub fn comparisons_to_json(compared: &[Compared]) -> String {
+    let document = Document {
+        program: concat!("krawl ", env!("CARGO_PKG_VERSION")),
+        problems: compared.iter().map(problem).collect(),
+    };
+    serde_json::to_string(&document).expect("strings, numbers and lists have a form in JSON")
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    program: &'static str,
+    problems: Vec<ProblemEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct ProblemEntry<'a> {
+    problem: &'a str,
+    typical_length: f64,
+    interrupted: bool,
+    reference: bool,
+    rows: Vec<RowEntry<'a>>,
+    sweep: Vec<RowEntry<'a>>,
+    published: Vec<PublishedEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct RowEntry<'a> {
+    mode: &'static str,
+    space: &'static str,
+    setting: Option<&'static str>,
+    value: Option<f64>,
+    relative: Option<f64>,
+    status: &'static str,
+    reason: Option<&'a str>,
+    steps: Option<usize>,
+    rejected: Option<usize>,
+    runs: &'a [f64],
+    seconds: Option<f64>,
+    ratio: Option<f64>,
+    solutions: Option<usize>,
+    widest: Option<f64>,
+    narrowest: Option<f64>,
+    residual: Option<f64>,
+    length: Option<f64>,
+    verdict: &'static str,
+    faults: Vec<FaultEntry>,
+    published: Option<PublishedEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct FaultEntry {
+    fault: &'static str,
+    amount: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct PublishedEntry<'a> {
+    method: &'a str,
+    steps: Option<usize>,
+    seconds: Option<f64>,
+    solutions: Option<usize>,
+}
+
+fn problem(compared: &Compared) -> ProblemEntry<'_> {
+    let comparison = &compared.comparison;
+    ProblemEntry {
+        problem: &comparison.problem,
+        typical_length: comparison.typical_length,
+        interrupted: comparison.interrupted,
+        reference: comparison.has_reference(),
+        rows: comparison
+            .rows
+            .iter()
+            .map(|row| entry(compared, row))
+            .collect(),
+        sweep: comparison
+            .sweep
+            .iter()
+            .map(|row| entry(compared, row))
+            .collect(),
+        published: compared.others().map(published).collect(),
+    }
+}
+
+fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
+    let measured = row.measured();
+    let outcome = measured.map(|m| &m.outcome);
+    let (status, reason) = status(row);
+    let widths = measured.and_then(|m| m.widths());
+    RowEntry {
+        mode: row.way.method.name(),
+        space: row.way.space_name(),
+        setting: row.setting.map(|s| s.knob.name()),
+        value: row.setting.map(|s| s.value),
+        relative: row.setting.map(|s| s.relative),
+        status,
+        reason,
+        steps: outcome.map(|o| o.steps),
+        rejected: outcome.map(|o| o.rejected),
+        runs: measured.map_or(&[], |m| &m.seconds),
+        seconds: measured.map(|m| m.median),
+        ratio: measured.and_then(|m| compared.ratio(m)),
+        solutions: outcome.map(|o| o.solutions.len()),
+        widest: widths.map(|w| w.0),
+        narrowest: widths.map(|w| w.1),
+        residual: measured.and_then(|m| m.residual),
+        length: outcome.map(|o| o.length),
+        verdict: verdict(&row.verdict),
+        faults: match &row.verdict {
+            Verdict::Wrong(faults) => faults.iter().map(fault).collect(),
+            _ => Vec::new(),
+        },
+        published: compared.beside(row).map(published),
+    }
+}
+
+fn fault(fault: &Fault) -> FaultEntry {
+    let (fault, amount) = match *fault {
+        Fault::Lost(n) => ("lost", Some(n as f64)),
+        Fault::Jumped(n) => ("jumped", Some(n as f64)),
+        Fault::Invented(n) => ("invented", Some(n as f64)),
+        Fault::Order => ("order", None),
+        Fault::Length(x) => ("length", Some(x)),
+        Fault::NotClosed(x) => ("not_closed", Some(x)),
+    };
+    FaultEntry { fault, amount }
+}
+
+fn published(published: &Published) -> PublishedEntry<'_> {
+    PublishedEntry {
+        method: &published.method,
+        steps: published.steps,
+        seconds: published.seconds,
+        solutions: published.solutions,
+    }
+}

@@ -1,0 +1,74 @@
+//! A comparison as a table, as JSON and as CSV.
+
+mod csv;
+mod json;
+mod table;
+
+pub use csv::comparisons_to_csv;
+pub use json::comparisons_to_json;
+pub use table::comparison_to_table;
+
+use crate::compare::{Comparison, Fault, Measured, Method, Row, Verdict};
+use crate::problem::Published;
+use crate::track::Status;
+
+/// A comparison and what was published about its problem.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// What was measured.
+    pub comparison: Comparison,
+    /// What was published.
+    pub published: Vec<Published>,
+}
+
+impl Compared {
+    /// The published run that belongs beside a row: the paper's, in the same space.
+    fn beside(&self, row: &Row) -> Option<&Published> {
+        let space = row.way.space_name();
+        let wanted = row.way.method == Method::Paper && row.setting.is_none();
+        let mut published = self.published.iter();
+        published.find(|p| wanted && p.space.as_deref() == Some(space))
+    }
+
+    /// Published runs that belong beside no row.
+    fn others(&self) -> impl Iterator<Item = &Published> {
+        self.published.iter().filter(|p| p.space.is_none())
+    }
+
+    /// A row's median time over the fastest one's.
+    fn ratio(&self, measured: &Measured) -> Option<f64> {
+        Some(measured.median / self.comparison.fastest()?)
+    }
+}
+
+/// `closed`, `stopped` or `unsupported`, and the reason.
+fn status(row: &Row) -> (&'static str, Option<&str>) {
+    match &row.result {
+        Err(reason) => ("unsupported", Some(reason)),
+        Ok(measured) => match &measured.outcome.status {
+            Status::Closed => ("closed", None),
+            Status::Stopped(reason) => ("stopped", Some(reason)),
+        },
+    }
+}
+
+/// A verdict in a word.
+fn verdict(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Right => "right",
+        Verdict::Stopped => "stopped",
+        Verdict::Wrong(_) => "wrong",
+        Verdict::Unjudged => "unjudged",
+    }
+}
+
+/// What is wrong, in words.
+fn faults(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Wrong(faults) => {
+            let faults: Vec<String> = faults.iter().map(Fault::to_string).collect();
+            faults.join(", ")
+        }
+        _ => String::new(),
+    }
+}

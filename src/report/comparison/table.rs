@@ -1,0 +1,204 @@
+//! A comparison for people.
+
+use super::{Compared, faults, status};
+use crate::compare::{Knob, Row, Verdict};
+use std::fmt::Write;
+
+/// The comparison as lines of text, at most about 120 wide.
+pub fn comparison_to_table(compared: &Compared) -> String {
+    let comparison = &compared.comparison;
+    let mut out = format!("{}\n", comparison.problem);
+    let beside = comparison.rows.iter().any(|r| compared.beside(r).is_some());
+    let mut heading = vec![
+        "mode",
+        "space",
+        "steps",
+        "rejected",
+        "ms",
+        "ratio",
+        "solutions",
+        "status",
+        "box widths",
+        "residual",
+    ];
+    if beside {
+        heading.push("published: steps, ms, solutions");
+    }
+    let mut grid = Grid::new(&heading, &[0, 1, 7]);
+    let mut remarks = Vec::new();
+    for row in &comparison.rows {
+        let mut cells = vec![row.way.method.name().into(), row.way.space_name().into()];
+        let (word, reason) = status(row);
+        match row.measured() {
+            Some(measured) => cells.extend([
+                measured.outcome.steps.to_string(),
+                measured.outcome.rejected.to_string(),
+                milliseconds(measured.median),
+                number(compared.ratio(measured), 2),
+                measured.outcome.solutions.len().to_string(),
+            ]),
+            None => cells.extend(std::iter::repeat_n("-".into(), 5)),
+        }
+        let wrong = matches!(row.verdict, Verdict::Wrong(_));
+        cells.push(if wrong {
+            format!("{word}, WRONG")
+        } else {
+            word.into()
+        });
+        cells.push(widths(row));
+        let residual = row.measured().and_then(|m| m.residual);
+        cells.push(residual.map_or("-".into(), |r| format!("{r:.1e}")));
+        if let Some(published) = compared.beside(row) {
+            cells.push(format!(
+                "{}, {}, {}",
+                published.steps.map_or("-".into(), |n| n.to_string()),
+                published.seconds.map_or("-".into(), milliseconds),
+                published.solutions.map_or("-".into(), |n| n.to_string()),
+            ));
+        }
+        let place = format!("{}, {}", row.way.method.name(), row.way.space_name());
+        if let Some(reason) = reason {
+            remarks.push(format!("{place}: {word}: {reason}"));
+        }
+        if wrong {
+            remarks.push(format!("{place}: WRONG: {}", faults(&row.verdict)));
+        }
+        grid.push(cells);
+    }
+    out += &grid.render("  ");
+    for remark in remarks {
+        let _ = writeln!(out, "  {remark}");
+    }
+    for other in compared.others() {
+        let seconds = other.seconds.map_or(String::new(), |s| format!(": {s} s"));
+        let found = match other.solutions {
+            Some(n) => format!(", {n} real solutions up to reflection"),
+            None => String::new(),
+        };
+        let _ = writeln!(out, "  published: {}{seconds}{found}", other.method);
+    }
+    if !comparison.sweep.is_empty() {
+        out += &sweep(compared);
+    }
+    if comparison.interrupted {
+        out += "  interrupted: rows may be missing\n";
+    }
+    out
+}
+
+fn sweep(compared: &Compared) -> String {
+    let comparison = &compared.comparison;
+    let mut out = format!(
+        "\n  Settings, in typical lengths of the problem (here {}), against time and correctness\n",
+        comparison.typical_length
+    );
+    if !comparison.has_reference() {
+        out += "  No certified run closed, so that nothing can be said of what is right.\n";
+    }
+    let heading = [
+        "mode",
+        "space",
+        "setting",
+        "value",
+        "steps",
+        "rejected",
+        "ms",
+        "solutions",
+        "box widths",
+        "verdict",
+    ];
+    let mut grid = Grid::new(&heading, &[0, 1, 2, 9]);
+    for row in &comparison.sweep {
+        let Some(setting) = row.setting else { continue };
+        let mut cells = vec![
+            row.way.method.name().into(),
+            row.way.space_name().into(),
+            setting.knob.name().into(),
+            match setting.knob {
+                Knob::MaxStep => setting.relative.to_string(),
+                _ => format!("{:e}", setting.relative),
+            },
+        ];
+        match row.measured() {
+            Some(measured) => cells.extend([
+                measured.outcome.steps.to_string(),
+                measured.outcome.rejected.to_string(),
+                milliseconds(measured.median),
+                measured.outcome.solutions.len().to_string(),
+            ]),
+            None => cells.extend(std::iter::repeat_n("-".into(), 4)),
+        }
+        cells.push(widths(row));
+        let (word, _) = status(row);
+        cells.push(match &row.verdict {
+            Verdict::Right => "right".into(),
+            Verdict::Wrong(_) => format!("WRONG: {}", faults(&row.verdict)),
+            Verdict::Stopped | Verdict::Unjudged => word.into(),
+        });
+        grid.push(cells);
+    }
+    out += &grid.render("  ");
+    out
+}
+
+/// The largest and the smallest width of a certified run's boxes.
+fn widths(row: &Row) -> String {
+    match row.measured().and_then(|m| m.widths()) {
+        Some((largest, smallest)) if largest > 0.0 => format!("{largest:.1e}, {smallest:.1e}"),
+        _ => "-".into(),
+    }
+}
+
+/// Three digits.
+fn milliseconds(seconds: f64) -> String {
+    let ms = 1e3 * seconds;
+    let decimals = (2.0 - ms.abs().max(1e-9).log10().floor()).clamp(0.0, 3.0);
+    format!("{ms:.*}", decimals as usize)
+}
+
+fn number(x: Option<f64>, decimals: usize) -> String {
+    x.map_or("-".into(), |x| format!("{x:.decimals$}"))
+}
+
+/// Cells in columns.
+struct Grid {
+    rows: Vec<Vec<String>>,
+    /// Columns that begin at the left; the others end at the right.
+    left: Vec<usize>,
+}
+
+impl Grid {
+    fn new(heading: &[&str], left: &[usize]) -> Self {
+        Grid {
+            rows: vec![heading.iter().map(|&cell| cell.to_owned()).collect()],
+            left: left.to_vec(),
+        }
+    }
+
+    fn push(&mut self, row: Vec<String>) {
+        self.rows.push(row);
+    }
+
+    fn render(&self, indent: &str) -> String {
+        let columns = self.rows[0].len();
+        let width = |c: usize| {
+            let cells = self.rows.iter().filter_map(|row| row.get(c));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        let mut out = String::new();
+        for row in &self.rows {
+            let cells = row.iter().zip(&widths).enumerate();
+            let cells = cells.map(|(c, (cell, &width))| {
+                if self.left.contains(&c) {
+                    format!("{cell:<width$}")
+                } else {
+                    format!("{cell:>width$}")
+                }
+            });
+            let line = cells.collect::<Vec<_>>().join("  ");
+            let _ = writeln!(out, "{indent}{}", line.trim_end());
+        }
+        out
+    }
+}

@@ -1,0 +1,115 @@
+//! The path's curve between its stations, and the sizes of its steps.
+
+use super::style::{CLASSES, Entry, SCALE, Sign, size_colour};
+use crate::compare::{PathStation, RecordedPath};
+
+/// A point of the path: the length up to it, the free coordinates and t.
+pub type Point = (f64, Vec<f64>);
+
+/// A stretch of the path along which the steps are of one class of sizes.
+pub struct Piece {
+    /// The class.
+    pub class: usize,
+    /// Its points, the last of the piece before among them.
+    pub points: Vec<Point>,
+}
+
+/// The path as it is drawn.
+pub struct Curve {
+    /// In the order of the path.
+    pub pieces: Vec<Piece>,
+    bounds: Vec<f64>,
+    stations: usize,
+}
+
+/// So many points are drawn at most, beside the stations.
+const POINTS: usize = 6000;
+
+impl Curve {
+    /// Cubics through the stations, in as many colours as there are classes of steps.
+    pub fn new(path: &RecordedPath) -> Self {
+        let steps: Vec<f64> = path
+            .stations
+            .windows(2)
+            .map(|w| w[1].at - w[0].at)
+            .collect();
+        let bounds = bounds_of(&steps);
+        let parts = (POINTS / steps.len().max(1)).clamp(1, 24);
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (ends, &step) in path.stations.windows(2).zip(&steps) {
+            let class = bounds.iter().filter(|&&bound| step > bound).count();
+            let points = (1..=parts).map(|k| between(&ends[0], &ends[1], k as f64 / parts as f64));
+            match pieces.last_mut() {
+                Some(last) if last.class == class => last.points.extend(points),
+                _ => {
+                    let first = (ends[0].at, ends[0].z.clone());
+                    let points = std::iter::once(first).chain(points).collect();
+                    pieces.push(Piece { class, points });
+                }
+            }
+        }
+        Curve {
+            pieces,
+            bounds,
+            stations: path.stations.len(),
+        }
+    }
+
+    /// All points.
+    pub fn points(&self) -> impl Iterator<Item = &Point> {
+        self.pieces.iter().flat_map(|piece| &piece.points)
+    }
+
+    /// How wide to draw it: long paths finely.
+    pub fn width(&self) -> u32 {
+        if self.stations > 2000 {
+            SCALE
+        } else {
+            2 * SCALE
+        }
+    }
+
+    /// What the colours mean.
+    pub fn legend(&self) -> Vec<Entry> {
+        let number = |x: f64| format!("{x:.2}");
+        (0..=self.bounds.len())
+            .map(|class| {
+                let text = match (
+                    class.checked_sub(1).map(|k| self.bounds[k]),
+                    self.bounds.get(class),
+                ) {
+                    (None, None) => "all steps".to_owned(),
+                    (None, Some(high)) => format!("steps up to {}", number(*high)),
+                    (Some(_), Some(high)) => format!("to {}", number(*high)),
+                    (Some(low), None) => format!("above {}", number(low)),
+                };
+                Entry {
+                    sign: Sign::Line(size_colour(class)),
+                    text,
+                }
+            })
+            .collect()
+    }
+}
+
+/// Quantiles of the steps: every class has as many.
+fn bounds_of(steps: &[f64]) -> Vec<f64> {
+    let mut sorted = steps.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut bounds: Vec<f64> = (1..CLASSES)
+        .filter_map(|k| sorted.get(k * sorted.len() / CLASSES).copied())
+        .collect();
+    bounds.dedup();
+    bounds
+}
+
+/// Hermite's cubic between two stations.
+fn between(from: &PathStation, to: &PathStation, u: f64) -> Point {
+    let h = to.at - from.at;
+    let (v, w) = (u * u, u * u * u);
+    let (a, b) = (2.0 * w - 3.0 * v + 1.0, 3.0 * v - 2.0 * w);
+    let (c, d) = (h * (w - 2.0 * v + u), h * (w - v));
+    let z = (0..from.z.len())
+        .map(|k| a * from.z[k] + b * to.z[k] + c * from.direction[k] + d * to.direction[k]);
+    (from.at + u * h, z.collect())
+}
