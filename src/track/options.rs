@@ -107,6 +107,12 @@ impl Options {
         }
     }
 
+    /// The tubes' radius in homotopies' units.
+    pub(crate) fn radius(&self, unit: f64) -> f64 {
+        self.tube_radius
+            .map_or(f64::INFINITY, |radius| radius / unit)
+    }
+
     /// In the other direction.
     pub fn reversed(self) -> Self {
         Options {

@@ -210,9 +210,6 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let max_h = options
             .max_step
             .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
-        self.test.radius = options
-            .tube_radius
-            .map_or(f64::INFINITY, |radius| radius / self.homotopy.unit);
         self.start(options.reverse, max_h)?;
         self.show_tube(control, 0);
         // How far back the next tube is expected to reach, from the half lengths of the last two.

@@ -396,8 +396,11 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
     type Frame = Matrix;
     const SPACE: Space = Space::Full;
 
-    fn new(_: &Homotopy, equations: &Equations<D>, _: &Options) -> Self {
-        KrawczykTest::new(equations)
+    fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
+        KrawczykTest {
+            radius: options.radius(homotopy.unit),
+            ..KrawczykTest::new(equations)
+        }
     }
 
     fn refine(

@@ -23,6 +23,8 @@ pub struct Bounds {
     /// Σ |c_i| ω_i.
     pub normal: f64,
     pub h: f64,
+    /// Tubes are refused whose path may be further than this from the middle, in the box's size.
+    pub radius: f64,
 }
 
 impl Bounds {
@@ -84,7 +86,8 @@ impl Bounds {
         let near = round_up(defect / (1.0 - q), 60);
         let nearer_q = round_up(contraction + self.width * near.min(r), 4);
         let distance = round_up(defect / (1.0 - nearer_q), 60);
-        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
+        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r && distance <= self.radius)
+        {
             return None;
         }
         // w' solves [J; c] w' = −[F(ẑ)' + (J(ẑ + w) − J(ẑ)) ẑ'; 0]. A power sᵏ of F gains a factor

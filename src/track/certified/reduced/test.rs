@@ -84,6 +84,8 @@ pub struct ReducedTest<const D: usize> {
     kept: Vector,
     /// The expected half length of the next tube.
     expected: f64,
+    /// No coordinate of the path may be further than this from the tube's middle.
+    radius: f64,
     /// Σ_{k≥j} |d_k| Hᵏ for j = 0, 2, 3, 4, 5, and Σ k |d_k| Hᵏ⁻¹.
     sizes: [[Vector; D]; 6],
     /// |K_i| Hⁱ times the key unknowns' weights; their sum, then |w|; ρ; A's part of it.
@@ -135,6 +137,7 @@ impl<const D: usize> ReducedTest<D> {
             kept: weights.clone(),
             weights,
             expected: 0.05,
+            radius: f64::INFINITY,
             sizes: std::array::from_fn(|_| per_axis()),
             moved: std::array::from_fn(|_| equations.vector()),
             omega: equations.vector(),
@@ -373,8 +376,10 @@ impl<const D: usize> ReducedTest<D> {
         let rho = &self.rho;
 
         // The first round's shares of the bounds.
+        let top = self.omega[..n].iter().fold(0.0, |max: f64, &u| max.max(u));
         let mut bounds = Bounds {
             h,
+            radius: self.radius / top,
             ..Bounds::default()
         };
         let raise = |bound: &mut f64, value: f64| {
@@ -724,7 +729,10 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     const SPACE: Space = Space::Reduced;
 
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
-        ReducedTest::room(homotopy, equations, options.alpha)
+        ReducedTest {
+            radius: options.radius(homotopy.unit),
+            ..ReducedTest::room(homotopy, equations, options.alpha)
+        }
     }
 
     fn refine(
