@@ -377,6 +377,11 @@ fn powers_of(h: f64) -> [f64; DEGREE + 1] {
 
 #[cfg(test)]
 impl<const D: usize> KrawczykTest<D> {
+    /// The weights of the last proof.
+    pub(super) fn weights(&self) -> &Vector {
+        &self.u
+    }
+
     /// A of the last proof.
     pub(super) fn moving_matrix(&self) -> &Matrix {
         &self.a

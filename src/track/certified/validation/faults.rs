@@ -44,7 +44,7 @@ pub fn inject<const D: usize, const N: usize, Y: Preconditioner<D>>(
             next.normal.copy_from_slice(&point.normal);
             moved
         }
-    });
+    })
 }
 
 impl Faults {
