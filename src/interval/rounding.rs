@@ -33,6 +33,12 @@ pub fn round_up(sum: f64, operations: usize) -> f64 {
 /// no factor that multiplies such a loss later exceeds 10⁷⁵.
 pub const UNDERFLOW: f64 = 1e-230;
 
+/// The larger of two numbers, or NaN if one of them is: a bound that could not be computed must not
+/// be lost among those that could.
+pub fn largest(max: f64, x: f64) -> f64 {
+    if x > max || x.is_nan() { x } else { max }
+}
+
 /// Whether a number may enter the error analysis: finite and at most 1e75 in size.
 pub fn in_range(x: f64) -> bool {
     x.abs() <= 1e75

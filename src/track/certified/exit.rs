@@ -110,6 +110,8 @@ impl<const D: usize> KrawczykTest<D> {
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let out = &mut tube.exit;
+        // It could be anywhere until it is proved.
+        out.radius[..n].fill(f64::INFINITY);
         let c = &local.normal[..n];
         local.at(s, &mut out.centre);
         let goal = accuracy * proof.r;
@@ -157,6 +159,7 @@ impl<const D: usize> KrawczykTest<D> {
         for i in 0..n {
             out.radius[i] = round_up(radius * u[i], 1);
         }
+        tube.exit_between = (s, s);
         Some(())
     }
 }

@@ -52,6 +52,8 @@ pub struct Tube<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     pub exit_at: f64,
     /// See `exit_at`.
     pub exit: Ball,
+    /// The parameter of the point in that box is between these: `exit_at`, or a little before.
+    pub exit_between: (f64, f64),
     /// Whether that box is as small as floats allow.
     pub exit_is_tight: bool,
     /// If so, the path's tangent there, in the tube's direction, up to `exit_slope_radius` in |·|_u.
@@ -95,6 +97,7 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
             proof: Proof::default(),
             exit_at: 0.0,
             exit: Ball::new(equations),
+            exit_between: (0.0, 0.0),
             exit_is_tight: false,
             exit_slope: equations.vector(),
             exit_slope_radius: f64::INFINITY,
@@ -132,7 +135,7 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     }
 
     /// A lower bound of c·ẑ'(s) on the tube. It is near 1; less than ½ is refused.
-    fn least_advance(&self) -> Option<f64> {
+    pub fn least_advance(&self) -> Option<f64> {
         let n = self.weights.len() - 1;
         let h = self.proof.h;
         let c = &self.local.normal[..n];
@@ -189,7 +192,7 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     pub fn leads_to(&self, next: &Self) -> Option<(f64, f64)> {
         let entry = next.locate(&self.exit)?;
         let normal = &next.local.normal;
-        let same_way = self.goes_along((self.exit_at, self.exit_at), normal)
+        let same_way = self.goes_along(self.exit_between, normal)
             || self.exit_is_tight && self.exit_goes_along(normal);
         same_way.then_some(entry)
     }

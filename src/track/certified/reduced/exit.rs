@@ -3,7 +3,7 @@
 use super::elimination::MAX_KEYS;
 use super::frame::Reduction;
 use super::test::{COEFFICIENTS, ReducedTest, Tubes};
-use crate::interval::rounding::{gamma, round_up};
+use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
 use crate::track::certified::link::{Frame, Tube, evaluation_error};
 use crate::track::certified::tracker::Test;
@@ -32,6 +32,8 @@ impl<const D: usize> ReducedTest<D> {
         let (local, s) = (&tube.local, tube.exit_at);
         let c = &local.normal[..n];
         let out = &mut tube.exit;
+        // It could be anywhere until it is proved.
+        out.radius[..n].fill(f64::INFINITY);
         local.at(s, &mut out.centre);
         let mut last = f64::INFINITY;
         let layout = &local.y.elimination.layout;
@@ -50,7 +52,7 @@ impl<const D: usize> ReducedTest<D> {
             for (i, (x, step)) in out.centre[..n].iter_mut().zip(self.step.iter()).enumerate() {
                 *x -= step;
                 let ratio = step.abs() / tube.weights[i];
-                size = if ratio <= size { size } else { ratio };
+                size = largest(size, ratio);
             }
             if size.is_nan() || size > STAGNATION * last || size == 0.0 {
                 break;
@@ -79,6 +81,7 @@ impl<const D: usize> ReducedTest<D> {
         for i in 0..n {
             out.radius[i] = round_up(radius * tube.weights[i], 1);
         }
+        tube.exit_between = (s, s);
         Some(())
     }
 
@@ -109,21 +112,23 @@ impl<const D: usize> ReducedTest<D> {
         for (i, defect) in self.defect[..n].iter_mut().enumerate() {
             *defect = round_up(*defect + share * distance * rho[i], 8);
         }
-        let exit = &mut tube.exit;
+        let exit = &mut knot.exit;
         exit.centre.copy_from_slice(&knot.local.z[0]);
         knot.local.y.take_along(&self.defect, &mut exit.radius);
-        let mut slope_radius = 0.0f64;
-        for i in 0..n {
+        let slope_radius = (0..n).fold(0.0, |max, i| {
             let ratio = knot.proof.slope_distance * knot.weights[i] / tube.weights[i];
-            slope_radius = if ratio <= slope_radius {
-                slope_radius
-            } else {
-                ratio
-            };
-        }
-        // What lies between this point and the tube's exit is travelled twice, and nothing is left out.
-        tube.locate(&tube.exit)
-            .filter(|between| between.1 <= last)?;
+            largest(max, ratio)
+        });
+        // Both are followed in the direction of the normal that they have in common.
+        knot.least_advance()?;
+        // What lies between this point and the tube's exit is travelled twice, and nothing is left
+        // out; what lies before the entry is not gone back to.
+        let between = tube
+            .locate(&knot.exit)
+            .filter(|between| tube.entry.1 < between.0 && between.1 <= last)?;
+        tube.exit.centre.copy_from_slice(&knot.exit.centre);
+        tube.exit.radius.copy_from_slice(&knot.exit.radius);
+        tube.exit_between = between;
         tube.exit_slope.copy_from_slice(&knot.local.z[1]);
         tube.exit_slope_radius = round_up(slope_radius, 4);
         tube.exit_is_tight = true;
@@ -149,11 +154,11 @@ impl<const D: usize> ReducedTest<D> {
         }
         let resolvent = &y.resolvent;
         resolvent.bound(equations, layout, &self.g_a, &mut self.y_a, &mut self.v_a);
-        let mut largest = 0.0f64;
+        let mut widest = 0.0f64;
         for block in &layout.blocks {
             for c in 0..block.size {
                 let ratio = self.v_a[block.start + c][0] / y.rho[block.unknowns[c] as usize];
-                largest = if ratio <= largest { largest } else { ratio };
+                widest = largest(widest, ratio);
             }
         }
         let mut values = [0.0; MAX_KEYS];
@@ -165,9 +170,9 @@ impl<const D: usize> ReducedTest<D> {
         }
         for (&key, value) in layout.keys.iter().zip(values) {
             let ratio = value / y.rho[key as usize];
-            largest = if ratio <= largest { largest } else { ratio };
+            widest = largest(widest, ratio);
         }
-        let radius = round_up(largest, resolvent.roundings() + m + 40) / (1.0 - q);
+        let radius = round_up(widest, resolvent.roundings() + m + 40) / (1.0 - q);
         let radius = round_up(radius, 4);
         radius.is_finite().then_some(radius)
     }

@@ -3,7 +3,7 @@
 use super::elimination::{Elimination, Maker};
 use super::passes::{Lane, with_width};
 use super::resolvent::Resolvent;
-use crate::interval::rounding::round_up;
+use crate::interval::rounding::{largest, round_up};
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::certified::link::Frame;
 use crate::track::certified::norms::Proof;
@@ -74,8 +74,7 @@ impl<const D: usize> Reduction<D> {
         let mut keys = [[[0.0; LANE]; W]; 2];
         let mut widest = 0.0f64;
         let mut see = |ratio: f64| {
-            // A NaN must not be lost in the comparison.
-            widest = if ratio <= widest { widest } else { ratio };
+            widest = largest(widest, ratio);
         };
         for (at, &key) in layout.keys.iter().enumerate() {
             let key = key as usize;

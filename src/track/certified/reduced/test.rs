@@ -38,7 +38,7 @@ use super::frame::{Reduction, SERIES};
 use super::layout::{Layout, Order};
 use super::passes::{Lane, Row, with_width};
 use super::series::{SIGNED, Series, add_product};
-use crate::interval::rounding::{gamma, round_up};
+use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::{LANE, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, Local, MAX_DEGREE, RefineError};
@@ -181,9 +181,10 @@ impl<const D: usize> ReducedTest<D> {
         let layout = local.y.elimination.layout.clone();
         let keys = layout.keys();
         let hs = powers_of(h);
-        // Differences, sums over rows, columns and key unknowns, and the powers of t(s): fewer
-        // roundings than this.
-        let per_entry = gamma(m + 2 * MAX_KEYS + 200);
+        // Differences and the powers of t(s), sums over the normal or the distances of a point (m
+        // each, the latter at three orders), over A's rows at two orders and key unknowns at three:
+        // in all fewer roundings than this.
+        let per_entry = gamma(4 * m + 4 * MAX_KEYS + 200);
         self.add_sizes(local, &hs);
         let [all, from2, from3, from4, from5, slopes] = &self.sizes;
 
@@ -340,14 +341,9 @@ impl<const D: usize> ReducedTest<D> {
         for i in 0..keys {
             cubic[i] += left3[i];
         }
-        let largest = |values: &PerKey| {
-            (0..keys).fold(0.0f64, |max, i| {
-                let x = values[i] / kappa[i];
-                // A NaN must not be lost in the comparison.
-                if x <= max { max } else { x }
-            })
-        };
-        let (used, widest) = (largest(&cubic), largest(&width));
+        let share =
+            |values: &PerKey| (0..keys).fold(0.0, |max, i| largest(max, values[i] / kappa[i]));
+        let (used, widest) = (share(&cubic), share(&width));
         if !(used < TOO_LONG && widest > 0.0) {
             return None;
         }
@@ -382,10 +378,7 @@ impl<const D: usize> ReducedTest<D> {
             radius: self.radius / top,
             ..Bounds::default()
         };
-        let raise = |bound: &mut f64, value: f64| {
-            // A NaN must not be lost in the comparison.
-            *bound = if value <= *bound { *bound } else { value };
-        };
+        let raise = |bound: &mut f64, value: f64| *bound = largest(*bound, value);
         let up = |x: f64| round_up(x, roundings + 4 * m + 200);
         for block in &layout.blocks {
             for c in 0..block.size {
