@@ -6,9 +6,10 @@ use clap::ValueEnum;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, to_json, to_table};
-use krawl::track::{self, Control, Options, Progress, Status, Witness};
+use krawl::track::{self, Control, Options, Outcome, Progress, Status, Witness};
 use std::io::BufWriter;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 /// Follow the path through the sketch and list the figures on it that meet the dimensions
 #[derive(clap::Args)]
@@ -178,7 +179,28 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..Control::default()
     };
-    let outcome = track::solve(&problem, &options, &mut control);
+    let mut outcome = track::solve(&problem, &options, &mut control);
+    // What was not asked for is not insisted on.
+    if arguments.mode == Mode::Certified
+        && arguments.space.is_none()
+        && options.space == track::Space::Reduced
+        && let Ok(Outcome {
+            status: Status::Stopped(reason),
+            ..
+        }) = &outcome
+        && !cancel.load(Ordering::Relaxed)
+    {
+        let remark = format!("full space: in the reduced space the run stopped, {reason}");
+        let full = Options {
+            space: track::Space::Full,
+            ..options
+        };
+        // Where the full space is not to be had, the first run is the result.
+        if let Ok(mut second) = track::solve(&problem, &full, &mut control) {
+            second.switched_on.push(remark);
+            outcome = Ok(second);
+        }
+    }
     line.clear();
     let outcome = outcome.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
 
