@@ -118,7 +118,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
                 Same::Unknown => return Err(Undecided),
             }
         }
-        self.found.push(found);
+        self.found.push(found.clone());
         Ok(())
     }
 

@@ -41,6 +41,8 @@ pub struct SolutionProver<const D: usize> {
     f: Vector,
     v: Vector,
     half_squares: Vec<Interval>,
+    /// The box proved last.
+    found: SolutionBox,
 }
 
 impl<const D: usize> SolutionProver<D> {
@@ -60,6 +62,12 @@ impl<const D: usize> SolutionProver<D> {
                 .iter()
                 .map(|l| l.target_half_square())
                 .collect(),
+            found: SolutionBox {
+                centre: equations.vector(),
+                radius: equations.vector(),
+                alone_within: 0.0,
+                rising: false,
+            },
         }
     }
 
@@ -74,7 +82,7 @@ impl<const D: usize> SolutionProver<D> {
         inverter: &mut InverseMaker,
         guess: &[f64],
         rising: bool,
-    ) -> Option<SolutionBox> {
+    ) -> Option<&SolutionBox> {
         let (m, n) = (equations.m, equations.n());
         let local = &mut self.local;
         local.z[0].copy_from_slice(guess);
@@ -146,17 +154,14 @@ impl<const D: usize> SolutionProver<D> {
         }
         // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
         let near = round_up((q0 + kappa * all) * all, 6);
-        let mut radius = self.f.clone();
-        radius.fill(0.0);
-        for (r, v) in radius[..m].iter_mut().zip(self.v.iter()) {
+        let found = &mut self.found;
+        found.radius.fill(0.0);
+        for (r, v) in found.radius[..m].iter_mut().zip(self.v.iter()) {
             *r = round_up(v + near, n + 8);
         }
-        Some(SolutionBox {
-            centre: local.z[0].clone(),
-            radius,
-            alone_within,
-            rising,
-        })
+        found.centre.copy_from_slice(&local.z[0]);
+        (found.alone_within, found.rising) = (alone_within, rising);
+        Some(found)
     }
 }
 
