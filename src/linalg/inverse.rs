@@ -1,7 +1,7 @@
 //! Inverses of small sparse matrices of one pattern, for use as preconditioners.
 
 use super::matrix::{LANE, Lane, Matrix, Sparse, Vector, with_block};
-use super::pivots::Pivots;
+use super::pivots::{Pivots, Room};
 
 /// No pivot of any size was left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +22,7 @@ const WEAK_PIVOT: f64 = 1e-5;
 pub struct Inverter {
     pattern: Sparse,
     pivots: Pivots,
+    room: Room,
     /// For each entry of the pattern its place in `work`, rows being permuted so that the pivot
     /// of column k is in row k.
     places: Vec<usize>,
@@ -42,6 +43,7 @@ impl Inverter {
         Inverter {
             pattern: pattern.clone(),
             pivots: Pivots::default(),
+            room: Room::default(),
             places: vec![0; pattern.entries()],
             work: Matrix::zeros(n, n),
             multipliers: Vector::zeros(n),
@@ -77,7 +79,7 @@ impl Inverter {
             self.choose(values)?;
             if let Err(singular) = self.exchange_all(values) {
                 // Pivots chosen for such a matrix are no good for the next one either.
-                self.pivots = Pivots::default();
+                self.pivots.order.clear();
                 return Err(singular);
             }
         }
@@ -91,7 +93,11 @@ impl Inverter {
 
     fn choose(&mut self, values: &[f64]) -> Result<(), Singular> {
         self.choices += 1;
-        self.pivots = Pivots::choose(&self.pattern, values).ok_or(Singular)?;
+        let chosen = self.pivots.choose(&self.pattern, values, &mut self.room);
+        if chosen.is_none() {
+            self.pivots.order.clear();
+            return Err(Singular);
+        }
         let stride = self.work.lanes() * LANE;
         let mut next = 0;
         for column in 0..self.pattern.columns() {

@@ -3,19 +3,16 @@
 use super::matrix::Sparse;
 
 /// Rows of bits: where a matrix under elimination has entries.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct Bits {
     words: usize,
     data: Vec<u64>,
 }
 
 impl Bits {
-    fn new(n: usize) -> Self {
-        let words = n.div_ceil(64);
-        Bits {
-            words,
-            data: vec![0; words * n],
-        }
+    fn reset(&mut self, n: usize) {
+        self.words = n.div_ceil(64);
+        refill(&mut self.data, self.words * n, 0);
     }
 
     fn row(&self, row: usize) -> &[u64] {
@@ -72,32 +69,60 @@ pub(super) struct Pivots {
     pub odd: bool,
 }
 
+/// Work space for choosing, kept so that a choice along a path costs no memory.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Room {
+    bits: Bits,
+    a: Vec<f64>,
+    largest: Vec<f64>,
+    count: Vec<usize>,
+    seen: Vec<bool>,
+}
+
+/// As many copies of a value, in the memory that is there.
+fn refill<T: Copy>(vector: &mut Vec<T>, len: usize, value: T) {
+    vector.clear();
+    vector.resize(len, value);
+}
+
+/// Beyond this order the lists of what is touched grow as they need.
+const RESERVED: usize = 256;
+
 /// A pivot is at least this fraction of the largest entry that could have been it.
 const THRESHOLD: f64 = 0.1;
 
 impl Pivots {
     /// Chooses pivots for a matrix: among those large enough, the one that fills in least
     /// (Markowitz's rule). `None`: it is singular in floating point.
-    pub fn choose(pattern: &Sparse, values: &[f64]) -> Option<Self> {
+    pub fn choose(&mut self, pattern: &Sparse, values: &[f64], room: &mut Room) -> Option<()> {
         let n = pattern.columns();
-        let mut bits = Bits::new(n);
-        let mut a = vec![0.0; n * n];
+        let Room {
+            bits,
+            a,
+            largest,
+            count,
+            seen,
+        } = room;
+        bits.reset(n);
+        refill(a, n * n, 0.0);
         for column in 0..n {
             for (row, value) in pattern.column(values, column) {
                 bits.insert(row, column);
                 a[row * n + column] = value;
             }
         }
-        let mut pivots = Pivots {
-            order: Vec::with_capacity(n),
-            row_of: vec![usize::MAX; n],
-            column_of: vec![usize::MAX; n],
-            starts: vec![0],
-            touched: Vec::new(),
-            odd: false,
-        };
-        let mut largest = vec![0.0f64; n];
-        let mut count = vec![0usize; n];
+        let pivots = self;
+        pivots.order.clear();
+        pivots.order.reserve(n);
+        refill(&mut pivots.row_of, n, usize::MAX);
+        refill(&mut pivots.column_of, n, usize::MAX);
+        pivots.starts.clear();
+        pivots.starts.reserve(n + 1);
+        pivots.starts.push(0);
+        pivots.touched.clear();
+        pivots.touched.reserve(n * n.min(RESERVED));
+        refill(largest, n, 0.0f64);
+        refill(count, n, 0usize);
         for _ in 0..n {
             largest.fill(0.0);
             count.fill(0);
@@ -137,16 +162,16 @@ impl Pivots {
                 .touched
                 .extend(bits.entries(p).filter(|&j| j != k).map(|j| j as u32));
             pivots.starts.push(pivots.touched.len());
-            exchange(&mut a, &mut bits, n, p, k);
+            exchange(a, bits, n, p, k);
         }
-        pivots.odd = is_odd(&pivots.row_of);
-        Some(pivots)
+        pivots.odd = is_odd(&pivots.row_of, seen);
+        Some(())
     }
 }
 
 /// Whether a permutation is odd: whether it has an odd number of cycles of even length.
-fn is_odd(permutation: &[usize]) -> bool {
-    let mut seen = vec![false; permutation.len()];
+fn is_odd(permutation: &[usize], seen: &mut Vec<bool>) -> bool {
+    refill(seen, permutation.len(), false);
     let mut odd = false;
     for start in 0..permutation.len() {
         let (mut at, mut length) = (start, 0);
