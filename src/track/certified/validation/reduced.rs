@@ -640,3 +640,91 @@ fn reduced_proofs_hold_along_random_problems() {
         "{tally:?}"
     );
 }
+
+/// Whether an exit that was linked is in the other tube where it is said to be, and both run the
+/// same way there.
+fn link_is_true<const D: usize>(
+    exact: &Exact,
+    from: &Proved<D>,
+    to: &Proved<D>,
+    entry: (f64, f64),
+) -> bool {
+    let at = |sample: &Proved<D>, s: f64| {
+        let through = sample.at(s).0;
+        let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
+        exact
+            .point_near(&start, &sample.tube.local.normal[..exact.n], &through)
+            .expect("a regular point")
+    };
+    let (exit, ahead) = at(from, from.tube.exit_at);
+    let (there, along) = at(to, 0.5 * (entry.0 + entry.1));
+    let allowed = 1e-9 + 2.0 * (entry.1 - entry.0);
+    let pairs = || exit.iter().zip(&there);
+    let near = pairs().all(|(a, b)| (*a - *b).abs().inf() <= allowed);
+    let product = ahead
+        .iter()
+        .zip(&along)
+        .fold(point(0.0), |sum, (a, b)| sum + *a * *b);
+    near && product.sup() > 0.0
+}
+
+#[test]
+fn false_links_are_refused_in_the_reduced_space() {
+    fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut [usize; 4]) {
+        let homotopy = Homotopy::new(problem).unwrap();
+        let exact = Exact::new(&homotopy);
+        let mut shop = Shop::<D>::new(&homotopy, 0.1, f64::INFINITY);
+        let chain = shop.chain(&homotopy, 400);
+        let (n, m) = (exact.n, exact.m);
+        let stride = (chain.len() / 20).max(1);
+        for k in (0..chain.len() - 1).step_by(stride) {
+            let (from, next) = (&chain[k], &chain[k + 1]);
+            assert!(link_is_true(&exact, from, next, next.tube.entry));
+            let (z, normal) = (&next.tube.local.z[0], &next.tube.local.normal);
+            let last_axis = |i: usize| i < m && homotopy.gauge.place[i] % D == D - 1;
+            let flip = |v: &[f64]| -> Vec<f64> {
+                (0..n)
+                    .map(|i| if last_axis(i) { -v[i] } else { v[i] })
+                    .collect()
+            };
+            let back: Vec<f64> = normal[..n].iter().map(|c| -c).collect();
+            let mut others = vec![(0, z[..n].to_vec(), back), (1, flip(z), flip(normal))];
+            for spread in [1e-3, 0.1, 0.5, 1.0] {
+                let shifted = z[..n]
+                    .iter()
+                    .map(|z| z + spread * random.between(-1.0, 1.0));
+                others.push((2, shifted.collect(), normal[..n].to_vec()));
+            }
+            for (kind, z, normal) in others {
+                let Some(other) = shop.tube(&z, &normal, false) else {
+                    shop.test.reject();
+                    continue;
+                };
+                tally[kind] += 1;
+                let link = from.tube.leads_to(&other.tube);
+                assert!(
+                    kind != 0 || link.is_none(),
+                    "a link to a tube that runs backwards"
+                );
+                if let Some(entry) = link {
+                    assert!(link_is_true(&exact, from, &other, entry), "kind {kind}");
+                }
+            }
+            for other in &chain {
+                if let Some(entry) = from.tube.leads_to(&other.tube) {
+                    tally[3] += 1;
+                    assert!(link_is_true(&exact, from, other, entry));
+                }
+            }
+        }
+    }
+    let (mut tally, mut random) = ([0; 4], Random::new(23));
+    for problem in shipped() {
+        match problem.dimension {
+            2 => sabotage::<2>(&problem, &mut random, &mut tally),
+            _ => sabotage::<3>(&problem, &mut random, &mut tally),
+        }
+    }
+    println!("{tally:?}");
+    assert!(tally.iter().all(|&count| count > 30), "{tally:?}");
+}
