@@ -6,7 +6,7 @@ mod link;
 mod norms;
 mod reduced;
 mod solution;
-pub(self) mod tracker;
+mod tracker;
 mod tube;
 #[cfg(test)]
 mod validation;

@@ -717,6 +717,15 @@ fn powers_of(h: f64) -> [f64; DEGREE + 1] {
     powers
 }
 
+#[cfg(test)]
+impl<const D: usize> ReducedTest<D> {
+    /// The bounds of the last proof: constant, cubic, width, low, high, and the length they hold for.
+    pub fn stated(&self) -> [f64; 6] {
+        let b = &self.last;
+        [b.constant, b.cubic, b.width, b.low, b.high, b.h]
+    }
+}
+
 impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     type Frame = Reduction<D>;
     const SPACE: Space = Space::Reduced;

@@ -5,7 +5,7 @@
 
 use super::*;
 use crate::track::full::{InverseMaker, Local, Preconditioner};
-use crate::track::{Control, Options, Outcome, Solution, Status, solve};
+use crate::track::{Control, Options, Outcome, Solution, Space, Status, solve};
 use std::cell::RefCell;
 
 /// What goes wrong, and how often.
@@ -185,8 +185,10 @@ fn no_fault_leads_to_a_false_claim() {
                 injected: [0; 7],
             }));
             let reverse = random.below(2) == 0;
+            let space = [Space::Full, Space::Reduced][random.below(2)];
             let faulty = run(Options {
                 reverse,
+                space,
                 max_steps: 600,
                 ..limited.clone()
             });
