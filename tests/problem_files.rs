@@ -439,7 +439,6 @@ fn bad_arguments_are_refused() {
         vec!["solve", octahedron, "--max-step", "inf"],
         vec!["solve", octahedron, "--max-step=-1"],
         vec!["solve", octahedron, "--mode", "exact"],
-        vec!["solve", octahedron, "--space", "reduced"],
         vec!["solve", octahedron, "--preset", "paper"],
         vec!["solve", octahedron, "--json", "missing/folder/out.json"],
         vec!["solve", octahedron, "--json", "problems"],

@@ -26,7 +26,7 @@ pub enum StartError {
     /// The reference is degenerate.
     #[error(transparent)]
     Gauge(#[from] GaugeError),
-    /// Certified mode has no reduced space yet, and the like.
+    /// What was asked for cannot be done for this problem.
     #[error("{0}")]
     Unsupported(String),
 }
