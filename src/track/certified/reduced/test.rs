@@ -65,6 +65,8 @@ const NEAR: f64 = 0.7;
 const ROOM: f64 = 2.5;
 /// And at least this part of what the key unknowns' own box takes along.
 const LEAST: f64 = 0.25;
+/// Unknowns that no key unknown takes along count as if one did, by this part of the most.
+const STILL: f64 = 0.01;
 /// The smallest weight of a key unknown beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.05;
 /// The contraction that comes with the reference length may be that at most.
@@ -352,6 +354,7 @@ impl<const D: usize> ReducedTest<D> {
         let scale = scale.min(0.5 / self.omega[t]);
 
         // The box, and |w| in it.
+        let still = STILL * self.omega[..n].iter().fold(0.0, |max: f64, &u| max.max(u));
         self.rho.fill(0.0);
         self.rho_a.fill(0.0);
         for block in &layout.blocks {
@@ -359,7 +362,7 @@ impl<const D: usize> ReducedTest<D> {
                 let (at, i) = (block.start + c, block.unknowns[c] as usize);
                 let [v_low, v_cubic, v_width, v_high] = self.v_a[at];
                 let need = scale * (v_cubic + scale * v_width) + v_low + v_high;
-                self.rho_a[i] = ROOM * need + LEAST * scale * self.omega[i];
+                self.rho_a[i] = ROOM * need + LEAST * scale * self.omega[i].max(still);
                 self.rho[i] = self.rho_a[i];
             }
         }
