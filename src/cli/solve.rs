@@ -85,9 +85,8 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// The options, but for the space, which may depend on the problem.
-    fn options(&self) -> Result<Options, String> {
-        let space = track::Space::Full;
+    /// Refuses what does not go together.
+    fn check(&self) -> Result<(), String> {
         if self.mode == Mode::Certified && self.preset == Preset::Paper {
             return Err("`--preset paper` is a way of float mode: add `--mode float`".to_owned());
         }
@@ -108,6 +107,11 @@ impl Arguments {
                     .to_owned(),
             );
         }
+        Ok(())
+    }
+
+    fn options(&self, problem: &Problem) -> Options {
+        let space = self.space(problem);
         let options = match (self.mode, self.preset) {
             (Mode::Certified, _) => Options {
                 space,
@@ -116,18 +120,16 @@ impl Arguments {
             (Mode::Float, Preset::Default) => Options::float(space),
             (Mode::Float, Preset::Paper) => Options::paper(space),
         };
-        Ok(Options {
+        Options {
             max_step: self.max_step,
             tube_radius: self.tube_radius,
             tolerance: self.tolerance,
             reverse: self.reverse,
             alpha: self.alpha,
             ..options
-        })
+        }
     }
-}
 
-impl Arguments {
     fn space(&self, problem: &Problem) -> track::Space {
         match (self.space, self.mode) {
             (Some(Space::Full), _) => track::Space::Full,
@@ -145,12 +147,9 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let options = arguments.options()?;
+    arguments.check()?;
     let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
-    let options = Options {
-        space: arguments.space(&problem),
-        ..options
-    };
+    let options = arguments.options(&problem);
     let json = arguments
         .json
         .as_deref()

@@ -90,7 +90,7 @@ impl Norms {
         )
     }
 
-    /// The largest provable h: by bisection on a logarithmic scale, as any h that passes will do.
+    /// The largest provable h.
     pub fn longest(&self, weight_of_t: f64) -> Option<Proof> {
         const {
             assert!(
@@ -98,48 +98,17 @@ impl Norms {
                 "the powers in `at` are those of the Taylor order"
             )
         };
-        if let Some(proof) = self.proof(self.h, weight_of_t) {
-            return Some(proof);
-        }
-        let (mut lo, mut hi) = (0.0, self.h);
-        let mut best = None;
-        for _ in 0..40 {
-            let h = if lo == 0.0 {
-                hi / 2.0
-            } else {
-                (lo * hi).sqrt()
-            };
-            match self.proof(h, weight_of_t) {
-                Some(proof) => {
-                    best = Some(proof);
-                    lo = h;
-                    if hi / lo < 1.02 {
-                        break;
-                    }
-                }
-                None => hi = h,
-            }
-        }
-        best
+        longest(self.h, 0.5, |h| self.proof(h, weight_of_t))
     }
 
     fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
         let (contraction, width, defect) = self.at(h);
-        let room = 1.0 - contraction;
-        // Beyond this the box would be too narrow to be linked, or the proof too close to call.
-        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
-            return None;
-        }
-        let r = (0.5 * room / width).min(0.5 / weight_of_t);
-        let q = round_up(contraction + width * r, 4);
-        // The path is nearer than r: again with the width that is really needed, |w|_u ≤ η/(1 − q).
-        let near = round_up(defect / (1.0 - q), 400);
-        let nearer_q = round_up(contraction + width * near.min(r), 4);
-        let distance = round_up(defect / (1.0 - nearer_q), 400);
-        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r && distance <= self.radius)
-        {
-            return None;
-        }
+        let Contraction {
+            r,
+            q,
+            nearer_q,
+            distance,
+        } = Contraction::new((contraction, width, defect), 0.5 / weight_of_t, self.radius)?;
         // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
         // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. In the part of F that
         // does not get smaller with s, rounding above all, k ≤ DEGREE, and k |s|ᵏ⁻¹ ≤ k Hᵏ/H with the
@@ -173,4 +142,83 @@ impl Norms {
             moving: self.a,
         })
     }
+}
+
+/// What follows where a map is bounded on the box |w| ≤ r, in any norm, by its defect |Φ(0)| and by
+/// |Φ'| ≤ contraction + width · r.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contraction {
+    /// In a box of this size the fixed point is the only one.
+    pub r: f64,
+    /// The bound on |Φ'| there, and as far out as the fixed point may be.
+    pub q: f64,
+    pub nearer_q: f64,
+    /// It is at most that far out.
+    pub distance: f64,
+}
+
+impl Contraction {
+    /// The largest box that leaves room, at most of size `largest`. `None`: there is none, or the fixed
+    /// point might be further out than `radius`.
+    pub fn new(
+        (contraction, width, defect): (f64, f64, f64),
+        largest: f64,
+        radius: f64,
+    ) -> Option<Self> {
+        let room = 1.0 - contraction;
+        // Beyond this the box would be too narrow to be linked, or the proof too close to call.
+        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
+            return None;
+        }
+        let r = (0.5 * room / width).min(largest);
+        let q = round_up(contraction + width * r, 4);
+        // The fixed point is nearer than r: again with the width that is really needed, η/(1 − q).
+        let near = round_up(defect / (1.0 - q), 400);
+        let nearer_q = round_up(contraction + width * near.min(r), 4);
+        let distance = round_up(defect / (1.0 - nearer_q), 400);
+        let holds = q < 1.0 && round_up(defect + q * r, 4) < r && distance < r;
+        (holds && distance <= radius).then_some(Contraction {
+            r,
+            q,
+            nearer_q,
+            distance,
+        })
+    }
+}
+
+/// The longest tube of at most the half length `h` that is proved: by bisection on a logarithmic
+/// scale, as any that passes will do. `shrink`: what is tried next while none has passed.
+pub(super) fn longest(h: f64, shrink: f64, proof: impl Fn(f64) -> Option<Proof>) -> Option<Proof> {
+    if let Some(proof) = proof(h) {
+        return Some(proof);
+    }
+    let (mut lo, mut hi) = (0.0, h);
+    let mut best = None;
+    for _ in 0..40 {
+        let h = if lo == 0.0 {
+            shrink * hi
+        } else {
+            (lo * hi).sqrt()
+        };
+        match proof(h) {
+            Some(proof) => {
+                best = Some(proof);
+                lo = h;
+                if hi / lo < 1.02 {
+                    break;
+                }
+            }
+            None => hi = h,
+        }
+    }
+    best
+}
+
+/// 1, h, h², …: the last with as many roundings as its power.
+pub(super) fn powers_of<const POWERS: usize>(h: f64) -> [f64; POWERS] {
+    let mut powers = [1.0; POWERS];
+    for k in 1..POWERS {
+        powers[k] = powers[k - 1] * h;
+    }
+    powers
 }

@@ -17,7 +17,7 @@
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
 use super::link::Tube;
-use super::norms::{MAX_CONTRACTION, Norms, Proof};
+use super::norms::{MAX_CONTRACTION, Norms, Proof, powers_of};
 use super::tracker::Test;
 use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
@@ -368,15 +368,6 @@ pub(super) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
         let x = v.abs() / u;
         if x > max || x.is_nan() { x } else { max }
     })
-}
-
-/// 1, h, h², …: each with at most DEGREE roundings.
-fn powers_of(h: f64) -> [f64; DEGREE + 1] {
-    let mut powers = [1.0; DEGREE + 1];
-    for k in 1..=DEGREE {
-        powers[k] = powers[k - 1] * h;
-    }
-    powers
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! From bounds over a tube of reference length to the longest tube that they prove.
 
 use crate::interval::rounding::{in_range, round_up};
-use crate::track::certified::norms::{MAX_CONTRACTION, Proof};
+use crate::track::certified::norms::{Contraction, Proof, longest};
 use crate::track::full::MAX_DEGREE;
 
 /// Bounds in the norm |v|_ρ = max |v_i|/ρ_i of a box of size ρ, taken for |s| ≤ `h`.
@@ -43,32 +43,9 @@ impl Bounds {
         .all(in_range)
     }
 
-    /// The largest provable h with polynomials of N coefficients: by bisection on a logarithmic
-    /// scale, as any h that passes will do.
+    /// The largest provable h with polynomials of N coefficients.
     pub fn longest<const N: usize>(&self) -> Option<Proof> {
-        if let Some(proof) = self.proof::<N>(self.h) {
-            return Some(proof);
-        }
-        let (mut lo, mut hi) = (0.0, self.h);
-        let mut best = None;
-        for _ in 0..40 {
-            let h = if lo == 0.0 {
-                0.7 * hi
-            } else {
-                (lo * hi).sqrt()
-            };
-            match self.proof::<N>(h) {
-                Some(proof) => {
-                    best = Some(proof);
-                    lo = h;
-                    if hi / lo < 1.02 {
-                        break;
-                    }
-                }
-                None => hi = h,
-            }
-        }
-        best
+        longest(self.h, 0.7, |h| self.proof::<N>(h))
     }
 
     fn proof<const N: usize>(&self, h: f64) -> Option<Proof> {
@@ -76,20 +53,12 @@ impl Bounds {
         let contraction = round_up(self.constant + self.cubic * (x * x * x), 20);
         let power = x.powi(N as i32);
         let defect = round_up(self.low + self.high * power, 40);
-        let room = 1.0 - contraction;
-        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * self.width <= room * room) {
-            return None;
-        }
-        let r = (0.5 * room / self.width).min(1.0);
-        let q = round_up(contraction + self.width * r, 4);
-        // The path is nearer than r: again with the width that is really needed, |v|_ρ ≤ η/(1 − q).
-        let near = round_up(defect / (1.0 - q), 60);
-        let nearer_q = round_up(contraction + self.width * near.min(r), 4);
-        let distance = round_up(defect / (1.0 - nearer_q), 60);
-        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r && distance <= self.radius)
-        {
-            return None;
-        }
+        let Contraction {
+            r,
+            q,
+            nearer_q,
+            distance,
+        } = Contraction::new((contraction, self.width, defect), 1.0, self.radius)?;
         // w' solves [J; c] w' = −[F(ẑ)' + (J(ẑ + w) − J(ẑ)) ẑ'; 0]. A power sᵏ of F gains a factor
         // k/h: in `high` k/N is counted already; in `low`, k ≤ MAX_DEGREE (N − 1) and the bound was
         // taken at H.

@@ -12,14 +12,7 @@ pub struct Maker<const D: usize> {
     order: Order<D>,
     layout: Arc<Layout>,
     alpha: f64,
-    /// The fewest key unknowns any layout had so far.
-    fewest: usize,
-    /// Elimininations since the layout was looked at for fewer key unknowns.
-    waited: usize,
 }
-
-/// A layout with more key unknowns than necessary is looked at again after so many points.
-const PATIENCE: usize = 8;
 
 impl<const D: usize> Maker<D> {
     /// Nothing is chosen until the first point.
@@ -29,26 +22,13 @@ impl<const D: usize> Maker<D> {
             order,
             layout: Arc::new(Layout::default()),
             alpha,
-            fewest: usize::MAX,
-            waited: 0,
         }
-    }
-
-    fn choose(&mut self, d: &[Vector; D], alpha: f64) -> Layout {
-        self.waited = 0;
-        let layout = self.order.layout(d, alpha);
-        self.fewest = self.fewest.min(layout.keys());
-        layout
     }
 }
 
 /// Directions of distances are told apart by their sines, of which so many times α is asked: measured,
 /// see docs/reduced.md.
 const SINES: f64 = 2.5;
-/// Blocks whose inverses are worse conditioned than that times 1/α are pivots no longer.
-const WORST: f64 = 4.0;
-/// Fewer key unknowns are taken where the directions clear this multiple of α.
-const RESTORE: f64 = 1.5;
 
 /// The factors at one point.
 #[derive(Debug, Clone)]
@@ -81,34 +61,18 @@ impl<const D: usize> Elimination<D> {
         }
     }
 
-    /// Factors [J; c] at a point.
+    /// Factors [J; c] at a point, with the layout that suits it.
     pub fn make(
         &mut self,
         maker: &mut Maker<D>,
         equations: &Equations<D>,
-        (d, lengths, normal): (&[Vector; D], &Lengths, &Vector),
+        at: (&[Vector; D], &Lengths, &Vector),
     ) -> Result<(), Singular> {
-        maker.waited += 1;
-        if maker.waited > 0 {
-            let layout = maker.choose(d, maker.alpha);
-            if layout != *maker.layout {
-                maker.layout = Arc::new(layout);
-            }
+        let layout = maker.order.layout(at.0, maker.alpha);
+        if layout != *maker.layout {
+            maker.layout = Arc::new(layout);
         }
-        if maker.layout.keys() > maker.fewest && maker.waited > PATIENCE {
-            let layout = maker.choose(d, RESTORE * maker.alpha);
-            if layout.keys() < maker.layout.keys() {
-                maker.layout = Arc::new(layout);
-            }
-        }
-        if maker.layout.keys() == 0 || !self.invert_blocks(&maker.layout, d, maker.alpha) {
-            let layout = maker.choose(d, maker.alpha);
-            if layout != *maker.layout {
-                maker.layout = Arc::new(layout);
-            }
-            self.invert_blocks(&maker.layout, d, maker.alpha);
-        }
-        self.factor(maker.layout.clone(), equations, (d, lengths, normal))
+        self.make_like(&maker.layout, equations, at)
     }
 
     /// The same with a layout given, however its pivots are.
@@ -116,19 +80,13 @@ impl<const D: usize> Elimination<D> {
         &mut self,
         layout: &Arc<Layout>,
         equations: &Equations<D>,
-        at: (&[Vector; D], &Lengths, &Vector),
-    ) -> Result<(), Singular> {
-        self.invert_blocks(layout, at.0, 1.0);
-        self.factor(layout.clone(), equations, at)
-    }
-
-    fn factor(
-        &mut self,
-        layout: Arc<Layout>,
-        equations: &Equations<D>,
         (d, lengths, normal): (&[Vector; D], &Lengths, &Vector),
     ) -> Result<(), Singular> {
-        self.layout = layout;
+        self.layout = layout.clone();
+        let entries = slices(d);
+        self.inverses.clear();
+        let inverses = layout.blocks.iter().map(|block| invert(block, &entries));
+        self.inverses.extend(inverses);
         let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
         self.width = width.ok_or(Singular)?;
         for (kept, d) in self.d.iter_mut().zip(d) {
@@ -137,18 +95,6 @@ impl<const D: usize> Elimination<D> {
         self.slope.copy_from_slice(&lengths.terms[1]);
         self.normal.copy_from_slice(normal);
         with_width!(self.width, self.eliminate(equations))
-    }
-
-    fn invert_blocks(&mut self, layout: &Layout, d: &[Vector; D], alpha: f64) -> bool {
-        let d = slices(d);
-        self.inverses.clear();
-        let mut good = true;
-        for block in &layout.blocks {
-            let (inverse, condition) = invert(block, &d);
-            good &= condition * alpha <= WORST;
-            self.inverses.push(inverse);
-        }
-        good
     }
 
     fn eliminate<const W: usize>(&mut self, equations: &Equations<D>) -> Result<(), Singular> {

@@ -21,8 +21,8 @@ const SHORT: f64 = 1e-3;
 const POINT_TOLERANCE: f64 = 1e-11;
 
 impl<const D: usize> ReducedTest<D> {
-    /// Encloses the path's point in the cross-section at `exit_at`: Newton's method in floats; then, as Φ contracts by q, the path's point is at most
-    /// |𝒴 G(w)|_ρ / (1 − q) from any w in the box.
+    /// Encloses the path's point in the cross-section at `exit_at`: Newton's method in floats; then, as
+    /// Φ contracts by q, the path's point is at most |𝒴 G(w)|_ρ / (1 − q) from any w in the box.
     pub(super) fn enclose(
         &mut self,
         equations: &Equations<D>,

@@ -194,8 +194,7 @@ pub fn entries<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
 }
 
 /// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
-/// The last number is the largest sum of sizes over a row of block times inverse's: a condition.
-pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> (Inverse, f64) {
+pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
     let a = entries(block, d);
     let mut out = [[0.0; 3]; 3];
     match block.size {
@@ -219,20 +218,7 @@ pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> (Inverse, f64) 
             }
         }
     }
-    // |inverse| times the rows' norms: not changed by scaling the equations.
-    let mut condition = 0.0f64;
-    for c in 0..block.size {
-        let mut sum = 0.0;
-        for r in 0..block.size {
-            let norm = (0..block.size)
-                .map(|c| a[r][c] * a[r][c])
-                .sum::<f64>()
-                .sqrt();
-            sum += out[c][r].abs() * norm;
-        }
-        condition = if sum <= condition { condition } else { sum };
-    }
-    (out, condition)
+    out
 }
 
 /// Views of d as slices.

@@ -4,6 +4,7 @@
 use super::elimination::MAX_KEYS;
 use super::frame::{Reduction, SERIES};
 use super::passes::{Derivative, Lane, Row, add, slices};
+use super::test::COEFFICIENTS;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::{Equations, Local};
 
@@ -14,7 +15,7 @@ pub const SIGNED_LEFT: usize = SERIES + 1;
 
 /// What is left over, order by order, and work space.
 #[derive(Debug, Default)]
-pub struct Series {
+pub struct Series<const D: usize> {
     /// J K at s⁰ … s⁴: a row per distance, and one for the normal. The ignored ones are S.
     pub jk: [Vec<Lane>; SIGNED + 1],
     /// Zᵀ J at s⁰ … s³: a row per unknown, of which A's count.
@@ -25,9 +26,9 @@ pub struct Series {
     products: Vec<Lane>,
 }
 
-impl Series {
+impl<const D: usize> Series<D> {
     /// Room for one.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations<D>) -> Self {
         Series {
             slopes: std::array::from_fn(|_| equations.per_edge()),
             ..Series::default()
@@ -35,10 +36,10 @@ impl Series {
     }
 
     /// Computes the series at a point where the elimination was made.
-    pub fn make<const D: usize, const N: usize, const W: usize>(
+    pub fn make<const W: usize>(
         &mut self,
         equations: &Equations<D>,
-        local: &mut Local<D, N, Reduction<D>>,
+        local: &mut Local<D, COEFFICIENTS, Reduction<D>>,
     ) {
         let (m, n) = (equations.m, equations.n());
         self.set_slopes(equations, local);
@@ -152,10 +153,10 @@ impl Series {
         }
     }
 
-    fn set_slopes<const D: usize, const N: usize>(
+    fn set_slopes(
         &mut self,
         equations: &Equations<D>,
-        local: &Local<D, N, Reduction<D>>,
+        local: &Local<D, COEFFICIENTS, Reduction<D>>,
     ) {
         self.slopes[0].copy_from_slice(&local.lengths.terms[1]);
         for q in 1..=SIGNED {

@@ -31,6 +31,7 @@
 //! points but X ≈ A₀⁻¹ in `resolvent.rs`, whose rows are what keeps the wrapping effect away.
 
 use super::super::link::Tube;
+use super::super::norms::powers_of;
 use super::super::tracker::Test;
 use super::bounds::Bounds;
 use super::elimination::{Elimination, MAX_KEYS, Maker};
@@ -80,7 +81,7 @@ const COEFFICIENT: usize = 100;
 #[derive(Debug)]
 pub struct ReducedTest<const D: usize> {
     maker: Maker<D>,
-    series: Series,
+    series: Series<D>,
     /// Weights of the unknowns for the next tube, and those to return to.
     weights: Vector,
     kept: Vector,
@@ -333,7 +334,7 @@ impl<const D: usize> ReducedTest<D> {
         }
         resolvent.bound(equations, &layout, &self.g_a, &mut self.y_a, &mut self.v_a);
         let [low, mut cubic, width, high] = through_z(&self.g);
-        let (left0, left3) = left_over_of_s::<W>(
+        let (left0, left3) = left_over_of_s::<D, W>(
             &self.series,
             &mut self.products,
             &layout,
@@ -566,8 +567,8 @@ impl<const D: usize> ReducedTest<D> {
 }
 
 /// |P S − V E − I| times the key unknowns' weights, but for what V E has at low orders by rounding: what does not get smaller with s, and what does like s³.
-fn left_over_of_s<const W: usize>(
-    series: &Series,
+fn left_over_of_s<const D: usize, const W: usize>(
+    series: &Series<D>,
     products: &mut Vec<Lane>,
     layout: &Layout,
     zs: [&[Row<W>]; SERIES + 1],
@@ -711,15 +712,6 @@ fn rows_of<const W: usize>(values: &PerKey) -> Row<W> {
         .expect("W lanes")
 }
 
-/// 1, h, h², …: each with at most DEGREE roundings.
-fn powers_of(h: f64) -> [f64; DEGREE + 1] {
-    let mut powers = [1.0; DEGREE + 1];
-    for k in 1..=DEGREE {
-        powers[k] = powers[k - 1] * h;
-    }
-    powers
-}
-
 #[cfg(test)]
 impl<const D: usize> ReducedTest<D> {
     /// The bounds of the last proof: constant, cubic, width, low, high, and the length they hold for.
@@ -758,12 +750,8 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         // To the limit of floats: what is left of the residual is multiplied along chains of points.
         local.correct(equations);
         local.expand(equations);
-        match local.y.elimination.width {
-            1 => self.series.make::<D, COEFFICIENTS, 1>(equations, local),
-            2 => self.series.make::<D, COEFFICIENTS, 2>(equations, local),
-            4 => self.series.make::<D, COEFFICIENTS, 4>(equations, local),
-            _ => self.series.make::<D, COEFFICIENTS, 8>(equations, local),
-        }
+        let series = &mut self.series;
+        with_width!(local.y.elimination.width, series.make(equations, local));
         Ok(())
     }
 
