@@ -1,11 +1,11 @@
 //! Where the path leaves a tube.
 
 use super::elimination::MAX_KEYS;
-use super::frame::Reduction;
-use super::test::{COEFFICIENTS, ReducedTest, Tubes};
+use super::frame::{Reduction, Tubes};
+use super::sides::Sides;
+use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
-use crate::linalg::LANE;
-use crate::track::certified::link::{Frame, Tube, evaluation_error};
+use crate::track::certified::link::{Frame, evaluation_error};
 use crate::track::certified::tracker::Test;
 use crate::track::full::Equations;
 
@@ -23,11 +23,7 @@ const POINT_TOLERANCE: f64 = 1e-11;
 impl<const D: usize> ReducedTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at`: Newton's method in floats; then, as
     /// Φ contracts by q, the path's point is at most |𝒴 G(w)|_ρ / (1 − q) from any w in the box.
-    pub(super) fn enclose(
-        &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tube<D, COEFFICIENTS, Reduction<D>>,
-    ) -> Option<()> {
+    pub(super) fn enclose(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
         let (m, n) = (equations.m, equations.n());
         let (local, s) = (&tube.local, tube.exit_at);
         let c = &local.normal[..n];
@@ -143,36 +139,26 @@ impl<const D: usize> ReducedTest<D> {
         q: f64,
     ) -> Option<f64> {
         let (m, layout) = (equations.m, &y.elimination.layout);
+        let sides = &mut self.sides;
         for e in 0..=m {
             let size = round_up(self.f[e].abs() + self.hidden[e], 2);
-            self.g[e] = [size, 0.0, 0.0, 0.0];
+            sides.g[e] = [size, 0.0, 0.0, 0.0];
         }
-        for block in &layout.blocks {
-            for r in 0..block.size {
-                self.g_a[block.start + r] = self.g[block.rows[r] as usize];
-            }
-        }
-        let resolvent = &y.resolvent;
-        resolvent.bound(equations, layout, &self.g_a, &mut self.y_a, &mut self.v_a);
+        sides.gather(y);
+        sides.bound(equations, y);
         let mut widest = 0.0f64;
+        let mut see = |bound: f64, unknown: u32| {
+            widest = largest(widest, bound / y.rho[unknown as usize]);
+        };
         for block in &layout.blocks {
             for c in 0..block.size {
-                let ratio = self.v_a[block.start + c][0] / y.rho[block.unknowns[c] as usize];
-                widest = largest(widest, ratio);
+                see(sides.a[block.start + c][0], block.unknowns[c]);
             }
         }
-        let mut values = [0.0; MAX_KEYS];
-        let row = y.elimination.width * LANE;
-        for (z, g) in y.z_size.as_flattened().chunks_exact(row).zip(&self.g) {
-            for (value, z) in values.iter_mut().zip(z) {
-                *value = z.mul_add(g[0], *value);
-            }
+        for (value, &key) in sides.keys.iter().zip(&layout.keys) {
+            see(value[0], key);
         }
-        for (&key, value) in layout.keys.iter().zip(values) {
-            let ratio = value / y.rho[key as usize];
-            widest = largest(widest, ratio);
-        }
-        let radius = round_up(widest, resolvent.roundings() + m + 40) / (1.0 - q);
+        let radius = round_up(widest, Sides::roundings(y, m) + 30) / (1.0 - q);
         let radius = round_up(radius, 4);
         radius.is_finite().then_some(radius)
     }

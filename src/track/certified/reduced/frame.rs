@@ -1,17 +1,23 @@
 //! The frame of a tube in the reduced space: which box was proved, and in which coordinates.
 
+use super::COEFFICIENTS;
 use super::elimination::{Elimination, Maker};
 use super::passes::{Lane, with_width};
 use super::resolvent::Resolvent;
 use crate::interval::rounding::{largest, round_up};
 use crate::linalg::{LANE, Singular, Vector};
-use crate::track::certified::link::Frame;
+use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::norms::Proof;
-use crate::track::full::{Equations, Lengths, Preconditioner};
+use crate::track::full::{Equations, Lengths, Local, Preconditioner};
 use std::cell::RefCell;
 
 /// The degree of K(s), Z(s) in s.
 pub const SERIES: usize = 2;
+
+/// A tube of this space, and its polynomial.
+pub type Tubes<const D: usize> = Tube<D, COEFFICIENTS, Reduction<D>>;
+/// See [`Tubes`].
+pub type Locals<const D: usize> = Local<D, COEFFICIENTS, Reduction<D>>;
 
 /// Everything that a tube keeps: see `test.rs` for what it means.
 #[derive(Debug, Clone)]

@@ -1,13 +1,28 @@
 //! Tubes proved through the R-structure of a construction plan: see `test.rs` for the theorem.
 
+mod along;
 mod bounds;
+mod diagonal;
 mod elimination;
 mod exit;
 mod frame;
 mod layout;
+mod left_over;
 mod passes;
 mod resolvent;
+mod rounds;
 mod series;
+mod shape;
+mod sides;
 mod test;
 
-pub use test::{COEFFICIENTS, ReducedTest};
+use crate::track::full::MAX_DEGREE;
+
+pub use test::ReducedTest;
+
+/// The tubes' polynomials have so many coefficients.
+pub const COEFFICIENTS: usize = 9;
+/// Their degree.
+const ORDER: usize = COEFFICIENTS - 1;
+/// The largest power of s in F(ẑ(s)).
+const DEGREE: usize = MAX_DEGREE * ORDER;

@@ -2,11 +2,10 @@
 //! polynomials; and what they leave over.
 
 use super::elimination::MAX_KEYS;
-use super::frame::{Reduction, SERIES};
+use super::frame::{Locals, SERIES};
 use super::passes::{Derivative, Lane, Row, add, slices};
-use super::test::COEFFICIENTS;
 use crate::linalg::{LANE, Vector};
-use crate::track::full::{Equations, Local};
+use crate::track::full::Equations;
 
 /// Orders of J K that are looked at with their signs: two more than the series have.
 pub const SIGNED: usize = SERIES + 2;
@@ -23,7 +22,6 @@ pub struct Series<const D: usize> {
     /// Slopes of the lengths' half squares at s⁰ … s⁴.
     pub slopes: [Vector; SIGNED + 1],
     t: Vec<Lane>,
-    products: Vec<Lane>,
 }
 
 impl<const D: usize> Series<D> {
@@ -36,11 +34,7 @@ impl<const D: usize> Series<D> {
     }
 
     /// Computes the series at a point where the elimination was made.
-    pub fn make<const W: usize>(
-        &mut self,
-        equations: &Equations<D>,
-        local: &mut Local<D, COEFFICIENTS, Reduction<D>>,
-    ) {
+    pub fn make<const W: usize>(&mut self, equations: &Equations<D>, local: &mut Locals<D>) {
         let (m, n) = (equations.m, equations.n());
         self.set_slopes(equations, local);
         let (d, y) = (&local.d, &mut local.y);
@@ -109,18 +103,17 @@ impl<const D: usize> Series<D> {
                 }
             } else {
                 // P_q = −(Σ_{i<q} P_i S_{q−i}) P₀.
-                reset(&mut self.products, keys);
-                let products = self.products.as_chunks_mut::<W>().0;
+                let mut columns = [[[[0.0; LANE]; W]; LANE]; W];
                 for (i, z) in before.iter().enumerate() {
                     let z = z.as_chunks::<W>().0;
                     let s = self.jk[q - i].as_chunks::<W>().0;
-                    add_product(&rows_of_s[..keys], z, s, products);
+                    add_product(rows_of_s[..keys].iter().copied(), z, s, &mut columns);
                 }
                 for l in 0..keys {
                     let p = p0[l];
                     let mut sum = [[0.0; LANE]; W];
-                    for (j, product) in products.iter().enumerate() {
-                        add(&mut sum, -p[j / LANE][j % LANE], product);
+                    for (j, column) in columns.as_flattened()[..keys].iter().enumerate() {
+                        add(&mut sum, -p[j / LANE][j % LANE], column);
                     }
                     z[rows_of_s[l]] = sum;
                 }
@@ -153,11 +146,7 @@ impl<const D: usize> Series<D> {
         }
     }
 
-    fn set_slopes(
-        &mut self,
-        equations: &Equations<D>,
-        local: &Local<D, COEFFICIENTS, Reduction<D>>,
-    ) {
+    fn set_slopes(&mut self, equations: &Equations<D>, local: &Locals<D>) {
         self.slopes[0].copy_from_slice(&local.lengths.terms[1]);
         for q in 1..=SIGNED {
             let twice = 2.0 * local.z[q][equations.m];
@@ -169,19 +158,24 @@ impl<const D: usize> Series<D> {
     }
 }
 
-/// `products[j] += Σ_l S[l][j] P[l]`: the columns of P S, P's rows being transposed.
+/// `columns[j] += Σ_l S[l][j] P[l]` over the given rows: the columns of P S, P's rows being transposed,
+/// LANE of them at a time.
 #[inline(always)]
 pub fn add_product<const W: usize>(
-    rows: &[usize],
+    rows: impl Iterator<Item = usize> + Clone,
     p: &[Row<W>],
     s: &[Row<W>],
-    products: &mut [Row<W>],
+    columns: &mut [[Row<W>; LANE]; W],
 ) {
-    for &l in rows {
-        let (p, s) = (p[l], s[l]);
-        for (j, product) in products.iter_mut().enumerate() {
-            add(product, s[j / LANE][j % LANE], &p);
+    for (w, columns) in columns.iter_mut().enumerate() {
+        let mut sums = *columns;
+        for l in rows.clone() {
+            let (p, s) = (&p[l], &s[l][w]);
+            for (sum, s) in sums.iter_mut().zip(s) {
+                add(sum, *s, p);
+            }
         }
+        *columns = sums;
     }
 }
 

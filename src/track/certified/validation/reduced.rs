@@ -1,5 +1,5 @@
 //! What is proved of single tubes in the reduced space, against interval matrices: 𝒴, T and the
-//! bounds of `reduced/test.rs`, with A(s)⁻¹ from a dense verified solution.
+//! bounds of `reduced/rounds.rs`, with A(s)⁻¹ from a dense verified solution.
 
 use super::super::link::{Ball, Frame};
 use super::super::reduced::{COEFFICIENTS, ReducedTest};

@@ -1,0 +1,93 @@
+//! What the preconditioner's rows for the key unknowns leave over: |Z J_A| and |P S − V E − I|.
+//!
+//! Both are summed over orders in s: what does not get smaller with s, and what does like s³.
+
+use super::along::Along;
+use super::frame::{Reduction, SERIES};
+use super::passes::{Row, add};
+use super::series::{SIGNED, Series, add_product};
+use crate::linalg::LANE;
+use crate::track::full::Equations;
+
+/// The two parts of a bound by key unknown.
+pub type Parts<const W: usize> = [Row<W>; 2];
+
+/// |Z J_A| ρ_A.
+pub fn of_z<const D: usize, const W: usize>(
+    equations: &Equations<D>,
+    y: &Reduction<D>,
+    series: &Series<D>,
+    along: &Along<D>,
+    rho_a: &[f64],
+) -> Parts<W> {
+    let hs = &along.powers;
+    let [mut constant, mut cubic] = [[[0.0; LANE]; W]; 2];
+    let zj = series.zj.each_ref().map(|zj| zj.as_chunks::<W>().0);
+    for block in &y.elimination.layout.blocks {
+        for &unknown in &block.unknowns[..block.size] {
+            let i = unknown as usize;
+            let rho = rho_a[i];
+            let zj = zj.map(|zj| &zj[i]);
+            for w in 0..W {
+                for l in 0..LANE {
+                    let entry = |q: usize| hs[q] * zj[q][w][l].abs();
+                    constant[w][l] += (entry(0) + entry(1) + entry(2)) * rho;
+                    cubic[w][l] += entry(3) * rho;
+                }
+            }
+        }
+    }
+    let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
+    for e in 0..equations.m {
+        let mut tails = [0.0; SERIES + 1];
+        for axis in 0..D {
+            let [i, j] = equations.ends[axis][e];
+            let both = rho_a[i as usize] + rho_a[j as usize];
+            tails[0] += along.from4[axis][e] * both;
+            tails[1] += along.from3[axis][e] * both;
+            tails[2] += along.from2[axis][e] * both;
+        }
+        for (q, (z, tail)) in zs.iter().zip(tails).enumerate() {
+            let size = z[e].map(|lane| lane.map(f64::abs));
+            add(&mut cubic, hs[q] * tail, &size);
+        }
+    }
+    [constant, cubic]
+}
+
+/// |P S − V E − I| times the key unknowns' weights, but for what V E has at low orders by rounding.
+pub fn of_s<const D: usize, const W: usize>(
+    y: &Reduction<D>,
+    series: &Series<D>,
+    along: &Along<D>,
+    kappa: &Row<W>,
+) -> Parts<W> {
+    let layout = &y.elimination.layout;
+    let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
+    let keys = layout.keys();
+    let m = zs[0].len() - 1;
+    let mut parts = [[[0.0; LANE]; W]; 2];
+    for q in 0..=SERIES + SIGNED {
+        let mut columns = [[[[0.0; LANE]; W]; LANE]; W];
+        for i in q.saturating_sub(SIGNED)..=SERIES.min(q) {
+            let jk = series.jk[q - i].as_chunks::<W>().0;
+            if q - i > SERIES {
+                // E as well has these orders, and its rows and the ignored ones are all.
+                add_product(0..=m, zs[i], jk, &mut columns);
+            } else {
+                let ignored = layout.ignored.iter().map(|&e| e as usize);
+                add_product(ignored.chain([m]), zs[i], jk, &mut columns);
+            }
+        }
+        let part = &mut parts[(q > SERIES) as usize];
+        for (j, column) in columns.as_flattened_mut()[..keys].iter_mut().enumerate() {
+            let (w, l) = (j / LANE, j % LANE);
+            if q == 0 {
+                column[w][l] -= 1.0;
+            }
+            let size = column.map(|lane| lane.map(f64::abs));
+            add(part, along.powers[q] * kappa[w][l], &size);
+        }
+    }
+    parts
+}
