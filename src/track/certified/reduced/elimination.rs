@@ -1,7 +1,7 @@
 //! Elimination through the R-structure at one point: what refines and expands the path.
 
 use super::layout::{Layout, Order};
-use super::passes::{Derivative, Inverse, Lane, add, invert, slices, width_for, with_width};
+use super::passes::{Derivative, Inverse, Lane, Row, add, invert, slices, width_for, with_width};
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::full::{Equations, Lengths, dot};
 use std::sync::Arc;
@@ -11,7 +11,11 @@ use std::sync::Arc;
 pub struct Maker<const D: usize> {
     order: Order<D>,
     layout: Arc<Layout>,
+    /// Work space.
+    candidate: Layout,
     alpha: f64,
+    /// Whether a layout is chosen at the next point; otherwise that of the point before is taken.
+    pub chooses: bool,
 }
 
 impl<const D: usize> Maker<D> {
@@ -21,7 +25,9 @@ impl<const D: usize> Maker<D> {
         Maker {
             order,
             layout: Arc::new(Layout::default()),
+            candidate: Layout::default(),
             alpha,
+            chooses: true,
         }
     }
 }
@@ -61,16 +67,21 @@ impl<const D: usize> Elimination<D> {
         }
     }
 
-    /// Factors [J; c] at a point, with the layout that suits it.
+    /// Factors [J; c] at a point, with the layout that suits it, or as it was if the maker does not
+    /// choose.
     pub fn make(
         &mut self,
         maker: &mut Maker<D>,
         equations: &Equations<D>,
         at: (&[Vector; D], &Lengths, &Vector),
     ) -> Result<(), Singular> {
-        let layout = maker.order.layout(at.0, maker.alpha);
-        if layout != *maker.layout {
-            maker.layout = Arc::new(layout);
+        if !maker.chooses {
+            let layout = self.layout.clone();
+            return self.make_like(&layout, equations, at);
+        }
+        maker.order.choose(at.0, maker.alpha, &mut maker.candidate);
+        if maker.candidate != *maker.layout {
+            maker.layout = Arc::new(maker.candidate.clone());
         }
         self.make_like(&maker.layout, equations, at)
     }
@@ -109,19 +120,17 @@ impl<const D: usize> Elimination<D> {
         let jacobian = self.jacobian(equations);
         jacobian.substitute_alone(&self.layout, &self.inverses, rows);
         // S₀: the ignored equations' rows of J K, and the normal's.
-        let mut schur = Schur::new(keys);
-        for (l, &e) in self.layout.ignored.iter().enumerate() {
-            schur.set(l, jacobian.row(e as usize, rows).as_flattened());
+        let mut schur = [[[[0.0; LANE]; W]; LANE]; W];
+        let s = schur.as_flattened_mut();
+        for (s, &e) in s.iter_mut().zip(&self.layout.ignored) {
+            *s = jacobian.row(e as usize, rows);
         }
-        let mut last = [[0.0; LANE]; W];
         for (c, row) in self.normal[..n].iter().zip(rows.iter()) {
-            add(&mut last, *c, row);
+            add(&mut s[keys - 1], *c, row);
         }
-        schur.set(keys - 1, last.as_flattened());
         self.k = k;
-        self.p.clear();
         self.p.resize(keys * W, [0.0; LANE]);
-        let inverted = schur.invert(self.p.as_flattened_mut(), W * LANE);
+        let inverted = invert_transposed(&mut s[..keys], self.p.as_chunks_mut::<W>().0);
         inverted.then_some(()).ok_or(Singular)
     }
 
@@ -137,27 +146,31 @@ impl<const D: usize> Elimination<D> {
 
     /// `x = [J; c]⁻¹ f`; entries of `f` beyond its end are zero.
     pub fn solve(&self, equations: &Equations<D>, f: &[f64], x: &mut Vector) {
+        with_width!(self.width, self.solve_in(equations, f, x))
+    }
+
+    fn solve_in<const W: usize>(&self, equations: &Equations<D>, f: &[f64], x: &mut Vector) {
         let (m, n) = (equations.m, equations.n());
         let jacobian = self.jacobian(equations);
         x.fill(0.0);
         jacobian.solve(&self.layout, &self.inverses, f, x);
-        let mut values = [0.0; MAX_KEYS];
-        let mut set = |row: &[Lane], rest: f64| {
-            for (value, p) in values.iter_mut().zip(row.as_flattened()) {
-                *value = p.mul_add(rest, *value);
-            }
-        };
-        let rows = self.p.chunks_exact(self.width);
-        for (row, &e) in rows.clone().zip(&self.layout.ignored) {
+        let mut values = [[0.0; LANE]; W];
+        let (rows, last) = self.p.as_chunks::<W>().0.split_at(self.layout.keys() - 1);
+        for (row, &e) in rows.iter().zip(&self.layout.ignored) {
             let e = e as usize;
-            set(row, f[e] - jacobian.row_of(e, x));
+            add(&mut values, f[e] - jacobian.row_of(e, x), row);
         }
-        let last = f.get(m).copied().unwrap_or(0.0) - dot(&self.normal[..n], &x[..n]);
-        rows.last().into_iter().for_each(|row| set(row, last));
+        let rest = f.get(m).copied().unwrap_or(0.0) - dot(&self.normal[..n], &x[..n]);
+        add(&mut values, rest, &last[0]);
         // The key unknowns' own rows are the identity.
-        for (x, row) in x[..n].iter_mut().zip(self.k.chunks_exact(self.width)) {
-            let products = row.as_flattened().iter().zip(&values);
-            *x += products.map(|(k, value)| k * value).sum::<f64>();
+        for (x, row) in x[..n].iter_mut().zip(self.k.as_chunks::<W>().0) {
+            let mut sums = [0.0; LANE];
+            for w in 0..W {
+                for l in 0..LANE {
+                    sums[l] = row[w][l].mul_add(values[w][l], sums[l]);
+                }
+            }
+            *x += (sums[0] + sums[1]) + (sums[2] + sums[3]);
         }
     }
 }
@@ -165,63 +178,42 @@ impl<const D: usize> Elimination<D> {
 /// More key unknowns than that are not supported.
 pub const MAX_KEYS: usize = 8 * LANE;
 
-/// Work space: a small dense matrix.
-struct Schur {
-    n: usize,
-    a: [[f64; MAX_KEYS]; MAX_KEYS],
-}
-
-impl Schur {
-    fn new(n: usize) -> Self {
-        Schur {
-            n,
-            a: [[0.0; MAX_KEYS]; MAX_KEYS],
+/// The inverse's transpose of the square matrix with these rows, padded with zeros to whole lanes.
+/// They are overwritten. False: singular.
+fn invert_transposed<const W: usize>(a: &mut [Row<W>], out: &mut [Row<W>]) -> bool {
+    let n = a.len();
+    // Gauss and Jordan in place; `from[k]` is the row that became row k.
+    let mut from: [usize; MAX_KEYS] = std::array::from_fn(|k| k);
+    for k in 0..n {
+        let (w, l) = (k / LANE, k % LANE);
+        let best = (k..n)
+            .max_by(|&i, &j| a[i][w][l].abs().total_cmp(&a[j][w][l].abs()))
+            .unwrap_or(k);
+        a.swap(k, best);
+        from.swap(k, best);
+        let pivot = a[k][w][l];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return false;
+        }
+        let scale = 1.0 / pivot;
+        a[k][w][l] = 1.0;
+        for lane in &mut a[k] {
+            *lane = lane.map(|x| x * scale);
+        }
+        let row = a[k];
+        for (i, other) in a.iter_mut().enumerate() {
+            if i != k {
+                let factor = -other[w][l];
+                other[w][l] = 0.0;
+                add(other, factor, &row);
+            }
         }
     }
-
-    fn set(&mut self, row: usize, from: &[f64]) {
-        self.a[row][..self.n].copy_from_slice(&from[..self.n]);
+    // Column k of the result belongs to the row that was brought there.
+    for (i, a) in a.iter().enumerate() {
+        for (a, &from) in a.as_flattened().iter().zip(&from[..n]) {
+            out[from][i / LANE][i % LANE] = *a;
+        }
     }
-
-    /// The inverse's transpose, into rows of the given stride. False: singular.
-    fn invert(&mut self, out: &mut [f64], stride: usize) -> bool {
-        let n = self.n;
-        let a = &mut self.a;
-        // Gauss and Jordan in place; `from[k]` is the row that became row k.
-        let mut from = [0usize; MAX_KEYS];
-        for (k, from) in from.iter_mut().enumerate() {
-            *from = k;
-        }
-        for k in 0..n {
-            let best = (k..n)
-                .max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))
-                .unwrap_or(k);
-            a.swap(k, best);
-            from.swap(k, best);
-            let pivot = a[k][k];
-            if pivot == 0.0 || !pivot.is_finite() {
-                return false;
-            }
-            let scale = 1.0 / pivot;
-            a[k][k] = 1.0;
-            for x in &mut a[k][..n] {
-                *x *= scale;
-            }
-            let row = a[k];
-            for i in (0..n).filter(|&i| i != k) {
-                let factor = a[i][k];
-                a[i][k] = 0.0;
-                for j in 0..n {
-                    a[i][j] -= factor * row[j];
-                }
-            }
-        }
-        // Column k of the result belongs to the row that was brought there.
-        for i in 0..n {
-            for k in 0..n {
-                out[from[k] * stride + i] = a[i][k];
-            }
-        }
-        true
-    }
+    true
 }

@@ -13,6 +13,8 @@ use crate::track::full::Equations;
 const MAX_STEPS: usize = 8;
 /// Corrections that shrink by less than this are at the limit of floats.
 const STAGNATION: f64 = 0.5;
+/// Nor is there more to be had after one so much smaller than the box.
+const NEGLIGIBLE: f64 = 1e-7;
 /// How far before a tube's exit its path is looked at more closely, in half lengths, and how short
 /// the tube is with which that is done.
 const BEFORE: f64 = 1e-5;
@@ -50,7 +52,7 @@ impl<const D: usize> ReducedTest<D> {
                 let ratio = step.abs() / tube.weights[i];
                 size = largest(size, ratio);
             }
-            if size.is_nan() || size > STAGNATION * last || size == 0.0 {
+            if size.is_nan() || size > STAGNATION * last || size <= NEGLIGIBLE * tube.proof.r {
                 break;
             }
             last = size;

@@ -11,6 +11,8 @@ use crate::track::full::Equations;
 pub struct Order<const D: usize> {
     points: Vec<Placed<D>>,
     t: u32,
+    /// Work space.
+    rows: Vec<Candidate<D>>,
 }
 
 #[derive(Debug, Clone)]
@@ -77,32 +79,34 @@ impl<const D: usize> Order<D> {
         Order {
             points: constructed.iter().map(placed).collect(),
             t: equations.m as u32,
+            rows: Vec::new(),
         }
     }
 
-    /// The structure at a point of the path with the differences `d`: each point keeps the
-    /// distances whose directions are farthest from depending on each other, by the sine of the
+    /// The structure at a point of the path with the differences `d`, into `layout`: each point keeps
+    /// the distances whose directions are farthest from depending on each other, by the sine of the
     /// angle between each and those taken before it, as long as that is at least `alpha`; for what
     /// is missing then, coordinates become key.
-    pub fn layout(&self, d: &[Vector; D], alpha: f64) -> Layout {
-        let mut layout = Layout::default();
+    pub fn choose(&mut self, d: &[Vector; D], alpha: f64, layout: &mut Layout) {
+        layout.blocks.clear();
+        layout.keys.clear();
+        layout.ignored.clear();
+        layout.order = 0;
+        let rows = &mut self.rows;
         for point in &self.points {
-            let free: Vec<usize> = (0..D)
-                .filter(|&axis| point.unknowns[axis] <= self.t)
-                .collect();
-            let mut rows: Vec<[f64; D]> = point
-                .distances
-                .iter()
-                .map(|&(edge, _)| {
-                    let mut row = [0.0; D];
-                    for &axis in &free {
-                        row[axis] = d[axis][edge as usize];
-                    }
-                    scaled(row)
-                })
-                .collect();
-            let mut taken = vec![false; rows.len()];
-            let mut used = [false; D];
+            let free = point.unknowns.map(|unknown| unknown <= self.t);
+            rows.clear();
+            rows.extend(point.distances.iter().map(|&(edge, _)| {
+                let row = std::array::from_fn(|axis| match free[axis] {
+                    true => d[axis][edge as usize],
+                    false => 0.0,
+                });
+                Candidate {
+                    row: scaled(row),
+                    taken: false,
+                }
+            }));
+            let mut open = free;
             let mut block = Block {
                 start: layout.order,
                 size: 0,
@@ -111,73 +115,87 @@ impl<const D: usize> Order<D> {
                 rows: [0; 3],
                 signs: [0.0; 3],
             };
-            while block.size < free.len() {
-                let pivot = |row: &[f64; D]| {
-                    let axes = free.iter().copied().filter(|&axis| !used[axis]);
-                    axes.max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs()))
-                };
-                // The pivot counts as well, with the most that it can be of a direction.
-                let worth = |row: &[f64; D]| {
-                    pivot(row).map_or(0.0, |axis| {
-                        norm(row).min((D as f64).sqrt() * row[axis].abs())
-                    })
-                };
-                let best = (0..rows.len())
-                    .filter(|&r| !taken[r])
-                    .max_by(|&a, &b| worth(&rows[a]).total_cmp(&worth(&rows[b])));
-                let Some(best) = best.filter(|&r| worth(&rows[r]) >= alpha) else {
+            while block.size < free.iter().filter(|free| **free).count() {
+                let (mut best, mut most) = (None, alpha * alpha);
+                for (r, candidate) in rows.iter().enumerate() {
+                    let (worth, axis) = candidate.worth(&open);
+                    if worth >= most {
+                        (best, most) = (Some((r, axis)), worth);
+                    }
+                }
+                let Some((best, axis)) = best else {
                     break;
                 };
-                let axis = pivot(&rows[best]).expect("a row that is worth something has a pivot");
-                let direction = scaled(rows[best]);
-                taken[best] = true;
-                used[axis] = true;
+                let direction = scaled(rows[best].row);
+                rows[best].taken = true;
+                open[axis] = false;
                 let (edge, sign) = point.distances[best];
-                block.unknowns[block.size] = point.unknowns[axis];
-                block.axes[block.size] = axis as u8;
-                block.rows[block.size] = edge;
-                block.signs[block.size] = sign;
-                block.size += 1;
-                for row in rows.iter_mut() {
-                    let along: f64 = (0..D).map(|k| row[k] * direction[k]).sum();
+                block.insert((axis as u8, point.unknowns[axis]), (edge, sign));
+                for Candidate { row, .. } in rows.iter_mut() {
+                    let along = dot(row, &direction);
                     for k in 0..D {
                         row[k] -= along * direction[k];
                     }
                 }
             }
-            // In the order of the axes and of the distances: which pivot came first does not matter.
-            block.sort();
-            let left = point
-                .distances
-                .iter()
-                .zip(&taken)
-                .filter(|(_, taken)| !**taken);
-            layout.ignored.extend(left.map(|((edge, _), _)| edge));
-            let keys = free.iter().filter(|&&axis| !used[axis]);
-            layout.keys.extend(keys.map(|&axis| point.unknowns[axis]));
+            for (candidate, (edge, _)) in rows.iter().zip(&point.distances) {
+                if !candidate.taken {
+                    layout.ignored.push(*edge);
+                }
+            }
+            for axis in (0..D).filter(|&axis| open[axis]) {
+                layout.keys.push(point.unknowns[axis]);
+            }
             layout.order += block.size;
             if block.size > 0 {
                 layout.blocks.push(block);
             }
         }
         layout.keys.push(self.t);
-        layout
+    }
+}
+
+/// What is left of a distance's direction, and whether the distance was taken.
+#[derive(Debug, Clone)]
+struct Candidate<const D: usize> {
+    row: [f64; D],
+    taken: bool,
+}
+
+impl<const D: usize> Candidate<D> {
+    /// The square of its length, and the axis of the pivot, of which a direction has at most √D times
+    /// as much: where the pivot is small it counts. Negative if there is nothing to be had.
+    fn worth(&self, open: &[bool; D]) -> (f64, usize) {
+        let (mut pivot, mut at) = (-1.0, 0);
+        for axis in 0..D {
+            if open[axis] && self.row[axis].abs() >= pivot {
+                (pivot, at) = (self.row[axis].abs(), axis);
+            }
+        }
+        if self.taken || pivot < 0.0 {
+            return (-1.0, at);
+        }
+        let worth = dot(&self.row, &self.row).min(D as f64 * pivot * pivot);
+        (worth, at)
     }
 }
 
 impl Block {
-    fn sort(&mut self) {
-        let size = self.size;
-        let mut columns: Vec<_> = (0..size)
-            .map(|c| (self.axes[c], self.unknowns[c]))
-            .collect();
-        columns.sort_unstable();
-        let mut rows: Vec<_> = (0..size).map(|r| (self.rows[r], self.signs[r])).collect();
-        rows.sort_unstable_by_key(|row| row.0);
-        for k in 0..size {
-            (self.axes[k], self.unknowns[k]) = columns[k];
-            (self.rows[k], self.signs[k]) = rows[k];
+    /// Adds a column (axis and unknown) and a row (distance and sign): both are kept in the order of
+    /// axes and distances, as it does not matter which pivot came first.
+    fn insert(&mut self, (axis, unknown): (u8, u32), (row, sign): (u32, f64)) {
+        let (mut c, mut r) = (self.size, self.size);
+        while c > 0 && self.axes[c - 1] > axis {
+            (self.axes[c], self.unknowns[c]) = (self.axes[c - 1], self.unknowns[c - 1]);
+            c -= 1;
         }
+        while r > 0 && self.rows[r - 1] > row {
+            (self.rows[r], self.signs[r]) = (self.rows[r - 1], self.signs[r - 1]);
+            r -= 1;
+        }
+        (self.axes[c], self.unknowns[c]) = (axis, unknown);
+        (self.rows[r], self.signs[r]) = (row, sign);
+        self.size += 1;
     }
 }
 
@@ -194,12 +212,12 @@ impl Layout {
     }
 }
 
-fn norm<const D: usize>(row: &[f64; D]) -> f64 {
-    row.iter().map(|x| x * x).sum::<f64>().sqrt()
+fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    (0..D).map(|k| a[k] * b[k]).sum()
 }
 
 fn scaled<const D: usize>(row: [f64; D]) -> [f64; D] {
-    let size = norm(&row);
+    let size = dot(&row, &row).sqrt();
     if size > 0.0 {
         row.map(|x| x / size)
     } else {

@@ -3,6 +3,7 @@
 //! Both are summed over orders in s: what does not get smaller with s, and what does like s³.
 
 use super::along::Along;
+use super::elimination::MAX_KEYS;
 use super::frame::{Reduction, SERIES};
 use super::passes::{Row, add};
 use super::series::{SIGNED, Series, add_product};
@@ -66,6 +67,10 @@ pub fn of_s<const D: usize, const W: usize>(
     let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
     let keys = layout.keys();
     let m = zs[0].len() - 1;
+    let mut ignored = [m; MAX_KEYS];
+    for (row, &e) in ignored.iter_mut().zip(&layout.ignored) {
+        *row = e as usize;
+    }
     let mut parts = [[[0.0; LANE]; W]; 2];
     for q in 0..=SERIES + SIGNED {
         let mut columns = [[[[0.0; LANE]; W]; LANE]; W];
@@ -73,10 +78,9 @@ pub fn of_s<const D: usize, const W: usize>(
             let jk = series.jk[q - i].as_chunks::<W>().0;
             if q - i > SERIES {
                 // E as well has these orders, and its rows and the ignored ones are all.
-                add_product(0..=m, zs[i], jk, &mut columns);
+                add_product(0..m + 1, zs[i], jk, &mut columns);
             } else {
-                let ignored = layout.ignored.iter().map(|&e| e as usize);
-                add_product(ignored.chain([m]), zs[i], jk, &mut columns);
+                add_product(ignored[..keys].iter().copied(), zs[i], jk, &mut columns);
             }
         }
         let part = &mut parts[(q > SERIES) as usize];

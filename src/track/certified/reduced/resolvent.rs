@@ -22,11 +22,11 @@ use crate::track::full::Equations;
 /// See above.
 #[derive(Debug, Clone)]
 pub struct Resolvent<const D: usize> {
-    /// Where the rows of X and N start and end, one per row of A: padded to whole lanes, they
-    /// reach to the end of their block.
+    /// Which lanes the rows of X and N are, one per row of A: padded with zeros, they reach to the
+    /// end of their block, and those of a block are next to each other.
     rows: Vec<(usize, usize)>,
-    x: Vec<f64>,
-    n: Vec<f64>,
+    x: Vec<Lane>,
+    n: Vec<Lane>,
     /// Â by axis and distance.
     spread: [Vector; D],
     /// R for each block.
@@ -75,34 +75,36 @@ impl<const D: usize> Resolvent<D> {
         self.diagonal.clear();
         for (block, inverse) in layout.blocks.iter().zip(inverses) {
             let (start, size) = (block.start, block.size);
-            let end = start + size;
+            let (first, next) = self.rows[start];
+            let lanes = next - first;
+            let (before, x) = self.x.split_at_mut(first);
+            let n = &mut self.n[first..first + size * lanes];
             // I − (what is left of the block) X, in the rows of N for the time being.
-            for r in 0..size {
-                let at = self.rows[start + r].0;
+            for (r, n) in n.chunks_exact_mut(lanes).enumerate() {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);
-                self.n[at..at + end].fill(0.0);
-                self.n[at + start + r] = 1.0;
+                n.fill([0.0; LANE]);
+                n[(start + r) / LANE][(start + r) % LANE] = 1.0;
                 for axis in 0..D {
-                    let other = self.other(equations, axis, e, sign);
-                    if let Some(from) = other {
+                    if let Some(row) = other(&self.position, equations, axis, e, sign) {
                         let factor = sign * d[0][axis][e];
-                        let (from, to) = self.rows[from];
-                        let (row, other) = (&mut self.n[at..at + to - from], &self.x[from..to]);
-                        for (sum, x) in row.iter_mut().zip(other) {
-                            *sum = x.mul_add(factor, *sum);
+                        let (from, to) = self.rows[row];
+                        for (sum, x) in n.iter_mut().zip(&before[from..to]) {
+                            for i in 0..LANE {
+                                sum[i] = x[i].mul_add(factor, sum[i]);
+                            }
                         }
                     }
                 }
             }
-            for c in 0..size {
-                let to = self.rows[start + c].0;
-                let row = &mut self.x[to..to + end];
-                row.fill(0.0);
-                for r in 0..size {
-                    let at = self.rows[start + r].0;
-                    for (x, sum) in row.iter_mut().zip(&self.n[at..at + end]) {
-                        *x = inverse[c][r].mul_add(*sum, *x);
+            for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
+                for (l, x) in x.iter_mut().enumerate() {
+                    let mut sum = [0.0; LANE];
+                    for r in 0..size {
+                        for i in 0..LANE {
+                            sum[i] = n[r * lanes + l][i].mul_add(inverse[r], sum[i]);
+                        }
                     }
+                    *x = sum;
                 }
             }
             for r in 0..size {
@@ -110,12 +112,12 @@ impl<const D: usize> Resolvent<D> {
             }
             let mut b = [[0.0; 3]; 3];
             for r in 0..size {
-                let at = self.rows[start + r].0;
-                for j in start..end {
-                    let mut entry = self.n[at + j];
+                for j in start..start + size {
+                    let (l, i) = (j / LANE, j % LANE);
+                    let mut entry = self.n[first + r * lanes + l][i];
                     for c in 0..size {
                         let spread = self.spread[block.axes[c] as usize][block.rows[r] as usize];
-                        entry += spread * self.x[self.rows[start + c].0 + j].abs();
+                        entry += spread * self.x[first + c * lanes + l][i].abs();
                     }
                     b[r][j - start] = round_up(entry, self.roundings);
                 }
@@ -137,60 +139,42 @@ impl<const D: usize> Resolvent<D> {
         d: [&[Vector; D]; 2],
         h: f64,
     ) {
-        let end = block.start + block.size;
-        let at = self.rows[block.start + r].0;
+        let (at, end) = self.rows[block.start + r];
         let (e, sign) = (block.rows[r] as usize, block.signs[r]);
-        let mut terms = [(0usize, 0usize, 0.0, 0.0); 6];
+        let mut terms: [(&[Lane], [f64; 2]); 6] = [(&[], [0.0; 2]); 6];
         let mut count = 0;
+        let mut add = |row: usize, factors: [f64; 2]| {
+            let (from, to) = self.rows[row];
+            terms[count] = (&self.x[from..to], factors);
+            count += 1;
+        };
         for c in 0..block.size {
             let axis = block.axes[c] as usize;
-            let factors = d.map(|d| sign * d[axis][e]);
-            terms[count] = (self.rows[block.start + c].0, end, factors[0], factors[1]);
-            count += 1;
+            add(block.start + c, d.map(|d| sign * d[axis][e]));
         }
         for axis in 0..D {
-            if let Some(from) = self.other(equations, axis, e, sign) {
-                let factors = d.map(|d| -sign * d[axis][e]);
-                let (from, to) = self.rows[from];
-                terms[count] = (from, to - from, factors[0], factors[1]);
-                count += 1;
+            if let Some(row) = other(&self.position, equations, axis, e, sign) {
+                add(row, d.map(|d| -sign * d[axis][e]));
             }
         }
-        let mut sums = [[0.0; LANE]; 2];
-        for chunk in (0..end).step_by(LANE) {
-            sums[0] = [0.0; LANE];
-            sums[1] = [0.0; LANE];
-            for &(from, len, a0, a1) in &terms[..count] {
-                if chunk >= len {
-                    continue;
+        let one = block.start + r;
+        for (l, n) in self.n[at..end].iter_mut().enumerate() {
+            let mut sums = [[0.0; LANE]; 2];
+            for (x, [a0, a1]) in &terms[..count] {
+                if let Some(x) = x.get(l) {
+                    for i in 0..LANE {
+                        sums[0][i] = x[i].mul_add(*a0, sums[0][i]);
+                        sums[1][i] = x[i].mul_add(*a1, sums[1][i]);
+                    }
                 }
-                // Rows are padded with zeros to whole lanes.
-                let x: &[f64; LANE] = self.x[from + chunk..from + chunk + LANE]
-                    .try_into()
-                    .expect("a lane");
-                for i in 0..LANE {
-                    sums[0][i] = x[i].mul_add(a0, sums[0][i]);
-                    sums[1][i] = x[i].mul_add(a1, sums[1][i]);
-                }
+            }
+            if l == one / LANE {
+                sums[0][one % LANE] -= 1.0;
             }
             for i in 0..LANE {
-                let one = if chunk + i == block.start + r {
-                    1.0
-                } else {
-                    0.0
-                };
-                self.n[at + chunk + i] = (sums[0][i] - one).abs() + h * sums[1][i].abs();
+                n[i] = sums[0][i].abs() + h * sums[1][i].abs();
             }
         }
-    }
-
-    /// The row of X of the unknown at the other end of a distance, if it is one of A.
-    #[inline(always)]
-    fn other(&self, equations: &Equations<D>, axis: usize, e: usize, sign: f64) -> Option<usize> {
-        let [i, j] = equations.ends[axis][e];
-        let other = if sign > 0.0 { j } else { i };
-        let position = self.position[other as usize] as usize;
-        (position < self.rows.len()).then_some(position)
     }
 
     fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
@@ -202,15 +186,14 @@ impl<const D: usize> Resolvent<D> {
             let end = block.start + block.size;
             for c in 0..block.size {
                 self.position[block.unknowns[c] as usize] = (block.start + c) as u32;
-                let next = at + end.next_multiple_of(LANE);
+                let next = at + end.div_ceil(LANE);
                 self.rows.push((at, next));
                 at = next;
             }
         }
-        self.x.clear();
-        self.x.resize(at, 0.0);
-        self.n.clear();
-        self.n.resize(at, 0.0);
+        // All of them are computed.
+        self.x.resize(at, [0.0; LANE]);
+        self.n.resize(at, [0.0; LANE]);
         let largest = layout.order + D + 10;
         self.roundings = (layout.blocks.len() + 4) * 2 * largest + 200;
     }
@@ -230,10 +213,10 @@ impl<const D: usize> Resolvent<D> {
             let mut rest = [[0.0; LANE]; 3];
             let mut near = [[0.0; LANE]; 3];
             for r in 0..size {
-                let at = self.rows[start + r].0;
-                let rows = self.n[at..at + start].iter().zip(&self.x[at..at + start]);
+                let (at, end) = self.rows[start + r];
+                let rows = [&self.n, &self.x].map(|rows| &rows[at..end].as_flattened()[..start]);
                 let (mut sum, mut through) = (g[start + r], [0.0; LANE]);
-                for ((n, x), y) in rows.zip(&y[..start]) {
+                for ((n, x), y) in rows[0].iter().zip(rows[1]).zip(&y[..start]) {
                     let x = x.abs();
                     for i in 0..LANE {
                         sum[i] = y[i].mul_add(*n, sum[i]);
@@ -245,7 +228,7 @@ impl<const D: usize> Resolvent<D> {
             for r in 0..size {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);
                 for axis in 0..D {
-                    if let Some(from) = self.other(equations, axis, e, sign) {
+                    if let Some(from) = other(&self.position, equations, axis, e, sign) {
                         let spread = self.spread[axis][e];
                         for i in 0..LANE {
                             rest[r][i] = v[from][i].mul_add(spread, rest[r][i]);
@@ -269,9 +252,10 @@ impl<const D: usize> Resolvent<D> {
                 y[start + r] = sum;
             }
             for c in 0..size {
-                let at = self.rows[start + c].0 + start;
+                let (at, end) = self.rows[start + c];
+                let x = &self.x[at..end].as_flattened()[start..];
                 for r in 0..size {
-                    let x = self.x[at + r].abs();
+                    let x = x[r].abs();
                     for i in 0..LANE {
                         near[c][i] = y[start + r][i].mul_add(x, near[c][i]);
                     }
@@ -280,4 +264,19 @@ impl<const D: usize> Resolvent<D> {
             }
         }
     }
+}
+
+/// The row of X of the unknown at the other end of a distance, if it is one of A.
+#[inline(always)]
+fn other<const D: usize>(
+    position: &[u32],
+    equations: &Equations<D>,
+    axis: usize,
+    e: usize,
+    sign: f64,
+) -> Option<usize> {
+    let [i, j] = equations.ends[axis][e];
+    let other = if sign > 0.0 { j } else { i };
+    let position = position[other as usize];
+    (position != u32::MAX).then_some(position as usize)
 }

@@ -30,7 +30,6 @@
 //! of G_s in the box, and [J; c] is regular on the tube. Everything is linear in the number of
 //! points but X ≈ A₀⁻¹ in `resolvent.rs`, whose rows are what keeps the wrapping effect away.
 
-use super::COEFFICIENTS;
 use super::along::Along;
 use super::bounds::Bounds;
 use super::elimination::{Elimination, Maker};
@@ -40,6 +39,7 @@ use super::passes::with_width;
 use super::series::Series;
 use super::shape::Shape;
 use super::sides::Sides;
+use super::{COEFFICIENTS, ORDER};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
@@ -48,8 +48,10 @@ use crate::track::full::{Equations, Lengths, RefineError};
 use crate::track::{Driving, Options, Space};
 use std::sync::Arc;
 
-/// Bounds are taken for a tube so much longer than the last one.
+/// Bounds are taken for a tube so much longer than the last one, if its polynomial reaches as far,
 const GROWTH: f64 = 1.25;
+/// and otherwise by as much as it reaches further, but for extremes.
+const CHANGE: f64 = 3.0;
 /// And tried again with so much of that.
 const SHRINK: f64 = 0.75;
 /// Bounds are good enough for a tube if they were taken for one not much longer.
@@ -66,8 +68,9 @@ pub struct ReducedTest<const D: usize> {
     /// What bounds Φ(0), row by row, and all bounds, of the last attempt.
     pub(super) defect: Vector,
     pub(super) last: Bounds,
-    /// The expected half length of the next tube.
+    /// The half length of the tube before, and the reach of its Taylor polynomial.
     expected: f64,
+    reach: f64,
     /// No coordinate of the path may be further than this from the tube's middle.
     pub(super) radius: f64,
     /// Work space for correcting points.
@@ -101,6 +104,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
             defect: equations.vector(),
             last: Bounds::default(),
             expected: 0.05,
+            reach: 1.0,
             radius: options.radius(homotopy.unit),
             there: Elimination::new(equations),
             d: std::array::from_fn(|_| equations.per_edge()),
@@ -131,7 +135,11 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         equations: &Equations<D>,
         local: &mut Locals<D>,
     ) -> Result<(), RefineError> {
-        local.precondition(equations, &mut self.maker)?;
+        // The layout that was chosen at the prediction.
+        self.maker.chooses = false;
+        let made = local.precondition(equations, &mut self.maker);
+        self.maker.chooses = true;
+        made?;
         // To the limit of floats: what is left of the residual is multiplied along chains of points.
         local.correct(equations);
         local.expand(equations);
@@ -142,6 +150,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
 
     fn prepare(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>, max_h: f64) {
         // The first rounds find the weights, and how long tubes are.
+        self.reach = reach(&tube.local);
         for _ in 0..12 {
             let h = self.expected;
             if !self.prove(equations, tube, max_h) {
@@ -158,7 +167,8 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     fn prove(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>, max_h: f64) -> bool {
         let n = equations.n();
         self.shape.keep();
-        let mut h = (GROWTH * self.expected).min(max_h);
+        let reach = reach(&tube.local) / self.reach;
+        let mut h = (GROWTH * self.expected * reach.clamp(1.0 / CHANGE, CHANGE)).min(max_h);
         for _ in 0..120 {
             let width = tube.local.y.elimination.width;
             let bounds = with_width!(width, self.bounds(equations, tube, h));
@@ -182,6 +192,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
 
     fn accept(&mut self, tube: &Tubes<D>) {
         self.expected = tube.proof.h;
+        self.reach = reach(&tube.local);
         let layout = &tube.local.y.elimination.layout;
         if let Some(last) = &self.last_layout
             && !Arc::ptr_eq(last, layout)
@@ -233,4 +244,13 @@ impl<const D: usize> ReducedTest<D> {
         let b = &self.last;
         [b.constant, b.cubic, b.width, b.low, b.high, b.h]
     }
+}
+
+/// How far a polynomial is of use: where its last coefficient becomes as large as its first, in floats.
+/// The lengths of tubes are nearly in proportion.
+fn reach<const D: usize>(local: &Locals<D>) -> f64 {
+    let size = |k: usize| local.z[k].iter().fold(0.0f64, |max, x| max.max(x.abs()));
+    (size(1) / size(ORDER))
+        .powf(1.0 / (ORDER as f64 - 1.0))
+        .clamp(1e-30, 1e30)
 }
