@@ -30,7 +30,13 @@ pub struct Along<const D: usize> {
     /// and what does like s^COEFFICIENTS.
     pub low: Vector,
     pub high: Vector,
+    /// What t does.
     pub time: Time,
+    /// Bounds by distance on the terms of E'(t), on what the exact one may be off, and on the exact
+    /// |E''| wherever t is within 1 of the tube.
+    pub slope_size: Vector,
+    pub slope_radius: Vector,
+    pub curvature: Vector,
     /// What the bend's E' adds above s^SIGNED.
     bend_tail: f64,
     coefficient: Vector,
@@ -51,6 +57,9 @@ impl<const D: usize> Along<D> {
             low: equations.per_edge(),
             high: equations.per_edge(),
             time: Time::default(),
+            slope_size: equations.per_edge(),
+            slope_radius: equations.per_edge(),
+            curvature: equations.per_edge(),
             bend_tail: 0.0,
             coefficient: equations.per_edge(),
         }
@@ -59,11 +68,8 @@ impl<const D: usize> Along<D> {
     /// Measures all but F.
     pub fn measure(&mut self, equations: &Equations<D>, local: &Locals<D>, h: f64) {
         self.powers = powers_of(h);
+        self.measure_time(equations, local);
         let hs = &self.powers;
-        self.time = Time::new(std::array::from_fn(|k| local.z[k][equations.m]), hs);
-        self.bend_tail = (SIGNED + 1..=(MAX_DEGREE - 1) * ORDER)
-            .map(|k| local.bend_slope(k).abs() * hs[k])
-            .sum();
         for axis in 0..D {
             let d: [&[Lane]; COEFFICIENTS] = std::array::from_fn(|k| local.d[k][axis].lanes());
             let lanes = d[0].len();
@@ -118,11 +124,52 @@ impl<const D: usize> Along<D> {
             let excess = local.bend_excess(equations, k).abs();
             self.high[equations.bend.edge] += excess * hs[k] * (k as f64 / COEFFICIENTS as f64);
         }
-        for e in 0..equations.m {
-            let size: f64 = (0..D).map(|axis| self.all[axis][e].powi(2)).sum();
-            let (length_size, length_radius) = self.time.length(equations, e);
-            self.low[e] += gamma(COEFFICIENT) * (size + length_size) + length_radius;
+        let (t, rounding) = (self.time.t, gamma(COEFFICIENT));
+        let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
+        let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        let all = self.all.each_ref().map(|all| all.lanes());
+        for (l, low) in self.low.lanes_mut().iter_mut().enumerate() {
+            for i in 0..LANE {
+                let squares: f64 = (0..D).map(|axis| all[axis][l][i] * all[axis][l][i]).sum();
+                let size = e0[l][i].abs() + t * (e1[l][i].abs() + t * e2[l][i].abs());
+                let radius = r0[l][i] + t * (r1[l][i] + t * r2[l][i]);
+                low[i] += rounding * (squares + size) + radius;
+            }
         }
+        // Up to t² the bend's coefficients are among the others.
+        let bend = &equations.bend;
+        let beyond = |c: [f64; 5]| t * t * t * (c[3] + t * c[4]);
+        self.low[bend.edge] += rounding * beyond(bend.e.map(f64::abs)) + beyond(bend.e_radius);
+    }
+
+    /// Measures t, E' and E''.
+    fn measure_time(&mut self, equations: &Equations<D>, local: &Locals<D>) {
+        let hs = &self.powers;
+        self.time = Time::new(std::array::from_fn(|k| local.z[k][equations.m]), hs);
+        self.bend_tail = (SIGNED + 1..=(MAX_DEGREE - 1) * ORDER)
+            .map(|k| local.bend_slope(k).abs() * hs[k])
+            .sum();
+        let t = self.time.t;
+        let [_, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
+        let [_, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        let sizes = self.slope_size.lanes_mut().iter_mut();
+        let radii = self.slope_radius.lanes_mut().iter_mut();
+        let curvatures = self.curvature.lanes_mut().iter_mut();
+        for (l, ((size, radius), curvature)) in sizes.zip(radii).zip(curvatures).enumerate() {
+            for i in 0..LANE {
+                size[i] = e1[l][i].abs() + 2.0 * t * e2[l][i].abs();
+                radius[i] = r1[l][i] + 2.0 * t * r2[l][i];
+                curvature[i] = 2.0 * (e2[l][i].abs() + r2[l][i]);
+            }
+        }
+        let bend = &equations.bend;
+        let slope = |c: [f64; 5]| c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + 4.0 * t * c[4]));
+        let beyond = t + 1.0;
+        let second = |c: [f64; 5]| 2.0 * c[2] + beyond * (6.0 * c[3] + 12.0 * beyond * c[4]);
+        let (e, r) = (bend.e.map(f64::abs), bend.e_radius);
+        self.slope_size[bend.edge] = slope(e);
+        self.slope_radius[bend.edge] = slope(r);
+        self.curvature[bend.edge] = second(e) + second(r);
     }
 
     /// What orders above s^SIGNED add to the slope of a length's half square.
@@ -161,39 +208,5 @@ impl Time {
             tail: sum(SIGNED + 1),
             speed: (1..=ORDER).map(|k| k as f64 * z[k].abs() * hs[k - 1]).sum(),
         }
-    }
-
-    /// Bounds on the size of the terms of E(t), and on what the exact one may be off.
-    fn length<const D: usize>(&self, equations: &Equations<D>, e: usize) -> (f64, f64) {
-        let t = self.t;
-        let [c, r] = coefficients(equations, e);
-        let value = |c: [f64; 5]| c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
-        (value(c), value(r))
-    }
-
-    /// The same for E'.
-    pub fn slope<const D: usize>(&self, equations: &Equations<D>, e: usize) -> (f64, f64) {
-        let t = self.t;
-        let [c, r] = coefficients(equations, e);
-        let value = |c: [f64; 5]| c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + 4.0 * t * c[4]));
-        (value(c), value(r))
-    }
-
-    /// A bound on the exact |E''| wherever t is within 1 of the tube.
-    pub fn curvature<const D: usize>(&self, equations: &Equations<D>, e: usize) -> f64 {
-        let t = self.t + 1.0;
-        let [c, r] = coefficients(equations, e);
-        let value = |c: [f64; 5]| 2.0 * c[2] + t * (6.0 * c[3] + 12.0 * t * c[4]);
-        value(c) + value(r)
-    }
-}
-
-/// Sizes of the coefficients of E for a distance, and their radii.
-fn coefficients<const D: usize>(equations: &Equations<D>, e: usize) -> [[f64; 5]; 2] {
-    if e == equations.bend.edge {
-        [equations.bend.e.map(f64::abs), equations.bend.e_radius]
-    } else {
-        let of = |c: &[Vector; 3]| [c[0][e].abs(), c[1][e].abs(), c[2][e].abs(), 0.0, 0.0];
-        [of(&equations.e), of(&equations.e_radius)]
     }
 }

@@ -52,9 +52,25 @@ impl<const D: usize> Derivative<'_, D> {
 
     /// `out += J K`.
     pub fn times<const W: usize>(&self, k: &[Row<W>], out: &mut [Row<W>]) {
-        for e in 0..self.slope.len() {
-            let row = self.row(e, k);
-            add(&mut out[e], 1.0, &row);
+        let m = self.slope.len();
+        let (ends, d) = (
+            self.ends.each_ref().map(|ends| &ends[..m]),
+            self.d.map(|d| &d[..m]),
+        );
+        let last = k[self.t];
+        for ((e, out), slope) in out[..m].iter_mut().enumerate().zip(self.slope) {
+            let mut sum = *out;
+            for axis in 0..D {
+                let [i, j] = ends[axis][e];
+                let (a, b, d) = (&k[i as usize], &k[j as usize], d[axis][e]);
+                for w in 0..W {
+                    for l in 0..LANE {
+                        sum[w][l] = d.mul_add(a[w][l] - b[w][l], sum[w][l]);
+                    }
+                }
+            }
+            add(&mut sum, -slope, &last);
+            *out = sum;
         }
     }
 

@@ -121,7 +121,7 @@ impl<const D: usize> ReducedTest<D> {
                     + along.from3[axis][e] * both(moved2, ends);
                 width += both(omega, ends).powi(2);
             }
-            width += along.time.curvature(equations, e) * (omega[t] * omega[t]);
+            width += along.curvature[e] * (omega[t] * omega[t]);
             sides.g[e] = [along.low[e], cubic, width, along.high[e]];
         }
         sides.g[t] = [0.0; LANE];
@@ -149,7 +149,7 @@ impl<const D: usize> ReducedTest<D> {
         if !(used < TOO_LONG && widest > 0.0) {
             return None;
         }
-        // |w_t| ≤ 1, see `Time::curvature`.
+        // |w_t| ≤ 1, see `Along::curvature`.
         place.scale = (0.5 * (1.0 - used) / widest).min(0.5 / omega[t]);
         Some(left)
     }
@@ -209,11 +209,11 @@ impl<const D: usize> ReducedTest<D> {
                 width += both * both;
                 turn += along.slopes[axis][e] * both;
             }
-            let curvature = along.time.curvature(equations, e);
-            let (slope_size, slope_radius) = along.time.slope(equations, e);
+            let curvature = along.curvature[e];
             width += curvature * (ut * ut);
             turn += curvature * along.time.speed * ut;
-            let constant = place.per_entry * (rounding + slope_size * ut) + slope_radius * ut;
+            let constant = place.per_entry * (rounding + along.slope_size[e] * ut)
+                + along.slope_radius[e] * ut;
             sides.g[e] = [constant, width, turn, 0.0];
         }
         sides.g[m] = [

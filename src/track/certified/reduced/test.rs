@@ -246,11 +246,11 @@ impl<const D: usize> ReducedTest<D> {
     }
 }
 
-/// How far a polynomial is of use: where its last coefficient becomes as large as its first, in floats.
+/// How far a polynomial is of use: where its last coefficients become as large as its first, in floats.
 /// The lengths of tubes are nearly in proportion.
 fn reach<const D: usize>(local: &Locals<D>) -> f64 {
     let size = |k: usize| local.z[k].iter().fold(0.0f64, |max, x| max.max(x.abs()));
-    (size(1) / size(ORDER))
-        .powf(1.0 / (ORDER as f64 - 1.0))
-        .clamp(1e-30, 1e30)
+    let first = size(1);
+    let of = |k: usize| (first / size(k)).powf(1.0 / (k as f64 - 1.0));
+    of(ORDER).min(of(ORDER - 1)).clamp(1e-30, 1e30)
 }
