@@ -12,14 +12,17 @@ use crate::track::full::{Equations, MAX_DEGREE};
 /// More roundings than any term of a coefficient of F along ẑ goes through: the differences and their
 /// sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
 const COEFFICIENT: usize = 100;
+/// The same for F(z₀): differences, their squares and sum (7), E of degree 4 (10).
+const POINT: usize = 20;
 
 /// Sizes over a tube of a length that was chosen last.
 #[derive(Debug)]
 pub struct Along<const D: usize> {
     /// 1, h, h², …
     pub powers: [f64; DEGREE + 1],
-    /// Σ_{k≥j} |d_k| hᵏ for j = 0, 2, 3, 4, 5, by axis and distance.
+    /// Σ_{k≥j} |d_k| hᵏ for j = 0, 1, 2, 3, 4, 5, by axis and distance.
     pub all: [Vector; D],
+    from1: [Vector; D],
     pub from2: [Vector; D],
     pub from3: [Vector; D],
     pub from4: [Vector; D],
@@ -30,6 +33,8 @@ pub struct Along<const D: usize> {
     /// and what does like s^COEFFICIENTS.
     pub low: Vector,
     pub high: Vector,
+    /// The derivative by s of what `low` bounds.
+    pub low_slope: Vector,
     /// What t does.
     pub time: Time,
     /// Bounds by distance on the terms of E'(t), on what the exact one may be off, and on the exact
@@ -49,6 +54,7 @@ impl<const D: usize> Along<D> {
         Along {
             powers: [1.0; DEGREE + 1],
             all: per_axis(),
+            from1: per_axis(),
             from2: per_axis(),
             from3: per_axis(),
             from4: per_axis(),
@@ -56,6 +62,7 @@ impl<const D: usize> Along<D> {
             slopes: per_axis(),
             low: equations.per_edge(),
             high: equations.per_edge(),
+            low_slope: equations.per_edge(),
             time: Time::default(),
             slope_size: equations.per_edge(),
             slope_radius: equations.per_edge(),
@@ -75,6 +82,7 @@ impl<const D: usize> Along<D> {
             let lanes = d[0].len();
             let d = d.map(|d| &d[..lanes]);
             let all = &mut self.all[axis].lanes_mut()[..lanes];
+            let from1 = &mut self.from1[axis].lanes_mut()[..lanes];
             let from2 = &mut self.from2[axis].lanes_mut()[..lanes];
             let from3 = &mut self.from3[axis].lanes_mut()[..lanes];
             let from4 = &mut self.from4[axis].lanes_mut()[..lanes];
@@ -91,7 +99,9 @@ impl<const D: usize> Along<D> {
                     from4[l][i] = four;
                     from3[l][i] = three;
                     from2[l][i] = two;
-                    all[l][i] = two + size(1) + size(0);
+                    let one = two + size(1);
+                    from1[l][i] = one;
+                    all[l][i] = one + size(0);
                     slopes[l][i] = (1..=ORDER).rev().fold(0.0, |sum: f64, k| {
                         (k as f64 * d[k][l][i].abs()).mul_add(hs[k - 1], sum)
                     });
@@ -105,6 +115,7 @@ impl<const D: usize> Along<D> {
         let hs = &self.powers;
         self.low.fill(0.0);
         self.high.fill(0.0);
+        self.low_slope.fill(0.0);
         for k in 0..=2 * ORDER {
             local.coefficient(equations, k, 0, &mut self.coefficient);
             let (sums, factor) = if k <= ORDER {
@@ -119,27 +130,58 @@ impl<const D: usize> Along<D> {
                     sum[i] = c[i].abs().mul_add(factor, sum[i]);
                 }
             }
+            if (1..=ORDER).contains(&k) {
+                let factor = k as f64 * hs[k - 1];
+                for (sum, c) in self.low_slope.lanes_mut().iter_mut().zip(coefficient) {
+                    for i in 0..LANE {
+                        sum[i] = c[i].abs().mul_add(factor, sum[i]);
+                    }
+                }
+            }
         }
         for k in 2 * ORDER + 1..=DEGREE {
             let excess = local.bend_excess(equations, k).abs();
             self.high[equations.bend.edge] += excess * hs[k] * (k as f64 / COEFFICIENTS as f64);
         }
-        let (t, rounding) = (self.time.t, gamma(COEFFICIENT));
+        let (t, at_point, rounding) = (self.time.t, gamma(POINT), gamma(COEFFICIENT));
         let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
-        let all = self.all.each_ref().map(|all| all.lanes());
-        for (l, low) in self.low.lanes_mut().iter_mut().enumerate() {
+        // Rounding in F(z₀) is at most γ(POINT) times ½ Σ d₀² + |E|(|t₀|). Rounding in the coefficient of
+        // sᵏ, k ≥ 1, is at most γ(COEFFICIENT) times that of hᵏ in Σ all² + |E|(T), with T(h) = Σ |t_k| hᵏ,
+        // and the radii's share that in E's radius at T. These are polynomials in h with coefficients
+        // ≥ 0: the derivative by s is bounded by that by h, and what they have without k = 0 by
+        // Σ (all − |d₀|)(all + |d₀|) and (T − |t₀|) |E|'(T).
+        let (t0, away) = (local.z[0][equations.m].abs(), self.time.away);
+        let [all, slopes] = [&self.all, &self.slopes].map(|v| v.each_ref().map(|v| v.lanes()));
+        let d0 = local.d[0].each_ref().map(|d| d.lanes());
+        let (sizes, radii) = (self.slope_size.lanes(), self.slope_radius.lanes());
+        let lows = self.low.lanes_mut().iter_mut();
+        for (l, (low, slope)) in lows.zip(self.low_slope.lanes_mut()).enumerate() {
             for i in 0..LANE {
-                let squares: f64 = (0..D).map(|axis| all[axis][l][i] * all[axis][l][i]).sum();
-                let size = e0[l][i].abs() + t * (e1[l][i].abs() + t * e2[l][i].abs());
+                let (mut at_0, mut beyond, mut turned) = (0.0, 0.0, 0.0);
+                for axis in 0..D {
+                    let (d, from1, all) = (
+                        d0[axis][l][i].abs(),
+                        self.from1[axis].lanes()[l][i],
+                        all[axis][l][i],
+                    );
+                    at_0 += 0.5 * (d * d);
+                    beyond += from1 * (all + d);
+                    turned += 2.0 * (all * slopes[axis][l][i]);
+                }
+                at_0 += e0[l][i].abs() + t0 * (e1[l][i].abs() + t0 * e2[l][i].abs());
+                beyond += away * sizes[l][i];
+                turned += sizes[l][i] * self.time.speed;
                 let radius = r0[l][i] + t * (r1[l][i] + t * r2[l][i]);
-                low[i] += rounding * (squares + size) + radius;
+                low[i] += at_point * at_0 + rounding * beyond + radius;
+                slope[i] += rounding * turned + radii[l][i] * self.time.speed;
             }
         }
         // Up to t² the bend's coefficients are among the others.
         let bend = &equations.bend;
-        let beyond = |c: [f64; 5]| t * t * t * (c[3] + t * c[4]);
-        self.low[bend.edge] += rounding * beyond(bend.e.map(f64::abs)) + beyond(bend.e_radius);
+        let beyond = |c: [f64; 5], t: f64| t * t * t * (c[3] + t * c[4]);
+        self.low[bend.edge] +=
+            at_point * beyond(bend.e.map(f64::abs), t0) + beyond(bend.e_radius, t);
     }
 
     /// Measures t, E' and E''.
@@ -192,8 +234,9 @@ impl<const D: usize> Along<D> {
 /// What t does along a tube.
 #[derive(Debug, Default)]
 pub struct Time {
-    /// A bound on |t|.
+    /// A bound on |t|, and on how far it is from t₀.
     t: f64,
+    away: f64,
     /// What orders above s^SIGNED add.
     tail: f64,
     /// A bound on |t'|.
@@ -205,6 +248,7 @@ impl Time {
         let sum = |from: usize| -> f64 { (from..=ORDER).map(|k| z[k].abs() * hs[k]).sum() };
         Time {
             t: z[0].abs() + sum(1),
+            away: sum(1),
             tail: sum(SIGNED + 1),
             speed: (1..=ORDER).map(|k| k as f64 * z[k].abs() * hs[k - 1]).sum(),
         }

@@ -2,7 +2,6 @@
 
 use crate::interval::rounding::{in_range, round_up};
 use crate::track::certified::norms::{Contraction, Proof, longest};
-use crate::track::full::MAX_DEGREE;
 
 /// Bounds in the norm |v|_ρ = max |v_i|/ρ_i of a box of size ρ, taken for |s| ≤ `h`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,6 +15,8 @@ pub struct Bounds {
     /// Of the operator at the middle: what does not get smaller, and what does like s^N.
     pub low: f64,
     pub high: f64,
+    /// Of the operator's derivative by s at the middle: what does not get smaller.
+    pub low_slope: f64,
     /// What |w|_ρ ≤ 1 adds to the right-hand side of the path's derivative.
     pub turn: f64,
     /// |ẑ'(s)|_ω, in the norm of the weights ω.
@@ -35,6 +36,7 @@ impl Bounds {
             self.width,
             self.low,
             self.high,
+            self.low_slope,
             self.turn,
             self.slope,
             self.h,
@@ -59,12 +61,11 @@ impl Bounds {
             nearer_q,
             distance,
         } = Contraction::new((contraction, self.width, defect), 1.0, self.radius)?;
-        // w' solves [J; c] w' = −[F(ẑ)' + (J(ẑ + w) − J(ẑ)) ẑ'; 0]. A power sᵏ of F gains a factor
-        // k/h: in `high` k/N is counted already; in `low`, k ≤ MAX_DEGREE (N − 1) and the bound was
-        // taken at H.
-        let low = (MAX_DEGREE * N) as f64 / self.h * self.low;
+        // w' solves [J; c] w' = −[F(ẑ)' + (J(ẑ + w) − J(ẑ)) ẑ'; 0]. The powers sᵏ of F that
+        // get smaller gain a factor k/h, of which `high` counts k/N already; the derivative of the rest
+        // was bounded by itself, as most of that is rounding in F(z₀), which has none.
         let high = N as f64 / h * (self.high * power);
-        let slope = (low + high + distance * self.turn) / (1.0 - nearer_q);
+        let slope = (self.low_slope + high + distance * self.turn) / (1.0 - nearer_q);
         let slope_distance = round_up(slope, 80);
         // Otherwise no tube after this one could be proved to go the same way.
         if slope_distance * self.normal > 0.5 {

@@ -1,6 +1,7 @@
 //! The bounds of the theorem in `test.rs` over a box that suits a given length, in two rounds: the
 //! first finds what the box has to be, the second what depends on it.
 
+use super::COEFFICIENTS;
 use super::along::Along;
 use super::bounds::Bounds;
 use super::elimination::MAX_KEYS;
@@ -10,7 +11,6 @@ use super::left_over;
 use super::passes::Row;
 use super::sides::{row_of, weigh};
 use super::test::ReducedTest;
-use super::{COEFFICIENTS, DEGREE};
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
 use crate::track::full::Equations;
@@ -194,7 +194,8 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// What depends on the whole box: of J T what does not get smaller with s, its change over the
-    /// box, and what the box adds to the right-hand side of the path's derivative.
+    /// box, what the box adds to the right-hand side of the path's derivative, and of F' what does not
+    /// get smaller.
     fn second_round<const W: usize>(&mut self, place: &Place<D, W>) {
         let (equations, layout, local) = (place.equations, place.layout, place.local);
         let (along, sides) = (&self.along, &mut self.sides);
@@ -214,7 +215,7 @@ impl<const D: usize> ReducedTest<D> {
             turn += curvature * along.time.speed * ut;
             let constant = place.per_entry * (rounding + along.slope_size[e] * ut)
                 + along.slope_radius[e] * ut;
-            sides.g[e] = [constant, width, turn, 0.0];
+            sides.g[e] = [constant, width, turn, along.low_slope[e]];
         }
         sides.g[m] = [
             place.per_entry * sum_of_sizes(&local.normal[..n], omega),
@@ -239,10 +240,11 @@ impl<const D: usize> ReducedTest<D> {
     fn add_second<const W: usize>(&self, place: &Place<D, W>, left: Row<W>, bounds: &mut Bounds) {
         let n = place.equations.n();
         let (rho, omega) = (&self.shape.rho, &self.shape.omega);
-        let mut add = |[constant, width, turn, _]: [f64; LANE], left: f64, rho: f64| {
+        let mut add = |[constant, width, turn, slope]: [f64; LANE], left: f64, rho: f64| {
             raise(&mut bounds.constant, place.up((constant + left) / rho));
             raise(&mut bounds.width, place.up(width / rho));
             raise(&mut bounds.turn, place.up(turn / rho));
+            raise(&mut bounds.low_slope, place.up(slope / rho));
         };
         place.each_of_a(|at, i| add(self.sides.a[at], 0.0, rho[i]));
         for (i, &key) in place.layout.keys.iter().enumerate() {
@@ -278,7 +280,7 @@ impl<const D: usize> ReducedTest<D> {
         let slope = place.local.y.k_slope.as_chunks::<W>().0;
         let mut turning = 0.0f64;
         place.each_of_a(|_, i| turning = largest(turning, weigh(&slope[i], &sizes) / rho[i]));
-        let residual = (DEGREE as f64 * bounds.low + COEFFICIENTS as f64 * bounds.high) / bounds.h;
+        let residual = bounds.low_slope + COEFFICIENTS as f64 * bounds.high / bounds.h;
         largest(
             along,
             along * (bounds.constant + bounds.cubic) + residual + turning,
