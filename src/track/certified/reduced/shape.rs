@@ -11,6 +11,9 @@ use crate::track::full::Equations;
 
 /// The box of A's unknowns is so much larger than what was found to be needed.
 const ROOM: f64 = 2.5;
+/// For what is left of F at a point the box has to be larger, as the defect may be an eighth of it at
+/// most where the rest is small (`Contraction`).
+const ROOM_FOR_ROUNDING: f64 = 10.0;
 /// And at least this part of what the key unknowns' own box takes along.
 const LEAST: f64 = 0.25;
 /// Unknowns that no key unknown takes along count as if one did, by this part of the most.
@@ -125,8 +128,10 @@ impl Shape {
             for c in 0..block.size {
                 let i = block.unknowns[c] as usize;
                 let [low, cubic, width, high] = sides.a[block.start + c];
-                let need = scale * (cubic + scale * width) + low + high;
-                self.rho_a[i] = ROOM * need + LEAST * scale * self.omega[i].max(still);
+                let need = scale * (cubic + scale * width) + high;
+                self.rho_a[i] = ROOM * need
+                    + ROOM_FOR_ROUNDING * low
+                    + LEAST * scale * self.omega[i].max(still);
                 self.rho[i] = self.rho_a[i];
             }
         }
