@@ -11,3 +11,5 @@ mod series;
 mod test;
 
 pub use test::{COEFFICIENTS, ReducedTest};
+#[cfg(test)]
+pub use {bounds::Bounds, layout::Block};

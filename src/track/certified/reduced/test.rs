@@ -719,6 +719,61 @@ impl<const D: usize> ReducedTest<D> {
         let b = &self.last;
         [b.constant, b.cubic, b.width, b.low, b.high, b.h]
     }
+
+    /// The bounds for |s| ≤ `h`, whether or not they prove anything, the series being made anew.
+    pub fn bounds_at(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tubes<D>,
+        h: f64,
+    ) -> Option<Bounds> {
+        let (width, series) = (tube.local.y.elimination.width, &mut self.series);
+        with_width!(width, series.make(equations, &mut tube.local));
+        let bounds = with_width!(width, self.bounds(equations, tube, h))?;
+        let n = equations.n();
+        tube.weights[..n].copy_from_slice(&self.omega[..n]);
+        Some(bounds)
+    }
+
+    /// What bounds Φ(0) row by row.
+    pub fn defect(&self) -> &Vector {
+        &self.defect
+    }
+
+    /// The weights of the unknowns, for what is proved next.
+    pub fn weights_mut(&mut self) -> &mut Vector {
+        &mut self.weights
+    }
+
+    /// How fast extents change in a box so many times as large as that of the last bounds.
+    pub fn speed_in(&self, tube: &Tubes<D>, factor: f64) -> f64 {
+        let (y, b) = (&tube.local.y, &self.last);
+        let rho: Vec<f64> = y.rho.iter().map(|rho| factor * rho).collect();
+        let bounds = Bounds {
+            low: b.low / factor,
+            high: b.high / factor,
+            ..*b
+        };
+        let slope_of = |i: usize| {
+            let term = |k: usize| k as f64 * tube.local.z[k][i].abs() * b.h.powi(k as i32 - 1);
+            (1..=ORDER).map(term).sum::<f64>()
+        };
+        fn of<const D: usize, const W: usize>(
+            y: &Reduction<D>,
+            (rho, bounds): (&[f64], &Bounds),
+            slope_of: impl Fn(usize) -> f64,
+        ) -> f64 {
+            speed_of::<D, W>(y, rho, &y.elimination.layout, bounds, slope_of)
+        }
+        let at = (&rho[..], &bounds);
+        let speed = match y.elimination.width {
+            1 => of::<D, 1>(y, at, slope_of),
+            2 => of::<D, 2>(y, at, slope_of),
+            4 => of::<D, 4>(y, at, slope_of),
+            _ => of::<D, 8>(y, at, slope_of),
+        };
+        round_up(speed, y.resolvent.roundings() + 1000)
+    }
 }
 
 impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
