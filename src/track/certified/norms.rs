@@ -75,7 +75,7 @@ impl Norms {
 
     /// The contraction without the width, the factor of the width, and the defect, at `h`.
     /// Sums of fewer than 60 roundings, covered by the factor.
-    fn at(&self, h: f64) -> (f64, f64, f64) {
+    pub(super) fn at(&self, h: f64) -> (f64, f64, f64) {
         let moving = 1.0 + h * self.a;
         let x = h / self.h;
         let x3 = x * x * x;
@@ -101,7 +101,7 @@ impl Norms {
         longest(self.h, 0.5, |h| self.proof(h, weight_of_t))
     }
 
-    fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
+    pub(super) fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
         let (contraction, width, defect) = self.at(h);
         let Contraction {
             r,

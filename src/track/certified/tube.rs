@@ -377,6 +377,17 @@ impl<const D: usize> KrawczykTest<D> {
         &self.u
     }
 
+    /// The bounds for |s| ≤ `max_h` at most, whether or not they prove anything.
+    pub(super) fn norms_at(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        weights: &Vector,
+        max_h: f64,
+    ) -> Option<Norms> {
+        self.norms(equations, local, weights, max_h)
+    }
+
     /// A of the last proof.
     pub(super) fn moving_matrix(&self) -> &Matrix {
         &self.a

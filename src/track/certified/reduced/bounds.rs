@@ -50,7 +50,7 @@ impl Bounds {
         longest(self.h, 0.7, |h| self.proof::<N>(h))
     }
 
-    fn proof<const N: usize>(&self, h: f64) -> Option<Proof> {
+    pub fn proof<const N: usize>(&self, h: f64) -> Option<Proof> {
         let x = h / self.h;
         let contraction = round_up(self.constant + self.cubic * (x * x * x), 20);
         let power = x.powi(N as i32);

@@ -92,15 +92,24 @@ impl<const D: usize> ReducedTest<D> {
         tube: &mut Tubes<D>,
         knot: &mut Tubes<D>,
     ) -> Option<()> {
-        let n = equations.n();
-        let (h, last) = (tube.proof.h, tube.exit_at);
-        let at = last - BEFORE * h;
+        let at = tube.exit_at - BEFORE * tube.proof.h;
         tube.local.at(at, &mut knot.local.z[0]);
         knot.local.normal.copy_from_slice(&tube.local.normal);
         self.refine(equations, &mut knot.local, POINT_TOLERANCE)
             .and_then(|()| self.expand(equations, &mut knot.local))
             .ok()?;
-        if !self.prove(equations, knot, SHORT * h) {
+        self.tie_to(equations, tube, knot)
+    }
+
+    /// The same with what is known of the path a little before the exit given: any numbers will do.
+    pub(in crate::track::certified) fn tie_to(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tubes<D>,
+        knot: &mut Tubes<D>,
+    ) -> Option<()> {
+        let (n, last) = (equations.n(), tube.exit_at);
+        if !self.prove(equations, knot, SHORT * tube.proof.h) {
             return None;
         }
         // |v| ≤ |Φ(0)| + |Φ'| |v|, row by row, with |Φ'|_ρ as it is within the distance that was proved.
@@ -163,5 +172,20 @@ impl<const D: usize> ReducedTest<D> {
         let radius = round_up(widest, Sides::roundings(y, m) + 30) / (1.0 - q);
         let radius = round_up(radius, 4);
         radius.is_finite().then_some(radius)
+    }
+}
+
+#[cfg(test)]
+impl<const D: usize> ReducedTest<D> {
+    /// The bound on |𝒴 g|_ρ / (1 − q) for this `g`.
+    pub fn radius_for(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &Tubes<D>,
+        g: &[f64],
+    ) -> Option<f64> {
+        self.f[..g.len()].copy_from_slice(g);
+        self.hidden.fill(0.0);
+        self.radius_from_defect(equations, &tube.local.y, tube.proof.q)
     }
 }

@@ -14,11 +14,14 @@ mod rounds;
 mod series;
 mod shape;
 mod sides;
+mod speed;
 mod test;
 
 use crate::track::full::MAX_DEGREE;
 
 pub use test::ReducedTest;
+#[cfg(test)]
+pub use {bounds::Bounds, layout::Block};
 
 /// The tubes' polynomials have so many coefficients.
 pub const COEFFICIENTS: usize = 9;

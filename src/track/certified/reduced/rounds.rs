@@ -1,7 +1,6 @@
 //! The bounds of the theorem in `test.rs` over a box that suits a given length, in two rounds: the
 //! first finds what the box has to be, the second what depends on it.
 
-use super::COEFFICIENTS;
 use super::along::Along;
 use super::bounds::Bounds;
 use super::elimination::MAX_KEYS;
@@ -9,7 +8,8 @@ use super::frame::{Locals, Reduction, Tubes};
 use super::layout::Layout;
 use super::left_over;
 use super::passes::Row;
-use super::sides::{row_of, weigh};
+use super::sides::weigh;
+use super::speed::speed;
 use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
@@ -88,7 +88,13 @@ impl<const D: usize> ReducedTest<D> {
         let left = self.add_first(&place, left, &mut bounds);
         self.second_round(&place);
         self.add_second(&place, left, &mut bounds);
-        let speed = place.up(self.speed(&place, &bounds));
+        let slope_of = |i: usize| self.along.slope_of(place.local, i);
+        let speed = place.up(speed::<D, W>(
+            &place.local.y,
+            &self.shape.rho,
+            &bounds,
+            slope_of,
+        ));
         let width: [f64; MAX_KEYS] = self.sides.keys.map(|[_, width, ..]| width);
         self.shape
             .set_next_weights(&layout, kappa.as_flattened(), &width[..layout.keys()]);
@@ -261,30 +267,6 @@ impl<const D: usize> ReducedTest<D> {
         bounds.normal = sum_of_sizes(&place.local.normal[..n], omega);
         let top = omega[..n].iter().fold(0.0, |max: f64, &u| max.max(u));
         bounds.radius = self.radius / top;
-    }
-
-    /// How fast v = T(s)⁻¹ (z − ẑ(s)) changes with s for a fixed point z in the box, in the norm |·|_ρ.
-    ///
-    /// v_K' = −ẑ_K'. As A (K ẑ_K' − ẑ_A') = E ẑ_K' − F_A(ẑ)', v_A' = A⁻¹ (E ẑ_K' − F_A(ẑ)') − K' v_K; and
-    /// |A⁻¹ E| ρ_K and |A⁻¹ F_A(ẑ)'| are among the things that the bounds bound.
-    fn speed<const W: usize>(&self, place: &Place<D, W>, bounds: &Bounds) -> f64 {
-        let rho = &self.shape.rho;
-        let mut sizes = [0.0; MAX_KEYS];
-        let mut along = 0.0f64;
-        for (i, &key) in place.layout.keys.iter().enumerate() {
-            let slope = self.along.slope_of(place.local, key as usize);
-            sizes[i] = rho[key as usize];
-            along = largest(along, slope / sizes[i]);
-        }
-        let sizes: Row<W> = row_of(&sizes);
-        let slope = place.local.y.k_slope.as_chunks::<W>().0;
-        let mut turning = 0.0f64;
-        place.each_of_a(|_, i| turning = largest(turning, weigh(&slope[i], &sizes) / rho[i]));
-        let residual = bounds.low_slope + COEFFICIENTS as f64 * bounds.high / bounds.h;
-        largest(
-            along,
-            along * (bounds.constant + bounds.cubic) + residual + turning,
-        )
     }
 }
 

@@ -47,6 +47,8 @@ use crate::track::certified::tracker::Test;
 use crate::track::full::{Equations, Lengths, RefineError};
 use crate::track::{Driving, Options, Space};
 use std::sync::Arc;
+#[cfg(test)]
+use {super::speed::speed, crate::interval::rounding::round_up};
 
 /// Bounds are taken for a tube so much longer than the last one, if its polynomial reaches as far,
 const GROWTH: f64 = 1.25;
@@ -243,6 +245,50 @@ impl<const D: usize> ReducedTest<D> {
     pub fn stated(&self) -> [f64; 6] {
         let b = &self.last;
         [b.constant, b.cubic, b.width, b.low, b.high, b.h]
+    }
+
+    /// The bounds for |s| ≤ `h`, whether or not they prove anything, the series being made anew.
+    pub fn bounds_at(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tubes<D>,
+        h: f64,
+    ) -> Option<Bounds> {
+        let (width, series) = (tube.local.y.elimination.width, &mut self.series);
+        with_width!(width, series.make(equations, &mut tube.local));
+        let bounds = with_width!(width, self.bounds(equations, tube, h))?;
+        let n = equations.n();
+        tube.weights[..n].copy_from_slice(&self.shape.omega[..n]);
+        Some(bounds)
+    }
+
+    /// What bounds Φ(0) row by row.
+    pub fn defect(&self) -> &Vector {
+        &self.defect
+    }
+
+    /// The weights of the unknowns, for what is proved next.
+    pub fn weights_mut(&mut self) -> &mut Vector {
+        &mut self.shape.weights
+    }
+
+    /// How fast extents change in a box so many times as large as that of the last bounds.
+    pub fn speed_in(&self, tube: &Tubes<D>, factor: f64) -> f64 {
+        let (y, b) = (&tube.local.y, &self.last);
+        let rho: Vec<f64> = y.rho.iter().map(|rho| factor * rho).collect();
+        let bounds = Bounds {
+            low_slope: b.low_slope / factor,
+            high: b.high / factor,
+            ..*b
+        };
+        let slope_of = |i: usize| self.along.slope_of(&tube.local, i);
+        let speed = match y.elimination.width {
+            1 => speed::<D, 1>(y, &rho, &bounds, slope_of),
+            2 => speed::<D, 2>(y, &rho, &bounds, slope_of),
+            4 => speed::<D, 4>(y, &rho, &bounds, slope_of),
+            _ => speed::<D, 8>(y, &rho, &bounds, slope_of),
+        };
+        round_up(speed, y.resolvent.roundings() + 1000)
     }
 }
 

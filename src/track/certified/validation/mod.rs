@@ -7,6 +7,7 @@ mod components;
 mod crossings;
 mod faults;
 mod known_paths;
+mod precise;
 mod reduced;
 mod reruns;
 mod sabotage;

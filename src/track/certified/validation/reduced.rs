@@ -10,12 +10,12 @@ use crate::linalg::LANE;
 use crate::track::full::Local;
 use crate::track::{Options, Space};
 
-type ReducedFrame<const D: usize> = <ReducedTest<D> as Test<D, COEFFICIENTS>>::Frame;
-type ReducedTube<const D: usize> = Tube<D, COEFFICIENTS, ReducedFrame<D>>;
+pub type ReducedFrame<const D: usize> = <ReducedTest<D> as Test<D, COEFFICIENTS>>::Frame;
+pub type ReducedTube<const D: usize> = Tube<D, COEFFICIENTS, ReducedFrame<D>>;
 
 /// The bounds that a proof was made of.
 #[derive(Debug, Clone, Copy)]
-struct Stated {
+pub struct Stated {
     constant: f64,
     cubic: f64,
     width: f64,
@@ -24,8 +24,8 @@ struct Stated {
     h: f64,
 }
 
-struct Proved<const D: usize> {
-    tube: ReducedTube<D>,
+pub struct Proved<const D: usize> {
+    pub tube: ReducedTube<D>,
     stated: Stated,
 }
 
@@ -73,13 +73,13 @@ impl<const D: usize> Proved<D> {
         )
     }
 
-    fn keys(&self) -> Vec<usize> {
+    pub fn keys(&self) -> Vec<usize> {
         let layout = &self.tube.local.y.elimination.layout;
         layout.keys.iter().map(|&k| k as usize).collect()
     }
 
     /// A's unknowns and A's rows, in their order.
-    fn inner(&self) -> (Vec<usize>, Vec<usize>) {
+    pub fn inner(&self) -> (Vec<usize>, Vec<usize>) {
         let blocks = || self.tube.local.y.elimination.layout.blocks.iter();
         (
             blocks()
@@ -235,15 +235,15 @@ fn solved(a: &Rows, g: &Rows) -> Option<Rows> {
     Some(out)
 }
 
-struct Shop<const D: usize> {
-    equations: Equations<D>,
+pub struct Shop<const D: usize> {
+    pub equations: Equations<D>,
     inverter: InverseMaker,
-    test: ReducedTest<D>,
+    pub test: ReducedTest<D>,
     max_h: f64,
 }
 
 impl<const D: usize> Shop<D> {
-    fn new(homotopy: &Homotopy, alpha: f64, max_h: f64) -> Self {
+    pub fn new(homotopy: &Homotopy, alpha: f64, max_h: f64) -> Self {
         let equations = Equations::<D>::new(homotopy);
         let options = Options {
             space: Space::Reduced,
@@ -258,7 +258,7 @@ impl<const D: usize> Shop<D> {
         }
     }
 
-    fn tube(&mut self, z: &[f64], normal: &[f64], first: bool) -> Option<Proved<D>> {
+    pub fn tube(&mut self, z: &[f64], normal: &[f64], first: bool) -> Option<Proved<D>> {
         let n = self.equations.n();
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
@@ -288,7 +288,7 @@ impl<const D: usize> Shop<D> {
     }
 
     /// Linked tubes from the sketch on, at most `count`.
-    fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved<D>> {
+    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved<D>> {
         let mut local = Local::<D>::new(&self.equations);
         for (i, &place) in homotopy.gauge.place.iter().enumerate() {
             local.z[0][i] = homotopy.sketch[place];

@@ -1,0 +1,416 @@
+//! Bounds of the full space: along certified runs, and with numbers changed on purpose.
+
+use super::big::{exact, horner, horner_slope};
+use super::moved::lengthen;
+use super::reduced::{check_time, within};
+use super::*;
+use crate::generate::Family;
+use crate::interval::rounding::round_up;
+use crate::track::certified::link::Ball;
+use crate::track::certified::norms::Norms;
+
+/// Ỹ(s) of `tube.rs`, its matrices taken for exact.
+fn preconditioner<const D: usize>(sample: &Sample<D>, s: &Big) -> Rows {
+    let n = sample.a.rows();
+    let entries = |matrix: &Matrix| -> Rows {
+        let row = |i| (0..n).map(|j| Big::of(matrix.get(i, j))).collect();
+        (0..n).map(row).collect()
+    };
+    let y = entries(&sample.tube.local.y);
+    let moved = times(&entries(&sample.a), &y);
+    let row = |(y, moved): (&Vec<Big>, &Vec<Big>)| {
+        y.iter().zip(moved).map(|(y, x)| y - &(x * s)).collect()
+    };
+    y.iter().zip(&moved).map(row).collect()
+}
+
+fn times(a: &Rows, b: &Rows) -> Rows {
+    let row = |a: &Vec<Big>| {
+        let mut sums = vec![Big::of(0.0); b[0].len()];
+        for (x, row) in a.iter().zip(b) {
+            for (sum, y) in sums.iter_mut().zip(row) {
+                if *y != Big::of(0.0) {
+                    *sum += x * y;
+                }
+            }
+        }
+        sums
+    };
+    a.iter().map(row).collect()
+}
+
+fn at<const D: usize>(sample: &Sample<D>, s: &Big) -> (Vec<Big>, Vec<Big>) {
+    let of = |i: usize| std::array::from_fn::<f64, { ORDER + 1 }, _>(|k| sample.tube.local.z[k][i]);
+    let n = sample.a.rows();
+    (
+        (0..n).map(|i| horner(&of(i), s)).collect(),
+        (0..n).map(|i| horner_slope(&of(i), s)).collect(),
+    )
+}
+
+/// |v|_u.
+fn norm(u: &[f64], v: &[Big]) -> Big {
+    v.iter()
+        .zip(u)
+        .map(|(v, &u)| v.abs() / Big::of(u))
+        .fold(Big::of(0.0), Big::max)
+}
+
+/// |M|_u.
+fn norm_of(u: &[f64], m: &Rows) -> Big {
+    let weights = exact(&u[..m.len()]);
+    let row = |(i, row): (usize, &Vec<Big>)| {
+        let sizes: Vec<Big> = row.iter().map(Big::abs).collect();
+        dot(&sizes, &weights) / &weights[i]
+    };
+    m.iter().enumerate().map(row).fold(Big::of(0.0), Big::max)
+}
+
+/// M(s, w) = I − Ỹ(s) DG_s(w).
+fn contraction<const D: usize>(
+    figure: &Figure,
+    sample: &Sample<D>,
+    (y, s): (&Rows, &Big),
+    w: &[Big],
+) -> Rows {
+    let z: Vec<Big> = at(sample, s).0.iter().zip(w).map(|(z, w)| z + w).collect();
+    let mut out = times(y, &figure.bordered(&z, sample.normal()));
+    for (i, row) in out.iter_mut().enumerate() {
+        for (j, x) in row.iter_mut().enumerate() {
+            *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
+        }
+    }
+    out
+}
+
+fn in_box(random: &mut Random, u: &[f64], size: f64) -> Vec<Big> {
+    let corner = random.below(2) == 0;
+    u.iter()
+        .map(|&u| {
+            let part = if corner { 1.0 } else { random.unit() };
+            Big::of(random.sign() * part * size) * Big::of(u)
+        })
+        .collect()
+}
+
+/// What `Norms` states, at one s.
+fn check_norms<const D: usize>(
+    figure: &Figure,
+    (sample, norms): (&Sample<D>, &Norms),
+    random: &mut Random,
+    ratios: &mut Ratios,
+) {
+    let n = figure.n;
+    let u = &sample.tube.weights[..n];
+    let h = norms.h * [1.0, 1.0, 0.5, 0.1, 1e-3][random.below(5)];
+    let (stays, width, defect) = norms.at(h);
+    let s = Big::of(parameter(random, h));
+    let y = preconditioner(sample, &s);
+    let middle = contraction(figure, sample, (&y, &s), &vec![Big::of(0.0); n]);
+    ratios.check("|M(s, 0)|", &norm_of(u, &middle), stays);
+    let size = 0.5 / u[n - 1] * 10f64.powf(random.between(-3.0, 0.0));
+    let w = in_box(random, u, size);
+    let there = contraction(figure, sample, (&y, &s), &w);
+    let change: Rows = (0..n)
+        .map(|i| (0..n).map(|j| &there[i][j] - &middle[i][j]).collect())
+        .collect();
+    ratios.check(
+        "|M(s, w) − M(s, 0)|",
+        &norm_of(u, &change),
+        round_up(width * size, 1),
+    );
+    let (z, slope) = at(sample, &s);
+    let mut f = figure.residual(&z);
+    f.push(Big::of(0.0));
+    let step: Vec<Big> = y.iter().map(|row| dot(row, &f)).collect();
+    ratios.check("|Ỹ F(ẑ)|", &norm(u, &step), defect);
+    ratios.check("|ẑ'|", &norm(u, &slope), norms.slope);
+    ratios.check("|ẑ_t'|", &slope[n - 1].abs(), norms.slope_of_t);
+    let c: Vec<Big> = exact(&sample.normal()[..n]).iter().map(Big::abs).collect();
+    ratios.check("|c|", &dot(&c, &exact(u)), round_up(norms.normal, n + 2));
+}
+
+/// What a proof says of the path: its point, its direction, its t, where it is found.
+fn check_path<const D: usize>(
+    figure: &Figure,
+    sample: &Sample<D>,
+    random: &mut Random,
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let (n, tube) = (figure.n, &sample.tube);
+    let (proof, u, c) = (&tube.proof, &tube.weights[..n], &sample.normal()[..n]);
+    let place = parameter(random, proof.h);
+    let s = Big::of(place);
+    let (through, slope) = at(sample, &s);
+    let (z, tangent) = figure.point_near(&through, c)?;
+    let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
+    ratios.check("distance", &norm(u, &away), proof.distance);
+    let advance = dot(&exact(c), &slope);
+    let turned: Vec<Big> = (0..n).map(|i| &tangent[i] * &advance - &slope[i]).collect();
+    ratios.check("slope_distance", &norm(u, &turned), proof.slope_distance);
+    let rate = &tangent[n - 1] * &advance;
+    check_time(
+        &tube.time(),
+        (place, proof.h),
+        (&z[n - 1], &rate),
+        random,
+        ratios,
+    );
+    let w = in_box(random, u, proof.r);
+    let y = preconditioner(sample, &s);
+    ratios.check(
+        "q",
+        &norm_of(u, &contraction(figure, sample, (&y, &s), &w)),
+        proof.q,
+    );
+    let mut ball = Ball {
+        centre: tube.exit.centre.clone(),
+        radius: tube.exit.radius.clone(),
+    };
+    for i in 0..n {
+        ball.centre[i] = z[i].to_f64();
+        ball.radius[i] = (&z[i] - &Big::of(z[i].to_f64())).abs().to_f64().next_up();
+    }
+    if let Some(between) = tube.locate(&ball) {
+        within("its own parameter", &s, between, ratios);
+    }
+    Some(())
+}
+
+/// The exit's box, also as tight as it gets, with the tangent; and the next tube's entry.
+fn check_exit<const D: usize>(
+    workshop: &mut Workshop<D>,
+    figure: &Figure,
+    (sample, next): (&Sample<D>, Option<&Sample<D>>),
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let (n, c) = (figure.n, sample.normal());
+    let (through, _) = at(sample, &Big::of(sample.tube.exit_at));
+    let (z, x) = figure.point_near(&through, c)?;
+    let mut tight = sample.tube.clone();
+    workshop
+        .test
+        .tighten_exit(&workshop.equations, &mut tight)?;
+    for i in 0..n {
+        let away = |centre: f64| (&z[i] - &Big::of(centre)).abs();
+        let (exit, tight_exit) = (&sample.tube.exit, &tight.exit);
+        ratios.check("exit", &away(exit.centre[i]), exit.radius[i]);
+        ratios.check(
+            "tight exit",
+            &away(tight_exit.centre[i]),
+            tight_exit.radius[i],
+        );
+        let turned = (&x[i] - &Big::of(tight.exit_slope[i])).abs();
+        let bound = round_up(tight.exit_slope_radius * tight.weights[i], 1);
+        ratios.check("tight tangent", &turned, bound);
+    }
+    if let Some(next) = next {
+        let normal = exact(&next.normal()[..n]);
+        let g = |s: f64| {
+            let (there, _) = at(next, &Big::of(s));
+            let away: Vec<Big> = z.iter().zip(&there).map(|(z, x)| z - x).collect();
+            dot(&normal, &away)
+        };
+        let (lo, hi) = next.tube.entry;
+        assert!(
+            g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0),
+            "the entry is not in [{lo}, {hi}]"
+        );
+        assert!(
+            dot(&normal, &x) > Big::of(0.0),
+            "the next tube is followed backwards"
+        );
+    }
+    Some(())
+}
+
+/// The numbers of a tube changed in some way: ẑ's coefficients, one of them, or Y's entries.
+fn changed<const D: usize>(
+    sample: &Sample<D>,
+    kind: usize,
+    equations: &Equations<D>,
+    random: &mut Random,
+) -> Sample<D> {
+    let (n, mut tube) = (sample.a.rows(), sample.tube.clone());
+    let size = 10f64.powf(random.between(-9.0, -2.0));
+    let local = &mut tube.local;
+    match kind {
+        1 => {
+            for x in local.z[1..].iter_mut().flat_map(|z| z[..n].iter_mut()) {
+                *x *= 1.0 + size * random.between(-1.0, 1.0);
+            }
+        }
+        2 => local.z[1 + random.below(ORDER)][random.below(n)] += random.sign() * size,
+        3 => {
+            for i in 0..n {
+                for j in 0..n {
+                    let x = local.y.get(i, j) * (1.0 + size * random.between(-1.0, 1.0));
+                    local.y.set(i, j, x);
+                }
+            }
+        }
+        _ => {}
+    }
+    settle(equations, local);
+    Sample {
+        tube,
+        a: sample.a.clone(),
+    }
+}
+
+fn check_problem<const D: usize>(
+    problem: &Problem,
+    (tubes, rounds): (usize, usize),
+    random: &mut Random,
+    ratios: &mut [Ratios; 5],
+) {
+    let homotopy = Homotopy::new(problem).expect("a gauge");
+    let true_figure = Figure::new(problem, &homotopy);
+    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    let chain = workshop.chain(&homotopy, 400);
+    assert!(!chain.is_empty(), "{}", problem.name);
+    let stride = (chain.len() / tubes).max(1);
+    for k in (0..chain.len()).step_by(stride) {
+        let exits = (&chain[k], chain.get(k + 1));
+        check_exit(&mut workshop, &true_figure, exits, &mut ratios[0]).expect("a regular point");
+        for _ in 0..rounds {
+            check_path(&true_figure, &chain[k], random, &mut ratios[0]).expect("a regular point");
+        }
+        // The same with numbers changed, and lengths of large radii.
+        for (kind, ratios) in ratios.iter_mut().enumerate() {
+            let mut sample = changed(&chain[k], kind, &workshop.equations, random);
+            let kept = workshop.equations.clone();
+            let other = (kind == 4).then(|| {
+                let size = 10f64.powf(random.between(-12.0, -4.0));
+                lengthen(&mut workshop.equations, &homotopy, size, random)
+            });
+            let figure = other.as_ref().unwrap_or(&true_figure);
+            let h = sample.tube.proof.h * [1.0, 0.1, 1e-3, 1e-5][random.below(4)];
+            let (equations, tube) = (&workshop.equations, &sample.tube);
+            let norms = workshop
+                .test
+                .norms_at(equations, &tube.local, &tube.weights, h);
+            sample.a = workshop.test.moving_matrix().clone();
+            if let Some(norms) = norms {
+                for _ in 0..rounds {
+                    check_norms(figure, (&sample, &norms), random, ratios);
+                }
+                for part in [1.0, 0.5, 0.2] {
+                    let weight = sample.tube.weights[figure.m];
+                    if let Some(proof) = norms.proof(part * norms.h, weight) {
+                        sample.tube.proof = proof;
+                        check_path(figure, &sample, random, ratios).expect("a regular point");
+                    }
+                }
+            }
+            workshop.equations = kept;
+        }
+    }
+}
+
+fn check_all(names: &[&str], generated: &[Problem], counts: (usize, usize), seed: u64) {
+    let (mut ratios, mut random) = (<[Ratios; 5]>::default(), Random::new(seed));
+    for problem in problems(names).iter().chain(generated) {
+        let counts = (effort(counts.0), counts.1);
+        match problem.dimension {
+            2 => check_problem::<2>(problem, counts, &mut random, &mut ratios),
+            _ => check_problem::<3>(problem, counts, &mut random, &mut ratios),
+        }
+    }
+    let kinds = ["as they are", "path", "one coefficient", "Y", "lengths"];
+    for (kind, ratios) in kinds.iter().zip(&ratios) {
+        print!("{kind}: ");
+        ratios.come_near(&[("|M(s, 0)|", 0.3), ("|Ỹ F(ẑ)|", 0.2), ("distance", 0.1)]);
+    }
+}
+
+/// Few rows and short tubes: what rounding adds is not hidden among other terms.
+#[test]
+fn full_bounds_dominate_exact_values_of_small_problems() {
+    let mut random = Random::new(44);
+    let list: Vec<Problem> = (0..24)
+        .map(|round| {
+            let dimension = 2 + round % 2;
+            let points = dimension + random.below(3);
+            random_problem(&mut random, dimension, points, 0.3)
+        })
+        .collect();
+    check_all(&[], &list, (4, 2), 45);
+}
+
+/// See the test of the same name in the reduced space: t moves alone, with the highest order that ẑ
+/// has, where E' vanishes.
+#[test]
+fn the_bend_counts_to_its_last_order_in_the_full_space() {
+    let (problem, mut ratios) = (triangle(), Ratios::default());
+    let homotopy = Homotopy::new(&problem).expect("a gauge");
+    let figure = Figure::new(&problem, &homotopy);
+    let mut workshop = Workshop::<2>::new(&homotopy, 1.0);
+    let (n, m) = (figure.n, figure.m);
+    let mut tube = Tube::new(&workshop.equations);
+    for (i, &place) in homotopy.gauge.place.iter().enumerate() {
+        tube.local.z[0][i] = homotopy.sketch[place];
+    }
+    tube.local.normal[m] = 1.0;
+    for step in 0..=50 {
+        tube.local.z[0][m] = 0.01 * f64::from(step);
+        tube.local
+            .refine(&workshop.equations, &mut workshop.inverter, 1e-9, 8)
+            .expect("a figure");
+    }
+    for z in &mut tube.local.z[1..] {
+        z[..n].fill(0.0);
+    }
+    tube.local.z[ORDER][m] = 2.0;
+    settle(&workshop.equations, &mut tube.local);
+    tube.weights[..n].fill(1.0);
+    tube.weights[m] = 1e-5;
+    let (equations, local) = (&workshop.equations, &tube.local);
+    let norms = workshop
+        .test
+        .norms_at(equations, local, &tube.weights, 1.0)
+        .expect("bounds");
+    assert_eq!(norms.h, 1.0);
+    let a = workshop.test.moving_matrix().clone();
+    let (sample, mut random) = (Sample { tube, a }, Random::new(46));
+    for _ in 0..40 {
+        check_norms(&figure, (&sample, &norms), &mut random, &mut ratios);
+    }
+    ratios.come_near(&[("|Ỹ F(ẑ)|", 0.15)]);
+}
+
+#[test]
+fn full_bounds_dominate_exact_values() {
+    check_all(
+        &[
+            "octahedron",
+            "disulfide",
+            "k33",
+            "prism",
+            "icosahedron-c1",
+            "dodecagon",
+        ],
+        &[generated(Family::Strip, 31)],
+        (3, 2),
+        41,
+    );
+}
+
+#[test]
+fn full_bounds_dominate_exact_values_near_singular_places() {
+    check_all(
+        &[
+            "hard/flaps-apart-3",
+            "hard/graze-4",
+            "hard/fold-5",
+            "hard/crowd-2",
+            "hard/sliver-3",
+            "hard/lengths-1",
+            "hard/tents-split-4",
+            "hard/triple-2",
+        ],
+        &[],
+        (5, 2),
+        42,
+    );
+}

@@ -1,0 +1,171 @@
+//! Exits that are enclosed again by a very short tube (`reduced/exit.rs`, `tie`): what once went wrong
+//! there, and what its box rests on.
+
+use super::super::reduced::{Proved, Shop};
+use super::reduced::check_tied;
+use super::*;
+use crate::track::certified::tracker::Test;
+
+fn chain_of(name: &str, count: usize) -> (Figure, Shop<3>, Vec<Proved<3>>) {
+    let problem = &problems(&[name])[0];
+    let homotopy = Homotopy::new(problem).expect("a gauge");
+    let mut shop = Shop::<3>::new(&homotopy, 0.1, f64::INFINITY);
+    let chain = shop.chain(&homotopy, count);
+    assert_eq!(chain.len(), count);
+    (Figure::new(problem, &homotopy), shop, chain)
+}
+
+/// The exit of the one is that of the other, to the last bit.
+fn is_untouched(a: &Proved<3>, b: &super::super::reduced::ReducedTube<3>) -> bool {
+    a.tube.exit.centre[..] == b.exit.centre[..]
+        && a.tube.exit.radius[..] == b.exit.radius[..]
+        && a.tube.exit_between == b.exit_between
+        && a.tube.exit_slope[..] == b.exit_slope[..]
+        && !b.exit_is_tight
+}
+
+#[test]
+fn a_tie_that_fails_leaves_the_exit_as_it_was_proved() {
+    let (_, mut shop, chain) = chain_of("octahedron", 30);
+    for sample in &chain {
+        let mut tube = sample.tube.clone();
+        // No point can be proved to lie in a box without any room.
+        tube.proof.r = 0.0;
+        assert!(shop.test.tighten_exit(&shop.equations, &mut tube).is_none());
+        assert!(
+            is_untouched(sample, &tube),
+            "the ball of a knot that was not proved to be on the path"
+        );
+    }
+}
+
+#[test]
+fn a_tie_is_not_made_before_the_entry() {
+    let (_, mut shop, chain) = chain_of("octahedron", 30);
+    let mut tied = 0;
+    for sample in &chain {
+        let mut tube = sample.tube.clone();
+        let usual = shop.test.tighten_exit(&shop.equations, &mut tube);
+        if usual.is_none() {
+            continue;
+        }
+        tied += 1;
+        // The knot is 1e-5 h before the exit: an entry nearer to the exit than that is not gone behind.
+        let mut late = sample.tube.clone();
+        let entry = late.exit_at - 1e-7 * late.proof.h;
+        late.entry = (entry, entry.next_up());
+        assert!(shop.test.tighten_exit(&shop.equations, &mut late).is_none());
+        late.entry = sample.tube.entry;
+        assert!(is_untouched(sample, &late));
+    }
+    assert!(
+        tied > 20,
+        "{tied} of {} exits were tied at all",
+        chain.len()
+    );
+}
+
+/// The exit, its parameter and its tangent where one test has tied other tubes since and before.
+#[test]
+fn a_tie_expands_the_path_at_its_own_point() {
+    let (figure, mut shop, chain) = chain_of("icosahedron-c1", 40);
+    let (mut ratios, mut random) = (Ratios::default(), Random::new(36));
+    for _ in 0..40 {
+        let sample = &chain[random.below(chain.len())];
+        let mut tube = sample.tube.clone();
+        if shop.test.tighten_exit(&shop.equations, &mut tube).is_some() {
+            check_tied(&figure, &sample.tube, &tube, &mut ratios).expect("a regular point");
+        }
+    }
+    ratios.come_near(&[("tied exit", 1e-3)]);
+    assert!(ratios.count("tied exit") > 20 * figure.n);
+}
+
+/// A knot that is off the path on purpose: its box must reach as far, in all that hangs on the key unknowns.
+#[test]
+fn the_box_of_a_tied_exit_reaches_the_path_from_wherever_the_knot_is() {
+    let (figure, mut shop, chain) = chain_of("icosahedron-c1", 40);
+    let (mut ratios, mut random) = (Ratios::default(), Random::new(37));
+    let mut tied = [0; 3];
+    for round in 0..120 {
+        let sample = &chain[random.below(chain.len())];
+        let (equations, n) = (&shop.equations, figure.n);
+        let mut knot = Tube::new(equations);
+        let at = sample.tube.exit_at - 1e-5 * sample.tube.proof.h;
+        sample.tube.local.at(at, &mut knot.local.z[0]);
+        knot.local.normal.copy_from_slice(&sample.tube.local.normal);
+        shop.test
+            .refine(equations, &mut knot.local, 1e-11)
+            .expect("a point");
+        shop.test
+            .expand(equations, &mut knot.local)
+            .expect("a point");
+        let layout = knot.local.y.elimination.layout.clone();
+        let size = sample.tube.proof.h * 10f64.powf(random.between(-10.0, -6.0));
+        // Along the figures that the key unknowns move, or one unknown of A alone; or the direction.
+        let kind = round % 3;
+        if kind == 0 {
+            let width = knot.local.y.elimination.width;
+            for l in 0..layout.keys() {
+                let step = size * random.between(-1.0, 1.0);
+                for i in 0..n {
+                    let k = knot.local.y.elimination.k.as_flattened()[i * width * 4 + l];
+                    knot.local.z[0][i] += k * step;
+                }
+            }
+        } else {
+            let block = &layout.blocks[random.below(layout.blocks.len())];
+            let i = block.unknowns[random.below(block.size)] as usize;
+            knot.local.z[kind - 1][i] += random.sign() * size;
+        }
+        settle(equations, &mut knot.local);
+        // For its series.
+        if shop
+            .test
+            .bounds_at(equations, &mut knot, 1e-4 * sample.tube.proof.h)
+            .is_none()
+        {
+            continue;
+        }
+        let mut tube = sample.tube.clone();
+        if shop.test.tie_to(equations, &mut tube, &mut knot).is_some() {
+            tied[kind] += 1;
+            check_tied(&figure, &sample.tube, &tube, &mut ratios).expect("a regular point");
+        }
+    }
+    println!("{tied:?}");
+    ratios.come_near(&[("tied exit", 0.3), ("tied tangent", 1e-3)]);
+    assert!(tied.iter().all(|&count| count > 10), "{tied:?}");
+}
+
+/// A tube by hand that runs backwards where its exit's ball is, and forwards at `exit_at`.
+#[test]
+fn the_direction_of_a_link_is_that_at_the_point_linked() {
+    let (figure, _, chain) = chain_of("octahedron", 10);
+    for next in &chain {
+        let n = figure.n;
+        let mut from = next.tube.clone();
+        // ẑ(s) = z₀ + z₁ s − z₁ s²/h: it turns at s = h/2.
+        let h = from.proof.h;
+        let forward = from.local.z[1].clone();
+        for z in &mut from.local.z[2..] {
+            z[..n].fill(0.0);
+        }
+        for i in 0..n {
+            from.local.z[1][i] = -forward[i];
+            from.local.z[2][i] = forward[i] / h;
+        }
+        from.exit.centre.copy_from_slice(&next.tube.local.z[0]);
+        from.exit.radius[..n].fill(0.0);
+        from.exit_at = h;
+        from.exit_is_tight = false;
+        from.proof.slope_distance = 1e-9;
+        from.exit_between = (h, h);
+        assert!(from.leads_to(&next.tube).is_some(), "forwards at h");
+        from.exit_between = (0.0, 1e-6 * h);
+        assert!(
+            from.leads_to(&next.tube).is_none(),
+            "the point at 0, where the path comes back, was linked with the direction at h"
+        );
+    }
+}

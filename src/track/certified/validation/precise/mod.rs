@@ -1,0 +1,149 @@
+//! The proofs' bounds, checked in arithmetic of 256 bits from the problems' exact data: a bound that
+//! is too small by one rounding shows, where an enclosure in floats would hide it.
+//!
+//! The numbers that a tube keeps (ẑ's coefficients, preconditioners, boxes) are exact here: the
+//! theorems hold whatever they are, so that some tests change them on purpose, which makes terms
+//! large that are otherwise of rounding's size.
+
+mod big;
+mod contraction;
+mod figure;
+mod full;
+mod given;
+mod knots;
+mod moved;
+mod reduced;
+mod shears;
+mod view;
+
+use super::*;
+use big::{Big, Rows, dot, solve};
+use figure::Figure;
+use std::collections::BTreeMap;
+
+/// How near the true values come to what bounds them: the largest ratio by name, and how many there were.
+#[derive(Debug, Default)]
+pub struct Ratios(BTreeMap<&'static str, (usize, f64)>);
+
+/// What 256 bits themselves may be off, many orders below any bound: numbers here are of the size
+/// 1e-12 to 1e6, and no condition is beyond 1e6.
+const OWN: f64 = 1e-62;
+
+impl Ratios {
+    /// A true value and its bound.
+    #[track_caller]
+    pub fn check(&mut self, name: &'static str, value: &Big, bound: f64) {
+        assert!(!bound.is_nan(), "{name}: no bound");
+        let ratio = if bound.is_finite() {
+            assert!(
+                *value <= Big::of(bound) + Big::of(OWN),
+                "{name}: {:e} > {bound:e}",
+                value.to_f64()
+            );
+            if bound > OWN {
+                value.to_f64() / bound
+            } else {
+                0.0
+            }
+        } else {
+            0.0
+        };
+        let (count, largest) = self.0.entry(name).or_default();
+        *count += 1;
+        *largest = largest.max(ratio);
+    }
+
+    pub fn count(&self, name: &str) -> usize {
+        self.0.get(name).map_or(0, |r| r.0)
+    }
+
+    pub fn largest(&self, name: &str) -> f64 {
+        self.0.get(name).map_or(0.0, |r| r.1)
+    }
+
+    pub fn all(&self) -> usize {
+        self.0.values().map(|r| r.0).sum()
+    }
+
+    /// A bound that nothing comes near says little about the proof.
+    #[track_caller]
+    pub fn come_near(&self, least: &[(&str, f64)]) {
+        println!("{} comparisons: {:.4?}", self.all(), self.0);
+        for &(name, least) in least {
+            assert!(
+                self.largest(name) >= least,
+                "{name} comes to {} of its bound only",
+                self.largest(name)
+            );
+        }
+    }
+}
+
+/// Problems to look at: small and large, in the plane and in space, nearly singular ones.
+pub fn problems(names: &[&str]) -> Vec<Problem> {
+    let read = |name: &&str| {
+        Problem::read(format!(
+            "{}/problems/{name}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .expect("a readable problem")
+    };
+    names.iter().map(read).collect()
+}
+
+/// A generated one.
+pub fn generated(family: crate::generate::Family, size: usize) -> Problem {
+    crate::generate::Recipe::new(family, size)
+        .problem()
+        .expect("a recipe")
+}
+
+/// A triangle that is its own target, one side of which grows from 1 to 2 and back as t goes from 0 to 1.
+pub fn triangle() -> Problem {
+    Problem::build("triangle", 2)
+        .point("a", [0.0, 0.0])
+        .point("b", [1.0, 0.0])
+        .point("c", [0.375, 1.5])
+        .squared_distance("a", "b", 1.0)
+        .squared_distance("a", "c", 2.390625)
+        .squared_distance("b", "c", 2.640625)
+        .bend(["a", "b"])
+        .bend_coefficient(4.0)
+        .finish()
+        .expect("a problem")
+}
+
+/// A parameter in [−h, h]: at the ends, anywhere, and near the middle.
+pub fn parameter(random: &mut Random, h: f64) -> f64 {
+    match random.below(6) {
+        0 => h,
+        1 => -h,
+        2 => 0.0,
+        3 => 1e-3 * random.between(-h, h),
+        _ => random.between(-h, h),
+    }
+}
+
+/// Brings what follows from ẑ's coefficients up to date with them.
+pub fn settle<const D: usize, const N: usize, Y>(
+    equations: &Equations<D>,
+    local: &mut crate::track::full::Local<D, N, Y>,
+) where
+    Y: crate::track::full::Preconditioner<D>,
+{
+    let m = equations.m;
+    for k in 0..N {
+        equations.differences(&local.z[k], &mut local.d[k]);
+    }
+    equations.expand_lengths(local.z[0][m], &mut local.lengths);
+    let t: Vec<f64> = (0..local.powers[0].len())
+        .map(|k| if 0 < k && k < N { local.z[k][m] } else { 0.0 })
+        .collect();
+    let mut power = vec![0.0; t.len()];
+    power[0] = 1.0;
+    for out in &mut local.powers {
+        let next = (0..t.len()).map(|k| (0..=k).map(|a| t[a] * power[k - a]).sum());
+        power = next.collect();
+        out.copy_from_slice(&power);
+    }
+}

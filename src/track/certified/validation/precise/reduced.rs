@@ -1,0 +1,476 @@
+//! Bounds of the reduced space along certified runs.
+
+use super::super::reduced::{Proved, ReducedTube, Shop};
+use super::big::{exact, horner};
+use super::view::View;
+use super::*;
+use crate::generate::Family;
+use crate::interval::rounding::round_up;
+use crate::linalg::LANE;
+use crate::track::certified::link::{Ball, Frame, evaluation_error};
+use crate::track::certified::reduced::{Bounds, COEFFICIENTS};
+use crate::track::certified::tracker::Test;
+
+/// What `ReducedTest::bounds` states for |s| ≤ H, at one s.
+pub fn check_bounds<const D: usize>(
+    view: &View<D>,
+    (bounds, defect): (&Bounds, &[f64]),
+    random: &mut Random,
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let (n, m) = (view.figure.n, view.figure.m);
+    let y = &view.tube.local.y;
+    let at = parameter(random, bounds.h);
+    let s = Big::of(at);
+    let x = at.abs() / bounds.h;
+    let nothing = vec![Big::of(0.0); n];
+    let (z, slope) = view.at(&s);
+
+    // Φ'(0), and its change over the box. The sum of two bounds has a rounding of its own.
+    let middle = view.derivative(&s, &nothing)?;
+    let bound = round_up(bounds.constant + bounds.cubic * x.powi(3), 8);
+    ratios.check("|Φ'(0)|", &view.norm_of(&middle), bound);
+    let size = if random.below(2) == 0 {
+        1.0
+    } else {
+        random.unit()
+    };
+    let v = view.in_box(random, size);
+    let there = view.derivative(&s, &v)?;
+    let change: Rows = (0..n)
+        .map(|i| (0..n).map(|j| &there[i][j] - &middle[i][j]).collect())
+        .collect();
+    let bound = round_up(bounds.width * size, 1);
+    ratios.check("|Φ'(v) − Φ'(0)|", &view.norm_of(&change), bound);
+
+    // Φ(0), in the norm and row by row; its right-hand side's derivative; the turn.
+    let k = view.k(&s);
+    let w = view.sheared(&k, &v, false);
+    let zw: Vec<Big> = z.iter().zip(&w).map(|(z, w)| z + w).collect();
+    let (here, there) = (view.figure.jacobian(&z), view.figure.jacobian(&zw));
+    let (mut g, f) = (Rows::new(), view.figure.residual(&z));
+    for e in 0..m {
+        let f_slope = dot(&here[e], &slope);
+        let turn = dot(&there[e], &slope) - &f_slope;
+        g.push(vec![f[e].clone(), f_slope, turn]);
+    }
+    g.push(vec![Big::of(0.0); 3]);
+    let g = view.preconditioned(&s, &g)?;
+    let column = |c: usize| -> Vec<Big> { g.iter().map(|row| row[c].clone()).collect() };
+    let power = x.powi(COEFFICIENTS as i32);
+    let bound = round_up(bounds.low + bounds.high * power, 40);
+    ratios.check("|Φ(0)|", &view.norm(&column(0)), bound);
+    for (value, &bound) in column(0).iter().zip(defect) {
+        ratios.check("Φ(0), by row", &value.abs(), bound);
+    }
+    let high = COEFFICIENTS as f64 / bounds.h * bounds.high * x.powi(COEFFICIENTS as i32 - 1);
+    let bound = round_up(bounds.low_slope + high, 60);
+    ratios.check("|𝒴 F(ẑ)'|", &view.norm(&column(1)), bound);
+    let bound = round_up(bounds.turn * size, 1);
+    ratios.check("turn", &view.norm(&column(2)), bound);
+
+    // K(s), its derivative and Z(s), entry by entry; what T makes of the box; the normal.
+    let width = y.elimination.width;
+    let entry = |rows: &[[f64; LANE]], i: usize, l: usize| rows[i * width + l / LANE][l % LANE];
+    let k_slope = view.k_slope(&s);
+    for (at, &i) in view.unknowns.iter().enumerate() {
+        for l in 0..view.keys.len() {
+            ratios.check("|K|", &k[at][l].abs(), entry(&y.k_size, i, l));
+            ratios.check("|K'|", &k_slope[at][l].abs(), entry(&y.k_slope, i, l));
+        }
+    }
+    for e in 0..n {
+        for l in 0..view.keys.len() {
+            let z = horner(&view.z_of(e, l), &s);
+            ratios.check("|Z|", &z.abs(), entry(&y.z_size, e, l));
+        }
+    }
+    let weights = exact(&view.tube.weights[..n]);
+    let mut widest = exact(&y.rho[..n]);
+    for (&i, row) in view.unknowns.iter().zip(&k) {
+        for (k, &key) in row.iter().zip(&view.keys) {
+            let along = k.abs() * Big::of(y.rho[key]);
+            widest[i] += along;
+        }
+    }
+    for (widest, weight) in widest.iter().zip(&weights) {
+        ratios.check("the box's weights", &(widest / weight), 1.0);
+    }
+    for (slope, weight) in slope.iter().zip(&weights) {
+        ratios.check("|ẑ'|", &(slope.abs() / weight), bounds.slope);
+    }
+    let c: Vec<Big> = exact(&view.tube.local.normal[..n])
+        .iter()
+        .map(Big::abs)
+        .collect();
+    let bound = round_up(bounds.normal, n + 2);
+    ratios.check("|c|", &dot(&c, &weights), bound);
+    Some(())
+}
+
+/// |A(s)⁻¹ g| row by row.
+pub fn check_resolvent<const D: usize>(
+    view: &View<D>,
+    equations: &Equations<D>,
+    h: f64,
+    random: &mut Random,
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let y = &view.tube.local.y;
+    let s = Big::of(parameter(random, h));
+    let jacobian = view.figure.jacobian(&view.at(&s).0);
+    let a = view
+        .rows
+        .iter()
+        .map(|&e| {
+            view.unknowns
+                .iter()
+                .map(|&i| jacobian[e][i].clone())
+                .collect()
+        })
+        .collect();
+    let sparse = random.below(2) == 0;
+    let g: Vec<[f64; LANE]> = (0..view.rows.len())
+        .map(|_| {
+            std::array::from_fn(|_| match sparse && random.below(4) > 0 {
+                true => 0.0,
+                false => random.between(-1.0, 1.0),
+            })
+        })
+        .collect();
+    let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.map(f64::abs)).collect();
+    let (mut work, mut bound) = (sizes.clone(), sizes.clone());
+    let layout = &y.elimination.layout;
+    y.resolvent
+        .bound(equations, layout, &sizes, &mut work, &mut bound);
+    let g = g.iter().map(|g| exact(g)).collect();
+    for (v, bound) in solve(a, g)?.iter().zip(&bound) {
+        for (v, &bound) in v.iter().zip(bound) {
+            let bound = round_up(bound, y.resolvent.roundings());
+            ratios.check("|A⁻¹ g|", &v.abs(), bound);
+        }
+    }
+    Some(())
+}
+
+/// How fast the extent of a point that stays changes, in a box so many times as large.
+pub fn check_speed<const D: usize>(
+    view: &View<D>,
+    (h, factor, speed): (f64, f64, f64),
+    random: &mut Random,
+    ratios: &mut Ratios,
+) {
+    let s = Big::of(parameter(random, h));
+    let (_, slope) = view.at(&s);
+    let (k, k_slope) = (view.k(&s), view.k_slope(&s));
+    let v = view.in_box(random, factor);
+    // v_K' = −ẑ_K', v_A' = −ẑ_A' + K ẑ_K' − K' v_K.
+    let mut change = view.sheared(&k, &slope, true);
+    let moved: Vec<Big> = view.keys.iter().map(|&key| v[key].clone()).collect();
+    for (&i, row) in view.unknowns.iter().zip(&k_slope) {
+        change[i] += dot(row, &moved);
+    }
+    let name = if factor == 1.0 {
+        "speed"
+    } else {
+        "speed in a large box"
+    };
+    ratios.check(name, &(view.norm(&change) / Big::of(factor)), speed);
+}
+
+/// What a proof for |s| ≤ h says of the path: its point, its direction, its t, where it is found.
+pub fn check_path<const D: usize>(
+    view: &View<D>,
+    random: &mut Random,
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let (n, tube) = (view.figure.n, view.tube);
+    let (proof, y) = (&tube.proof, &tube.local.y);
+    let c = &tube.local.normal[..n];
+    let at = parameter(random, proof.h);
+    let s = Big::of(at);
+    let (through, slope) = view.at(&s);
+    let (z, tangent) = view.figure.point_near(&through, c)?;
+    let k = view.k(&s);
+    let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
+    ratios.check(
+        "distance",
+        &view.norm(&view.sheared(&k, &away, true)),
+        proof.distance,
+    );
+    let advance = dot(&exact(c), &slope);
+    let turned: Vec<Big> = (0..n).map(|i| &tangent[i] * &advance - &slope[i]).collect();
+    let turned = view.norm(&view.sheared(&k, &turned, true));
+    ratios.check("slope_distance", &turned, proof.slope_distance);
+    check_time(
+        &tube.time(),
+        (at, proof.h),
+        (&z[n - 1], &(&tangent[n - 1] * &advance)),
+        random,
+        ratios,
+    );
+
+    // Φ' anywhere in the tube.
+    let v = view.in_box(random, proof.r);
+    ratios.check("q", &view.norm_of(&view.derivative(&s, &v)?), proof.q);
+
+    // The extent of a float near the path.
+    let near: Vec<f64> = z.iter().map(Big::to_f64).collect();
+    let away: Vec<Big> = near
+        .iter()
+        .zip(&through)
+        .map(|(z, x)| Big::of(*z) - x)
+        .collect();
+    let extent = view.norm(&view.sheared(&k, &away, true));
+    let stated = Frame::<D>::extent(y, &tube.weights[..n], at, |i| {
+        let away = near[i] - tube.local.entry_at(i, at);
+        let error = evaluation_error(&tube.local, i, at) + 2.0 * f64::EPSILON * away.abs();
+        (away, error)
+    });
+    ratios.check("extent", &extent, round_up(stated, n + 8));
+    for (i, x) in through.iter().enumerate() {
+        let error = (Big::of(tube.local.entry_at(i, at)) - x).abs();
+        ratios.check(
+            "ẑ(s) in floats",
+            &error,
+            evaluation_error(&tube.local, i, at),
+        );
+    }
+
+    // The point is found at its own parameter.
+    let mut ball = Ball {
+        centre: tube.exit.centre.clone(),
+        radius: tube.exit.radius.clone(),
+    };
+    for i in 0..n {
+        ball.centre[i] = near[i];
+        ball.radius[i] = (z[i].clone() - Big::of(near[i])).abs().to_f64().next_up();
+    }
+    if let Some((lo, hi)) = tube.locate(&ball) {
+        within("its own parameter", &s, (lo, hi), ratios);
+    }
+    Some(())
+}
+
+/// t − 1 and t' against what is said of them around a parameter.
+pub fn check_time<const N: usize>(
+    time: &crate::track::events::TimeAlong<N>,
+    (s, h): (f64, f64),
+    (t, rate): (&Big, &Big),
+    random: &mut Random,
+    ratios: &mut Ratios,
+) {
+    let (lo, hi) = match random.below(2) {
+        0 => (s, s),
+        _ => (random.between(-h, s).min(s), random.between(s, h).max(s)),
+    };
+    let (values, slopes) = time.bounds(lo, hi);
+    within("t", &(t - &Big::of(1.0)), values, ratios);
+    within("t'", rate, slopes, ratios);
+}
+
+/// A number, and an interval that it is said to be in.
+pub fn within(name: &'static str, x: &Big, (lo, hi): (f64, f64), ratios: &mut Ratios) {
+    let middle = 0.5 * (lo + hi);
+    assert!(
+        Big::of(lo) <= *x && *x <= Big::of(hi),
+        "{name}: {} not in [{lo:e}, {hi:e}]",
+        x.to_f64()
+    );
+    let half = 0.5 * (hi - lo);
+    let away = (x - &Big::of(middle)).abs();
+    ratios.check(
+        name,
+        &away,
+        half.next_up() + 2.0 * f64::EPSILON * middle.abs(),
+    );
+}
+
+/// The exit's box, before and after it is tied, and the next tube's entry.
+pub fn check_exit<const D: usize>(
+    shop: &mut Shop<D>,
+    figure: &Figure,
+    sample: &Proved<D>,
+    next: Option<&Proved<D>>,
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let (n, tube) = (figure.n, &sample.tube);
+    let c = &tube.local.normal[..n];
+    let view = View::new(figure, tube);
+    let (through, _) = view.at(&Big::of(tube.exit_at));
+    let (z, x) = figure.point_near(&through, c)?;
+    let away = |z: &[Big], i: usize, centre: f64| (&z[i] - &Big::of(centre)).abs();
+    for i in 0..n {
+        ratios.check(
+            "exit",
+            &away(&z, i, tube.exit.centre[i]),
+            tube.exit.radius[i],
+        );
+    }
+    if let Some(next) = next {
+        let there = View::new(figure, &next.tube);
+        let normal = exact(&next.tube.local.normal[..n]);
+        let g = |s: f64| {
+            let (at, _) = there.at(&Big::of(s));
+            let away: Vec<Big> = z.iter().zip(&at).map(|(z, x)| z - x).collect();
+            dot(&normal, &away)
+        };
+        let (lo, hi) = next.tube.entry;
+        assert!(
+            g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0),
+            "the entry is not in [{lo}, {hi}]"
+        );
+        assert!(
+            dot(&normal, &x) > Big::of(0.0),
+            "the next tube is followed backwards"
+        );
+    }
+    let mut tight = tube.clone();
+    if shop
+        .test
+        .tighten_exit(&shop.equations, &mut tight)
+        .is_none()
+    {
+        return Some(());
+    }
+    check_tied(figure, tube, &tight, ratios)
+}
+
+/// The exit of a tube that was tied: its point, its parameter, its tangent.
+pub fn check_tied<const D: usize>(
+    figure: &Figure,
+    tube: &ReducedTube<D>,
+    tight: &ReducedTube<D>,
+    ratios: &mut Ratios,
+) -> Option<()> {
+    let n = figure.n;
+    let c = &tube.local.normal[..n];
+    let (lo, hi) = tight.exit_between;
+    assert!(tube.entry.1 < lo && lo <= hi && hi <= tube.exit_at);
+    let through = exact(&tight.exit.centre[..n]);
+    let (z, x) = figure.point_near(&through, c)?;
+    let view = View::new(figure, tube);
+    let g = |s: f64| {
+        let (at, _) = view.at(&Big::of(s));
+        let away: Vec<Big> = z.iter().zip(&at).map(|(z, x)| z - x).collect();
+        dot(&exact(c), &away)
+    };
+    assert!(
+        g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0),
+        "the tied exit's parameter"
+    );
+    let advance = dot(&exact(c), &exact(&tight.exit_slope[..n]));
+    for i in 0..n {
+        let away = (&z[i] - &through[i]).abs();
+        ratios.check("tied exit", &away, tight.exit.radius[i]);
+        let turned = (&x[i] * &advance - Big::of(tight.exit_slope[i])).abs();
+        let bound = round_up(tight.exit_slope_radius * tight.weights[i], 1);
+        ratios.check("tied tangent", &turned, bound);
+    }
+    Some(())
+}
+
+fn check_problem<const D: usize>(
+    problem: &Problem,
+    (tubes, rounds): (usize, usize),
+    random: &mut Random,
+    ratios: &mut Ratios,
+) {
+    let homotopy = Homotopy::new(problem).expect("a gauge");
+    let figure = Figure::new(problem, &homotopy);
+    let mut shop = Shop::<D>::new(&homotopy, 0.1, f64::INFINITY);
+    let chain = shop.chain(&homotopy, 600);
+    assert!(!chain.is_empty(), "{}", problem.name);
+    let stride = (chain.len() / tubes).max(1);
+    for k in (0..chain.len()).step_by(stride) {
+        for _ in 0..rounds {
+            check_path(&View::new(&figure, &chain[k].tube), random, ratios)
+                .expect("a regular point");
+        }
+        check_exit(&mut shop, &figure, &chain[k], chain.get(k + 1), ratios)
+            .expect("a regular point");
+        // The bounds are those of the test, whose box is that of the tube proved last.
+        let mut again = chain[k].tube.clone();
+        let h = again.proof.h * [1.0, 0.1, 1e-3][random.below(3)];
+        let Some(bounds) = shop.test.bounds_at(&shop.equations, &mut again, h) else {
+            continue;
+        };
+        let defect: Vec<f64> = shop.test.defect().to_vec();
+        let speed = again.local.y.speed;
+        let view = View::new(&figure, &again);
+        for _ in 0..rounds {
+            check_bounds(&view, (&bounds, &defect), random, ratios).expect("a regular A");
+            check_resolvent(&view, &shop.equations, h, random, ratios).expect("a regular A");
+            check_speed(&view, (h, 1.0, speed), random, ratios);
+        }
+    }
+}
+
+fn check_all(
+    names: &[&str],
+    generated: &[Problem],
+    (tubes, rounds): (usize, usize),
+    seed: u64,
+) -> Ratios {
+    let (mut ratios, mut random) = (Ratios::default(), Random::new(seed));
+    for problem in problems(names).iter().chain(generated) {
+        let counts = (effort(tubes), rounds);
+        match problem.dimension {
+            2 => check_problem::<2>(problem, counts, &mut random, &mut ratios),
+            _ => check_problem::<3>(problem, counts, &mut random, &mut ratios),
+        }
+    }
+    ratios
+}
+
+const NEAR: [(&str, f64); 11] = [
+    ("|Φ'(0)|", 0.5),
+    ("|Φ'(v) − Φ'(0)|", 0.3),
+    ("|Φ(0)|", 0.5),
+    ("turn", 0.2),
+    ("|K|", 0.99),
+    ("|Z|", 0.99),
+    ("|A⁻¹ g|", 0.9),
+    ("speed", 0.5),
+    ("distance", 0.5),
+    ("slope_distance", 0.3),
+    ("t", 0.3),
+];
+
+#[test]
+fn reduced_bounds_dominate_exact_values() {
+    let ratios = check_all(
+        &[
+            "octahedron",
+            "disulfide",
+            "k33",
+            "prism",
+            "icosahedron-c1",
+            "dodecagon",
+        ],
+        &[generated(Family::Chain, 48), generated(Family::Strip, 31)],
+        (4, 2),
+        31,
+    );
+    ratios.come_near(&NEAR);
+}
+
+#[test]
+fn reduced_bounds_dominate_exact_values_near_singular_places() {
+    let ratios = check_all(
+        &[
+            "hard/flaps-apart-3",
+            "hard/graze-4",
+            "hard/fold-5",
+            "hard/crowd-2",
+            "hard/sliver-3",
+            "hard/lengths-1",
+            "hard/tents-split-4",
+            "hard/triple-2",
+        ],
+        &[],
+        (6, 2),
+        32,
+    );
+    ratios.come_near(&NEAR);
+}
