@@ -179,3 +179,31 @@ fn spaces_agree_on_generated_structures() {
     println!("{tally:?}");
     assert!(tally.closed > 0, "{tally:#?}");
 }
+
+/// Boxes there are about 1e-8 wide, and rounding fills a good part of them.
+#[test]
+fn towers_with_five_loops_are_proved_in_the_reduced_space() {
+    let recipe = generate::Recipe {
+        family: generate::Family::Tower,
+        size: 300,
+        loops: 5,
+        seed: 8,
+    };
+    let problem = recipe.problem().unwrap();
+    let (outcome, float) = (
+        solve(&problem, &reduced(0.1)),
+        solve(&problem, &Options::float(Space::Reduced)),
+    );
+    assert_eq!(outcome.status, Status::Closed);
+    assert_eq!(outcome.solutions.len(), float.solutions.len());
+}
+
+/// Two folds of t and t = 1 within 1e-5: the derivative of the residual has to be bounded well.
+#[test]
+fn near_folds_are_proved_in_the_reduced_space() {
+    for (name, count) in [("fold-5", 2), ("fold-missed-5", 0)] {
+        let outcome = solve(&shipped(&format!("hard/{name}")), &reduced(0.1));
+        assert_eq!(outcome.status, Status::Closed, "{name}");
+        assert_eq!(outcome.solutions.len(), count, "{name}");
+    }
+}

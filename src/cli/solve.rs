@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Mode::Certified)]
     mode: Mode,
     /// Track in all free coordinates, or in the driving parameters of a construction plan
-    /// [default: reduced for float, and for certified from 90 free coordinates on; otherwise full]
+    /// [default: reduced for float, and for certified from 70 free coordinates on; otherwise full]
     #[arg(long, value_enum)]
     space: Option<Space>,
     /// How float mode steps: well, or as in the paper (RR 8705, 7.1 to 7.3)

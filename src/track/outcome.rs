@@ -22,9 +22,9 @@ pub enum Space {
 
 impl Space {
     /// The space in which certified runs are faster, by the number of free coordinates (which is
-    /// that of distances): the reduced one from about 90 on (docs/reduced.md).
+    /// that of distances): the reduced one from about 70 on (docs/reduced.md).
     pub fn for_certified(coordinates: usize) -> Self {
-        if coordinates < 90 {
+        if coordinates < 70 {
             Space::Full
         } else {
             Space::Reduced
