@@ -29,9 +29,14 @@ pub struct Crossing {
     pub rising: bool,
 }
 
-/// The signs of t − 1 and t' could not be separated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Undecided;
+/// The signs of t − 1 and t' could not be separated, both being known between these bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Undecided {
+    /// Of t − 1.
+    pub value: (f64, f64),
+    /// Of dt/ds.
+    pub slope: (f64, f64),
+}
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Piece {
@@ -108,6 +113,12 @@ impl<const N: usize> TimeAlong<N> {
         };
         self.split(from, to, 0, &mut scan)?;
         scan.certain(above_at_end)
+            .ok_or_else(|| self.undecided(from, to))
+    }
+
+    fn undecided(&self, a: f64, b: f64) -> Undecided {
+        let (value, slope) = self.bounds(a, b);
+        Undecided { value, slope }
     }
 
     /// Moves an end outwards until t ≠ 1 is certain there; also tells whether t > 1.
@@ -129,7 +140,7 @@ impl<const N: usize> TimeAlong<N> {
                 2.0 * step
             };
         }
-        Err(Undecided)
+        Err(self.undecided(end, end))
     }
 
     fn split(&self, a: f64, b: f64, depth: usize, scan: &mut Scan) -> Result<(), Undecided> {
@@ -144,13 +155,13 @@ impl<const N: usize> TimeAlong<N> {
         } else if slope_high < 0.0 {
             Piece::Falling
         } else if depth == MAX_DEPTH || scan.pieces >= MAX_PIECES {
-            return Err(Undecided);
+            return Err(self.undecided(a, b));
         } else {
             let middle = 0.5 * (a + b);
             self.split(a, middle, depth + 1, scan)?;
             return self.split(middle, b, depth + 1, scan);
         };
-        scan.push(piece, a, b)
+        scan.push(piece, a, b).ok_or_else(|| self.undecided(a, b))
     }
 }
 
@@ -166,7 +177,7 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    fn push(&mut self, piece: Piece, a: f64, b: f64) -> Result<(), Undecided> {
+    fn push(&mut self, piece: Piece, a: f64, b: f64) -> Option<()> {
         match piece {
             Piece::Below | Piece::Above => self.certain(piece == Piece::Above),
             Piece::Rising | Piece::Falling => {
@@ -175,21 +186,21 @@ impl Scan<'_> {
                     None => self.open = Some((a, b, rising)),
                     Some((_, end, direction)) if *direction == rising => *end = b,
                     // A fold with t = 1 in reach.
-                    Some(_) => return Err(Undecided),
+                    Some(_) => return None,
                 }
-                Ok(())
+                Some(())
             }
         }
     }
 
     /// A place where the sign of t − 1 is certain: a monotone stretch before it holds exactly one
     /// crossing if the sign has changed, and none otherwise.
-    fn certain(&mut self, above: bool) -> Result<(), Undecided> {
+    fn certain(&mut self, above: bool) -> Option<()> {
         if let Some((start, end, rising)) = self.open.take()
             && above != self.above
         {
             if above != rising {
-                return Err(Undecided);
+                return None;
             }
             self.out.push(Crossing {
                 between: (start, end),
@@ -197,6 +208,6 @@ impl Scan<'_> {
             });
         }
         self.above = above;
-        Ok(())
+        Some(())
     }
 }

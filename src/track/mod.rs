@@ -69,6 +69,18 @@ pub fn solve(
                 .map(|r| format!("tubes of radius {r:e}")),
             Mode::Float => options.tolerance.map(|x| format!("points good to {x:e}")),
         };
+        if options.preset == Preset::Paper {
+            let longest = options.max_step.unwrap_or(
+                homotopy.unit
+                    * match options.space {
+                        Space::Full => float::LARGEST_STEP_OF_PAPER,
+                        Space::Reduced => reduced::LARGEST_STEP_OF_PAPER,
+                    },
+            );
+            *reason += &format!(
+                " (the paper's preset takes steps of up to {longest:e} in the lengths of the file)"
+            );
+        }
         if let Some(wish) = wish {
             *reason += &format!(" ({wish} were asked for)");
         }

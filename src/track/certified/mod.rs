@@ -4,6 +4,7 @@ mod exit;
 mod ledger;
 mod link;
 mod norms;
+mod reasons;
 mod reduced;
 mod solution;
 mod tracker;

@@ -1,5 +1,6 @@
 //! From bounds in the norm |·|_u to the longest tube that they prove (see `tube.rs`).
 
+use super::reasons::Shortfall;
 use crate::interval::rounding::{in_range, round_up};
 use crate::track::full::{DEGREE, MAX_DEGREE, ORDER};
 
@@ -98,10 +99,16 @@ impl Norms {
                 "the powers in `at` are those of the Taylor order"
             )
         };
-        longest(self.h, 0.5, |h| self.proof(h, weight_of_t))
+        longest(self.h, 0.5, |h| self.proof(h, weight_of_t).ok())
     }
 
-    fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
+    /// Why there is none, at the length that comes nearest.
+    pub fn shortfall(&self, weight_of_t: f64) -> Option<Shortfall> {
+        let lengths = (0..=ATTEMPTS).map(|k| self.h * 0.5f64.powi(k));
+        Shortfall::least(lengths.map(|h| self.proof(h, weight_of_t).err()))
+    }
+
+    fn proof(&self, h: f64, weight_of_t: f64) -> Result<Proof, Shortfall> {
         let (contraction, width, defect) = self.at(h);
         let Contraction {
             r,
@@ -129,10 +136,11 @@ impl Norms {
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
         let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
         // Otherwise no tube after this one could be proved to go the same way.
-        if slope_distance * self.normal > 0.5 {
-            return None;
+        let direction = slope_distance * self.normal;
+        if direction > 0.5 {
+            return Err(Shortfall::Direction(direction));
         }
-        Some(Proof {
+        Ok(Proof {
             h,
             r,
             distance,
@@ -158,17 +166,21 @@ pub(super) struct Contraction {
 }
 
 impl Contraction {
-    /// The largest box that leaves room, at most of size `largest`. `None`: there is none, or the fixed
+    /// The largest box that leaves room, at most of size `largest`. The error: there is none, or the fixed
     /// point might be further out than `radius`.
     pub fn new(
         (contraction, width, defect): (f64, f64, f64),
         largest: f64,
         radius: f64,
-    ) -> Option<Self> {
+    ) -> Result<Self, Shortfall> {
         let room = 1.0 - contraction;
         // Beyond this the box would be too narrow to be linked, or the proof too close to call.
-        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
-            return None;
+        if contraction.is_nan() || contraction > MAX_CONTRACTION {
+            return Err(Shortfall::Contraction(contraction));
+        }
+        let room_for = |room: f64| Shortfall::Defect { defect, room };
+        if !(8.0 * defect * width <= room * room) {
+            return Err(room_for(room * room / (8.0 * width)));
         }
         let r = (0.5 * room / width).min(largest);
         let q = round_up(contraction + width * r, 4);
@@ -176,8 +188,13 @@ impl Contraction {
         let near = round_up(defect / (1.0 - q), 400);
         let nearer_q = round_up(contraction + width * near.min(r), 4);
         let distance = round_up(defect / (1.0 - nearer_q), 400);
-        let holds = q < 1.0 && round_up(defect + q * r, 4) < r && distance < r;
-        (holds && distance <= radius).then_some(Contraction {
+        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
+            return Err(room_for((1.0 - q) * r));
+        }
+        if !(distance <= radius) {
+            return Err(Shortfall::Distance { distance, radius });
+        }
+        Ok(Contraction {
             r,
             q,
             nearer_q,
@@ -185,6 +202,9 @@ impl Contraction {
         })
     }
 }
+
+/// [`longest`] tries so many lengths.
+const ATTEMPTS: i32 = 40;
 
 /// The longest tube of at most the half length `h` that is proved: by bisection on a logarithmic
 /// scale, as any that passes will do. `shrink`: what is tried next while none has passed.
@@ -194,7 +214,7 @@ pub(super) fn longest(h: f64, shrink: f64, proof: impl Fn(f64) -> Option<Proof>)
     }
     let (mut lo, mut hi) = (0.0, h);
     let mut best = None;
-    for _ in 0..40 {
+    for _ in 0..ATTEMPTS {
         let h = if lo == 0.0 {
             shrink * hi
         } else {

@@ -1,5 +1,6 @@
 //! Boxes around the points of the path with t = 1.
 
+use super::reasons::Doubt;
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -82,11 +83,13 @@ impl<const D: usize> SolutionProver<D> {
         inverter: &mut InverseMaker,
         guess: &[f64],
         rising: bool,
-    ) -> Option<&SolutionBox> {
+    ) -> Result<&SolutionBox, Doubt> {
         let (m, n) = (equations.m, equations.n());
         let local = &mut self.local;
         local.z[0].copy_from_slice(guess);
-        local.polish_at(equations, inverter, 1.0)?;
+        if local.polish_at(equations, inverter, 1.0).is_none() {
+            return Err(Doubt::Newton(local.first_correction));
+        }
 
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
         let per_entry = gamma(m + 12);
@@ -131,7 +134,7 @@ impl<const D: usize> SolutionProver<D> {
         local.y.multiply_abs(&width[..m], &mut self.v);
         let kappa = round_up(largest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {
-            return None;
+            return Err(Doubt::Contraction(q0));
         }
         let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
 
@@ -150,7 +153,10 @@ impl<const D: usize> SolutionProver<D> {
         let all = round_up(step / (1.0 - q), 60);
         // With room for rounding, so that the box itself lies where its solution is alone.
         if !(q < 1.0 && all < 0.99 * alone_within) {
-            return None;
+            return Err(Doubt::Wide {
+                radius: all,
+                alone: alone_within,
+            });
         }
         // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
         let near = round_up((q0 + kappa * all) * all, 6);
@@ -161,11 +167,22 @@ impl<const D: usize> SolutionProver<D> {
         }
         found.centre.copy_from_slice(&local.z[0]);
         (found.alone_within, found.rising) = (alone_within, rising);
-        Some(found)
+        Ok(found)
     }
 }
 
 impl SolutionBox {
+    /// The greatest distance of an entry of the middle from that of another box.
+    pub fn distance(&self, other: &SolutionBox) -> f64 {
+        let entries = self.centre.iter().zip(other.centre.iter());
+        entries.fold(0.0, |a: f64, (x, y)| a.max((x - y).abs()))
+    }
+
+    /// The greatest radius of an entry.
+    pub fn greatest_radius(&self) -> f64 {
+        self.radius.iter().fold(0.0, |a: f64, &b| a.max(b))
+    }
+
     /// Whether the other box holds the same solution, after changing the sign of this one's
     /// entries where `mirror` says so.
     pub fn is_same(&self, other: &SolutionBox, mirror: impl Fn(usize) -> bool) -> Same {

@@ -2,6 +2,9 @@
 
 use super::ledger::Ledger;
 use super::link::{Ball, Frame, Tube};
+use super::reasons::{
+    Doubt, Rejection, Shortfall, no_direction, undecided, unlinked, unproved, unrefined,
+};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
@@ -58,6 +61,15 @@ pub trait Test<const D: usize, const N: usize>: Sized {
         tube: &mut Tube<D, N, Self::Frame>,
         max_h: f64,
     ) -> bool;
+
+    /// Why the last tube could not be proved: which condition fails for one as short as that is tried.
+    /// `None`: none of them, but its exit could not be enclosed.
+    fn shortfall(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, N, Self::Frame>,
+        max_h: f64,
+    ) -> Option<Shortfall>;
 
     /// What was proved last is in the chain.
     fn accept(&mut self, tube: &Tube<D, N, Self::Frame>);
@@ -136,30 +148,6 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     }
 }
 
-/// Why a tube could not be added to the chain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Rejection {
-    Refine(RefineError),
-    Unproved,
-    Unlinked,
-    Undecided,
-}
-
-impl Rejection {
-    fn in_words(self) -> &'static str {
-        match self {
-            Rejection::Refine(RefineError::Singular) => "the Jacobian is singular in 53 bits",
-            Rejection::Refine(RefineError::Diverged) => "the corrector does not converge",
-            Rejection::Unproved => "the Krawczyk test fails however short the tube",
-            Rejection::Unlinked => "the tube could not be linked to what comes before it",
-            Rejection::Undecided => {
-                "it could not be decided whether the path meets t = 1: a fold is too near, or two \
-                 solutions are"
-            }
-        }
-    }
-}
-
 struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     homotopy: &'a Homotopy,
     equations: Equations<D>,
@@ -216,6 +204,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let mut before = self.now.proof.h;
         // How much of the expectation to believe: less after a rejection, then more again.
         let mut trust = 1.0;
+        // What could not be told of this tube when it was longer.
+        let mut doubt = None;
         // What a rejection taught about this tube.
         let mut shorter = f64::INFINITY;
         // A bound on the half length where t = 1 is hard to separate; it grows back.
@@ -233,6 +223,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         return Ok(());
                     }
                     before = h;
+                    doubt = None;
                     shorter = f64::INFINITY;
                     trust = (RECOVERY * trust).min(1.0);
                     limit = (2.0 * limit).min(max_h);
@@ -244,7 +235,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         trust *= DISTRUST;
                     }
                     match rejection {
-                        Rejection::Undecided => {
+                        Rejection::Undecided(_) => {
+                            doubt = Some(rejection);
                             self.shortened += 1;
                             limit = 0.25 * self.next.proof.h.min(limit);
                         }
@@ -256,7 +248,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     }
                     let smallest = SMALLEST_STEP * self.figure_size();
                     if limit < smallest || shorter < smallest {
-                        return Err(self.stuck(rejection));
+                        return Err(self.stuck(doubt.unwrap_or(rejection), reach, limit));
                     }
                 }
             }
@@ -309,7 +301,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let mut at_sketch = Local::<D>::new(equations);
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
         first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
-            .map_err(|_| "the sketch is a singular point of its path: no direction of travel could be computed".to_owned())?;
+            .map_err(|_| no_direction())?;
         self.first_normal.copy_from_slice(&at_sketch.normal);
         let local = &mut self.now.local;
         local.z[0].copy_from_slice(&self.sketch.centre);
@@ -317,14 +309,18 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         self.test
             .refine(equations, local, POINT_TOLERANCE)
             .and_then(|()| self.test.expand(equations, local))
-            .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
+            .map_err(|e| {
+                let local = &mut self.now.local;
+                let why = unrefined(e, equations, local, POINT_TOLERANCE, self.homotopy.unit);
+                format!("at the sketch, {why}")
+            })?;
         self.test.prepare(equations, &mut self.now, max_h);
         let mut limit = max_h;
         loop {
             match self.first_tube(limit) {
                 Ok(()) => return Ok(()),
                 // Where t = 1 is hard to separate, shorter tubes do it.
-                Err(Rejection::Undecided)
+                Err(Rejection::Undecided(_))
                     if self.now.proof.h > SMALLEST_STEP * self.figure_size() =>
                 {
                     self.shortened += 1;
@@ -333,7 +329,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 Err(rejection) => {
                     return Err(format!(
                         "at the sketch, {}{}",
-                        rejection.in_words(),
+                        self.why(rejection, true, limit),
                         self.condition()
                     ));
                 }
@@ -359,7 +355,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             .ok_or(Rejection::Unlinked)?;
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.now, None)
-            .map_err(|_| Rejection::Undecided)?;
+            .map_err(Rejection::Undecided)?;
         self.test.accept(&self.now);
         Ok(())
     }
@@ -417,7 +413,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let closing = self.closes(&self.next)?;
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.next, closing)
-            .map_err(|_| Rejection::Undecided)?;
+            .map_err(Rejection::Undecided)?;
         self.test.accept(&self.next);
         match &mut self.previous {
             Some(previous) => previous.copy_from_slice(&self.now.local.z[0]),
@@ -444,7 +440,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 if same_way {
                     Ok(Some(at))
                 } else {
-                    Err(Rejection::Undecided)
+                    Err(Rejection::Undecided(Doubt::Direction(
+                        tube.proof.slope_distance,
+                    )))
                 }
             }
             _ => Ok(None),
@@ -477,14 +475,41 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         }
     }
 
-    fn stuck(&self, rejection: Rejection) -> String {
+    fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> String {
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
         format!(
-            "{} at the smallest step, {}{remark}",
-            rejection.in_words(),
+            "{}, at the smallest step, {:.1e}, {}{remark}",
+            self.why(rejection, false, limit),
+            reach * self.homotopy.unit,
             self.place()
         )
+    }
+
+    /// In words, with numbers of what was tried last: `first`, the tube around the sketch.
+    fn why(&mut self, rejection: Rejection, first: bool, limit: f64) -> String {
+        let (equations, unit) = (&self.equations, self.homotopy.unit);
+        let (tube, before) = match first {
+            true => (&mut self.now, None),
+            false => (&mut self.next, Some(&self.now)),
+        };
+        match rejection {
+            Rejection::Refine(e) => unrefined(e, equations, &mut tube.local, POINT_TOLERANCE, unit),
+            Rejection::Unproved => {
+                unproved(self.test.shortfall(equations, tube, limit), tube, unit)
+            }
+            Rejection::Unlinked => match before {
+                None => unlinked("the sketch", &self.sketch, 0.0, tube, unit),
+                Some(before) => {
+                    let direction = match before.exit_is_tight {
+                        true => before.exit_slope_radius,
+                        false => before.proof.slope_distance,
+                    };
+                    unlinked("that one's end", &before.exit, direction, tube, unit)
+                }
+            },
+            Rejection::Undecided(doubt) => undecided(doubt, unit),
+        }
     }
 
     fn switched_on(&self) -> Vec<String> {

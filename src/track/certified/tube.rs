@@ -18,6 +18,7 @@
 
 use super::link::Tube;
 use super::norms::{MAX_CONTRACTION, Norms, Proof, powers_of};
+use super::reasons::Shortfall;
 use super::tracker::Test;
 use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
@@ -430,6 +431,24 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         tube.proof = proof;
         tube.weights.copy_from_slice(&self.u);
         true
+    }
+
+    fn shortfall(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D>,
+        max_h: f64,
+    ) -> Option<Shortfall> {
+        let weights = self.next_weights.clone();
+        let Some(norms) = self.norms(equations, &tube.local, &weights, max_h) else {
+            return Some(Shortfall::Overflow);
+        };
+        let top = weights[..equations.n()]
+            .iter()
+            .fold(0.0, |a: f64, &u| a.max(u));
+        norms
+            .shortfall(weights[equations.m])
+            .map(|shortfall| shortfall.scaled(top))
     }
 
     fn accept(&mut self, _: &Tube<D>) {}

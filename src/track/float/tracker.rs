@@ -81,7 +81,8 @@ fn run<const D: usize>(
         };
         if step < SMALLEST_STEP {
             return Err(format!(
-                "{failure} at the smallest step, {}{}",
+                "{failure} at the smallest step, {:.1e}, {}{}",
+                step * homotopy.unit,
                 place(record, &now),
                 homotopy.remark_on_lengths(now.z[0][m])
             ));

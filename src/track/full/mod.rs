@@ -11,4 +11,4 @@ mod start;
 pub use equations::{Equations, Lengths, MAX_DEGREE};
 pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, condition, dot};
 pub use preconditioner::{InverseMaker, Preconditioner};
-pub use start::{first_normal, path_length};
+pub use start::{LARGEST_TANGENT, first_normal, path_length};

@@ -32,6 +32,7 @@
 
 use super::super::link::Tube;
 use super::super::norms::powers_of;
+use super::super::reasons::Shortfall;
 use super::super::tracker::Test;
 use super::bounds::Bounds;
 use super::elimination::{Elimination, MAX_KEYS, Maker};
@@ -60,6 +61,8 @@ type Locals<const D: usize> = Local<D, COEFFICIENTS, Reduction<D>>;
 const GROWTH: f64 = 1.25;
 /// And tried again with so much of that.
 const SHRINK: f64 = 0.75;
+/// So many lengths are tried.
+const ATTEMPTS: i32 = 120;
 /// Bounds are good enough for a tube if they were taken for one not much longer.
 const NEAR: f64 = 0.7;
 /// The box of A's unknowns is so much larger than what was found to be needed.
@@ -774,7 +777,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         let n = equations.n();
         self.kept.copy_from_slice(&self.weights);
         let mut h = (GROWTH * self.expected).min(max_h);
-        for _ in 0..120 {
+        for _ in 0..ATTEMPTS {
             let width = tube.local.y.elimination.width;
             let bounds = with_width!(width, self.bounds(equations, tube, h));
             let proof = bounds.and_then(|bounds| bounds.longest::<COEFFICIENTS>());
@@ -793,6 +796,25 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
             self.weights.copy_from_slice(&self.kept);
         }
         false
+    }
+
+    fn shortfall(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tubes<D>,
+        max_h: f64,
+    ) -> Option<Shortfall> {
+        let longest = (GROWTH * self.expected).min(max_h);
+        let width = tube.local.y.elimination.width;
+        Shortfall::least((0..ATTEMPTS).map(|k| {
+            let h = longest * SHRINK.powi(k);
+            let Some(bounds) = with_width!(width, self.bounds(equations, tube, h)) else {
+                return Some(Shortfall::Overflow);
+            };
+            let omega = &self.omega[..equations.n()];
+            let top = omega.iter().fold(0.0, |a: f64, &u| a.max(u));
+            Some(bounds.shortfall::<COEFFICIENTS>()?.scaled(top))
+        }))
     }
 
     fn accept(&mut self, tube: &Tubes<D>) {
