@@ -70,15 +70,7 @@ fn other_ways_of_tracking_leave_certificates_too() {
 /// two solutions are one figure, its two sides up.
 #[test]
 fn a_figure_that_turns_over_is_proved_congruent_to_itself() {
-    let problem = Problem::build("triangle", 3)
-        .point("a", ["0", "0", "0"])
-        .point("b", ["1", "0", "0"])
-        .point("c", ["0", "1", "0"])
-        .distance("a", "b", "1.1")
-        .distance("b", "c", "1.5")
-        .distance("a", "c", "1.2")
-        .finish()
-        .unwrap();
+    let problem = common::turning_triangle();
     let bytes = written(&problem, &Options::certified());
     let verdict = check(&bytes).unwrap();
     assert_eq!(verdict.outcome, Outcome::Verified);

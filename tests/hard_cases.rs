@@ -5,7 +5,8 @@ mod common;
 
 use common::boxes::check;
 use common::hard::{Answer, Family, families};
-use common::{FLOAT_SPACES, solve};
+use common::moves::{ratio, scaled};
+use common::{FLOAT_SPACES, numbers_in, solve};
 use krawl::problem::Problem;
 use krawl::track::{Options, Outcome, Status};
 use std::fs;
@@ -29,8 +30,8 @@ fn is_right(problem: &Problem, answer: Answer, outcome: &Outcome) -> Result<(), 
     check(problem, &outcome.solutions)?;
     let found = outcome.solutions.len();
     match (&outcome.status, answer) {
-        (Status::Stopped(reason), _) if reason.trim().is_empty() => {
-            Err("stopped without a reason".to_owned())
+        (Status::Stopped(reason), _) if numbers_in(reason).is_empty() => {
+            Err(format!("stopped without the number: {reason}"))
         }
         (Status::Stopped(_), Answer::Path { solutions, .. }) if found > solutions => {
             Err(format!("stopped with {found} solutions of {solutions}"))
@@ -81,6 +82,47 @@ fn certified_runs_are_right_or_stop() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Both spaces name what was too small. Lengths are those of the file: a figure 1024 times as large, in
+/// which all goes the same, has reasons with numbers so many times as large.
+#[test]
+fn stopped_runs_name_a_number_in_the_lengths_of_the_file() {
+    let factor = ratio(1024, 1);
+    let mut stopped = 0;
+    for (name, k, is_length) in [
+        ("lengths", 6, true),
+        ("graze", 7, true),
+        ("flaps-split", 7, true),
+        ("fold", 8, false),
+        ("peak", 7, false),
+    ] {
+        let small = family(name).problem(k);
+        let large = scaled(&small, &factor);
+        for space in FLOAT_SPACES {
+            let numbers = [&small, &large].map(|problem| {
+                let options = Options {
+                    space,
+                    ..limited(Options::certified())
+                };
+                match solve(problem, &options).status {
+                    Status::Closed => panic!("{name}-{k} is closed: try a smaller one"),
+                    Status::Stopped(reason) => (numbers_in(&reason), reason),
+                }
+            });
+            let [(one, reason), (other, large)] = &numbers;
+            assert!(!one.is_empty(), "{reason}");
+            assert_eq!(one.len(), other.len(), "{reason}\n{large}");
+            let wanted = if is_length { 1024.0 } else { 1.0 };
+            for (x, y) in one.iter().zip(other) {
+                // Two digits are shown.
+                let ratio = y / x / wanted;
+                assert!((0.9..1.1).contains(&ratio), "{reason}\n{large}");
+            }
+            stopped += 1;
+        }
+    }
+    assert_eq!(stopped, 10);
 }
 
 /// Float runs that close with a wrong count: which of these do depends on the last bit, that some do

@@ -107,7 +107,7 @@ impl fmt::Display for Shortfall {
             Shortfall::Overflow => write!(f, "its bounds are beyond 1e75"),
             Shortfall::Contraction(contraction) => write!(
                 f,
-                "it contracts by {contraction:.2} at best, which must be below {MAX_CONTRACTION}"
+                "it contracts by {contraction:.1e} at best, which must be below {MAX_CONTRACTION}"
             ),
             Shortfall::Defect { defect, room } => write!(
                 f,
