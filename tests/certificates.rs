@@ -82,6 +82,22 @@ fn a_figure_that_turns_over_is_proved_congruent_to_itself() {
     assert_eq!(verdict.outcome, Outcome::Refuted(Flaw::Class(2, 1)));
 }
 
+/// The checker's bound on |A| once grew by 1/256 for each unknown, and refused what is larger than some
+/// 200.
+#[test]
+fn certificates_of_large_problems_are_verified() {
+    let recipe = krawl::generate::Recipe {
+        family: krawl::generate::Family::Strip,
+        size: 300,
+        loops: 1,
+        seed: 1,
+    };
+    let problem = recipe.problem().unwrap();
+    let verdict = check(&written(&problem, &Options::certified())).unwrap();
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert!(verdict.margin > 0.01, "{}", verdict.margin);
+}
+
 #[test]
 fn a_stopped_run_leaves_a_partial_certificate() {
     let problem = common::shipped("octahedron");
