@@ -2,6 +2,7 @@
 
 use super::link::{Ball, Frame, Tube};
 use super::solution::{Same, SolutionBox, SolutionProver};
+use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
@@ -19,6 +20,11 @@ pub struct Ledger<'a, const D: usize> {
     crossings: Vec<Crossing>,
     scratch: Vector,
     ball: Ball,
+    /// Whether solutions are proved in extended precision.
+    pub extended: bool,
+    /// If t = 1 was met for certain in the last tube that was not entered, but no box proved around the
+    /// solution: |I − Y J| there, which must be below ½.
+    pub unproved_box: Option<f64>,
     /// The length of the path, in floats.
     pub length: f64,
     /// An enclosure of the values of t.
@@ -35,6 +41,8 @@ impl<'a, const D: usize> Ledger<'a, D> {
             crossings: Vec::new(),
             scratch: equations.vector(),
             ball: Ball::new(equations),
+            extended: false,
+            unproved_box: None,
             length: 0.0,
             t_range: (f64::INFINITY, f64::NEG_INFINITY),
         }
@@ -59,6 +67,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
         tube: &Tube<D, N, Y>,
         closing: Option<(f64, f64)>,
     ) -> Result<(), Undecided> {
+        self.unproved_box = None;
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
         let to = closing
@@ -67,9 +76,16 @@ impl<'a, const D: usize> Ledger<'a, D> {
         let mut crossings = std::mem::take(&mut self.crossings);
         let known = self.found.len();
         let all = time.crossings(from, to, &mut crossings).and_then(|()| {
-            crossings
-                .iter()
-                .try_for_each(|&crossing| self.prove_crossing(equations, inverter, tube, crossing))
+            crossings.iter().try_for_each(|&crossing| {
+                let (a, b) = crossing.between;
+                // Where solutions are near each other it matters from where they are sought.
+                let near = if self.extended {
+                    time.zero_between((a, b))
+                } else {
+                    0.5 * (a + b)
+                };
+                self.prove_crossing(equations, inverter, tube, (crossing, near))
+            })
         });
         self.crossings = crossings;
         if all.is_err() {
@@ -88,22 +104,24 @@ impl<'a, const D: usize> Ledger<'a, D> {
         Ok(())
     }
 
-    /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
-    /// in this stretch of it.
+    /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
+    /// lies in this tube, and in this stretch of it.
     fn prove_crossing<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
-        crossing: Crossing,
+        (crossing, near): (Crossing, f64),
     ) -> Result<(), Undecided> {
         let (a, b) = crossing.between;
-        tube.local.at(0.5 * (a + b), &mut self.scratch);
-        let found = self
-            .prover
-            .prove(equations, inverter, &self.scratch, crossing.rising)
-            .ok_or(Undecided)?;
+        tube.local.at(near, &mut self.scratch);
+        let how = (crossing.rising, self.extended);
+        let Some(found) = self.prover.prove(equations, inverter, &self.scratch, how) else {
+            self.unproved_box = Some(self.prover.contraction());
+            return Err(Undecided);
+        };
         self.ball.centre.copy_from_slice(&found.centre);
+        self.ball.low.copy_from_slice(&found.low);
         self.ball.radius.copy_from_slice(&found.radius);
         let at = tube.locate(&self.ball).ok_or(Undecided)?;
         // All of it: beyond the stretch there may be another solution, in the tube but not counted.
@@ -224,8 +242,10 @@ impl<const D: usize> Ledger<'_, D> {
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * D + axis];
-            let side =
-                |s: &SolutionBox| (s.centre[i].abs() > s.radius[i]).then_some(s.centre[i] > 0.0);
+            let side = |s: &SolutionBox| {
+                let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
+                (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
+            };
             match (side(one), side(other)) {
                 (Some(a), Some(b)) => turned[axis] = a != b,
                 _ => return Same::Unknown,

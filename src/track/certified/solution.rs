@@ -11,6 +11,8 @@ use crate::track::full::{Equations, InverseMaker, Local};
 pub struct SolutionBox {
     /// The middle: (X, 1) in the homotopy's unit.
     pub centre: Vector,
+    /// What the middle is more than that, in extended precision; otherwise zero.
+    pub low: Vector,
     /// How far the exact solution may be from it, entry by entry.
     pub radius: Vector,
     /// Within this distance of the middle, in every entry, there is no other solution.
@@ -41,6 +43,8 @@ pub struct SolutionProver<const D: usize> {
     f: Vector,
     v: Vector,
     half_squares: Vec<Interval>,
+    /// q₀ of the last box that was tried; infinite where no point was found.
+    contraction: f64,
     /// The box proved last.
     found: SolutionBox,
 }
@@ -62,8 +66,10 @@ impl<const D: usize> SolutionProver<D> {
                 .iter()
                 .map(|l| l.target_half_square())
                 .collect(),
+            contraction: f64::INFINITY,
             found: SolutionBox {
                 centre: equations.vector(),
+                low: equations.vector(),
                 radius: equations.vector(),
                 alone_within: 0.0,
                 rising: false,
@@ -76,17 +82,27 @@ impl<const D: usize> SolutionProver<D> {
     /// Krawczyk's test with the norm max |w_i|: with Y the inverse at the middle x,
     /// |I − Y J(x + w)| ≤ q₀ + κ |w|, so that there is at most one solution for |w| < (1 − q₀)/κ,
     /// and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
+    ///
+    /// `rising`: whether t is where the path meets t = 1. `extended`: whether x and F(x) are to be
+    /// taken in extended precision; everything else bears relative errors of 2⁻⁵³.
     pub fn prove(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         guess: &[f64],
-        rising: bool,
+        (rising, extended): (bool, bool),
     ) -> Option<&SolutionBox> {
         let (m, n) = (equations.m, equations.n());
+        self.contraction = f64::INFINITY;
         let local = &mut self.local;
         local.z[0].copy_from_slice(guess);
-        local.polish_at(equations, inverter, 1.0)?;
+        local.low.fill(0.0);
+        local.is_extended = extended;
+        if extended {
+            local.polish_extended(equations, inverter)?;
+        } else {
+            local.polish_at(equations, inverter, 1.0)?;
+        }
 
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
         let per_entry = gamma(m + 12);
@@ -128,6 +144,7 @@ impl<const D: usize> SolutionProver<D> {
         local.y.multiply_abs(&rounding[..n], &mut self.v);
         // The ones of I pass through as many sums as the products that they are added to.
         let q0 = round_up(defect + largest(&self.v) + gamma(m + 4), 2 * n + 40);
+        self.contraction = q0;
         local.y.multiply_abs(&width[..m], &mut self.v);
         let kappa = round_up(largest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {
@@ -135,13 +152,22 @@ impl<const D: usize> SolutionProver<D> {
         }
         let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
 
-        // The residual in intervals: its width is what limits the box.
-        for e in 0..m {
-            let squared = (0..D).fold(point(0.0), |sum, axis| {
-                let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
-                sum + (i - j).sqr()
-            });
-            self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
+        // The residual in intervals or in extended precision: its width is what limits the box.
+        if extended {
+            let (z, error) = ((&local.z[0][..], &local.low[..]), &mut self.v);
+            let precise = equations.in_extended();
+            precise.residual_at_target(equations, z, &mut self.f, error);
+            for e in 0..m {
+                self.f[e] = round_up(self.f[e].abs() + error[e], 1);
+            }
+        } else {
+            for e in 0..m {
+                let squared = (0..D).fold(point(0.0), |sum, axis| {
+                    let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
+                    sum + (i - j).sqr()
+                });
+                self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
+            }
         }
         self.f[m] = 0.0;
         local.y.multiply_abs(&self.f[..m], &mut self.v);
@@ -160,8 +186,14 @@ impl<const D: usize> SolutionProver<D> {
             *r = round_up(v + near, n + 8);
         }
         found.centre.copy_from_slice(&local.z[0]);
+        found.low.copy_from_slice(&local.low);
         (found.alone_within, found.rising) = (alone_within, rising);
         Some(found)
+    }
+
+    /// |I − Y J| of the last box that was tried; infinite where no point was found.
+    pub fn contraction(&self) -> f64 {
+        self.contraction
     }
 }
 
@@ -172,14 +204,12 @@ impl SolutionBox {
         let m = self.centre.len() - 2;
         let (mut inside, mut apart) = (true, false);
         for i in 0..m {
-            let x = if mirror(i) {
-                -self.centre[i]
-            } else {
-                self.centre[i]
-            };
-            let distance = (x - other.centre[i]).abs();
-            // The subtraction and the sums are rounded: a factor covers it.
-            let slack = 4.0 * f64::EPSILON * (x.abs() + distance);
+            let sign = if mirror(i) { -1.0 } else { 1.0 };
+            let high = sign * self.centre[i] - other.centre[i];
+            let low = sign * self.low[i] - other.low[i];
+            let distance = (high + low).abs();
+            // Each difference is rounded relatively to itself, then their sum: a factor covers them.
+            let slack = 4.0 * f64::EPSILON * (high.abs() + low.abs() + distance);
             let radii = round_up(self.radius[i] + other.radius[i] + slack, 4);
             apart |= distance > radii;
             inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
@@ -190,6 +220,17 @@ impl SolutionBox {
             (false, true) => Same::No,
             (false, false) => Same::Unknown,
         }
+    }
+
+    /// How far the exact solution may be from the upper words of the middle alone.
+    pub fn radius_of_centre(&self) -> Vector {
+        let mut radius = self.radius.clone();
+        for (radius, low) in radius.iter_mut().zip(self.low.iter()) {
+            if *low != 0.0 {
+                *radius = round_up(*radius + low.abs(), 1);
+            }
+        }
+        radius
     }
 
     /// The coordinates of all points in the problem's units.
@@ -203,9 +244,10 @@ impl SolutionBox {
                         return point(0.0);
                     }
                     let i = homotopy.gauge.variable[p * d + axis];
-                    let (x, r) = (self.centre[i], self.radius[i]);
+                    let (x, low, r) = (self.centre[i], self.low[i], self.radius[i]);
                     // Scaling by a power of two is exact.
-                    let (lo, hi) = ((x - r).next_down(), (x + r).next_up());
+                    let lo = (x + (low - r).next_down()).next_down();
+                    let hi = (x + (low + r).next_up()).next_up();
                     hull(lo * homotopy.unit, hi * homotopy.unit)
                 })
             })
