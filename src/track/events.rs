@@ -55,7 +55,15 @@ const MAX_PIECES: usize = 10_000;
 impl<const N: usize> TimeAlong<N> {
     /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
     pub fn new(z: [f64; N], h: f64, distance: f64, slope_distance: f64) -> Self {
-        let (mut curvature, mut size, mut slope, mut power) = (0.0, z[0].abs() + 1.0, 0.0, 1.0);
+        Self::extended(z, 0.0, h, distance, slope_distance)
+    }
+
+    /// The same with z_0 + `low` for z_0.
+    pub fn extended(z: [f64; N], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
+        // Near t = 1 the difference is exact (Sterbenz); anywhere its error is relative to itself.
+        let from_one = z[0] - 1.0;
+        let (mut curvature, mut slope, mut power) = (0.0, 0.0, 1.0);
+        let mut size = from_one.abs() + low.abs();
         for k in 1..N {
             slope += k as f64 * z[k].abs() * power;
             if k >= 2 {
@@ -65,10 +73,11 @@ impl<const N: usize> TimeAlong<N> {
             // Once in the value; k times in the slope, which reaches over h at most.
             size += (k + 1) as f64 * z[k].abs() * power;
         }
-        // Horner's rule and the subtraction of 1: fewer than 40 roundings of terms below `size`.
+        // Horner's rule and what the first coefficient is made of: fewer than 40 roundings of terms below
+        // `size`.
         let rounding = gamma(40);
         let mut coefficients = z;
-        coefficients[0] -= 1.0;
+        coefficients[0] = from_one + low;
         TimeAlong {
             coefficients,
             band: round_up(distance + rounding * size, 40),
@@ -93,6 +102,24 @@ impl<const N: usize> TimeAlong<N> {
         let (spread, reach) = (round_up(spread, 10), round_up(reach, 40));
         let around = |x: f64, r: f64| ((x - r).next_down(), (x + r).next_up());
         (around(value, reach), around(slope, spread))
+    }
+
+    /// A parameter from `a` to `b`, at which t − 1 has different signs, where it is about zero.
+    pub fn zero_between(&self, (mut a, mut b): (f64, f64)) -> f64 {
+        let value = |s: f64| {
+            let terms = self.coefficients.iter().rev();
+            terms.fold(0.0, |sum: f64, c| sum.mul_add(s, *c))
+        };
+        let above = value(a) > 0.0;
+        for _ in 0..100 {
+            let middle = 0.5 * (a + b);
+            if (value(middle) > 0.0) == above {
+                a = middle;
+            } else {
+                b = middle;
+            }
+        }
+        0.5 * (a + b)
     }
 
     /// All crossings of t = 1 with parameters from `from` to `to`, and perhaps some a little

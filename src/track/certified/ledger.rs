@@ -3,6 +3,7 @@
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
+use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
@@ -20,6 +21,8 @@ pub struct Ledger<'a, const D: usize> {
     crossings: Vec<Crossing>,
     scratch: Vector,
     ball: Ball,
+    /// Whether solutions are proved in extended precision.
+    pub extended: bool,
     /// The length of the path, in floats.
     pub length: f64,
     /// An enclosure of the values of t.
@@ -36,6 +39,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
             crossings: Vec::new(),
             scratch: equations.vector(),
             ball: Ball::new(equations),
+            extended: false,
             length: 0.0,
             t_range: (f64::INFINITY, f64::NEG_INFINITY),
         }
@@ -69,9 +73,16 @@ impl<'a, const D: usize> Ledger<'a, D> {
         let known = self.found.len();
         let separated = time.crossings(from, to, &mut crossings);
         let all = separated.map_err(Doubt::Time).and_then(|()| {
-            crossings
-                .iter()
-                .try_for_each(|&crossing| self.prove_crossing(equations, inverter, tube, crossing))
+            crossings.iter().try_for_each(|&crossing| {
+                let (a, b) = crossing.between;
+                // Where solutions are near each other it matters from where they are sought.
+                let near = if self.extended {
+                    time.zero_between((a, b))
+                } else {
+                    0.5 * (a + b)
+                };
+                self.prove_crossing(equations, inverter, tube, (crossing, near))
+            })
         });
         self.crossings = crossings;
         if all.is_err() {
@@ -90,21 +101,21 @@ impl<'a, const D: usize> Ledger<'a, D> {
         Ok(())
     }
 
-    /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
-    /// in this stretch of it.
+    /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
+    /// lies in this tube, and in this stretch of it.
     fn prove_crossing<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
-        crossing: Crossing,
+        (crossing, near): (Crossing, f64),
     ) -> Result<(), Doubt> {
         let (a, b) = crossing.between;
-        tube.local.at(0.5 * (a + b), &mut self.scratch);
-        let found = self
-            .prover
-            .prove(equations, inverter, &self.scratch, crossing.rising)?;
+        tube.local.at(near, &mut self.scratch);
+        let how = (crossing.rising, self.extended);
+        let found = self.prover.prove(equations, inverter, &self.scratch, how)?;
         self.ball.centre.copy_from_slice(&found.centre);
+        self.ball.low.copy_from_slice(&found.low);
         self.ball.radius.copy_from_slice(&found.radius);
         let outside = || Doubt::Outside {
             radius: found.greatest_radius(),
@@ -243,8 +254,10 @@ impl<const D: usize> Ledger<'_, D> {
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * D + axis];
-            let side =
-                |s: &SolutionBox| (s.centre[i].abs() > s.radius[i]).then_some(s.centre[i] > 0.0);
+            let side = |s: &SolutionBox| {
+                let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
+                (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
+            };
             match (side(one), side(other)) {
                 (Some(a), Some(b)) => turned[axis] = a != b,
                 _ => return Same::Unknown,

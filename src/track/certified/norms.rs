@@ -1,8 +1,9 @@
 //! From bounds in the norm |·|_u to the longest tube that they prove (see `tube.rs`).
 
+use super::low_orders::LowOrders;
 use super::reasons::Shortfall;
 use crate::interval::rounding::{in_range, round_up};
-use crate::track::full::{DEGREE, MAX_DEGREE, ORDER};
+use crate::track::full::{MAX_DEGREE, ORDER};
 
 /// At most so much of the contraction may be used up by the length of the tube.
 pub(super) const MAX_CONTRACTION: f64 = 0.85;
@@ -40,7 +41,7 @@ pub(super) struct Norms {
     /// |Y J'(w)| per |w|_u.
     pub width: f64,
     /// |Y F(ẑ(s))| at |s| = `h`: orders up to ORDER with rounding, ORDER + 1, and above.
-    pub low: f64,
+    pub low: LowOrders,
     pub middle: f64,
     pub high: f64,
     /// |ẑ'(s)|_u for |s| ≤ `h`, and the bound on |ẑ_t'(s)| in it.
@@ -63,7 +64,7 @@ impl Norms {
             self.r0,
             self.higher,
             self.width,
-            self.low,
+            self.low.at(1.0),
             self.middle,
             self.high,
             self.slope,
@@ -76,14 +77,14 @@ impl Norms {
 
     /// The contraction without the width, the factor of the width, and the defect, at `h`.
     /// Sums of fewer than 60 roundings, covered by the factor.
-    fn at(&self, h: f64) -> (f64, f64, f64) {
+    pub(super) fn at(&self, h: f64) -> (f64, f64, f64) {
         let moving = 1.0 + h * self.a;
         let x = h / self.h;
         let x3 = x * x * x;
         let x6 = x3 * x3;
         let contraction =
             moving * (self.r0 + self.higher * x3) + h * h * (self.square + h * (self.a * self.a2));
-        let defect = moving * (self.low + self.middle * x6 + self.high * (x6 * x));
+        let defect = moving * (self.low.at(x) + self.middle * x6 + self.high * (x6 * x));
         (
             round_up(contraction, 60),
             round_up(moving * self.width, 60),
@@ -117,15 +118,14 @@ impl Norms {
             distance,
         } = Contraction::new((contraction, width, defect), 0.5 / weight_of_t, self.radius)?;
         // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
-        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. In the part of F that
-        // does not get smaller with s, rounding above all, k ≤ DEGREE, and k |s|ᵏ⁻¹ ≤ k Hᵏ/H with the
-        // H = `self.h` where it was bounded, as the derivative has only orders k ≥ 1.
+        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. For the low orders of F
+        // with all rounding see `LowOrders::slope`.
         // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
         let moving = 1.0 + h * self.a;
         let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
         let x = h / self.h;
         let x3 = x * x * x;
-        let defect_slope = DEGREE as f64 / self.h * self.low
+        let defect_slope = self.low.slope(self.h)
             + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
         // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders, at H.
         let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
@@ -179,7 +179,8 @@ impl Contraction {
             return Err(Shortfall::Contraction(contraction));
         }
         let room_for = |room: f64| Shortfall::Defect { defect, room };
-        if !(8.0 * defect * width <= room * room) {
+        let is_enough = 8.0 * defect * width <= room * room;
+        if !is_enough {
             return Err(room_for(room * room / (8.0 * width)));
         }
         let r = (0.5 * room / width).min(largest);
@@ -191,7 +192,8 @@ impl Contraction {
         if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
             return Err(room_for((1.0 - q) * r));
         }
-        if !(distance <= radius) {
+        let is_near = distance <= radius;
+        if !is_near {
             return Err(Shortfall::Distance { distance, radius });
         }
         Ok(Contraction {

@@ -23,6 +23,18 @@ pub enum Rejection {
     Undecided(Doubt),
 }
 
+impl Rejection {
+    /// What 53 bits cannot do, where extended precision is switched on for it.
+    pub fn in_short(self) -> &'static str {
+        match self {
+            Rejection::Refine(_) => "bring points onto the path",
+            Rejection::Unproved => "prove a tube",
+            Rejection::Unlinked => "link two tubes",
+            Rejection::Undecided(_) => "tell whether the path meets t = 1",
+        }
+    }
+}
+
 /// What could not be told of a tube that is proved and linked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Doubt {
@@ -134,6 +146,15 @@ pub fn no_direction() -> String {
     )
 }
 
+/// In which precision that was.
+pub fn precision(is_extended: bool) -> &'static str {
+    if is_extended {
+        ", even in extended precision"
+    } else {
+        ""
+    }
+}
+
 /// Why no point was found, with the corrections that did not shrink.
 pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
     error: RefineError,
@@ -150,6 +171,11 @@ pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
         }
         RefineError::Diverged if ratio > 0.25 || ratio.is_nan() => format!(
             "the corrector does not converge: its first correction is {:.1e}, the next {ratio:.1e} times that",
+            first * unit
+        ),
+        RefineError::Diverged if local.is_extended => format!(
+            "the corrector does not converge: its corrections stay at {:.1e}, after a first one of {:.1e}",
+            local.correction_extended(equations) * unit,
             first * unit
         ),
         RefineError::Diverged => {
@@ -197,7 +223,7 @@ pub fn unlinked<const D: usize, const N: usize, Y: Frame<D>>(
     const UNLINKED: &str = "the tube could not be linked to what comes before it";
     let n = tube.weights.len() - 1;
     let h = tube.proof.h;
-    let s = tube.local.parameter_of(&ball.centre);
+    let s = tube.parameter_near(ball);
     if s.is_nan() || s.abs() > h {
         return format!(
             "{UNLINKED}: {what} is {:.1e} from its middle, and it reaches {:.1e} to either side",
@@ -206,11 +232,21 @@ pub fn unlinked<const D: usize, const N: usize, Y: Frame<D>>(
         );
     }
     let radius = ball.radius[..n].iter().fold(0.0, |a: f64, &b| a.max(b)) * unit;
-    let extent = tube.local.y.extent(&tube.weights[..n], s, |i| {
-        (ball.centre[i] - tube.local.entry_at(i, s), ball.radius[i])
-    });
-    let ratio = extent / tube.proof.r;
+    let Some((along, away)) = tube.spread(ball, s) else {
+        return format!(
+            "{UNLINKED}: {what} is known up to {radius:.1e}, and the tube, which reaches {:.1e} to either side, \
+             bends too much",
+            h * unit
+        );
+    };
+    let ratio = away / tube.proof.r;
     match tube.locate(ball) {
+        None if s.abs() + along > h => format!(
+            "{UNLINKED}: {what} is known up to {radius:.1e}, and it may be {:.1e} from the tube's middle, which \
+             reaches {:.1e} to either side",
+            (s.abs() + along) * unit,
+            h * unit
+        ),
         None => format!(
             "{UNLINKED}: {what} is known up to {radius:.1e}, and with that {ratio:.2} times as far from the tube's middle \
              as the tube is wide"
@@ -226,7 +262,7 @@ pub fn unlinked<const D: usize, const N: usize, Y: Frame<D>>(
 }
 
 /// What could not be told of a tube.
-pub fn undecided(doubt: Doubt, unit: f64) -> String {
+pub fn undecided(doubt: Doubt, is_extended: bool, unit: f64) -> String {
     const WHETHER: &str = "it could not be decided whether the path meets t = 1";
     match doubt {
         Doubt::Time(Undecided { value, slope }) => format!(
@@ -234,13 +270,21 @@ pub fn undecided(doubt: Doubt, unit: f64) -> String {
              between {:.1e} and {:.1e})",
             value.0, value.1, slope.0, slope.1
         ),
+        Doubt::Newton(correction) if !correction.is_finite() => {
+            format!("{WHETHER}: the Jacobian of a figure there is singular in 53 bits")
+        }
         Doubt::Newton(correction) => format!(
             "{WHETHER}: Newton's method does not come to a figure there (it begins with a correction of {:.1e})",
             correction * unit
         ),
         Doubt::Contraction(contraction) => format!(
             "{WHETHER} once: the test of a box around a figure there contracts by {contraction:.1e}, which must \
-             be below 0.5"
+             be below 0.5{}",
+            if is_extended {
+                " (its Jacobian is in 53 bits)"
+            } else {
+                ""
+            }
         ),
         Doubt::Wide { radius, alone } => format!(
             "{WHETHER} once: a figure there is known up to {:.1e}, and may have another within {:.1e}",
