@@ -70,15 +70,7 @@ fn other_ways_of_tracking_leave_certificates_too() {
 /// two solutions are one figure, its two sides up.
 #[test]
 fn a_figure_that_turns_over_is_proved_congruent_to_itself() {
-    let problem = Problem::build("triangle", 3)
-        .point("a", ["0", "0", "0"])
-        .point("b", ["1", "0", "0"])
-        .point("c", ["0", "1", "0"])
-        .distance("a", "b", "1.1")
-        .distance("b", "c", "1.5")
-        .distance("a", "c", "1.2")
-        .finish()
-        .unwrap();
+    let problem = common::turning_triangle();
     let bytes = written(&problem, &Options::certified());
     let verdict = check(&bytes).unwrap();
     assert_eq!(verdict.outcome, Outcome::Verified);
@@ -88,6 +80,22 @@ fn a_figure_that_turns_over_is_proved_congruent_to_itself() {
     different.classes_mut()[1] = 1;
     let verdict = check(&different.bytes()).unwrap();
     assert_eq!(verdict.outcome, Outcome::Refuted(Flaw::Class(2, 1)));
+}
+
+/// The checker's bound on |A| once grew by 1/256 for each unknown, and refused what is larger than some
+/// 200.
+#[test]
+fn certificates_of_large_problems_are_verified() {
+    let recipe = krawl::generate::Recipe {
+        family: krawl::generate::Family::Strip,
+        size: 300,
+        loops: 1,
+        seed: 1,
+    };
+    let problem = recipe.problem().unwrap();
+    let verdict = check(&written(&problem, &Options::certified())).unwrap();
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert!(verdict.margin > 0.01, "{}", verdict.margin);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 mod common;
 
 use common::boxes::{View, check, matching};
-use common::random::{Recipe, recipe};
+use common::random::{Recipe, recipe, same_each_time};
 use common::{SHORT, shipped, solve};
 use krawl::generate;
 use krawl::problem::Problem;
@@ -113,10 +113,6 @@ fn random_problems(strategy: impl Strategy<Value = Recipe>, cases: usize, rng: T
     assert!(tally.stopped.len() * 100 <= 3 * tally.closed, "{tally:#?}");
     assert!(tally.with_solutions * 8 >= cases, "{tally:#?}");
     tally
-}
-
-fn same_each_time() -> TestRng {
-    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
 }
 
 #[test]

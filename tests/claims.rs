@@ -275,15 +275,7 @@ fn cancelled_runs_stop() {
 /// below it. The mirror image is no other figure.
 #[test]
 fn a_triangle_that_turns_over_is_the_same_triangle() {
-    let problem = Problem::build("triangle", 3)
-        .point("a", ["0", "0", "0"])
-        .point("b", ["1", "0", "0"])
-        .point("c", ["0", "1", "0"])
-        .distance("a", "b", "1.1")
-        .distance("b", "c", "1.5")
-        .distance("a", "c", "1.2")
-        .finish()
-        .unwrap();
+    let problem = common::turning_triangle();
     let outcome = solve(&problem, &Options::certified());
     assert_eq!(outcome.status, Status::Closed);
     let classes: Vec<usize> = outcome.solutions.iter().map(|s| s.class).collect();

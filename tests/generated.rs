@@ -134,9 +134,13 @@ fn large_ones_are_followed_in_the_reduced_space() {
 }
 
 #[test]
-fn the_full_space_has_a_limit() {
+fn dense_matrices_have_a_limit() {
     let problem = Recipe::new(Family::Chain, 7000).problem().unwrap();
-    for options in [Options::float(Space::Full), Options::certified()] {
+    let reduced = Options {
+        space: Space::Reduced,
+        ..Options::certified()
+    };
+    for options in [Options::float(Space::Full), Options::certified(), reduced] {
         let refused = solve(&problem, &options, &mut Control::default());
         assert!(matches!(refused, Err(StartError::Unsupported(text)) if text.contains("reduced")));
     }

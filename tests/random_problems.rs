@@ -7,13 +7,13 @@
 mod common;
 
 use common::boxes::{View, check, float_matching, matching};
-use common::random::{Recipe, recipe};
+use common::random::{Recipe, recipe, same_each_time};
 use common::{FLOAT_SPACES, solve};
 use krawl::certificate::{self, Settings, verify};
 use krawl::problem::Problem;
 use krawl::track::{Options, Outcome, Status};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
+use proptest::test_runner::{Config, TestCaseError, TestError, TestRng, TestRunner};
 use std::cell::RefCell;
 
 /// What became of the problems that were tried.
@@ -155,18 +155,14 @@ fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<Test
     tally
 }
 
-fn same_each_time() -> Option<TestRng> {
-    Some(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
-}
-
 #[test]
 fn in_the_plane() {
-    try_all(recipe(2, 3..=9), 400, same_each_time());
+    try_all(recipe(2, 3..=9), 400, Some(same_each_time()));
 }
 
 #[test]
 fn in_space() {
-    try_all(recipe(3, 4..=9), 400, same_each_time());
+    try_all(recipe(3, 4..=9), 400, Some(same_each_time()));
 }
 
 #[test]
@@ -179,6 +175,72 @@ fn many_in_the_plane() {
 #[ignore = "takes long, and tries other problems each time"]
 fn many_in_space() {
     try_all(recipe(3, 4..=9), 3000, None);
+}
+
+/// Paths with hairpins, round which float runs in the full space went with expansions that were good for
+/// a part of the step only: they closed with a solution lost (the first two, on the way back and forth),
+/// or said the path was twenty times as long (the third).
+#[test]
+fn float_runs_lose_nothing_at_hairpins() {
+    let four_points = Problem::build("four points", 2)
+        .point("p1", ["-1.26", "0.15"])
+        .point("p2", ["-1.57", "-1.03"])
+        .point("p3", ["0.27", "-1.67"])
+        .point("p4", ["-1.45", "-1.2"])
+        .distance("p1", "p2", "1.452")
+        .distance("p1", "p3", "2.473")
+        .distance("p2", "p4", "0.185")
+        .distance("p3", "p4", "1.801")
+        .distance("p1", "p4", "1.527")
+        .reference(["p1", "p3"])
+        .bend(["p2", "p4"])
+        .bend_coefficient("1.9");
+    let five_points = Problem::build("five points", 2)
+        .point("p1", ["0.78", "0.15"])
+        .point("p2", ["-1.4", "-0.84"])
+        .point("p3", ["-0.87", "-0.79"])
+        .point("p4", ["-0.46", "1.84"])
+        .point("p5", ["-0.98", "-1.25"])
+        .distance("p1", "p2", "2.514")
+        .distance("p2", "p3", "0.474")
+        .distance("p1", "p4", "2.411")
+        .distance("p3", "p4", "3.141")
+        .distance("p2", "p4", "2.868")
+        .distance("p1", "p5", "1.979")
+        .distance("p4", "p5", "2.789")
+        .reference(["p4", "p5"])
+        .bend(["p2", "p3"])
+        .bend_coefficient("1.5");
+    let triangle = Problem::build("triangle", 2)
+        .point("p1", ["1.6", "-0.29"])
+        .point("p2", ["-1.93", "-1.19"])
+        .point("p3", ["1.59", "1.37"])
+        .distance("p1", "p2", "3.716")
+        .distance("p1", "p3", "1.743")
+        .distance("p2", "p3", "3.961")
+        .reference(["p2", "p3"])
+        .bend(["p1", "p3"])
+        .bend_coefficient("1.9");
+    for builder in [four_points, five_points, triangle] {
+        let problem = builder.finish().unwrap();
+        let proved = solve(&problem, &Options::certified());
+        assert_eq!(proved.status, Status::Closed, "{}", problem.name);
+        for space in FLOAT_SPACES {
+            let there = Options::float(space);
+            for way in [there.clone(), there.reversed()] {
+                let float = solve(&problem, &way);
+                assert_eq!(float.status, Status::Closed, "{}, {way:?}", problem.name);
+                float_matching(&problem, &proved.solutions, &float.solutions)
+                    .unwrap_or_else(|e| panic!("{}, {way:?}: {e}", problem.name));
+                let ratio = float.length / proved.length;
+                assert!(
+                    (0.99..1.01).contains(&ratio),
+                    "{}, {way:?}: {ratio}",
+                    problem.name
+                );
+            }
+        }
+    }
 }
 
 /// Paths that close with steps of 0.02, and must with steps of the program's own choice.

@@ -24,6 +24,9 @@ pub struct Writer<'a, W> {
     out: W,
     problem: &'a Problem,
     tubes: u64,
+    solutions: usize,
+    /// A tube came that the format cannot hold: the rest is left out.
+    cut: bool,
     ended: bool,
     result: io::Result<()>,
 }
@@ -35,9 +38,17 @@ impl<'a, W: Write> Writer<'a, W> {
             out,
             problem,
             tubes: 0,
+            solutions: 0,
+            cut: false,
             ended: false,
             result: Ok(()),
         }
+    }
+
+    /// Whether the certificate ends before the run did, as tubes came that were proved in extended
+    /// precision: it is then one of a path that was not followed to its end.
+    pub fn is_cut(&self) -> bool {
+        self.cut
     }
 
     /// Hands the stream back once the run is over. Fails where writing did, or where no
@@ -66,6 +77,10 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn tube(&mut self, tube: TubeSeen) {
+        if tube.extended || self.cut {
+            self.cut = true;
+            return;
+        }
         self.tubes += 1;
         let weight = |&u: &f64| (u / WEIGHT_UNIT).round().clamp(1.0, u16::MAX.into()) as u16;
         self.put(&Record::Tube(TubeClaim {
@@ -79,6 +94,10 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn solution(&mut self, centre: &[f64], radius: &[f64]) {
+        if self.cut {
+            return;
+        }
+        self.solutions += 1;
         let largest = |v: &[f64]| v.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         self.put(&Record::Solution(SolutionClaim {
             centre: centre.to_vec(),
@@ -88,6 +107,15 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn end(&mut self, status: &Status, classes: &[usize]) {
         let stopped = match status {
+            _ if self.cut => Some(format!(
+                "the next tube was proved in extended precision, which certificates cannot hold: \
+                 this one ends after {} tubes, and the run {}",
+                self.tubes,
+                match status {
+                    Status::Closed => "went on and closed",
+                    Status::Stopped(_) => "went on, but did not close",
+                }
+            )),
             Status::Closed => None,
             Status::Stopped(reason) => {
                 let end = (0..=reason.len().min(MAX_TEXT)).rev();
@@ -95,6 +123,8 @@ impl<W: Write> Witness for Writer<'_, W> {
                 Some(reason[..end.unwrap_or(0)].to_owned())
             }
         };
+        // Those that were written are the first ones, and classes are numbered as they come.
+        let classes = &classes[..self.solutions.min(classes.len())];
         self.put(&Record::End(EndClaim {
             stopped,
             tubes: self.tubes,

@@ -206,7 +206,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     // The file first: a table that nobody reads any more must not cost it.
     let mut written = true;
     if let (Some(beside), Some(writer)) = (&cert, witness) {
+        let cut = writer.is_cut();
         written &= beside.commit(writer.finish().map(|_| ()));
+        if cut && written {
+            output::complain(
+                "the certificate holds the beginning of the proof only: the tubes that follow were proved \
+                 in extended precision, which certificates cannot hold",
+            );
+        }
     }
     if let Some(json) = &json {
         written &= json.write(&(to_json(&problem, &outcome) + "\n"));

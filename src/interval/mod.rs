@@ -4,9 +4,11 @@
 //! coefficients, solution boxes. The loops over whole matrices use plain floats with a-priori
 //! error bounds instead; those are in [`rounding`].
 
+mod double_double;
 mod enclosure;
 pub mod rounding;
 
+pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};
 pub use inari::Interval;
 

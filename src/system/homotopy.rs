@@ -1,6 +1,6 @@
 //! H(X, t), as the trackers see it.
 
-use super::{Gauge, GaugeError, Length};
+use super::{ExactLength, Gauge, GaugeError, Length};
 use crate::interval::{Interval, enclose, enclose_rational, point};
 use crate::problem::{Problem, Target};
 
@@ -33,6 +33,8 @@ pub struct Homotopy {
     pub edges: Vec<Edge>,
     /// Their lengths, in the same order.
     pub lengths: Vec<Length>,
+    /// What they are made of, exactly.
+    pub exact_lengths: Vec<ExactLength>,
     /// Which of them bends.
     pub bend: usize,
     /// What people call the distances.
@@ -81,7 +83,7 @@ impl Homotopy {
             .flat_map(|p| p.into_iter().take(problem.dimension))
             .map(|x| x * per_unit)
             .collect();
-        let lengths = problem
+        let (lengths, exact_lengths) = problem
             .distances
             .iter()
             .enumerate()
@@ -101,9 +103,19 @@ impl Homotopy {
                 };
                 let bend = (index == problem.homotopy.bend)
                     .then(|| enclose(&problem.homotopy.bend_coefficient) * per_unit);
-                Length::new(sketch * per_unit, target * per_unit, bend)
+                let exact = ExactLength {
+                    sketch_squared: squared,
+                    target: distance.target.clone(),
+                    bend: (index == problem.homotopy.bend)
+                        .then(|| problem.homotopy.bend_coefficient.clone()),
+                    unit,
+                };
+                (
+                    Length::new(sketch * per_unit, target * per_unit, bend),
+                    exact,
+                )
             })
-            .collect();
+            .unzip();
         Ok(Homotopy {
             dimension: problem.dimension,
             points: problem.points.len(),
@@ -115,6 +127,7 @@ impl Homotopy {
                 .map(|d| Edge { points: d.points })
                 .collect(),
             lengths,
+            exact_lengths,
             bend: problem.homotopy.bend,
             names: (0..problem.distances.len())
                 .map(|d| problem.distance_name(d))

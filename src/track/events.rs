@@ -29,9 +29,14 @@ pub struct Crossing {
     pub rising: bool,
 }
 
-/// The signs of t − 1 and t' could not be separated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Undecided;
+/// The signs of t − 1 and t' could not be separated, both being known between these bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Undecided {
+    /// Of t − 1.
+    pub value: (f64, f64),
+    /// Of dt/ds.
+    pub slope: (f64, f64),
+}
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Piece {
@@ -50,7 +55,15 @@ const MAX_PIECES: usize = 10_000;
 impl<const N: usize> TimeAlong<N> {
     /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
     pub fn new(z: [f64; N], h: f64, distance: f64, slope_distance: f64) -> Self {
-        let (mut curvature, mut size, mut slope, mut power) = (0.0, z[0].abs() + 1.0, 0.0, 1.0);
+        Self::extended(z, 0.0, h, distance, slope_distance)
+    }
+
+    /// The same with z_0 + `low` for z_0.
+    pub fn extended(z: [f64; N], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
+        // Near t = 1 the difference is exact (Sterbenz); anywhere its error is relative to itself.
+        let from_one = z[0] - 1.0;
+        let (mut curvature, mut slope, mut power) = (0.0, 0.0, 1.0);
+        let mut size = from_one.abs() + low.abs();
         for k in 1..N {
             slope += k as f64 * z[k].abs() * power;
             if k >= 2 {
@@ -60,10 +73,11 @@ impl<const N: usize> TimeAlong<N> {
             // Once in the value; k times in the slope, which reaches over h at most.
             size += (k + 1) as f64 * z[k].abs() * power;
         }
-        // Horner's rule and the subtraction of 1: fewer than 40 roundings of terms below `size`.
+        // Horner's rule and what the first coefficient is made of: fewer than 40 roundings of terms below
+        // `size`.
         let rounding = gamma(40);
         let mut coefficients = z;
-        coefficients[0] -= 1.0;
+        coefficients[0] = from_one + low;
         TimeAlong {
             coefficients,
             band: round_up(distance + rounding * size, 40),
@@ -90,6 +104,24 @@ impl<const N: usize> TimeAlong<N> {
         (around(value, reach), around(slope, spread))
     }
 
+    /// A parameter from `a` to `b`, at which t − 1 has different signs, where it is about zero.
+    pub fn zero_between(&self, (mut a, mut b): (f64, f64)) -> f64 {
+        let value = |s: f64| {
+            let terms = self.coefficients.iter().rev();
+            terms.fold(0.0, |sum: f64, c| sum.mul_add(s, *c))
+        };
+        let above = value(a) > 0.0;
+        for _ in 0..100 {
+            let middle = 0.5 * (a + b);
+            if (value(middle) > 0.0) == above {
+                a = middle;
+            } else {
+                b = middle;
+            }
+        }
+        0.5 * (a + b)
+    }
+
     /// All crossings of t = 1 with parameters from `from` to `to`, and perhaps some a little
     /// outside, with |s| ≤ h.
     pub fn crossings(&self, from: f64, to: f64, out: &mut Vec<Crossing>) -> Result<(), Undecided> {
@@ -108,6 +140,12 @@ impl<const N: usize> TimeAlong<N> {
         };
         self.split(from, to, 0, &mut scan)?;
         scan.certain(above_at_end)
+            .ok_or_else(|| self.undecided(from, to))
+    }
+
+    fn undecided(&self, a: f64, b: f64) -> Undecided {
+        let (value, slope) = self.bounds(a, b);
+        Undecided { value, slope }
     }
 
     /// Moves an end outwards until t ≠ 1 is certain there; also tells whether t > 1.
@@ -129,7 +167,7 @@ impl<const N: usize> TimeAlong<N> {
                 2.0 * step
             };
         }
-        Err(Undecided)
+        Err(self.undecided(end, end))
     }
 
     fn split(&self, a: f64, b: f64, depth: usize, scan: &mut Scan) -> Result<(), Undecided> {
@@ -144,13 +182,13 @@ impl<const N: usize> TimeAlong<N> {
         } else if slope_high < 0.0 {
             Piece::Falling
         } else if depth == MAX_DEPTH || scan.pieces >= MAX_PIECES {
-            return Err(Undecided);
+            return Err(self.undecided(a, b));
         } else {
             let middle = 0.5 * (a + b);
             self.split(a, middle, depth + 1, scan)?;
             return self.split(middle, b, depth + 1, scan);
         };
-        scan.push(piece, a, b)
+        scan.push(piece, a, b).ok_or_else(|| self.undecided(a, b))
     }
 }
 
@@ -166,7 +204,7 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    fn push(&mut self, piece: Piece, a: f64, b: f64) -> Result<(), Undecided> {
+    fn push(&mut self, piece: Piece, a: f64, b: f64) -> Option<()> {
         match piece {
             Piece::Below | Piece::Above => self.certain(piece == Piece::Above),
             Piece::Rising | Piece::Falling => {
@@ -175,21 +213,21 @@ impl Scan<'_> {
                     None => self.open = Some((a, b, rising)),
                     Some((_, end, direction)) if *direction == rising => *end = b,
                     // A fold with t = 1 in reach.
-                    Some(_) => return Err(Undecided),
+                    Some(_) => return None,
                 }
-                Ok(())
+                Some(())
             }
         }
     }
 
     /// A place where the sign of t − 1 is certain: a monotone stretch before it holds exactly one
     /// crossing if the sign has changed, and none otherwise.
-    fn certain(&mut self, above: bool) -> Result<(), Undecided> {
+    fn certain(&mut self, above: bool) -> Option<()> {
         if let Some((start, end, rising)) = self.open.take()
             && above != self.above
         {
             if above != rising {
-                return Err(Undecided);
+                return None;
             }
             self.out.push(Crossing {
                 between: (start, end),
@@ -197,6 +235,6 @@ impl Scan<'_> {
             });
         }
         self.above = above;
-        Ok(())
+        Some(())
     }
 }

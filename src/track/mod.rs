@@ -43,10 +43,15 @@ pub fn solve(
         Preset::Default => Homotopy::new(problem)?,
         Preset::Paper => Homotopy::for_the_paper(problem)?,
     };
-    if options.space == Space::Full && homotopy.equations > LARGEST_FULL {
+    let (what, other) = match (options.mode, options.space) {
+        (Mode::Float, Space::Full) => ("the full space keeps", "--space reduced"),
+        (Mode::Certified, _) => ("proofs keep", "--mode float --space reduced"),
+        (Mode::Float, Space::Reduced) => ("", ""),
+    };
+    if !what.is_empty() && homotopy.equations > LARGEST_SQUARE {
         return Err(StartError::Unsupported(format!(
-            "there are {} free coordinates, more than the {LARGEST_FULL} of which the full space keeps \
-             square matrices; use --space reduced",
+            "there are {} free coordinates, more than the {LARGEST_SQUARE} of which {what} square \
+             matrices; use {other}",
             homotopy.equations
         )));
     }
@@ -69,6 +74,18 @@ pub fn solve(
                 .map(|r| format!("tubes of radius {r:e}")),
             Mode::Float => options.tolerance.map(|x| format!("points good to {x:e}")),
         };
+        if options.preset == Preset::Paper {
+            let longest = options.max_step.unwrap_or(
+                homotopy.unit
+                    * match options.space {
+                        Space::Full => float::LARGEST_STEP_OF_PAPER,
+                        Space::Reduced => reduced::LARGEST_STEP_OF_PAPER,
+                    },
+            );
+            *reason += &format!(
+                " (the paper's preset takes steps of up to {longest:e} in the lengths of the file)"
+            );
+        }
         if let Some(wish) = wish {
             *reason += &format!(" ({wish} were asked for)");
         }
@@ -76,9 +93,10 @@ pub fn solve(
     Ok(outcome)
 }
 
-/// Most free coordinates in the full space: its trackers keep half a dozen dense matrices with as
-/// many rows and columns, 288 MB each here.
-const LARGEST_FULL: usize = 6000;
+/// Most free coordinates but for float runs in the reduced space: the others keep half a dozen dense
+/// matrices with as many rows and columns, 288 MB each here (certified ones in the reduced space, as many
+/// triangular ones, of two numbers per entry).
+const LARGEST_SQUARE: usize = 6000;
 
 /// Bounds on the step below this, in units of the problem's typical length, are refused: no path
 /// would end.

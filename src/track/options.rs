@@ -33,6 +33,9 @@ pub struct Options {
     /// The threshold α on the distance to a boundary configuration (RR 8705, section 4.2) at
     /// which the construction plan is changed. Between 0 and ½.
     pub alpha: f64,
+    /// Whether certified mode in the full space may switch extended precision on where 53 bits do not
+    /// suffice; otherwise it stops there. Where they do suffice this changes nothing.
+    pub extended: bool,
     /// The run ends `stopped` after so many steps.
     pub max_steps: usize,
 }
@@ -62,6 +65,7 @@ impl Options {
             tube_radius: None,
             reverse: false,
             alpha: 0.1,
+            extended: true,
             max_steps: 10_000_000,
         }
     }
@@ -111,6 +115,14 @@ impl Options {
     pub(crate) fn radius(&self, unit: f64) -> f64 {
         self.tube_radius
             .map_or(f64::INFINITY, |radius| radius / unit)
+    }
+
+    /// In 53 bits only.
+    pub fn without_extended(self) -> Self {
+        Options {
+            extended: false,
+            ..self
+        }
     }
 
     /// In the other direction.

@@ -9,6 +9,8 @@ use super::Status;
 pub struct TubeSeen<'a> {
     /// The point z₀ near the path.
     pub centre: &'a [f64],
+    /// Whether the tube was proved in extended precision: then z₀ has more digits than `centre`.
+    pub extended: bool,
     /// The normal c of the cross-sections.
     pub normal: &'a [f64],
     /// The weights u of the norm, at most 1.

@@ -52,6 +52,20 @@ pub fn shipped(name: &str) -> Problem {
     Problem::read(format!("problems/{name}.toml")).unwrap()
 }
 
+/// Three points in space, joined: on the path the third falls on the line of the others, and the
+/// triangle turns over. Its two solutions are one figure, its two sides up.
+pub fn turning_triangle() -> Problem {
+    Problem::build("triangle", 3)
+        .point("a", ["0", "0", "0"])
+        .point("b", ["1", "0", "0"])
+        .point("c", ["0", "1", "0"])
+        .distance("a", "b", "1.1")
+        .distance("b", "c", "1.5")
+        .distance("a", "c", "1.2")
+        .finish()
+        .unwrap()
+}
+
 /// The result of a run.
 pub fn solve(problem: &Problem, options: &Options) -> Outcome {
     track::solve(problem, options, &mut Control::default()).unwrap()
@@ -67,4 +81,16 @@ pub fn closed(problem: &Problem, options: &Options) -> Vec<Solution> {
         problem.name
     );
     outcome.solutions
+}
+
+/// The numbers in a reason for which a certified run stopped, without those of the place: there is
+/// one in each that says what was too small.
+pub fn numbers_in(reason: &str) -> Vec<f64> {
+    let why = reason.split(", at the smallest step").next().unwrap();
+    let why = why.split(" (condition").next().unwrap();
+    let words = why.split([' ', ',', ';', '(', ')']);
+    words
+        .filter(|word| word.contains(|c: char| c.is_ascii_digit()) && word.contains('e'))
+        .filter_map(|word| word.parse().ok())
+        .collect()
 }

@@ -2,6 +2,7 @@
 
 use krawl::problem::{Problem, ProblemError};
 use proptest::prelude::*;
+use proptest::test_runner::{RngAlgorithm, TestRng};
 
 /// How to build a problem. Numbers are taken modulo the number of choices that there are, so that
 /// every recipe means something and shrinks well.
@@ -18,6 +19,11 @@ pub struct Recipe {
     bend: usize,
     /// The bend's coefficient, in tenths.
     bend_coefficient: i32,
+}
+
+/// Chance that is the same each time, so that a result of `cargo test` does not depend on luck.
+pub fn same_each_time() -> TestRng {
+    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
 }
 
 /// Recipes for `points` points in the plane or in space, at most ten.

@@ -74,13 +74,13 @@ pub fn above(x: u128, bits: i32) -> Interval {
 
 /// At least the largest sum of a row's sizes, for n × n entries in units of 2^−`bits`.
 fn norm(n: usize, bits: i32, entries: impl Iterator<Item = i128>) -> Interval {
-    // Without the last 16 bits no sum overflows.
-    const DROPPED: i32 = 16;
+    // Without the last 16 of 70 bits no sum of products overflows; those of A have 24, and keep them.
+    let dropped = if bits == A_BITS { 0 } else { 16 };
     let mut sums = vec![0u128; n];
     for (k, entry) in entries.enumerate() {
-        sums[k / n] += (entry.unsigned_abs() >> DROPPED) + 1;
+        sums[k / n] += (entry.unsigned_abs() >> dropped) + 1;
     }
-    above(sums.into_iter().max().unwrap_or(0), bits - DROPPED)
+    above(sums.into_iter().max().unwrap_or(0), bits - dropped)
 }
 
 impl Whole {

@@ -10,9 +10,9 @@ use crate::track::full::{Equations, Local, dot};
 /// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
 const ENOUGH: f64 = 2e-2;
 /// Steps that are more than enough where the contraction is that of a proved tube.
-const MAX_STEPS: usize = 200;
+pub(super) const MAX_STEPS: usize = 200;
 /// Corrections that shrink by less than this are at the limit of floats.
-const STAGNATION: f64 = 0.98;
+pub(super) const STAGNATION: f64 = 0.98;
 
 impl<const D: usize> KrawczykTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
@@ -44,7 +44,13 @@ impl<const D: usize> KrawczykTest<D> {
         let (exit, v) = (&tube.exit, &mut tube.exit_slope);
         let c = &local.normal[..n];
         // Differences at the exit, of v, and sums of the exit's radii.
-        equations.differences(&exit.centre, &mut self.near);
+        if exit.is_extended() {
+            let z = (&exit.centre[..], &exit.low[..]);
+            let extended = equations.in_extended();
+            extended.differences(equations, z, &mut self.near);
+        } else {
+            equations.differences(&exit.centre, &mut self.near);
+        }
         equations.sums(&exit.radius, &mut self.sums);
         equations.expand_lengths(exit.centre[m], &mut self.lengths);
         local.slope(s, v);
@@ -69,7 +75,8 @@ impl<const D: usize> KrawczykTest<D> {
         equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
         self.f[m] = dot(c, &v[..n]) - 1.0;
         let hidden = &mut self.bounds[0];
-        let radius_of_t = exit.radius[m];
+        // The lengths are those at the upper word of t.
+        let radius_of_t = round_up(exit.radius[m] + exit.low[m].abs(), 1);
         equations.jacobian_times_error(
             (&self.near, exit.centre[m]),
             (&self.sums, radius_of_t),
@@ -82,7 +89,13 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// A bound on |Ỹ(s) g|_u / (1 − q) for any g within `bounds[0]` of `f`, entry by entry.
-    fn radius_from_defect(&mut self, local: &Local<D>, proof: &Proof, u: &Vector, s: f64) -> f64 {
+    pub(super) fn radius_from_defect(
+        &mut self,
+        local: &Local<D>,
+        proof: &Proof,
+        u: &Vector,
+        s: f64,
+    ) -> f64 {
         let n = u.len() - 1;
         let hidden = &mut self.bounds[0];
         for i in 0..n {
@@ -107,6 +120,9 @@ impl<const D: usize> KrawczykTest<D> {
         tube: &mut Tube<D>,
         accuracy: f64,
     ) -> Option<()> {
+        if self.precision.extended || tube.local.is_extended {
+            return self.enclose_extended(equations, tube, accuracy);
+        }
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let out = &mut tube.exit;
@@ -114,6 +130,7 @@ impl<const D: usize> KrawczykTest<D> {
         out.radius[..n].fill(f64::INFINITY);
         let c = &local.normal[..n];
         local.at(s, &mut out.centre);
+        out.low.fill(0.0);
         let goal = accuracy * proof.r;
         let mut step = f64::INFINITY;
         for _ in 0..MAX_STEPS {

@@ -1,12 +1,14 @@
 //! What has been proved along the chain so far: solutions, the range of t, the length.
 
 use super::link::{Ball, Frame, Tube};
+use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
+use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::Solution;
-use crate::track::events::{Crossing, TimeAlong, Undecided};
+use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{Equations, InverseMaker, path_length};
 
 /// The account of a chain of linked tubes.
@@ -19,6 +21,8 @@ pub struct Ledger<'a, const D: usize> {
     crossings: Vec<Crossing>,
     scratch: Vector,
     ball: Ball,
+    /// Whether solutions are proved in extended precision.
+    pub extended: bool,
     /// The length of the path, in floats.
     pub length: f64,
     /// An enclosure of the values of t.
@@ -35,6 +39,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
             crossings: Vec::new(),
             scratch: equations.vector(),
             ball: Ball::new(equations),
+            extended: false,
             length: 0.0,
             t_range: (f64::INFINITY, f64::NEG_INFINITY),
         }
@@ -58,7 +63,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
         closing: Option<(f64, f64)>,
-    ) -> Result<(), Undecided> {
+    ) -> Result<(), Doubt> {
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
         let to = closing
@@ -66,10 +71,18 @@ impl<'a, const D: usize> Ledger<'a, D> {
             .min(tube.proof.h);
         let mut crossings = std::mem::take(&mut self.crossings);
         let known = self.found.len();
-        let all = time.crossings(from, to, &mut crossings).and_then(|()| {
-            crossings
-                .iter()
-                .try_for_each(|&crossing| self.prove_crossing(equations, inverter, tube, crossing))
+        let separated = time.crossings(from, to, &mut crossings);
+        let all = separated.map_err(Doubt::Time).and_then(|()| {
+            crossings.iter().try_for_each(|&crossing| {
+                let (a, b) = crossing.between;
+                // Where solutions are near each other it matters from where they are sought.
+                let near = if self.extended {
+                    time.zero_between((a, b))
+                } else {
+                    0.5 * (a + b)
+                };
+                self.prove_crossing(equations, inverter, tube, (crossing, near))
+            })
         });
         self.crossings = crossings;
         if all.is_err() {
@@ -88,34 +101,42 @@ impl<'a, const D: usize> Ledger<'a, D> {
         Ok(())
     }
 
-    /// Proves the box of one crossing: exactly one solution in it, which lies in this tube, and
-    /// in this stretch of it.
+    /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
+    /// lies in this tube, and in this stretch of it.
     fn prove_crossing<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
-        crossing: Crossing,
-    ) -> Result<(), Undecided> {
+        (crossing, near): (Crossing, f64),
+    ) -> Result<(), Doubt> {
         let (a, b) = crossing.between;
-        tube.local.at(0.5 * (a + b), &mut self.scratch);
-        let found = self
-            .prover
-            .prove(equations, inverter, &self.scratch, crossing.rising)
-            .ok_or(Undecided)?;
+        tube.local.at(near, &mut self.scratch);
+        let how = (crossing.rising, self.extended);
+        let found = self.prover.prove(equations, inverter, &self.scratch, how)?;
         self.ball.centre.copy_from_slice(&found.centre);
+        self.ball.low.copy_from_slice(&found.low);
         self.ball.radius.copy_from_slice(&found.radius);
-        let at = tube.locate(&self.ball).ok_or(Undecided)?;
+        let outside = || Doubt::Outside {
+            radius: found.greatest_radius(),
+            stretch: b - a,
+        };
+        let at = tube.locate(&self.ball).ok_or_else(outside)?;
         // All of it: beyond the stretch there may be another solution, in the tube but not counted.
         if at.0 < a || at.1 > b {
-            return Err(Undecided);
+            return Err(outside());
         }
         for other in &self.found {
             match found.is_same(other, |_| false) {
                 // In the overlap of two tubes, or at the end of the loop.
                 Same::Yes => return Ok(()),
                 Same::No => {}
-                Same::Unknown => return Err(Undecided),
+                Same::Unknown => {
+                    return Err(Doubt::Twin {
+                        distance: found.distance(other),
+                        radius: found.greatest_radius().max(other.greatest_radius()),
+                    });
+                }
             }
         }
         self.found.push(found.clone());
@@ -158,12 +179,19 @@ impl<'a, const D: usize> Ledger<'a, D> {
     fn lengths_are_positive(&self) -> Result<(), String> {
         let range = hull(self.t_range.0, self.t_range.1);
         for (index, length) in self.homotopy.lengths.iter().enumerate() {
-            if length.enclose(range).inf() <= 0.0
-                && !positive_in_pieces(|t| length.enclose(t), range)
-            {
+            if length.enclose(range).inf() > 0.0 {
+                continue;
+            }
+            let bounds = lower_bounds(|t| length.enclose(t), range);
+            if !bounds.iter().all(|&bound| bound > 0.0) {
+                let least = bounds.into_iter().fold(f64::INFINITY, f64::min);
                 return Err(format!(
-                    "the length of {} could not be proved positive for t from {:.6} to {:.6}",
-                    self.homotopy.names[index], self.t_range.0, self.t_range.1
+                    "the length of {} could not be proved positive for t from {:.6} to {:.6}: no more than \
+                     that it is above {:.1e}",
+                    self.homotopy.names[index],
+                    self.t_range.0,
+                    self.t_range.1,
+                    least * self.homotopy.unit
                 ));
             }
         }
@@ -182,10 +210,12 @@ impl<'a, const D: usize> Ledger<'a, D> {
                     Same::No => {}
                     Same::Unknown => {
                         reason.get_or_insert(format!(
-                            "it could not be decided whether solutions {} and {} are congruent; \
-                             another reference may help",
+                            "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
+                             are congruent; another reference may help",
                             j + 1,
-                            k + 1
+                            k + 1,
+                            found.greatest_radius().max(other.greatest_radius())
+                                * self.homotopy.unit
                         ));
                     }
                 }
@@ -224,8 +254,10 @@ impl<const D: usize> Ledger<'_, D> {
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * D + axis];
-            let side =
-                |s: &SolutionBox| (s.centre[i].abs() > s.radius[i]).then_some(s.centre[i] > 0.0);
+            let side = |s: &SolutionBox| {
+                let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
+                (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
+            };
             match (side(one), side(other)) {
                 (Some(a), Some(b)) => turned[axis] = a != b,
                 _ => return Same::Unknown,
@@ -249,13 +281,15 @@ impl<const D: usize> Ledger<'_, D> {
     }
 }
 
-/// Whether a function is proved positive on every piece of a range.
-fn positive_in_pieces(enclose: impl Fn(Interval) -> Interval, range: Interval) -> bool {
-    const PIECES: usize = 64;
+/// Pieces of the range of t on which lengths are bounded.
+const PIECES: usize = 64;
+
+/// Lower bounds of a function on the pieces of a range.
+fn lower_bounds(enclose: impl Fn(Interval) -> Interval, range: Interval) -> [f64; PIECES] {
     let (lo, width) = (point(range.inf()), point(range.sup()) - point(range.inf()));
-    (0..PIECES).all(|k| {
+    std::array::from_fn(|k| {
         let piece = hull(k as f64 / PIECES as f64, (k + 1) as f64 / PIECES as f64);
-        enclose((lo + width * piece).intersection(range)).inf() > 0.0
+        enclose((lo + width * piece).intersection(range)).inf()
     })
 }
 

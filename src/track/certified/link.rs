@@ -69,6 +69,8 @@ pub struct Tube<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
 pub struct Ball {
     /// The middle.
     pub centre: Vector,
+    /// What the middle is more than that, in extended precision; otherwise zero.
+    pub low: Vector,
     /// The radius of each entry.
     pub radius: Vector,
 }
@@ -78,8 +80,14 @@ impl Ball {
     pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
         Ball {
             centre: equations.vector(),
+            low: equations.vector(),
             radius: equations.vector(),
         }
+    }
+
+    /// Whether the middle has more digits than floats have.
+    pub fn is_extended(&self) -> bool {
+        self.low.iter().any(|&x| x != 0.0)
     }
 }
 
@@ -112,26 +120,46 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     /// changes sign within ω = |g(s̃)| / min c·ẑ'; there z is in a cross-section, and if its
     /// distance from ẑ is below r it is the cross-section's only zero.
     pub fn locate(&self, ball: &Ball) -> Option<(f64, f64)> {
-        let n = self.weights.len() - 1;
-        let (local, proof) = (&self.local, &self.proof);
-        let c = &local.normal[..n];
-        let s = local.parameter_of(&ball.centre);
+        let proof = &self.proof;
+        let s = self.parameter_near(ball);
         if s.is_nan() || s.abs() > proof.h {
             return None;
         }
+        let (omega, width) = self.spread(ball, s)?;
+        (round_up(s.abs() + omega, 2) <= proof.h && width < proof.r)
+            .then(|| ((s - omega).next_down(), (s + omega).next_up()))
+    }
+
+    /// For a ball with its middle near the cross-section of `s`: how far from s its points may be along
+    /// the tube, and from the tube's middle in the norm of the box.
+    #[inline(always)]
+    pub fn spread(&self, ball: &Ball, s: f64) -> Option<(f64, f64)> {
+        let n = self.weights.len() - 1;
+        let (local, proof) = (&self.local, &self.proof);
+        let c = &local.normal[..n];
         let (mut along, mut along_error) = (0.0, 0.0);
         let widest = local.y.extent(&self.weights[..n], s, |i| {
-            let away = ball.centre[i] - local.entry_at(i, s);
-            let error =
-                evaluation_error(local, i, s) + ball.radius[i] + 2.0 * f64::EPSILON * away.abs();
+            let (away, rounding) = offset(local, i, s, (ball.centre[i], ball.low[i]));
+            let error = rounding + ball.radius[i];
             along += c[i] * away;
             along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
             (away, error)
         });
         let omega = round_up((along.abs() + along_error) / self.least_advance()?, n + 8);
         let width = round_up(widest + omega * local.y.speed(proof), n + 8);
-        (round_up(s.abs() + omega, 2) <= proof.h && width < proof.r)
-            .then(|| ((s - omega).next_down(), (s + omega).next_up()))
+        Some((omega, width))
+    }
+
+    /// The parameter at which a ball's middle is in the cross-section, but for rounding.
+    pub fn parameter_near(&self, ball: &Ball) -> f64 {
+        let (local, n) = (&self.local, self.weights.len() - 1);
+        let c = &local.normal[..n];
+        let s = local.parameter_of(&ball.centre);
+        if local.is_extended {
+            s + (dot(c, &ball.low[..n]) - dot(c, &local.low[..n]))
+        } else {
+            s
+        }
     }
 
     /// A lower bound of c·ẑ'(s) on the tube. It is near 1; less than ½ is refused.
@@ -177,10 +205,16 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
 
     /// t along the tube.
     pub fn time(&self) -> TimeAlong<N> {
-        let (t, proof) = (self.weights.len() - 2, &self.proof);
+        self.time_if(&self.proof)
+    }
+
+    /// t along the tube if `proof` were what is proved.
+    pub fn time_if(&self, proof: &Proof) -> TimeAlong<N> {
+        let t = self.weights.len() - 2;
         // One rounding each, within what `TimeAlong` adds for its own.
-        TimeAlong::new(
+        TimeAlong::extended(
             std::array::from_fn(|k| self.local.z[k][t]),
+            self.local.low[t],
             proof.h,
             round_up(proof.distance * self.weights[t], 1),
             round_up(proof.slope_distance * self.weights[t], 1),
@@ -209,6 +243,30 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
         }
         along > round_up(error, n + 8)
     }
+}
+
+/// How far a point is from ẑ(s) in entry i, in floats, and the error of that. The point is given as
+/// a sum of two floats.
+///
+/// Both are seen from z₀: what is subtracted is small, and so is its rounding.
+#[inline(always)]
+pub fn offset<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    local: &Local<D, N, Y>,
+    i: usize,
+    s: f64,
+    (high, low): (f64, f64),
+) -> (f64, f64) {
+    let (from_high, from_low) = (high - local.z[0][i], low - local.low[i]);
+    let (mut along, mut size) = (0.0f64, 0.0f64);
+    for k in (1..N).rev() {
+        let z = local.z[k][i];
+        along = along.mul_add(s, z);
+        size = size.mul_add(s.abs(), z.abs());
+    }
+    let away = s.mul_add(-along, from_high + from_low);
+    // One rounding in each difference, one in their sum, one at last.
+    let size = size * s.abs() + (from_high.abs() + from_low.abs());
+    (away, round_up(gamma(evaluation(N)) * size, evaluation(N)))
 }
 
 /// How far ẑ(s)_i in floats may be from the exact value.

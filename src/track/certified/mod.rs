@@ -1,9 +1,12 @@
 //! Every step a theorem: tubes proved by a Krawczyk test, linked without a gap.
 
 mod exit;
+mod extended;
 mod ledger;
 mod link;
+mod low_orders;
 mod norms;
+mod reasons;
 mod reduced;
 mod solution;
 mod tracker;

@@ -1,7 +1,9 @@
 //! From bounds in the norm |·|_u to the longest tube that they prove (see `tube.rs`).
 
+use super::low_orders::LowOrders;
+use super::reasons::Shortfall;
 use crate::interval::rounding::{in_range, round_up};
-use crate::track::full::{DEGREE, MAX_DEGREE, ORDER};
+use crate::track::full::{MAX_DEGREE, ORDER};
 
 /// At most so much of the contraction may be used up by the length of the tube.
 pub(super) const MAX_CONTRACTION: f64 = 0.85;
@@ -39,7 +41,7 @@ pub(super) struct Norms {
     /// |Y J'(w)| per |w|_u.
     pub width: f64,
     /// |Y F(ẑ(s))| at |s| = `h`: orders up to ORDER with rounding, ORDER + 1, and above.
-    pub low: f64,
+    pub low: LowOrders,
     pub middle: f64,
     pub high: f64,
     /// |ẑ'(s)|_u for |s| ≤ `h`, and the bound on |ẑ_t'(s)| in it.
@@ -62,7 +64,7 @@ impl Norms {
             self.r0,
             self.higher,
             self.width,
-            self.low,
+            self.low.at(1.0),
             self.middle,
             self.high,
             self.slope,
@@ -82,7 +84,7 @@ impl Norms {
         let x6 = x3 * x3;
         let contraction =
             moving * (self.r0 + self.higher * x3) + h * h * (self.square + h * (self.a * self.a2));
-        let defect = moving * (self.low + self.middle * x6 + self.high * (x6 * x));
+        let defect = moving * (self.low.at(x) + self.middle * x6 + self.high * (x6 * x));
         (
             round_up(contraction, 60),
             round_up(moving * self.width, 60),
@@ -98,10 +100,16 @@ impl Norms {
                 "the powers in `at` are those of the Taylor order"
             )
         };
-        longest(self.h, 0.5, |h| self.proof(h, weight_of_t))
+        longest(self.h, 0.5, |h| self.proof(h, weight_of_t).ok())
     }
 
-    pub(super) fn proof(&self, h: f64, weight_of_t: f64) -> Option<Proof> {
+    /// Why there is none, at the length that comes nearest.
+    pub fn shortfall(&self, weight_of_t: f64) -> Option<Shortfall> {
+        let lengths = (0..=ATTEMPTS).map(|k| self.h * 0.5f64.powi(k));
+        Shortfall::least(lengths.map(|h| self.proof(h, weight_of_t).err()))
+    }
+
+    pub(super) fn proof(&self, h: f64, weight_of_t: f64) -> Result<Proof, Shortfall> {
         let (contraction, width, defect) = self.at(h);
         let Contraction {
             r,
@@ -110,15 +118,14 @@ impl Norms {
             distance,
         } = Contraction::new((contraction, width, defect), 0.5 / weight_of_t, self.radius)?;
         // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
-        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. In the part of F that
-        // does not get smaller with s, rounding above all, k ≤ DEGREE, and k |s|ᵏ⁻¹ ≤ k Hᵏ/H with the
-        // H = `self.h` where it was bounded, as the derivative has only orders k ≥ 1.
+        // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. For the low orders of F
+        // with all rounding see `LowOrders::slope`.
         // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
         let moving = 1.0 + h * self.a;
         let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
         let x = h / self.h;
         let x3 = x * x * x;
-        let defect_slope = DEGREE as f64 / self.h * self.low
+        let defect_slope = self.low.slope(self.h)
             + x3 * x3 * (orders[0] * self.middle + orders[1] * self.high * x);
         // Y J₁ and Y J₂ are A and A₂ up to rounding, which `r0` counts with that of all orders, at H.
         let rounding_slope = ((MAX_DEGREE - 1) * ORDER) as f64 / self.h * self.r0;
@@ -129,10 +136,11 @@ impl Norms {
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
         let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
         // Otherwise no tube after this one could be proved to go the same way.
-        if slope_distance * self.normal > 0.5 {
-            return None;
+        let direction = slope_distance * self.normal;
+        if direction > 0.5 {
+            return Err(Shortfall::Direction(direction));
         }
-        Some(Proof {
+        Ok(Proof {
             h,
             r,
             distance,
@@ -158,17 +166,22 @@ pub(super) struct Contraction {
 }
 
 impl Contraction {
-    /// The largest box that leaves room, at most of size `largest`. `None`: there is none, or the fixed
+    /// The largest box that leaves room, at most of size `largest`. The error: there is none, or the fixed
     /// point might be further out than `radius`.
     pub fn new(
         (contraction, width, defect): (f64, f64, f64),
         largest: f64,
         radius: f64,
-    ) -> Option<Self> {
+    ) -> Result<Self, Shortfall> {
         let room = 1.0 - contraction;
         // Beyond this the box would be too narrow to be linked, or the proof too close to call.
-        if !(contraction <= MAX_CONTRACTION && 8.0 * defect * width <= room * room) {
-            return None;
+        if contraction.is_nan() || contraction > MAX_CONTRACTION {
+            return Err(Shortfall::Contraction(contraction));
+        }
+        let room_for = |room: f64| Shortfall::Defect { defect, room };
+        let is_enough = 8.0 * defect * width <= room * room;
+        if !is_enough {
+            return Err(room_for(room * room / (8.0 * width)));
         }
         let r = (0.5 * room / width).min(largest);
         let q = round_up(contraction + width * r, 4);
@@ -176,8 +189,14 @@ impl Contraction {
         let near = round_up(defect / (1.0 - q), 400);
         let nearer_q = round_up(contraction + width * near.min(r), 4);
         let distance = round_up(defect / (1.0 - nearer_q), 400);
-        let holds = q < 1.0 && round_up(defect + q * r, 4) < r && distance < r;
-        (holds && distance <= radius).then_some(Contraction {
+        if !(q < 1.0 && round_up(defect + q * r, 4) < r && distance < r) {
+            return Err(room_for((1.0 - q) * r));
+        }
+        let is_near = distance <= radius;
+        if !is_near {
+            return Err(Shortfall::Distance { distance, radius });
+        }
+        Ok(Contraction {
             r,
             q,
             nearer_q,
@@ -185,6 +204,9 @@ impl Contraction {
         })
     }
 }
+
+/// [`longest`] tries so many lengths.
+const ATTEMPTS: i32 = 40;
 
 /// The longest tube of at most the half length `h` that is proved: by bisection on a logarithmic
 /// scale, as any that passes will do. `shrink`: what is tried next while none has passed.
@@ -194,7 +216,7 @@ pub(super) fn longest(h: f64, shrink: f64, proof: impl Fn(f64) -> Option<Proof>)
     }
     let (mut lo, mut hi) = (0.0, h);
     let mut best = None;
-    for _ in 0..40 {
+    for _ in 0..ATTEMPTS {
         let h = if lo == 0.0 {
             shrink * hi
         } else {

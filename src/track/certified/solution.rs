@@ -1,5 +1,6 @@
 //! Boxes around the points of the path with t = 1.
 
+use super::reasons::Doubt;
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -11,6 +12,8 @@ use crate::track::full::{Equations, InverseMaker, Local};
 pub struct SolutionBox {
     /// The middle: (X, 1) in the homotopy's unit.
     pub centre: Vector,
+    /// What the middle is more than that, in extended precision; otherwise zero.
+    pub low: Vector,
     /// How far the exact solution may be from it, entry by entry.
     pub radius: Vector,
     /// Within this distance of the middle, in every entry, there is no other solution.
@@ -64,6 +67,7 @@ impl<const D: usize> SolutionProver<D> {
                 .collect(),
             found: SolutionBox {
                 centre: equations.vector(),
+                low: equations.vector(),
                 radius: equations.vector(),
                 alone_within: 0.0,
                 rising: false,
@@ -76,17 +80,31 @@ impl<const D: usize> SolutionProver<D> {
     /// Krawczyk's test with the norm max |w_i|: with Y the inverse at the middle x,
     /// |I − Y J(x + w)| ≤ q₀ + κ |w|, so that there is at most one solution for |w| < (1 − q₀)/κ,
     /// and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
+    ///
+    /// `rising`: whether t is where the path meets t = 1. `extended`: whether x and F(x) are to be
+    /// taken in extended precision; everything else bears relative errors of 2⁻⁵³.
     pub fn prove(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         guess: &[f64],
-        rising: bool,
-    ) -> Option<&SolutionBox> {
+        (rising, extended): (bool, bool),
+    ) -> Result<&SolutionBox, Doubt> {
         let (m, n) = (equations.m, equations.n());
         let local = &mut self.local;
         local.z[0].copy_from_slice(guess);
-        local.polish_at(equations, inverter, 1.0)?;
+        local.low.fill(0.0);
+        local.is_extended = extended;
+        // None may be made.
+        local.first_correction = f64::INFINITY;
+        let polished = if extended {
+            local.polish_extended(equations, inverter)
+        } else {
+            local.polish_at(equations, inverter, 1.0)
+        };
+        if polished.is_none() {
+            return Err(Doubt::Newton(local.first_correction));
+        }
 
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
         let per_entry = gamma(m + 12);
@@ -131,17 +149,26 @@ impl<const D: usize> SolutionProver<D> {
         local.y.multiply_abs(&width[..m], &mut self.v);
         let kappa = round_up(largest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {
-            return None;
+            return Err(Doubt::Contraction(q0));
         }
         let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
 
-        // The residual in intervals: its width is what limits the box.
-        for e in 0..m {
-            let squared = (0..D).fold(point(0.0), |sum, axis| {
-                let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
-                sum + (i - j).sqr()
-            });
-            self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
+        // The residual in intervals or in extended precision: its width is what limits the box.
+        if extended {
+            let (z, error) = ((&local.z[0][..], &local.low[..]), &mut self.v);
+            let precise = equations.in_extended();
+            precise.residual_at_target(equations, z, &mut self.f, error);
+            for e in 0..m {
+                self.f[e] = round_up(self.f[e].abs() + error[e], 1);
+            }
+        } else {
+            for e in 0..m {
+                let squared = (0..D).fold(point(0.0), |sum, axis| {
+                    let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
+                    sum + (i - j).sqr()
+                });
+                self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
+            }
         }
         self.f[m] = 0.0;
         local.y.multiply_abs(&self.f[..m], &mut self.v);
@@ -150,7 +177,10 @@ impl<const D: usize> SolutionProver<D> {
         let all = round_up(step / (1.0 - q), 60);
         // With room for rounding, so that the box itself lies where its solution is alone.
         if !(q < 1.0 && all < 0.99 * alone_within) {
-            return None;
+            return Err(Doubt::Wide {
+                radius: all,
+                alone: alone_within,
+            });
         }
         // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
         let near = round_up((q0 + kappa * all) * all, 6);
@@ -160,26 +190,39 @@ impl<const D: usize> SolutionProver<D> {
             *r = round_up(v + near, n + 8);
         }
         found.centre.copy_from_slice(&local.z[0]);
+        found.low.copy_from_slice(&local.low);
         (found.alone_within, found.rising) = (alone_within, rising);
-        Some(found)
+        Ok(found)
     }
 }
 
 impl SolutionBox {
+    /// The greatest distance of an entry of the middle from that of another box.
+    pub fn distance(&self, other: &SolutionBox) -> f64 {
+        let entry = |i: usize| {
+            let (high, low) = (self.centre[i] - other.centre[i], self.low[i] - other.low[i]);
+            (high + low).abs()
+        };
+        (0..self.centre.len()).map(entry).fold(0.0, f64::max)
+    }
+
+    /// The greatest radius of an entry.
+    pub fn greatest_radius(&self) -> f64 {
+        self.radius.iter().fold(0.0, |a: f64, &b| a.max(b))
+    }
+
     /// Whether the other box holds the same solution, after changing the sign of this one's
     /// entries where `mirror` says so.
     pub fn is_same(&self, other: &SolutionBox, mirror: impl Fn(usize) -> bool) -> Same {
         let m = self.centre.len() - 2;
         let (mut inside, mut apart) = (true, false);
         for i in 0..m {
-            let x = if mirror(i) {
-                -self.centre[i]
-            } else {
-                self.centre[i]
-            };
-            let distance = (x - other.centre[i]).abs();
-            // The subtraction and the sums are rounded: a factor covers it.
-            let slack = 4.0 * f64::EPSILON * (x.abs() + distance);
+            let sign = if mirror(i) { -1.0 } else { 1.0 };
+            let high = sign * self.centre[i] - other.centre[i];
+            let low = sign * self.low[i] - other.low[i];
+            let distance = (high + low).abs();
+            // Each difference is rounded relatively to itself, then their sum: a factor covers them.
+            let slack = 4.0 * f64::EPSILON * (high.abs() + low.abs() + distance);
             let radii = round_up(self.radius[i] + other.radius[i] + slack, 4);
             apart |= distance > radii;
             inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
@@ -190,6 +233,17 @@ impl SolutionBox {
             (false, true) => Same::No,
             (false, false) => Same::Unknown,
         }
+    }
+
+    /// How far the exact solution may be from the upper words of the middle alone.
+    pub fn radius_of_centre(&self) -> Vector {
+        let mut radius = self.radius.clone();
+        for (radius, low) in radius.iter_mut().zip(self.low.iter()) {
+            if *low != 0.0 {
+                *radius = round_up(*radius + low.abs(), 1);
+            }
+        }
+        radius
     }
 
     /// The coordinates of all points in the problem's units.
@@ -203,9 +257,10 @@ impl SolutionBox {
                         return point(0.0);
                     }
                     let i = homotopy.gauge.variable[p * d + axis];
-                    let (x, r) = (self.centre[i], self.radius[i]);
+                    let (x, low, r) = (self.centre[i], self.low[i], self.radius[i]);
                     // Scaling by a power of two is exact.
-                    let (lo, hi) = ((x - r).next_down(), (x + r).next_up());
+                    let lo = (x + (low - r).next_down()).next_down();
+                    let hi = (x + (low + r).next_up()).next_up();
                     hull(lo * homotopy.unit, hi * homotopy.unit)
                 })
             })

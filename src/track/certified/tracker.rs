@@ -1,11 +1,18 @@
 //! The chain of tubes from the sketch back to the sketch.
 
+mod extension;
+
 use super::ledger::Ledger;
 use super::link::{Ball, Frame, Tube};
+use super::norms::Proof;
+use super::reasons::{
+    Doubt, Rejection, Shortfall, no_direction, precision, undecided, unlinked, unproved, unrefined,
+};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
+use extension::Extension;
 use std::time::Instant;
 
 /// The path leaves a tube at this fraction of its half length, so that there is room behind the
@@ -19,8 +26,6 @@ const RECOVERY: f64 = 1.02;
 /// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
-/// Steps below this, relative to the size of the figure, end the run.
-const SMALLEST_STEP: f64 = 1e-11;
 
 /// A way of proving tubes: with polynomials of N coefficients, in frames of its own.
 pub trait Test<const D: usize, const N: usize>: Sized {
@@ -59,6 +64,15 @@ pub trait Test<const D: usize, const N: usize>: Sized {
         max_h: f64,
     ) -> bool;
 
+    /// Why the last tube could not be proved: which condition fails for one as short as that is tried.
+    /// `None`: none of them, but its exit could not be enclosed.
+    fn shortfall(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D, N, Self::Frame>,
+        max_h: f64,
+    ) -> Option<Shortfall>;
+
     /// What was proved last is in the chain.
     fn accept(&mut self, tube: &Tube<D, N, Self::Frame>);
 
@@ -80,6 +94,21 @@ pub trait Test<const D: usize, const N: usize>: Sized {
         equations: &Equations<D>,
         tube: &mut Tube<D, N, Self::Frame>,
     ) -> Option<()>;
+
+    /// Switches extended precision on or off, for the tubes and exits to come. False: there is none.
+    fn set_extended(&mut self, _on: bool) -> bool {
+        false
+    }
+
+    /// What 53 bits would prove of the tube that was proved last in extended precision.
+    fn in_53_bits(&self) -> Option<Proof> {
+        None
+    }
+
+    /// Whether nothing but rounding, and F at the middle, kept the last tube from being proved.
+    fn is_limited_by_rounding(&self) -> bool {
+        false
+    }
 
     /// Changes of plan, and the numbers of driving parameters.
     fn plans(&self) -> (usize, Driving);
@@ -136,30 +165,6 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     }
 }
 
-/// Why a tube could not be added to the chain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Rejection {
-    Refine(RefineError),
-    Unproved,
-    Unlinked,
-    Undecided,
-}
-
-impl Rejection {
-    fn in_words(self) -> &'static str {
-        match self {
-            Rejection::Refine(RefineError::Singular) => "the Jacobian is singular in 53 bits",
-            Rejection::Refine(RefineError::Diverged) => "the corrector does not converge",
-            Rejection::Unproved => "the Krawczyk test fails however short the tube",
-            Rejection::Unlinked => "the tube could not be linked to what comes before it",
-            Rejection::Undecided => {
-                "it could not be decided whether the path meets t = 1: a fold is too near, or two \
-                 solutions are"
-            }
-        }
-    }
-}
-
 struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     homotopy: &'a Homotopy,
     equations: Equations<D>,
@@ -177,6 +182,7 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     steps: usize,
     rejected: usize,
     shortened: usize,
+    extension: Extension,
 }
 
 impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
@@ -202,6 +208,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             steps: 0,
             rejected: 0,
             shortened: 0,
+            extension: Extension::default(),
             equations,
         }
     }
@@ -210,12 +217,14 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let max_h = options
             .max_step
             .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
-        self.start(options.reverse, max_h)?;
+        self.start(options, max_h)?;
         self.show_tube(control, 0);
         // How far back the next tube is expected to reach, from the half lengths of the last two.
         let mut before = self.now.proof.h;
         // How much of the expectation to believe: less after a rejection, then more again.
         let mut trust = 1.0;
+        // What could not be told of this tube when it was longer.
+        let mut doubt = None;
         // What a rejection taught about this tube.
         let mut shorter = f64::INFINITY;
         // A bound on the half length where t = 1 is hard to separate; it grows back.
@@ -233,9 +242,11 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         return Ok(());
                     }
                     before = h;
+                    doubt = None;
                     shorter = f64::INFINITY;
                     trust = (RECOVERY * trust).min(1.0);
                     limit = (2.0 * limit).min(max_h);
+                    self.account_for_precision();
                 }
                 Err(rejection) => {
                     self.rejected += 1;
@@ -244,7 +255,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         trust *= DISTRUST;
                     }
                     match rejection {
-                        Rejection::Undecided => {
+                        Rejection::Undecided(_) => {
+                            doubt = Some(rejection);
                             self.shortened += 1;
                             limit = 0.25 * self.next.proof.h.min(limit);
                         }
@@ -254,16 +266,22 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         }
                         Rejection::Refine(_) | Rejection::Unproved => shorter = 0.5 * reach,
                     }
-                    let smallest = SMALLEST_STEP * self.figure_size();
+                    let smallest = self.smallest_step();
                     if limit < smallest || shorter < smallest {
-                        return Err(self.stuck(rejection));
+                        if !(options.extended && self.extend(rejection)) {
+                            return Err(self.stuck(doubt.unwrap_or(rejection), reach, limit));
+                        }
+                        // That was in 53 bits.
+                        doubt = None;
+                        (trust, shorter, limit) = (1.0, f64::INFINITY, max_h);
                     }
                 }
             }
             if self.steps >= options.max_steps {
                 return Err(format!(
-                    "the limit of {} tubes was reached {}",
+                    "the limit of {} tubes was reached, the last of which is {:.1e} long, {}",
                     options.max_steps,
+                    2.0 * self.now.proof.h * self.homotopy.unit,
                     self.place()
                 ));
             }
@@ -292,6 +310,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let weights: Vec<f64> = tube.weights[..n].iter().map(|u| u / top).collect();
         witness.tube(TubeSeen {
             centre: &tube.local.z[0][..n],
+            extended: tube.local.is_extended,
             normal: &tube.local.normal[..n],
             weights: &weights,
             h: tube.proof.h,
@@ -299,44 +318,52 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             exit: tube.exit_at,
         });
         for found in &self.ledger.found()[known..] {
-            witness.solution(&found.centre[..n - 1], &found.radius[..n - 1]);
+            witness.solution(&found.centre[..n - 1], &found.radius_of_centre()[..n - 1]);
         }
     }
 
     /// Proves the tube around the sketch.
-    fn start(&mut self, reverse: bool, max_h: f64) -> Result<(), String> {
+    fn start(&mut self, options: &Options, max_h: f64) -> Result<(), String> {
         let equations = &self.equations;
         let mut at_sketch = Local::<D>::new(equations);
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
+        let reverse = options.reverse;
         first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
-            .map_err(|_| "the sketch is a singular point of its path: no direction of travel could be computed".to_owned())?;
+            .map_err(|_| no_direction())?;
         self.first_normal.copy_from_slice(&at_sketch.normal);
+        loop {
+            match self.tube_at_sketch(max_h) {
+                Ok(()) => {
+                    self.account_for_precision();
+                    return Ok(());
+                }
+                Err((rejection, _)) if options.extended && self.extend(rejection) => {}
+                Err((rejection, limit)) => return Err(self.stuck_at_sketch(rejection, limit)),
+            }
+        }
+    }
+
+    /// Proves the tube around the sketch, as short as it takes.
+    /// Otherwise tells how long it could have been at last.
+    fn tube_at_sketch(&mut self, max_h: f64) -> Result<(), (Rejection, f64)> {
+        let equations = &self.equations;
         let local = &mut self.now.local;
         local.z[0].copy_from_slice(&self.sketch.centre);
         local.normal.copy_from_slice(&self.first_normal);
         self.test
             .refine(equations, local, POINT_TOLERANCE)
             .and_then(|()| self.test.expand(equations, local))
-            .map_err(|e| format!("at the sketch, {}", Rejection::Refine(e).in_words()))?;
+            .map_err(|e| (Rejection::Refine(e), max_h))?;
         self.test.prepare(equations, &mut self.now, max_h);
         let mut limit = max_h;
         loop {
             match self.first_tube(limit) {
-                Ok(()) => return Ok(()),
                 // Where t = 1 is hard to separate, shorter tubes do it.
-                Err(Rejection::Undecided)
-                    if self.now.proof.h > SMALLEST_STEP * self.figure_size() =>
-                {
+                Err(Rejection::Undecided(_)) if self.now.proof.h > self.smallest_step() => {
                     self.shortened += 1;
                     limit = 0.25 * self.now.proof.h;
                 }
-                Err(rejection) => {
-                    return Err(format!(
-                        "at the sketch, {}{}",
-                        rejection.in_words(),
-                        self.condition()
-                    ));
-                }
+                done => return done.map_err(|rejection| (rejection, limit)),
             }
         }
     }
@@ -359,7 +386,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             .ok_or(Rejection::Unlinked)?;
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.now, None)
-            .map_err(|_| Rejection::Undecided)?;
+            .map_err(Rejection::Undecided)?;
         self.test.accept(&self.now);
         Ok(())
     }
@@ -368,9 +395,11 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
         let equations = &self.equations;
         let next = &mut self.next;
+        let previous = self.previous.as_deref();
+        let previous = previous.filter(|z| self.extension.trusts(z, &self.now.local, advance));
         self.now.local.predict(
             advance,
-            self.previous.as_deref(),
+            previous,
             &mut next.local.z[0],
             &mut next.local.normal,
         );
@@ -417,12 +446,13 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let closing = self.closes(&self.next)?;
         self.ledger
             .enter(&self.equations, &mut self.inverter, &self.next, closing)
-            .map_err(|_| Rejection::Undecided)?;
+            .map_err(Rejection::Undecided)?;
         self.test.accept(&self.next);
         match &mut self.previous {
             Some(previous) => previous.copy_from_slice(&self.now.local.z[0]),
             None => self.previous = Some(self.now.local.z[0].clone()),
         }
+        self.extension.before_last = self.now.local.is_extended;
         std::mem::swap(&mut self.now, &mut self.next);
         Ok(closing.is_some())
     }
@@ -444,7 +474,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 if same_way {
                     Ok(Some(at))
                 } else {
-                    Err(Rejection::Undecided)
+                    Err(Rejection::Undecided(Doubt::Direction(
+                        tube.proof.slope_distance,
+                    )))
                 }
             }
             _ => Ok(None),
@@ -477,14 +509,53 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         }
     }
 
-    fn stuck(&self, rejection: Rejection) -> String {
+    /// Why the run ends here, a tube of about the half length `reach` being the last that was tried.
+    fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> String {
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
         format!(
-            "{} at the smallest step, {}{remark}",
-            rejection.in_words(),
+            "{}, at the smallest step, {:.1e}{}, {}{remark}",
+            self.why(rejection, false, limit),
+            reach * self.homotopy.unit,
+            precision(self.extension.is_on()),
             self.place()
         )
+    }
+
+    /// Why it ends at the sketch.
+    fn stuck_at_sketch(&mut self, rejection: Rejection, limit: f64) -> String {
+        format!(
+            "at the sketch{}, {}{}",
+            precision(self.extension.is_on()),
+            self.why(rejection, true, limit),
+            self.condition()
+        )
+    }
+
+    /// In words, with numbers of what was tried last: `first`, the tube around the sketch.
+    fn why(&mut self, rejection: Rejection, first: bool, limit: f64) -> String {
+        let (equations, unit) = (&self.equations, self.homotopy.unit);
+        let (tube, before) = match first {
+            true => (&mut self.now, None),
+            false => (&mut self.next, Some(&self.now)),
+        };
+        match rejection {
+            Rejection::Refine(e) => unrefined(e, equations, &mut tube.local, POINT_TOLERANCE, unit),
+            Rejection::Unproved => {
+                unproved(self.test.shortfall(equations, tube, limit), tube, unit)
+            }
+            Rejection::Unlinked => match before {
+                None => unlinked("the sketch", &self.sketch, 0.0, tube, unit),
+                Some(before) => {
+                    let direction = match before.exit_is_tight {
+                        true => before.exit_slope_radius,
+                        false => before.proof.slope_distance,
+                    };
+                    unlinked("that one's end", &before.exit, direction, tube, unit)
+                }
+            },
+            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), unit),
+        }
     }
 
     fn switched_on(&self) -> Vec<String> {
@@ -499,6 +570,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                  solution in the longer ones"
             ));
         }
+        list.extend(self.extension.in_words());
         list
     }
 }

@@ -16,8 +16,11 @@
 //! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
+use super::extended::Precision;
 use super::link::Tube;
+use super::low_orders::LowOrders;
 use super::norms::{MAX_CONTRACTION, Norms, Proof, powers_of};
+use super::reasons::Shortfall;
 use super::tracker::Test;
 use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
@@ -45,16 +48,18 @@ pub struct KrawczykTest<const D: usize> {
     pub(super) near: [Vector; D],
     pub(super) far: [Vector; D],
     pub(super) sums: [Vector; D],
-    coefficient: Vector,
+    pub(super) coefficient: Vector,
     pub(super) lengths: Lengths,
     pub(super) v: Vector,
     pub(super) f: Vector,
-    u: Vector,
+    pub(super) u: Vector,
     square_u: Vector,
     /// Weights for the next proof, and those to return to if it is rejected.
     next_weights: Vector,
     kept_weights: Vector,
     maker: InverseMaker,
+    /// Whether points and F at them are taken in extended precision, and what the last proof rested on.
+    pub(super) precision: Precision,
 }
 
 impl<const D: usize> KrawczykTest<D> {
@@ -84,6 +89,7 @@ impl<const D: usize> KrawczykTest<D> {
             next_weights: ones.clone(),
             kept_weights: ones,
             maker: equations.inverter(),
+            precision: Precision::default(),
         }
     }
 
@@ -98,7 +104,9 @@ impl<const D: usize> KrawczykTest<D> {
         weights: &mut Vector,
         max_h: f64,
     ) -> Option<Proof> {
+        self.precision.forget();
         let norms = self.norms(equations, local, weights, max_h)?;
+        let norms = self.in_precision(equations, local, norms)?;
         let proof = norms.longest(weights[equations.m]);
         self.improve(weights);
         proof
@@ -180,7 +188,7 @@ impl<const D: usize> KrawczykTest<D> {
             r0,
             higher,
             width,
-            low,
+            low: LowOrders::Whole(low),
             middle,
             high,
             slope,
@@ -411,6 +419,9 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         local: &mut Local<D>,
         tolerance: f64,
     ) -> Result<(), RefineError> {
+        if self.precision.extended {
+            return local.refine_extended(equations, &mut self.maker);
+        }
         local.refine(equations, &mut self.maker, tolerance, 8)
     }
 
@@ -443,6 +454,19 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         true
     }
 
+    fn shortfall(
+        &mut self,
+        equations: &Equations<D>,
+        _: &mut Tube<D>,
+        _: f64,
+    ) -> Option<Shortfall> {
+        // The weights are still those of the last proof.
+        let u = self.u[..equations.n()].iter();
+        let top = u.fold(0.0, |a: f64, &u| a.max(u));
+        let shortfall = self.precision.shortfall()?;
+        Some(shortfall.scaled(top))
+    }
+
     fn accept(&mut self, _: &Tube<D>) {}
 
     fn reject(&mut self) {
@@ -459,5 +483,18 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
 
     fn plans(&self) -> (usize, Driving) {
         (0, Driving::default())
+    }
+
+    fn set_extended(&mut self, on: bool) -> bool {
+        self.precision.extended = on;
+        true
+    }
+
+    fn in_53_bits(&self) -> Option<Proof> {
+        self.precision.in_53_bits()
+    }
+
+    fn is_limited_by_rounding(&self) -> bool {
+        self.precision.is_limited_by_rounding()
     }
 }

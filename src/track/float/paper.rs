@@ -8,7 +8,7 @@ use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
 
 /// δmax of RR 8705, section 7.3.1, without a construction plan.
-const LARGEST_STEP: f64 = 0.1;
+pub const LARGEST_STEP: f64 = 0.1;
 /// δmin.
 const SMALLEST_STEP: f64 = 1e-10;
 /// The paper does not say when a correction has succeeded; this is ours, if none is asked for.
@@ -137,8 +137,10 @@ impl<'a, const D: usize> Paper<'a, D> {
                 record.rejected += 1;
                 if step < 2.0 * SMALLEST_STEP {
                     return Err(format!(
-                        "the correction fails at the smallest step, at t = {:.9} after {} steps",
-                        self.z[m], record.steps
+                        "the correction fails at the smallest step, {:.1e}, at t = {:.9} after {} steps",
+                        step * unit,
+                        self.z[m],
+                        record.steps
                     ));
                 }
                 step *= 0.5;

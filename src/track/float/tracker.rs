@@ -21,6 +21,9 @@ const CONTRACTION: f64 = 5e-5;
 const LARGEST_CONTRACTION: f64 = 1e-3;
 /// The tangent turns by at most this angle's cosine in a step.
 const LEAST_COSINE: f64 = 0.8;
+/// The expansions at either end of a step, from which is read what lies between, may be apart in the
+/// middle by this part of the step.
+const APART: f64 = 1e-3;
 /// The first step, in the homotopy's unit.
 const FIRST_STEP: f64 = 0.01;
 /// Steps below this end the run.
@@ -81,7 +84,8 @@ fn run<const D: usize>(
         };
         if step < SMALLEST_STEP {
             return Err(format!(
-                "{failure} at the smallest step, {}{}",
+                "{failure} at the smallest step, {:.1e}, {}{}",
+                step * homotopy.unit,
                 place(record, &now),
                 homotopy.remark_on_lengths(now.z[0][m])
             ));
@@ -151,6 +155,7 @@ struct Events<const D: usize> {
     crossings: Vec<Crossing>,
     meeting: Meeting<D>,
     scratch: Vector,
+    other: Vector,
 }
 
 impl<const D: usize> Events<D> {
@@ -160,6 +165,7 @@ impl<const D: usize> Events<D> {
             crossings: Vec::new(),
             meeting: Meeting::new(equations),
             scratch: equations.vector(),
+            other: equations.vector(),
         }
     }
 
@@ -179,6 +185,14 @@ impl<const D: usize> Events<D> {
         let error = next.first_correction / 32.0 + 10.0 * self.tolerance;
         let half = 0.5 * step;
         let back = self.middle(now, next, half);
+        // At hairpins that says little of the expansions themselves, as the prediction is better.
+        next.at(back, &mut self.other);
+        let ends = self.scratch.iter().zip(self.other.iter());
+        let apart = ends.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()));
+        if apart > APART * step {
+            return None;
+        }
+        let error = error.max(apart);
         for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
             let z: [f64; ORDER + 1] = std::array::from_fn(|k| local.z[k][equations.m]);
             let reach = 2.0 * (to - from);

@@ -1,5 +1,6 @@
 //! H(X, t) laid out for the inner loops: one vector over all distances for each quantity.
 
+use super::extended::Extended;
 use super::preconditioner::InverseMaker;
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::{Inverter, LANE, Sparse, Vector};
@@ -34,6 +35,8 @@ pub struct Equations<const D: usize> {
     pub e_radius: [Vector; 3],
     /// The distance that bends.
     pub bend: Bend,
+    /// The lengths in extended precision, once that was asked for.
+    extended: Option<Box<Extended>>,
     /// The pattern of a derivative of the Jacobian, and which value each of its entries has:
     /// (axis, distance, sign), or the entry of t.
     pattern: Sparse,
@@ -104,10 +107,26 @@ impl<const D: usize> Equations<D> {
                 e: lengths[bend].e,
                 e_radius: lengths[bend].e_radius,
             },
+            extended: None,
             pattern: Sparse::new(&plain),
             bordered: Sparse::new(&bordered),
             sources: columns.into_iter().flatten().map(|c| c.1).collect(),
         }
+    }
+
+    /// Makes room for extended precision.
+    pub fn extend(&mut self, homotopy: &Homotopy) {
+        if self.extended.is_none() {
+            self.extended = Some(Box::new(Extended::new(homotopy)));
+        }
+    }
+
+    /// F in extended precision.
+    ///
+    /// # Panics
+    /// If [`Equations::extend`] was not called before.
+    pub fn in_extended(&self) -> &Extended {
+        self.extended.as_deref().expect("extended precision")
     }
 
     /// The number n of unknowns.
@@ -247,6 +266,21 @@ impl<const D: usize> Equations<D> {
             }
             let time = slope_radius + curvature * t_radius;
             *out = round_up(gamma(20) * (size + slope_size * vt) + moved + time * vt, 40);
+        }
+    }
+
+    /// Σ j |e_j| tʲ⁻¹ of E's coefficients e_j for one distance, and of their radii, for t ≥ 0: bounds on
+    /// E' at |t|, and on how far it may be from that of the coefficients. At most twelve roundings.
+    pub fn slope_of_length(&self, edge: usize, t: f64) -> (f64, f64) {
+        let slope = |e: [f64; 5]| {
+            let [_, e1, e2, e3, e4] = e.map(f64::abs);
+            e1 + t * (2.0 * e2 + t * (3.0 * e3 + t * (4.0 * e4)))
+        };
+        if edge == self.bend.edge {
+            (slope(self.bend.e), slope(self.bend.e_radius))
+        } else {
+            let of = |c: &[Vector; 3]| [c[0][edge], c[1][edge], c[2][edge], 0.0, 0.0];
+            (slope(of(&self.e)), slope(of(&self.e_radius)))
         }
     }
 

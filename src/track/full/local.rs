@@ -29,6 +29,10 @@ pub enum RefineError {
 pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// Coefficients z₀ … of ẑ.
     pub z: [Vector; N],
+    /// What z₀ is more than `z[0]`, in extended precision; otherwise zero.
+    pub low: Vector,
+    /// Whether F(z₀) is taken in extended precision (`extended.rs`).
+    pub is_extended: bool,
     /// Their differences p_i − p_j, per axis and distance.
     pub d: [[Vector; D]; N],
     /// Taylor coefficients of the lengths at t₀.
@@ -46,8 +50,8 @@ pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// The sign of det [J; c] at the prediction. Along a path that is followed in one direction,
     /// c being near its tangent, it never changes.
     pub negative: bool,
-    f: Vector,
-    delta: Vector,
+    pub(super) f: Vector,
+    pub(super) delta: Vector,
 }
 
 impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
@@ -63,6 +67,8 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         let vector = || equations.vector();
         Local {
             z: std::array::from_fn(|_| vector()),
+            low: vector(),
+            is_extended: false,
             d: std::array::from_fn(|_| std::array::from_fn(|_| equations.per_edge())),
             lengths: Lengths::new(m),
             normal: vector(),
@@ -79,7 +85,14 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// Brings differences and lengths up to date with `z[0]`.
     #[inline(always)]
     fn look(&mut self, equations: &Equations<D>) {
-        equations.differences(&self.z[0], &mut self.d[0]);
+        if self.is_extended {
+            let z = (&self.z[0][..], &self.low[..]);
+            equations
+                .in_extended()
+                .differences(equations, z, &mut self.d[0]);
+        } else {
+            equations.differences(&self.z[0], &mut self.d[0]);
+        }
         equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
     }
 
@@ -107,6 +120,10 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         max_iterations: usize,
     ) -> Result<(), RefineError> {
         let (m, n) = (equations.m, equations.n());
+        if self.is_extended {
+            self.is_extended = false;
+            self.low.fill(0.0);
+        }
         self.precondition(equations, maker)?;
         let mut last = f64::INFINITY;
         self.contraction = 0.0;

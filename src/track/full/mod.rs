@@ -4,11 +4,13 @@
 //! what both trackers need: a preconditioner, and the Taylor expansion of the path.
 
 mod equations;
+mod extended;
 mod local;
 mod preconditioner;
 mod start;
 
 pub use equations::{Equations, Lengths, MAX_DEGREE};
+pub use extended::{Extended, shift};
 pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, condition, dot};
 pub use preconditioner::{InverseMaker, Preconditioner};
-pub use start::{first_normal, path_length};
+pub use start::{LARGEST_TANGENT, first_normal, path_length};

@@ -3,6 +3,9 @@
 use super::{Equations, InverseMaker, Local, Preconditioner, dot};
 use crate::linalg::{Singular, Vector};
 
+/// A tangent larger than this in the coordinate that is held comes from rounding, not from the problem.
+pub const LARGEST_TANGENT: f64 = 1e12;
+
 /// Finds the path's unit tangent at `local.z[0]` and sets it as normal: with t rising, or falling
 /// where `reverse` says so. Where t is stationary, the other way is the opposite direction still.
 ///
@@ -15,8 +18,6 @@ pub fn first_normal<const D: usize>(
     reverse: bool,
 ) -> Result<(), Singular> {
     let (m, n) = (equations.m, equations.n());
-    // An inverse with larger entries than this comes from rounding, not from the problem.
-    const LARGEST: f64 = 1e12;
     for k in (0..n).rev() {
         local.normal.fill(0.0);
         local.normal[k] = 1.0;
@@ -25,7 +26,7 @@ pub fn first_normal<const D: usize>(
         }
         let tangent = local.y.column(m);
         let size = dot(tangent, tangent).sqrt();
-        if !(size.is_finite() && size < LARGEST) {
+        if !(size.is_finite() && size < LARGEST_TANGENT) {
             continue;
         }
         let sign = if (tangent[m] < 0.0) == reverse {

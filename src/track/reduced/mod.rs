@@ -21,6 +21,7 @@ use super::{Control, Driving, Mode, Options, Outcome, Preset, Progress, Space, S
 use crate::plan::{Evaluation, Lanes, Lookout, Plan};
 use crate::system::Homotopy;
 use corrector::Corrector;
+pub use paper::LONGEST_STEP as LARGEST_STEP_OF_PAPER;
 use station::{Piece, Station, distance};
 use std::time::Instant;
 
@@ -223,6 +224,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
         let chord = distance(&self.current.z, &self.next.z);
         let turn = distance(&self.current.tangent, &self.next.tangent);
         chord * (1.0 + turn * turn / 24.0)
+    }
+
+    fn no_step(&self) -> Status {
+        let smallest = SMALLEST_STEP * self.homotopy.unit;
+        self.stopped(&format!("no step succeeds, even of {smallest:.1e},"))
     }
 
     fn stopped(&self, why: &str) -> Status {

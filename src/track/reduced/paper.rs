@@ -7,7 +7,7 @@ use crate::plan::Differences;
 use crate::track::{Control, Status};
 
 /// δmax in the reduced space (RR 8705, section 7.3.1).
-const LONGEST_STEP: f64 = 0.05;
+pub const LONGEST_STEP: f64 = 0.05;
 
 impl<const D: usize> Tracker<'_, D> {
     /// Algorithm 1 with the path tracking of section 7.1.
@@ -62,7 +62,7 @@ impl<const D: usize> Tracker<'_, D> {
                 self.rejected += 1;
                 *delta *= 0.5;
                 if *delta < SMALLEST_STEP {
-                    return Err(self.stopped("no step succeeds, however small,"));
+                    return Err(self.no_step());
                 }
                 return Ok(());
             }

@@ -127,7 +127,7 @@ impl<const D: usize> Tracker<'_, D> {
         pace.failures += 1;
         pace.h *= 0.5;
         if pace.h < SMALLEST_STEP {
-            return Err(self.stopped("no step succeeds, however small,"));
+            return Err(self.no_step());
         }
         if pace.failures == RENEW_AFTER {
             // The station's own tangent may be what is wrong.

@@ -2,6 +2,7 @@
 
 use crate::interval::rounding::{in_range, round_up};
 use crate::track::certified::norms::{Contraction, Proof, longest};
+use crate::track::certified::reasons::Shortfall;
 
 /// Bounds in the norm |v|_ρ = max |v_i|/ρ_i of a box of size ρ, taken for |s| ≤ `h`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -47,10 +48,15 @@ impl Bounds {
 
     /// The largest provable h with polynomials of N coefficients.
     pub fn longest<const N: usize>(&self) -> Option<Proof> {
-        longest(self.h, 0.7, |h| self.proof::<N>(h))
+        longest(self.h, 0.7, |h| self.proof::<N>(h).ok())
     }
 
-    pub fn proof<const N: usize>(&self, h: f64) -> Option<Proof> {
+    /// Why there is none of the half length `h`.
+    pub fn shortfall<const N: usize>(&self) -> Option<Shortfall> {
+        self.proof::<N>(self.h).err()
+    }
+
+    pub fn proof<const N: usize>(&self, h: f64) -> Result<Proof, Shortfall> {
         let x = h / self.h;
         let contraction = round_up(self.constant + self.cubic * (x * x * x), 20);
         let power = x.powi(N as i32);
@@ -68,10 +74,11 @@ impl Bounds {
         let slope = (self.low_slope + high + distance * self.turn) / (1.0 - nearer_q);
         let slope_distance = round_up(slope, 80);
         // Otherwise no tube after this one could be proved to go the same way.
-        if slope_distance * self.normal > 0.5 {
-            return None;
+        let direction = slope_distance * self.normal;
+        if direction > 0.5 {
+            return Err(Shortfall::Direction(direction));
         }
-        Some(Proof {
+        Ok(Proof {
             h,
             r,
             distance,

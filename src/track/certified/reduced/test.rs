@@ -43,6 +43,7 @@ use super::{COEFFICIENTS, ORDER};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
+use crate::track::certified::reasons::Shortfall;
 use crate::track::certified::tracker::Test;
 use crate::track::full::{Equations, Lengths, RefineError};
 use crate::track::{Driving, Options, Space};
@@ -56,6 +57,8 @@ const GROWTH: f64 = 1.25;
 const CHANGE: f64 = 3.0;
 /// And tried again with so much of that.
 const SHRINK: f64 = 0.75;
+/// So many lengths are tried.
+const ATTEMPTS: i32 = 120;
 /// Bounds are good enough for a tube if they were taken for one not much longer.
 const NEAR: f64 = 0.7;
 
@@ -169,9 +172,8 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     fn prove(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>, max_h: f64) -> bool {
         let n = equations.n();
         self.shape.keep();
-        let reach = reach(&tube.local) / self.reach;
-        let mut h = (GROWTH * self.expected * reach.clamp(1.0 / CHANGE, CHANGE)).min(max_h);
-        for _ in 0..120 {
+        let mut h = self.first_length(tube, max_h);
+        for _ in 0..ATTEMPTS {
             let width = tube.local.y.elimination.width;
             let bounds = with_width!(width, self.bounds(equations, tube, h));
             let proof = bounds.and_then(|bounds| bounds.longest::<COEFFICIENTS>());
@@ -190,6 +192,25 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
             self.shape.give_back();
         }
         false
+    }
+
+    fn shortfall(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tubes<D>,
+        max_h: f64,
+    ) -> Option<Shortfall> {
+        let longest = self.first_length(tube, max_h);
+        let width = tube.local.y.elimination.width;
+        Shortfall::least((0..ATTEMPTS).map(|k| {
+            let h = longest * SHRINK.powi(k);
+            let Some(bounds) = with_width!(width, self.bounds(equations, tube, h)) else {
+                return Some(Shortfall::Overflow);
+            };
+            let omega = &self.shape.omega[..equations.n()];
+            let top = omega.iter().fold(0.0, |a: f64, &u| a.max(u));
+            Some(bounds.shortfall::<COEFFICIENTS>()?.scaled(top))
+        }))
     }
 
     fn accept(&mut self, tube: &Tubes<D>) {
@@ -289,6 +310,14 @@ impl<const D: usize> ReducedTest<D> {
             _ => speed::<D, 8>(y, &rho, &bounds, slope_of),
         };
         round_up(speed, y.resolvent.roundings() + 1000)
+    }
+}
+
+impl<const D: usize> ReducedTest<D> {
+    /// The length for which bounds are taken first.
+    fn first_length(&self, tube: &Tubes<D>, max_h: f64) -> f64 {
+        let reach = reach(&tube.local) / self.reach;
+        (GROWTH * self.expected * reach.clamp(1.0 / CHANGE, CHANGE)).min(max_h)
     }
 }
 

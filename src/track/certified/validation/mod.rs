@@ -5,6 +5,7 @@
 
 mod components;
 mod crossings;
+mod extended;
 mod faults;
 mod known_paths;
 mod precise;

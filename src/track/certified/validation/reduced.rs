@@ -459,10 +459,7 @@ fn check_tube<const D: usize>(
         proof.slope_distance
     );
     raise(&mut tally.slope, turned / proof.slope_distance);
-    let mut ball = Ball {
-        centre: tube.exit.centre.clone(),
-        radius: tube.exit.radius.clone(),
-    };
+    let mut ball = tube.exit.clone();
     for i in 0..n {
         (ball.centre[i], ball.radius[i]) = (z[i].mid(), z[i].rad());
     }

@@ -146,10 +146,7 @@ fn check_tube<const D: usize>(
         );
 
         // (d) The point is found at its own parameter.
-        let mut ball = Ball {
-            centre: sample.tube.exit.centre.clone(),
-            radius: sample.tube.exit.radius.clone(),
-        };
+        let mut ball = sample.tube.exit.clone();
         for i in 0..n {
             (ball.centre[i], ball.radius[i]) = (z[i].mid(), z[i].rad());
         }

@@ -20,7 +20,7 @@ proptest! {
         let room = 1.0 - contraction;
         let defect = part * room * room / (8.0 * width);
         let found = Contraction::new((contraction, width, defect), largest, radius);
-        let Some(Contraction { r, q, nearer_q, distance }) = found else {
+        let Ok(Contraction { r, q, nearer_q, distance }) = found else {
             prop_assert!(
                 contraction > 0.999 * MAX_CONTRACTION || part > 0.999 || distance_is_large(defect, radius, largest)
             );

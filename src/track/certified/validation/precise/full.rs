@@ -6,6 +6,7 @@ use super::reduced::{check_time, within};
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
+use crate::linalg::Vector;
 use crate::track::certified::link::Ball;
 use crate::track::certified::norms::Norms;
 
@@ -166,6 +167,7 @@ fn check_path<const D: usize>(
     let mut ball = Ball {
         centre: tube.exit.centre.clone(),
         radius: tube.exit.radius.clone(),
+        low: Vector::zeros(n + 1),
     };
     for i in 0..n {
         ball.centre[i] = z[i].to_f64();
@@ -297,7 +299,7 @@ fn check_problem<const D: usize>(
                 }
                 for part in [1.0, 0.5, 0.2] {
                     let weight = sample.tube.weights[figure.m];
-                    if let Some(proof) = norms.proof(part * norms.h, weight) {
+                    if let Ok(proof) = norms.proof(part * norms.h, weight) {
                         sample.tube.proof = proof;
                         check_path(figure, &sample, random, ratios).expect("a regular point");
                     }

@@ -186,7 +186,7 @@ fn check_problem<const D: usize>(
             check_speed(&view, (h, 1e6, faster), random, ratios);
             // What is proved of much shorter tubes by the same bounds.
             for part in [1.0, 0.6, 0.3] {
-                if let Some(proof) = bounds.proof::<COEFFICIENTS>(part * h) {
+                if let Ok(proof) = bounds.proof::<COEFFICIENTS>(part * h) {
                     let mut proved = tube.clone();
                     proved.proof = proof;
                     seen.proved[kind] += 1;

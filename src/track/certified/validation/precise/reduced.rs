@@ -6,7 +6,7 @@ use super::view::View;
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
-use crate::linalg::LANE;
+use crate::linalg::{LANE, Vector};
 use crate::track::certified::link::{Ball, Frame, evaluation_error};
 use crate::track::certified::reduced::{Bounds, COEFFICIENTS};
 use crate::track::certified::tracker::Test;
@@ -241,6 +241,7 @@ pub fn check_path<const D: usize>(
     let mut ball = Ball {
         centre: tube.exit.centre.clone(),
         radius: tube.exit.radius.clone(),
+        low: Vector::zeros(n + 1),
     };
     for i in 0..n {
         ball.centre[i] = near[i];

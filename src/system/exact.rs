@@ -1,0 +1,186 @@
+//! The lengths to more than a float's precision, from the exact numbers of the problem.
+
+use crate::interval::{DoubleDouble, at_least};
+use crate::problem::{Decimal, Target};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+/// What a(t) of one distance is made of, exactly as the problem says it.
+#[derive(Debug, Clone)]
+pub struct ExactLength {
+    /// The square of the length in the sketch.
+    pub sketch_squared: BigRational,
+    /// The target length.
+    pub target: Target,
+    /// The bend's coefficient c, if the distance bends.
+    pub bend: Option<Decimal>,
+    /// The homotopy's unit.
+    pub unit: f64,
+}
+
+/// A number and how far the exact one may be from it.
+type Approximate = (DoubleDouble, f64);
+
+/// The same in ratios.
+#[derive(Debug, Clone)]
+struct Enclosed {
+    middle: BigRational,
+    radius: BigRational,
+}
+
+impl Enclosed {
+    fn exactly(middle: BigRational) -> Self {
+        Enclosed {
+            middle,
+            radius: BigRational::zero(),
+        }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Enclosed {
+            middle: &self.middle + &other.middle,
+            radius: &self.radius + &other.radius,
+        }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        let radius =
+            self.middle.abs() * &other.radius + &self.radius * (other.middle.abs() + &other.radius);
+        Enclosed {
+            middle: &self.middle * &other.middle,
+            radius,
+        }
+    }
+
+    fn negated(&self) -> Self {
+        Enclosed {
+            middle: -&self.middle,
+            radius: self.radius.clone(),
+        }
+    }
+
+    fn to_double(&self) -> Approximate {
+        let (near, left) = DoubleDouble::near(&self.middle);
+        // One rounding more.
+        let radius = (left + at_least(&self.radius)) * (1.0 + 1e-10);
+        (near, radius)
+    }
+}
+
+/// Bits in the roots.
+const BITS: u64 = 256;
+
+/// The root of a positive ratio, to a relative 2⁻²⁵⁰.
+fn root(squared: &BigRational) -> Enclosed {
+    let (above, below) = (squared.numer(), squared.denom());
+    // ⌊√⌊x 4ᵏ⌋⌋ ≤ 2ᵏ √x < that + 1.
+    let wanted = 2 * BITS + below.bits();
+    let k = wanted.saturating_sub(above.bits()) / 2 + 1;
+    let scaled: BigInt = (above << (2 * k)) / below;
+    let scale = BigInt::one() << k;
+    Enclosed {
+        middle: BigRational::new(scaled.sqrt(), scale.clone()),
+        radius: BigRational::new(BigInt::one(), scale),
+    }
+}
+
+impl ExactLength {
+    /// The coefficients of E(t) = ½ a(t)² (see [`super::Length`]), in the homotopy's unit, with the
+    /// errors of their double-doubles.
+    pub fn half_square(&self) -> [Approximate; 5] {
+        let half = Enclosed::exactly(BigRational::new(1.into(), 2.into()));
+        let sketch_squared = &self.sketch_squared * self.per_unit().pow(2);
+        let a0 = root(&sketch_squared);
+        let to_target = root(&self.target_squared()).plus(&a0.negated());
+        let e0 = Enclosed::exactly(sketch_squared).times(&half);
+        let coefficients = match &self.bend {
+            None => {
+                let zero = Enclosed::exactly(BigRational::zero());
+                let straight = to_target.times(&to_target).times(&half);
+                [e0, a0.times(&to_target), straight, zero.clone(), zero]
+            }
+            Some(c) => {
+                let c = Enclosed::exactly(c.value() * self.per_unit());
+                let (a1, a2) = (to_target.plus(&c), c.negated());
+                [
+                    e0,
+                    a0.times(&a1),
+                    a1.times(&a1).times(&half).plus(&a0.times(&a2)),
+                    a1.times(&a2),
+                    a2.times(&a2).times(&half),
+                ]
+            }
+        };
+        coefficients.map(|e| e.to_double())
+    }
+
+    /// E(1), straight from the target length.
+    pub fn target_half_square(&self) -> Approximate {
+        let half = BigRational::new(1.into(), 2.into());
+        Enclosed::exactly(self.target_squared() * half).to_double()
+    }
+
+    fn per_unit(&self) -> BigRational {
+        BigRational::from_float(1.0 / self.unit).expect("a unit is a power of two")
+    }
+
+    /// The square of the target length, in the homotopy's unit.
+    fn target_squared(&self) -> BigRational {
+        let squared = match &self.target {
+            Target::Length(length) => length.value().pow(2),
+            Target::SquaredLength(squared) => squared.value().clone(),
+        };
+        squared * self.per_unit().pow(2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::{enclose, enclose_rational, point};
+    use crate::system::Length;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    #[test]
+    fn agrees_with_the_intervals_and_is_much_tighter() {
+        for (sketch, target, bend) in [
+            (1.5, "2", Some("2")),
+            (0.1, "0.3", None),
+            (3e7, "1e-8", Some("-0.25")),
+        ] {
+            let decimal = |text: &str| text.parse::<Decimal>().unwrap();
+            let length = ExactLength {
+                sketch_squared: exact(sketch) * exact(sketch) + exact(1e-9),
+                target: Target::Length(decimal(target)),
+                bend: bend.map(decimal),
+                unit: 4.0,
+            };
+            let quarter = point(0.25);
+            let wide = Length::new(
+                enclose_rational(&length.sketch_squared).sqrt() * quarter,
+                enclose(&decimal(target)) * quarter,
+                bend.map(|c| enclose(&decimal(c)) * quarter),
+            );
+            for (&(near, radius), around) in length.half_square().iter().zip(wide.half_square()) {
+                assert!(near.hi + radius >= around.inf() && near.hi - radius <= around.sup());
+                assert!(radius <= 1e-30 * near.size() + 1e-200, "{radius:e}");
+            }
+            let (near, _) = length.target_half_square();
+            assert!(wide.target_half_square().contains(near.hi));
+        }
+    }
+
+    #[test]
+    fn roots_are_enclosed() {
+        for x in [2.0, 1e-30, 1e30, 0.25, 1.0 + f64::EPSILON] {
+            let root = root(&exact(x));
+            let (lo, hi) = (&root.middle - &root.radius, &root.middle + &root.radius);
+            assert!(&lo * &lo <= exact(x) && exact(x) <= &hi * &hi);
+            assert!(root.radius * exact(2f64.powi(200)) < root.middle);
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! The Krawczyk test in extended precision (double-double): for tubes where 53 bits do not suffice.
+//!
+//! Only F at a point needs more digits: at the middle z₀ of a tube, at its exit, at a solution.
+//! Points are then sums of two floats, `high + low`. Jacobians, preconditioners, norms and all higher
+//! orders bear relative errors of 2⁻⁵³, as they multiply what is small.
+
+use super::exit::{MAX_STEPS, STAGNATION};
+use super::link::{Tube, offset};
+use super::low_orders::LowOrders;
+use super::norms::{Norms, Proof, powers_of};
+use super::reasons::Shortfall;
+use super::tube::{KrawczykTest, norm_of};
+use crate::interval::rounding::{gamma, largest, round_up};
+use crate::linalg::Vector;
+use crate::track::full::{DEGREE, Equations, Local, ORDER, shift};
+
+/// Whether extended precision is on, and what the last proof rested on.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Precision {
+    /// Whether points and F at them are taken in extended precision.
+    pub extended: bool,
+    /// The bounds of the last proof and u_t.
+    last: Option<(Norms, f64)>,
+    /// In extended precision, what they would be in 53 bits.
+    plain: Option<Norms>,
+}
+
+impl Precision {
+    /// A proof begins.
+    pub fn forget(&mut self) {
+        (self.last, self.plain) = (None, None);
+    }
+
+    /// What 53 bits would prove of the tube that was proved last in extended precision.
+    pub fn in_53_bits(&self) -> Option<Proof> {
+        let (_, weight_of_t) = self.last?;
+        self.plain?.longest(weight_of_t)
+    }
+
+    /// Whether nothing but rounding, and F at the middle, kept the last tube from being proved.
+    pub fn is_limited_by_rounding(&self) -> bool {
+        self.last
+            .is_some_and(|(norms, weight_of_t)| norms.is_limited_by_rounding(weight_of_t))
+    }
+
+    /// Which condition kept the last tube from being proved, however short.
+    pub fn shortfall(&self) -> Option<Shortfall> {
+        match self.last {
+            Some((norms, weight_of_t)) if norms.is_in_range() => norms.shortfall(weight_of_t),
+            _ => Some(Shortfall::Overflow),
+        }
+    }
+}
+
+impl<const D: usize> KrawczykTest<D> {
+    /// The bounds as they are in the precision of the point. `None`: out of range.
+    #[inline(always)]
+    pub(super) fn in_precision(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        norms: Norms,
+    ) -> Option<Norms> {
+        let norms = if local.is_extended {
+            self.precision.plain = Some(norms);
+            let low = self.split_low_orders(equations, local, norms.h);
+            Norms { low, ..norms }
+        } else {
+            norms
+        };
+        self.precision.last = Some((norms, self.u[equations.m]));
+        norms.is_in_range().then_some(norms)
+    }
+
+    /// |Y F(ẑ(s))| for |s| ≤ H = `h` as far as it is of orders up to ORDER, and the rounding of all
+    /// orders: order 0 as it is in extended precision.
+    ///
+    /// The other orders are computed from differences and lengths at the middle that carry four roundings
+    /// more than in 53 bits: those of double-doubles to floats.
+    fn split_low_orders(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        h: f64,
+    ) -> LowOrders {
+        let (m, n) = (equations.m, equations.n());
+        let hs: [f64; DEGREE + 1] = powers_of(h);
+        let z = (&local.z[0][..], &local.low[..]);
+        let [constant, rest, ..] = &mut self.bounds;
+        let extended = equations.in_extended();
+        extended.residual(equations, z, &mut self.coefficient, constant);
+        for (constant, f) in constant[..m].iter_mut().zip(self.coefficient.iter()) {
+            *constant += f.abs();
+        }
+        // What t can be along the tube, and Σ k |t_k| sᵏ.
+        let t_of = |k: usize| local.z[k][m].abs() * hs[k];
+        let t = (0..=ORDER).map(t_of).sum();
+        let t_rate: f64 = (1..=ORDER).map(|k| k as f64 * t_of(k)).sum();
+        for (e, rest) in rest[..m].iter_mut().enumerate() {
+            // Of Σ_k f_k sᵏ in absolute values throughout, Σ_k k f_k sᵏ is the derivative times s; that of
+            // ½ (Σ |d_k| sᵏ)² for the differences, of E(Σ |t_k| sᵏ) for the lengths.
+            let mut rate = 0.0;
+            for axis in 0..D {
+                let d_of = |k: usize| local.d[k][axis][e].abs() * hs[k];
+                let size: f64 = (0..=ORDER).map(d_of).sum();
+                rate += size * (1..=ORDER).map(|k| k as f64 * d_of(k)).sum::<f64>();
+            }
+            let (slope_size, slope_radius) = equations.slope_of_length(e, t);
+            *rest = gamma(200) * (rate + slope_size * t_rate) + slope_radius * t_rate;
+        }
+        for k in 1..=2 * ORDER {
+            local.coefficient(equations, k, 0, &mut self.coefficient);
+            // Higher orders may be multiplied with Y before absolute values are taken: then they are fused
+            // sums of m products.
+            let share = if k <= ORDER { 1.0 } else { gamma(n + 2) };
+            for (rest, c) in rest[..m].iter_mut().zip(self.coefficient.iter()) {
+                *rest += share * k as f64 * c.abs() * hs[k];
+            }
+        }
+        let [constant, rest, ..] = &self.bounds;
+        let mut bound = |g: &Vector| {
+            local.y.multiply_abs(&g[..m], &mut self.v);
+            round_up(norm_of(&self.v, &self.u, n), n + 200)
+        };
+        LowOrders::Split {
+            constant: bound(constant),
+            rest: bound(rest),
+        }
+    }
+
+    /// [`KrawczykTest::enclose`] in extended precision, of the point and of the residual there.
+    pub(super) fn enclose_extended(
+        &mut self,
+        equations: &Equations<D>,
+        tube: &mut Tube<D>,
+        accuracy: f64,
+    ) -> Option<()> {
+        let (m, n) = (equations.m, equations.n());
+        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
+        let extended = equations.in_extended();
+        let out = &mut tube.exit;
+        // It could be anywhere until it is proved.
+        out.radius[..n].fill(f64::INFINITY);
+        let c = &local.normal[..n];
+        local.at(s, &mut out.centre);
+        out.low.fill(0.0);
+        let goal = accuracy * proof.r;
+        let mut step = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
+            let z = (&out.centre[..], &out.low[..]);
+            extended.residual(equations, z, &mut self.f, &mut self.bounds[0]);
+            // ẑ(s) was rounded to floats: that may have moved it out of the cross-section.
+            let along = |i: usize| c[i] * offset(local, i, s, (out.centre[i], out.low[i])).0;
+            self.f[m] = (0..n).map(along).sum();
+            local.y.multiply(&self.f[..n], &mut self.v);
+            self.a.multiply(&self.v[..n], &mut self.f);
+            let (v, f) = (&mut self.v, &self.f);
+            (0..n).for_each(|i| v[i] -= s * f[i]);
+            shift(&mut out.centre[..n], &mut out.low[..n], |i| -v[i]);
+            let last = step;
+            step = norm_of(&self.v, u, n);
+            if step < goal || step > STAGNATION * last {
+                break;
+            }
+        }
+        // The defect at the point reached, with what rounding may hide of it.
+        let z = (&out.centre[..], &out.low[..]);
+        let hidden = &mut self.bounds[0];
+        extended.residual(equations, z, &mut self.f, hidden);
+        let (mut along, mut error, mut widest) = (0.0, 0.0, 0.0);
+        for i in 0..n {
+            let (w, e) = offset(local, i, s, (out.centre[i], out.low[i]));
+            along += c[i] * w;
+            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
+            widest = largest(widest, (w.abs() + e) / u[i]);
+        }
+        self.f[m] = along;
+        hidden[m] = round_up(error, n + 8);
+        let radius = self.radius_from_defect(local, proof, u, s);
+        if !(round_up(widest, 40) < proof.r && radius < proof.r) {
+            return None;
+        }
+        for i in 0..n {
+            out.radius[i] = round_up(radius * u[i], 1);
+        }
+        tube.exit_between = (s, s);
+        Some(())
+    }
+}

@@ -1,0 +1,311 @@
+//! Why a run stops: what could not be proved, and the number that was in the way of it.
+//!
+//! Numbers are taken where something fails, or when the run stops, from what was tried last. Lengths
+//! are in the homotopy's unit until they are put into words, which are about the problem's.
+
+use super::link::{Ball, Frame, Tube};
+use super::norms::MAX_CONTRACTION;
+use crate::interval::rounding::largest;
+use crate::track::events::Undecided;
+use crate::track::full::{Equations, LARGEST_TANGENT, Local, Preconditioner, RefineError};
+use std::fmt;
+
+/// Why a tube could not be added to the chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rejection {
+    /// No point of the path was found.
+    Refine(RefineError),
+    /// No tube around it could be proved.
+    Unproved,
+    /// It could not be linked to what comes before.
+    Unlinked,
+    /// What it holds could not be told.
+    Undecided(Doubt),
+}
+
+impl Rejection {
+    /// What 53 bits cannot do, where extended precision is switched on for it.
+    pub fn in_short(self) -> &'static str {
+        match self {
+            Rejection::Refine(_) => "bring points onto the path",
+            Rejection::Unproved => "prove a tube",
+            Rejection::Unlinked => "link two tubes",
+            Rejection::Undecided(_) => "tell whether the path meets t = 1",
+        }
+    }
+}
+
+/// What could not be told of a tube that is proved and linked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Doubt {
+    /// Whether t is 1 somewhere.
+    Time(Undecided),
+    /// Where the solution is: Newton's method does not converge after a correction so large.
+    Newton(f64),
+    /// Whether there is exactly one: |I − Y J| at its middle is this.
+    Contraction(f64),
+    /// Nor here: it may be `radius` away, and is alone within `alone`.
+    Wide { radius: f64, alone: f64 },
+    /// Whether the solution, known up to `radius`, is in the stretch of the tube, which is so long.
+    Outside { radius: f64, stretch: f64 },
+    /// Whether it is one that was found before, which is at this distance; both are known up to
+    /// `radius`.
+    Twin { distance: f64, radius: f64 },
+    /// Whether the path comes back to the sketch in the direction in which it left, which is
+    /// known up to this.
+    Direction(f64),
+}
+
+/// Which condition of Krawczyk's test fails.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shortfall {
+    /// Some bound is no number.
+    Overflow,
+    /// The contraction without the width of the box.
+    Contraction(f64),
+    /// How far the residual may move the path, and how far it may at most.
+    Defect { defect: f64, room: f64 },
+    /// How far the path may be from the tube's middle, and how far it was asked to be.
+    Distance { distance: f64, radius: f64 },
+    /// How well the path's direction is known.
+    Direction(f64),
+}
+
+impl Shortfall {
+    /// The one that asks for least, of those that there are for several lengths; none if there is a
+    /// length without.
+    pub fn least(all: impl Iterator<Item = Option<Self>>) -> Option<Self> {
+        let mut least: Option<Self> = None;
+        for shortfall in all {
+            let shortfall = shortfall?;
+            if least.is_none_or(|least| shortfall.rank() < least.rank()) {
+                least = Some(shortfall);
+            }
+        }
+        least
+    }
+
+    /// By how much it misses; what a shorter tube mends comes after all else.
+    fn rank(self) -> (bool, f64) {
+        let (mended, factor) = match self {
+            Shortfall::Overflow => (true, f64::INFINITY),
+            Shortfall::Contraction(contraction) => (true, contraction / MAX_CONTRACTION),
+            Shortfall::Defect { defect, room } => (false, defect / room),
+            Shortfall::Distance { distance, radius } => (false, distance / radius),
+            Shortfall::Direction(direction) => (false, direction / 0.5),
+        };
+        (mended, largest(0.0, factor))
+    }
+
+    /// With lengths multiplied.
+    pub fn scaled(self, factor: f64) -> Self {
+        match self {
+            Shortfall::Defect { defect, room } => Shortfall::Defect {
+                defect: defect * factor,
+                room: room * factor,
+            },
+            Shortfall::Distance { distance, radius } => Shortfall::Distance {
+                distance: distance * factor,
+                radius: radius * factor,
+            },
+            Shortfall::Overflow | Shortfall::Contraction(_) | Shortfall::Direction(_) => self,
+        }
+    }
+}
+
+impl fmt::Display for Shortfall {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Shortfall::Overflow => write!(f, "its bounds are beyond 1e75"),
+            Shortfall::Contraction(contraction) => write!(
+                f,
+                "it contracts by {contraction:.1e} at best, which must be below {MAX_CONTRACTION}"
+            ),
+            Shortfall::Defect { defect, room } => write!(
+                f,
+                "the residual may move the path by {defect:.1e}, and there is room for {room:.1e}"
+            ),
+            Shortfall::Distance { distance, radius } => write!(
+                f,
+                "the path is known up to {distance:.1e}, not {radius:.1e}"
+            ),
+            Shortfall::Direction(direction) => write!(
+                f,
+                "the path's direction is known up to {direction:.1e}, which must be below 0.5"
+            ),
+        }
+    }
+}
+
+/// Why the path cannot even be set out upon.
+pub fn no_direction() -> String {
+    format!(
+        "the sketch is a singular point of its path: no direction of travel could be computed, as the path \
+         moves more than {LARGEST_TANGENT:.0e} times as far as any one coordinate, or no Jacobian can be \
+         inverted"
+    )
+}
+
+/// In which precision that was.
+pub fn precision(is_extended: bool) -> &'static str {
+    if is_extended {
+        ", even in extended precision"
+    } else {
+        ""
+    }
+}
+
+/// Why no point was found, with the corrections that did not shrink.
+pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    error: RefineError,
+    equations: &Equations<D>,
+    local: &mut Local<D, N, Y>,
+    tolerance: f64,
+    unit: f64,
+) -> String {
+    let (first, ratio) = (local.first_correction, local.contraction);
+    match error {
+        RefineError::Singular => "the Jacobian is singular in 53 bits".to_owned(),
+        RefineError::Diverged if !first.is_finite() => {
+            "the corrector does not converge: its first correction overflows".to_owned()
+        }
+        RefineError::Diverged if ratio > 0.25 || ratio.is_nan() => format!(
+            "the corrector does not converge: its first correction is {:.1e}, the next {ratio:.1e} times that",
+            first * unit
+        ),
+        RefineError::Diverged if local.is_extended => format!(
+            "the corrector does not converge: its corrections stay at {:.1e}, after a first one of {:.1e}",
+            local.correction_extended(equations) * unit,
+            first * unit
+        ),
+        RefineError::Diverged => {
+            let before = local.z[0].clone();
+            local.correct(equations);
+            let sizes = local.z[0].iter().zip(before.iter());
+            let size = sizes.fold(0.0, |max, (x, y)| largest(max, (x - y).abs()));
+            format!(
+                "the corrector does not converge: its corrections stay at {:.1e}, above {:.1e}",
+                size * unit,
+                tolerance * unit
+            )
+        }
+    }
+}
+
+/// Why no tube is proved, or where none of the conditions fails, why one that is has no use.
+pub fn unproved<const D: usize, const N: usize, Y>(
+    shortfall: Option<Shortfall>,
+    tube: &Tube<D, N, Y>,
+    unit: f64,
+) -> String {
+    let why = match shortfall {
+        Some(shortfall) => shortfall.scaled(unit).to_string(),
+        None => {
+            let widest = tube.weights.iter().fold(0.0, |a: f64, &b| a.max(b));
+            format!(
+                "where the path leaves it is not known as well as the tube is wide, {:.1e}",
+                widest * tube.proof.r * unit
+            )
+        }
+    };
+    format!("the Krawczyk test fails however short the tube: {why}")
+}
+
+/// Why the point in `ball`, `what`, is not known to be the path's in a tube, or the path not to go on
+/// there in the tube's direction, known up to `direction`.
+pub fn unlinked<const D: usize, const N: usize, Y: Frame<D>>(
+    what: &str,
+    ball: &Ball,
+    direction: f64,
+    tube: &Tube<D, N, Y>,
+    unit: f64,
+) -> String {
+    const UNLINKED: &str = "the tube could not be linked to what comes before it";
+    let n = tube.weights.len() - 1;
+    let h = tube.proof.h;
+    let s = tube.parameter_near(ball);
+    if s.is_nan() || s.abs() > h {
+        return format!(
+            "{UNLINKED}: {what} is {:.1e} from its middle, and it reaches {:.1e} to either side",
+            s.abs() * unit,
+            h * unit
+        );
+    }
+    let radius = ball.radius[..n].iter().fold(0.0, |a: f64, &b| a.max(b)) * unit;
+    let Some((along, away)) = tube.spread(ball, s) else {
+        return format!(
+            "{UNLINKED}: {what} is known up to {radius:.1e}, and the tube, which reaches {:.1e} to either side, \
+             bends too much",
+            h * unit
+        );
+    };
+    let ratio = away / tube.proof.r;
+    match tube.locate(ball) {
+        None if s.abs() + along > h => format!(
+            "{UNLINKED}: {what} is known up to {radius:.1e}, and it may be {:.1e} from the tube's middle, which \
+             reaches {:.1e} to either side",
+            (s.abs() + along) * unit,
+            h * unit
+        ),
+        None => format!(
+            "{UNLINKED}: {what} is known up to {radius:.1e}, and with that {ratio:.2} times as far from the tube's middle \
+             as the tube is wide"
+        ),
+        Some(entry) if entry.1 >= tube.exit_at => format!(
+            "{UNLINKED}: {what} is known up to {radius:.1e}, and the tube reaches {:.1e} beyond it",
+            (h - s) * unit
+        ),
+        Some(_) => format!(
+            "{UNLINKED}: the path's direction is known up to {direction:.1e} there, too little to tell that it is the same"
+        ),
+    }
+}
+
+/// What could not be told of a tube.
+pub fn undecided(doubt: Doubt, is_extended: bool, unit: f64) -> String {
+    const WHETHER: &str = "it could not be decided whether the path meets t = 1";
+    match doubt {
+        Doubt::Time(Undecided { value, slope }) => format!(
+            "{WHETHER}: a fold is too near, or two solutions are (t − 1 is between {:.1e} and {:.1e}, dt/ds \
+             between {:.1e} and {:.1e})",
+            value.0, value.1, slope.0, slope.1
+        ),
+        Doubt::Newton(correction) if !correction.is_finite() => {
+            format!("{WHETHER}: the Jacobian of a figure there is singular in 53 bits")
+        }
+        Doubt::Newton(correction) => format!(
+            "{WHETHER}: Newton's method does not come to a figure there (it begins with a correction of {:.1e})",
+            correction * unit
+        ),
+        Doubt::Contraction(contraction) => format!(
+            "{WHETHER} once: the test of a box around a figure there contracts by {contraction:.1e}, which must \
+             be below 0.5{}",
+            if is_extended {
+                " (its Jacobian is in 53 bits)"
+            } else {
+                ""
+            }
+        ),
+        Doubt::Wide { radius, alone } => format!(
+            "{WHETHER} once: a figure there is known up to {:.1e}, and may have another within {:.1e}",
+            radius * unit,
+            alone * unit
+        ),
+        Doubt::Outside { radius, stretch } => format!(
+            "{WHETHER} once: a figure there is known up to {:.1e}, too little to place it in a stretch of \
+             {:.1e}",
+            radius * unit,
+            stretch * unit
+        ),
+        Doubt::Twin { distance, radius } => format!(
+            "it could not be decided whether two solutions are one: they are {:.1e} apart, and known up to \
+             {:.1e}",
+            distance * unit,
+            radius * unit
+        ),
+        Doubt::Direction(known) => format!(
+            "it could not be decided whether the path comes back to the sketch in the direction in which it \
+             left: that is known up to {known:.1e}"
+        ),
+    }
+}

@@ -1,0 +1,184 @@
+//! Extended precision: it comes on where 53 bits do not suffice, says so, and changes nothing elsewhere.
+
+mod common;
+
+use common::boxes::check;
+use common::hard::{Answer, Family, families};
+use common::{shipped, solve};
+use krawl::certificate::{Outcome as Checked, Settings, Writer, verify};
+use krawl::problem::Problem;
+use krawl::track::{self, Control, Options, Outcome, Status};
+
+/// What is said of extended precision.
+fn words(outcome: &Outcome) -> Vec<&String> {
+    let list = outcome.switched_on.iter();
+    list.filter(|s| s.contains("extended precision")).collect()
+}
+
+fn without_the_clock(outcome: Outcome) -> Outcome {
+    Outcome {
+        seconds: 0.0,
+        ..outcome
+    }
+}
+
+#[test]
+fn changes_nothing_where_53_bits_suffice() {
+    let mut problems = ["octahedron", "disulfide", "dodecagon", "k33", "prism"]
+        .map(shipped)
+        .to_vec();
+    for family in families() {
+        problems.extend((1..=family.proved.min(3)).map(|k| family.problem(k)));
+    }
+    let mut same = 0;
+    for problem in problems {
+        for options in [Options::certified(), Options::certified().reversed()] {
+            let plain = solve(&problem, &options.clone().without_extended());
+            if plain.status != Status::Closed {
+                continue;
+            }
+            let outcome = solve(&problem, &options);
+            assert!(words(&outcome).is_empty(), "{:?}", outcome.switched_on);
+            // Every float of every box.
+            let (plain, outcome) = (without_the_clock(plain), without_the_clock(outcome));
+            assert_eq!(plain, outcome, "{}", problem.name);
+            same += 1;
+        }
+    }
+    assert!(same > 60, "{same}");
+}
+
+/// How far each family is proved in extended precision (powers of ten), and what 53 bits cannot do there,
+/// where that is always the same.
+const REACH: [(&str, i32, &str); 13] = [
+    ("flaps-split", 11, ""),
+    ("flaps-apart", 11, ""),
+    ("tents-split", 11, ""),
+    ("tents-apart", 11, ""),
+    ("parallelogram-crank", 11, ""),
+    ("parallelogram-coupler", 11, ""),
+    ("triple", 5, ""),
+    ("fold", 12, "t = 1"),
+    ("fold-missed", 12, "t = 1"),
+    ("peak", 12, "t = 1"),
+    ("graze", 10, ""),
+    ("graze-stopped", 10, ""),
+    ("dixon", 11, ""),
+];
+
+#[test]
+fn reaches_further() {
+    for (name, reach, why) in REACH {
+        let family: &Family = families().find(|f| f.name == name).unwrap();
+        for k in (family.proved + 2).max(4)..=reach {
+            let problem = family.problem(k);
+            let plain = solve(&problem, &Options::certified().without_extended());
+            assert_ne!(
+                plain.status,
+                Status::Closed,
+                "{name}-{k} needs nothing more"
+            );
+            let outcome = solve(&problem, &Options::certified());
+            assert_eq!(outcome.status, Status::Closed, "{name}-{k}");
+            check(&problem, &outcome.solutions).unwrap();
+            if let Answer::Path { solutions, .. } = family.answer(k) {
+                assert_eq!(outcome.solutions.len(), solutions, "{name}-{k}");
+            }
+            let words = words(&outcome);
+            assert!(!words.is_empty(), "{name}-{k}");
+            assert!(
+                words
+                    .iter()
+                    .any(|w| w.contains("tube") && w.contains(", t from "))
+            );
+            assert!(words.iter().any(|w| w.contains(why)), "{words:?}");
+            // On where it is needed only: most tubes are in 53 bits.
+            let tubes: usize = words.iter().map(|w| tubes_in(w)).sum();
+            assert!(
+                (1..outcome.steps).contains(&tubes),
+                "{tubes} of {}",
+                outcome.steps
+            );
+        }
+    }
+}
+
+/// The number before the word.
+fn tubes_in(words: &str) -> usize {
+    let before = words.split(" tube").next().unwrap();
+    before.rsplit(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn stopped_runs_name_the_number() {
+    for name in [
+        "crossing",
+        "tangent",
+        "tangent-circles",
+        "regular-octahedron",
+    ] {
+        let family = families().find(|f| f.name == name).unwrap();
+        let outcome = solve(&family.problem(0), &Options::certified());
+        let Status::Stopped(reason) = &outcome.status else {
+            panic!("{name} closed");
+        };
+        assert!(reason.contains("even in extended precision"), "{reason}");
+        assert!(reason.contains("e-"), "{reason}");
+    }
+}
+
+/// What can be written of such a run is a certificate of its beginning, and holds.
+///
+#[test]
+fn certificates_end_before() {
+    for name in ["fold", "fold-missed", "peak"] {
+        for k in 4..=9 {
+            let problem: Problem = families().find(|f| f.name == name).unwrap().problem(k);
+            let mut writer = Writer::new(Vec::new(), &problem);
+            let mut control = Control {
+                witness: Some(&mut writer),
+                ..Control::default()
+            };
+            let outcome = track::solve(&problem, &Options::certified(), &mut control).unwrap();
+            assert_eq!(outcome.status, Status::Closed);
+            let is_cut = writer.is_cut();
+            match k {
+                ..=4 => assert!(!is_cut, "{name}-{k}"),
+                7.. => assert!(is_cut, "{name}-{k}"),
+                _ => {}
+            }
+            assert_eq!(is_cut, !words(&outcome).is_empty());
+            let bytes = writer.finish().unwrap();
+            let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
+            match verdict.outcome {
+                Checked::Verified => assert!(!is_cut),
+                Checked::Partial(reason) => {
+                    assert!(is_cut && reason.contains("extended precision"), "{reason}");
+                }
+                refused => panic!("{}: {refused:?}", problem.name),
+            }
+        }
+    }
+}
+
+/// In other families the checker, whose bounds are coarser than the tracker's, may refuse tubes of 53 bits
+/// already; but it never takes the beginning of a proof for all of it.
+#[test]
+fn certificates_that_are_cut_are_not_verified() {
+    for name in ["flaps-apart", "tents-split", "graze", "crowd", "lengths"] {
+        let family = families().find(|f| f.name == name).unwrap();
+        let problem = family.problem(if name == "lengths" { 3 } else { 7 });
+        let mut writer = Writer::new(Vec::new(), &problem);
+        let mut control = Control {
+            witness: Some(&mut writer),
+            ..Control::default()
+        };
+        let outcome = track::solve(&problem, &Options::certified(), &mut control).unwrap();
+        assert_eq!(outcome.status, Status::Closed, "{name}");
+        assert!(writer.is_cut(), "{name}");
+        let bytes = writer.finish().unwrap();
+        let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
+        assert_ne!(verdict.outcome, Checked::Verified, "{name}");
+        println!("{name}: {:?}", verdict.outcome);
+    }
+}
