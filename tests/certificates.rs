@@ -3,9 +3,9 @@
 mod common;
 
 use common::certificate::{Certificate, SHIPPED, shipped};
-use krawl::certificate::{Flaw, FormatError, Outcome, Record, Settings, Verdict, verify};
+use krawl::certificate::{Flaw, FormatError, Outcome, Record, Settings, Verdict, Writer, verify};
 use krawl::problem::Problem;
-use krawl::track::Options;
+use krawl::track::{Options, Status, Witness};
 
 fn check(bytes: &[u8]) -> Result<Verdict, FormatError> {
     verify(bytes, &Settings::default(), &mut |_| ())
@@ -96,6 +96,20 @@ fn certificates_of_large_problems_are_verified() {
     let verdict = check(&written(&problem, &Options::certified())).unwrap();
     assert_eq!(verdict.outcome, Outcome::Verified);
     assert!(verdict.margin > 0.01, "{}", verdict.margin);
+}
+
+/// To test its tubes would take several matrices of 7000 rows and columns for each thread, and this is a
+/// file of less than a megabyte.
+#[test]
+fn certificates_have_a_limit_on_memory() {
+    let problem = krawl::generate::Recipe::new(krawl::generate::Family::Chain, 7000).problem();
+    let problem = problem.unwrap();
+    let mut writer = Writer::new(Vec::new(), &problem);
+    writer.begin(1.0);
+    writer.end(&Status::Stopped("no tube was proved".to_owned()), &[]);
+    let bytes = writer.finish().unwrap();
+    let refused = check(&bytes).unwrap_err().to_string();
+    assert!(refused.contains("more than 6000"), "{refused}");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Reading certificates, record by record.
 
 use super::format::{
-    EndClaim, FormatError, Header, MAGIC, MAX_NUMBER, MAX_PROBLEM, MAX_SOLUTIONS, MAX_TEXT,
-    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_END, TAG_MOVING_KRAWCZYK, TAG_SOLUTION,
-    TubeClaim, VERSION,
+    EndClaim, FormatError, Header, MAGIC, MAX_FREE_COORDINATES, MAX_NUMBER, MAX_PROBLEM,
+    MAX_SOLUTIONS, MAX_TEXT, MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_END,
+    TAG_MOVING_KRAWCZYK, TAG_SOLUTION, TubeClaim, VERSION,
 };
 use crate::problem::Problem;
 use sha2::{Digest, Sha256};
@@ -49,6 +49,11 @@ impl<R: Read> Reader<R> {
         }
         let problem = Problem::parse(&source, "the problem in the certificate")
             .map_err(|error| FormatError::Malformed(error.to_string()))?;
+        if problem.free_coordinates() > MAX_FREE_COORDINATES {
+            return Err(FormatError::Malformed(format!(
+                "the problem has more than {MAX_FREE_COORDINATES} free coordinates"
+            )));
+        }
         let unit_exponent = i16::from_le_bytes(array(&mut input, "the unit")?);
         if unit_exponent.abs() > MAX_UNIT_EXPONENT {
             return Err(malformed("the unit is out of range"));

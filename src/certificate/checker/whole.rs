@@ -73,8 +73,11 @@ pub fn above(x: u128, bits: i32) -> Interval {
 }
 
 /// At least the largest sum of a row's sizes, for n × n entries in units of 2^−`bits`.
+///
+/// Nothing overflows, whatever is in the file. Entries of A fit into an `i32`; all others are below
+/// 2¹²⁷, as they fit into an `i128`, and below 2¹¹¹ without their last 16 of 70 bits, so that rows of fewer
+/// than 2¹⁶ of them do not reach 2¹²⁸. What is dropped is less than the one that is added.
 fn norm(n: usize, bits: i32, entries: impl Iterator<Item = i128>) -> Interval {
-    // Without the last 16 of 70 bits no sum of products overflows; those of A have 24, and keep them.
     let dropped = if bits == A_BITS { 0 } else { 16 };
     let mut sums = vec![0u128; n];
     for (k, entry) in entries.enumerate() {
@@ -128,6 +131,8 @@ impl Whole {
         let product: Vec<i128> = self.times(j1).collect();
         let nearest = |&x: &i128| i32::try_from((x + (1 << (SHIFT - 1))) >> SHIFT).ok();
         let a = product.iter().map(nearest).collect::<Option<Vec<i32>>>()?;
+        // Every partial sum is below 2³⁰ 2³¹: the row that multiplies is checked first, and the entries of
+        // the others fit into an `i32`.
         let mut square = vec![0i64; n * n];
         for (row, out) in a.chunks(n).zip(square.chunks_mut(n)) {
             if row.iter().map(|&x| i64::from(x).abs()).sum::<i64>() > A_LIMIT {
