@@ -129,6 +129,12 @@ impl<const D: usize> Equations<D> {
         self.extended.as_deref().expect("extended precision")
     }
 
+    /// The same, for sabotage.
+    #[cfg(test)]
+    pub fn in_extended_mut(&mut self) -> &mut Extended {
+        self.extended.as_deref_mut().expect("extended precision")
+    }
+
     /// The number n of unknowns.
     pub fn n(&self) -> usize {
         self.m + 1

@@ -91,6 +91,22 @@ impl Extended {
     }
 }
 
+#[cfg(test)]
+impl Extended {
+    /// Moves the constant term of E(t) of each distance, and E(1), and says that it is known only up to
+    /// that much: the exact ones are still within the stated radius.
+    pub fn blur(&mut self, mut by: impl FnMut(usize) -> f64) {
+        let coefficients = self.half_squares.iter_mut().map(|e| &mut e[0]);
+        for (e, ((value, radius), target)) in coefficients.zip(&mut self.targets).enumerate() {
+            let by = by(e);
+            for (value, radius) in [(value, radius), (&mut target.0, &mut target.1)] {
+                *value = *value + DoubleDouble::from(by);
+                *radius += by.abs() * (1.0 + 1e-10);
+            }
+        }
+    }
+}
+
 /// The bounds hold for double-doubles: where the low word is not below half a digit of the high one
 /// nothing is known.
 fn refuse_overlap((z, low): (&[f64], &[f64]), error: &mut Vector) {
