@@ -267,3 +267,39 @@ impl SolutionBox {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+
+    #[test]
+    fn boxes_that_are_apart_are_printed_apart() {
+        let path = format!("{}/problems/octahedron.toml", env!("CARGO_MANIFEST_DIR"));
+        let homotopy = Homotopy::new(&Problem::read(path).unwrap()).unwrap();
+        let equations = Equations::<3>::new(&homotopy);
+        let mut one = SolutionProver::new(&homotopy, &equations).found;
+        let m = equations.m;
+        one.centre[..m].fill(1.0);
+        one.radius[..m].fill(1e-28);
+        one.alone_within = 1e-20;
+        for (off, low, r) in [
+            (0.0, 1e-17, 1e-28),
+            (4.0 * f64::EPSILON, 0.0, 1.9 * f64::EPSILON),
+        ] {
+            let mut other = one.clone();
+            one.radius[..m].fill(r);
+            other.radius[..m].fill(r);
+            other.centre[0] += off;
+            other.low[0] = low;
+            assert_eq!(one.is_same(&other, |_| false), Same::No);
+            let (p, q) = (one.points(&homotopy), other.points(&homotopy));
+            let disjoint = p
+                .iter()
+                .flatten()
+                .zip(q.iter().flatten())
+                .any(|(p, q)| p.sup() < q.inf() || q.sup() < p.inf());
+            assert!(disjoint, "off {off:e} low {low:e}");
+        }
+    }
+}
