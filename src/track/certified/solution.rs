@@ -27,7 +27,7 @@ pub struct SolutionBox {
 pub enum Same {
     /// They do.
     Yes,
-    /// They do not: the boxes are disjoint.
+    /// They do not: the boxes are disjoint, also as they are printed.
     No,
     /// Neither could be proved.
     Unknown,
@@ -175,10 +175,13 @@ impl<const D: usize> SolutionProver<D> {
         let step = round_up(largest(&self.v), n + 2);
         let q = round_up(q0 + kappa * alone_within, 4);
         let all = round_up(step / (1.0 - q), 60);
-        // With room for rounding, so that the box itself lies where its solution is alone.
-        if !(q < 1.0 && all < 0.99 * alone_within) {
+        // The box itself, as it is printed, has to lie where its solution is alone.
+        let printed = (0..m).fold(all, |max, i| {
+            max.max(all + outward(local.z[0][i], local.low[i], all))
+        });
+        if !(q < 1.0 && printed < 0.99 * alone_within) {
             return Err(Doubt::Wide {
-                radius: all,
+                radius: printed,
                 alone: alone_within,
             });
         }
@@ -211,6 +214,11 @@ impl SolutionBox {
         self.radius.iter().fold(0.0, |a: f64, &b| a.max(b))
     }
 
+    /// How far an entry reaches from the middle where the box is printed.
+    fn reach(&self, i: usize) -> f64 {
+        self.radius[i] + outward(self.centre[i], self.low[i], self.radius[i])
+    }
+
     /// Whether the other box holds the same solution, after changing the sign of this one's
     /// entries where `mirror` says so.
     pub fn is_same(&self, other: &SolutionBox, mirror: impl Fn(usize) -> bool) -> Same {
@@ -223,8 +231,8 @@ impl SolutionBox {
             let distance = (high + low).abs();
             // Each difference is rounded relatively to itself, then their sum: a factor covers them.
             let slack = 4.0 * f64::EPSILON * (high.abs() + low.abs() + distance);
-            let radii = round_up(self.radius[i] + other.radius[i] + slack, 4);
-            apart |= distance > radii;
+            let radii = self.reach(i) + other.reach(i) + slack;
+            apart |= distance > round_up(radii, 8);
             inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
         }
         match (inside, apart) {
@@ -268,6 +276,12 @@ impl SolutionBox {
     }
 }
 
+/// More than [`SolutionBox::points`] adds to an entry by rounding outwards: twice two roundings of
+/// numbers no larger than this, ε each.
+fn outward(x: f64, low: f64, radius: f64) -> f64 {
+    5.0 * f64::EPSILON * (x.abs() + low.abs() + radius) + f64::MIN_POSITIVE
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -283,23 +297,32 @@ mod tests {
         one.centre[..m].fill(1.0);
         one.radius[..m].fill(1e-28);
         one.alone_within = 1e-20;
-        for (off, low, r) in [
-            (0.0, 1e-17, 1e-28),
-            (4.0 * f64::EPSILON, 0.0, 1.9 * f64::EPSILON),
-        ] {
-            let mut other = one.clone();
-            one.radius[..m].fill(r);
-            other.radius[..m].fill(r);
-            other.centre[0] += off;
-            other.low[0] = low;
-            assert_eq!(one.is_same(&other, |_| false), Same::No);
-            let (p, q) = (one.points(&homotopy), other.points(&homotopy));
-            let disjoint = p
-                .iter()
-                .flatten()
-                .zip(q.iter().flatten())
-                .any(|(p, q)| p.sup() < q.inf() || q.sup() < p.inf());
-            assert!(disjoint, "off {off:e} low {low:e}");
+        let (mut apart, mut overlapping) = (0, 0);
+        for off in 0..60 {
+            for (low, r) in [
+                (1e-17, 1e-28),
+                (0.0, 1e-28),
+                (0.0, 0.4 * f64::EPSILON),
+                (0.0, 1.9 * f64::EPSILON),
+                (-1e-17, 9.9 * f64::EPSILON),
+            ] {
+                let mut other = one.clone();
+                one.radius[..m].fill(r);
+                other.radius[..m].fill(r);
+                other.centre[0] += off as f64 * f64::EPSILON;
+                other.low[0] = low;
+                let (p, q) = (one.points(&homotopy), other.points(&homotopy));
+                let mut pairs = p.iter().flatten().zip(q.iter().flatten());
+                let disjoint = pairs.any(|(p, q)| p.sup() < q.inf() || q.sup() < p.inf());
+                let same = one.is_same(&other, |_| false);
+                assert!(
+                    disjoint || same != Same::No,
+                    "off {off} low {low:e} r {r:e}"
+                );
+                apart += (same == Same::No) as usize;
+                overlapping += !disjoint as usize;
+            }
         }
+        assert!(apart > 100 && overlapping > 20, "{apart} {overlapping}");
     }
 }

@@ -462,8 +462,10 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     fn closes(&self, tube: &Tube<D, N, T::Frame>) -> Result<Option<(f64, f64)>, Rejection> {
         let m = self.equations.m;
         let (h, z) = (tube.proof.h, &tube.local.z[0]);
-        // Most tubes are nowhere near: |z − z₀| ≤ 2 h is generous for a tube that holds z.
-        if z[m].abs() > 2.0 * h || (0..m).any(|i| (z[i] - self.sketch.centre[i]).abs() > 2.0 * h) {
+        // Most tubes are nowhere near: |z − z₀| ≤ 2 h is generous for a tube that holds z. (Where this
+        // errs the path is followed once more round, and the sketch is met again.)
+        let away = |i: usize| (z[i] - self.sketch.centre[i]).abs() - self.sketch.radius[i];
+        if z[m].abs() > 2.0 * h || (0..m).any(|i| away(i) > 2.0 * h) {
             return Ok(None);
         }
         match tube.locate(&self.sketch) {

@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, Lengths, MAX_DEGREE};
 use super::preconditioner::Preconditioner;
+use crate::interval::rounding::largest;
 use crate::linalg::{LANE, Matrix, Vector};
 
 /// Degree of the Taylor polynomials where nothing else is said.
@@ -133,12 +134,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
             let mut size = 0.0f64;
             for (z, delta) in self.z[0][..n].iter_mut().zip(self.delta.iter()) {
                 *z -= delta;
-                // A NaN must not be lost in the comparison.
-                size = if size >= delta.abs() {
-                    size
-                } else {
-                    delta.abs()
-                };
+                size = largest(size, delta.abs());
             }
             self.look(equations);
             match iteration {
@@ -193,11 +189,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
             for i in 0..=m {
                 let change = ds * room.slope[i] - room.delta[i];
                 z[i] += change;
-                size = if size >= change.abs() {
-                    size
-                } else {
-                    change.abs()
-                };
+                size = largest(size, change.abs());
             }
             s += ds;
             if size <= 1e-10 {
