@@ -1,6 +1,6 @@
 //! Where the path leaves a tube.
 
-use super::link::{Tube, evaluation_error};
+use super::link::{Tube, from_middle};
 use super::norms::Proof;
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
@@ -128,7 +128,6 @@ impl<const D: usize> KrawczykTest<D> {
         let out = &mut tube.exit;
         // It could be anywhere until it is proved.
         out.radius[..n].fill(f64::INFINITY);
-        let c = &local.normal[..n];
         local.at(s, &mut out.centre);
         out.low.fill(0.0);
         let goal = accuracy * proof.r;
@@ -155,18 +154,7 @@ impl<const D: usize> KrawczykTest<D> {
         equations.residual(&self.near, &self.lengths, &mut self.f);
         let hidden = &mut self.bounds[0];
         equations.residual_error(&self.near, out.centre[m], hidden);
-        let (mut along, mut error) = (0.0, 0.0);
-        let mut offset = 0.0f64;
-        for i in 0..n {
-            let w = out.centre[i] - local.entry_at(i, s);
-            let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
-            along += c[i] * w;
-            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
-            let ratio = (w.abs() + e) / u[i];
-            if ratio > offset || ratio.is_nan() {
-                offset = ratio;
-            }
-        }
+        let (along, error, offset) = from_middle(local, s, out, &u[..n]);
         self.f[m] = along;
         hidden[m] = error;
         let radius = self.radius_from_defect(local, proof, u, s);

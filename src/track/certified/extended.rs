@@ -5,12 +5,12 @@
 //! orders bear relative errors of 2⁻⁵³, as they multiply what is small.
 
 use super::exit::{MAX_STEPS, STAGNATION};
-use super::link::{Tube, offset};
+use super::link::{Tube, from_middle};
 use super::low_orders::LowOrders;
 use super::norms::{Norms, Proof, powers_of};
 use super::reasons::Shortfall;
 use super::tube::{KrawczykTest, norm_of};
-use crate::interval::rounding::{gamma, largest, round_up};
+use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
 use crate::track::full::{DEGREE, Equations, Local, ORDER, shift};
 
@@ -141,7 +141,6 @@ impl<const D: usize> KrawczykTest<D> {
         let out = &mut tube.exit;
         // It could be anywhere until it is proved.
         out.radius[..n].fill(f64::INFINITY);
-        let c = &local.normal[..n];
         local.at(s, &mut out.centre);
         out.low.fill(0.0);
         let goal = accuracy * proof.r;
@@ -150,8 +149,7 @@ impl<const D: usize> KrawczykTest<D> {
             let z = (&out.centre[..], &out.low[..]);
             extended.residual(equations, z, &mut self.f, &mut self.bounds[0]);
             // ẑ(s) was rounded to floats: that may have moved it out of the cross-section.
-            let along = |i: usize| c[i] * offset(local, i, s, (out.centre[i], out.low[i])).0;
-            self.f[m] = (0..n).map(along).sum();
+            self.f[m] = from_middle(local, s, out, &u[..n]).0;
             local.y.multiply(&self.f[..n], &mut self.v);
             self.a.multiply(&self.v[..n], &mut self.f);
             let (v, f) = (&mut self.v, &self.f);
@@ -167,13 +165,7 @@ impl<const D: usize> KrawczykTest<D> {
         let z = (&out.centre[..], &out.low[..]);
         let hidden = &mut self.bounds[0];
         extended.residual(equations, z, &mut self.f, hidden);
-        let (mut along, mut error, mut widest) = (0.0, 0.0, 0.0);
-        for i in 0..n {
-            let (w, e) = offset(local, i, s, (out.centre[i], out.low[i]));
-            along += c[i] * w;
-            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
-            widest = largest(widest, (w.abs() + e) / u[i]);
-        }
+        let (along, error, widest) = from_middle(local, s, out, &u[..n]);
         self.f[m] = along;
         hidden[m] = round_up(error, n + 8);
         let radius = self.radius_from_defect(local, proof, u, s);

@@ -1,8 +1,8 @@
 //! That two tubes hold the same piece of path, followed in the same direction.
 
 use super::norms::Proof;
-use crate::interval::rounding::{gamma, round_up};
-use crate::linalg::{Matrix, Vector};
+use crate::interval::rounding::{gamma, largest, round_up};
+use crate::linalg::{LANE, Matrix, Vector};
 use crate::track::events::TimeAlong;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
 
@@ -138,8 +138,12 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
         let (local, proof) = (&self.local, &self.proof);
         let c = &local.normal[..n];
         let (mut along, mut along_error) = (0.0, 0.0);
+        let mut lane = ([0.0; LANE], [0.0; LANE]);
         let widest = local.y.extent(&self.weights[..n], s, |i| {
-            let (away, rounding) = offset(local, i, s, (ball.centre[i], ball.low[i]));
+            if i % LANE == 0 {
+                lane = offsets(local, i / LANE, s, ball);
+            }
+            let (away, rounding) = (lane.0[i % LANE], lane.1[i % LANE]);
             let error = rounding + ball.radius[i];
             along += c[i] * away;
             along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
@@ -170,8 +174,8 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
         let (mut power, mut least) = (1.0, 0.0);
         for k in 1..N {
             let z = &self.local.z[k][..n];
-            let size: f64 = c.iter().zip(z).map(|(c, z)| (c * z).abs()).sum();
-            let sideways = (dot(c, z) - if k == 1 { 1.0 } else { 0.0 }).abs() + gamma(n + 2) * size;
+            let (sum, size) = dot_with_size(c, z);
+            let sideways = (sum - if k == 1 { 1.0 } else { 0.0 }).abs() + gamma(n + 2) * size;
             least += k as f64 * power * sideways;
             power *= h;
         }
@@ -189,13 +193,12 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
         // |ẑ''| ≤ N/h times the sum that bounds |ẑ'|, which is `slope` in the norm.
         let turn = off * (N as f64 / self.proof.h) * self.proof.slope;
         let (mut along, mut error) = (0.0, 0.0);
+        let mut lane = ([0.0; LANE], [0.0; LANE]);
         for i in 0..n {
-            let (mut slope, mut size) = (0.0f64, 0.0f64);
-            for k in (1..N).rev() {
-                let z = k as f64 * self.local.z[k][i];
-                slope = slope.mul_add(s, z);
-                size = size.mul_add(s.abs(), z.abs());
+            if i % LANE == 0 {
+                lane = self.local.lane_of_slope(i / LANE, s);
             }
+            let (slope, size) = (lane.0[i % LANE], lane.1[i % LANE]);
             along += normal[i] * slope;
             let away = (self.proof.slope_distance + turn) * self.weights[i];
             error += normal[i].abs() * (away + gamma(evaluation(N) + n) * size);
@@ -245,28 +248,78 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     }
 }
 
-/// How far a point is from ẑ(s) in entry i, in floats, and the error of that. The point is given as
-/// a sum of two floats.
+/// How far a ball's middle is from ẑ(s) in a lane's entries, in floats, and the errors of that.
 ///
 /// Both are seen from z₀: what is subtracted is small, and so is its rounding.
 #[inline(always)]
-pub fn offset<const D: usize, const N: usize, Y: Preconditioner<D>>(
+pub fn offsets<const D: usize, const N: usize, Y: Preconditioner<D>>(
     local: &Local<D, N, Y>,
-    i: usize,
+    lane: usize,
     s: f64,
-    (high, low): (f64, f64),
-) -> (f64, f64) {
-    let (from_high, from_low) = (high - local.z[0][i], low - local.low[i]);
-    let (mut along, mut size) = (0.0f64, 0.0f64);
-    for k in (1..N).rev() {
-        let z = local.z[k][i];
-        along = along.mul_add(s, z);
-        size = size.mul_add(s.abs(), z.abs());
+    ball: &Ball,
+) -> ([f64; LANE], [f64; LANE]) {
+    let (mut along, mut size) = ([0.0f64; LANE], [0.0f64; LANE]);
+    for z in local.z[1..].iter().rev() {
+        let z = &z.lanes()[lane];
+        for i in 0..LANE {
+            along[i] = along[i].mul_add(s, z[i]);
+            size[i] = size[i].mul_add(s.abs(), z[i].abs());
+        }
     }
-    let away = s.mul_add(-along, from_high + from_low);
-    // One rounding in each difference, one in their sum, one at last.
-    let size = size * s.abs() + (from_high.abs() + from_low.abs());
-    (away, round_up(gamma(evaluation(N)) * size, evaluation(N)))
+    let [high, low] = [&ball.centre, &ball.low].map(|v| &v.lanes()[lane]);
+    let [z_high, z_low] = [&local.z[0], &local.low].map(|v| &v.lanes()[lane]);
+    let (mut away, mut error) = ([0.0; LANE], [0.0; LANE]);
+    for i in 0..LANE {
+        let (from_high, from_low) = (high[i] - z_high[i], low[i] - z_low[i]);
+        away[i] = s.mul_add(-along[i], from_high + from_low);
+        // One rounding in each difference, one in their sum, one at last.
+        let size = size[i] * s.abs() + (from_high.abs() + from_low.abs());
+        error[i] = round_up(gamma(evaluation(N)) * size, evaluation(N));
+    }
+    (away, error)
+}
+
+/// For w, how far a ball's middle is from ẑ(s): c·w with the normal c, the error of that, and |w|_u with
+/// its error. Sums of n terms, none yet rounded up.
+pub fn from_middle<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    local: &Local<D, N, Y>,
+    s: f64,
+    ball: &Ball,
+    u: &[f64],
+) -> (f64, f64, f64) {
+    let n = u.len();
+    let c = &local.normal[..n];
+    let mut lane = ([0.0; LANE], [0.0; LANE]);
+    let (mut along, mut error, mut widest) = (0.0, 0.0, 0.0);
+    for i in 0..n {
+        if i % LANE == 0 {
+            lane = offsets(local, i / LANE, s, ball);
+        }
+        let (w, e) = (lane.0[i % LANE], lane.1[i % LANE]);
+        along += c[i] * w;
+        error += c[i].abs() * (e + gamma(n + 2) * w.abs());
+        widest = largest(widest, (w.abs() + e) / u[i]);
+    }
+    (along, error, widest)
+}
+
+/// a·b and |a|·|b|, each in interleaved sums.
+fn dot_with_size(a: &[f64], b: &[f64]) -> (f64, f64) {
+    let (a4, a1) = a.as_chunks::<LANE>();
+    let (b4, b1) = b.as_chunks::<LANE>();
+    let (mut sums, mut sizes) = ([0.0f64; LANE], [0.0f64; LANE]);
+    for (a, b) in a4.iter().zip(b4) {
+        for i in 0..LANE {
+            sums[i] = a[i].mul_add(b[i], sums[i]);
+            sizes[i] = a[i].abs().mul_add(b[i].abs(), sizes[i]);
+        }
+    }
+    let (mut sum, mut size): (f64, f64) = (sums.iter().sum(), sizes.iter().sum());
+    for (a, b) in a1.iter().zip(b1) {
+        sum = a.mul_add(*b, sum);
+        size = a.abs().mul_add(b.abs(), size);
+    }
+    (sum, size)
 }
 
 /// How far ẑ(s)_i in floats may be from the exact value.

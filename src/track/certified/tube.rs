@@ -22,7 +22,7 @@ use super::low_orders::LowOrders;
 use super::norms::{MAX_CONTRACTION, Norms, Proof, powers_of};
 use super::reasons::Shortfall;
 use super::tracker::Test;
-use crate::interval::rounding::{gamma, in_range, round_up};
+use crate::interval::rounding::{gamma, in_range, largest, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{
@@ -168,14 +168,11 @@ impl<const D: usize> KrawczykTest<D> {
         // The leading term keeps its signs: Y first, absolute values after. Its rounding is in `low`.
         y.multiply(&self.f[..m], &mut self.v);
         let middle = round_up(norm_of(&self.v, u, n) * hs[ORDER + 1], n + 20);
-        let slope_of = |i: usize| {
-            (1..=ORDER)
-                .map(|k| k as f64 * local.z[k][i].abs() * hs[k - 1])
-                .sum::<f64>()
-        };
-        let slope = (0..n).fold(0.0, |max: f64, i| max.max(slope_of(i) / u[i]));
-        let slope = round_up(slope, 40);
-        let slope_of_t = round_up(slope_of(m), 40);
+        for (l, v) in self.v.lanes_mut().iter_mut().enumerate() {
+            *v = local.lane_of_slope(l, h).1;
+        }
+        let slope = round_up(norm_of(&self.v, u, n), 40);
+        let slope_of_t = round_up(self.v[m], 40);
         let normal = local.normal[..n]
             .iter()
             .zip(&u[..n])
@@ -371,11 +368,16 @@ impl<const D: usize> KrawczykTest<D> {
 
 /// |v|_u: one division per entry, to be covered by the caller's `round_up`.
 pub(super) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
-    v[..n].iter().zip(&u[..n]).fold(0.0, |max: f64, (v, u)| {
-        // A NaN must not be lost in the comparison.
-        let x = v.abs() / u;
-        if x > max || x.is_nan() { x } else { max }
-    })
+    let (v4, v1) = v[..n].as_chunks::<LANE>();
+    let (u4, u1) = u[..n].as_chunks::<LANE>();
+    let mut lane = [0.0; LANE];
+    for (v, u) in v4.iter().zip(u4) {
+        for i in 0..LANE {
+            lane[i] = largest(lane[i], v[i].abs() / u[i]);
+        }
+    }
+    let rest = v1.iter().zip(u1).map(|(v, u)| v.abs() / u);
+    lane.into_iter().chain(rest).fold(0.0, largest)
 }
 
 #[cfg(test)]

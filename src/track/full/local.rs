@@ -410,6 +410,21 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         }
     }
 
+    /// One lane of ẑ'(s), and of Σ k |z_k| |s|ᵏ⁻¹.
+    #[inline(always)]
+    pub fn lane_of_slope(&self, lane: usize, s: f64) -> ([f64; LANE], [f64; LANE]) {
+        let (mut slope, mut size) = ([0.0f64; LANE], [0.0f64; LANE]);
+        for (k, z) in self.z.iter().enumerate().skip(1).rev() {
+            let (k, z) = (k as f64, &z.lanes()[lane]);
+            for i in 0..LANE {
+                let z = k * z[i];
+                slope[i] = slope[i].mul_add(s, z);
+                size[i] = size[i].mul_add(s.abs(), z.abs());
+            }
+        }
+        (slope, size)
+    }
+
     /// ẑ'(s).
     pub fn slope(&self, s: f64, out: &mut Vector) {
         let z = self.z.each_ref().map(|z| z.lanes());
