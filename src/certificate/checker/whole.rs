@@ -187,3 +187,34 @@ impl Whole {
         above(sums.max().unwrap_or(0), Y_BITS + bits)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::iter::repeat_n;
+
+    /// A row of the largest entries there are, in the largest problem: with overflow checks on, as tests have.
+    #[test]
+    fn norms_of_extreme_matrices_are_bounds() {
+        let n = crate::certificate::format::MAX_FREE_COORDINATES + 1;
+        for entry in [i128::MIN, i128::MAX] {
+            let bound = norm(n, Y_BITS + J_BITS, repeat_n(entry, n)).sup();
+            let exact = n as f64 * power(127 - Y_BITS - J_BITS);
+            assert!((exact..1.001 * exact).contains(&bound), "{bound:e}");
+        }
+        let bound = norm(n, A_BITS, repeat_n(i32::MIN.into(), n)).sup();
+        let exact = n as f64 * power(31 - A_BITS);
+        assert!((exact..1.001 * exact).contains(&bound), "{bound:e}");
+    }
+
+    /// The sum of the second row's sizes, 3 · 2⁴⁰ + 2, in units of 2⁻⁷⁰, and 7 in units of 2⁻²⁴.
+    #[test]
+    fn norms_are_those_of_the_largest_row() {
+        let large = 1i128 << 40;
+        let bound = norm(2, 70, [1, -1, 1 - 2 * large, large + 1].into_iter());
+        let exact = (3 * large) as f64 * power(-70);
+        assert!(exact < bound.inf() && bound.sup() < 1.001 * exact);
+        let bound = norm(2, A_BITS, [1, -1, -3, 4].into_iter()).sup();
+        assert!((7.0 * power(-24)..=10.0 * power(-24)).contains(&bound));
+    }
+}
