@@ -1,6 +1,5 @@
 //! The part of |Y F(ẑ(s))| that shorter tubes do not get rid of: orders up to ORDER, and rounding.
 
-use super::norms::Norms;
 use crate::track::full::DEGREE;
 
 /// Bounds for |s| ≤ H, where they were taken.
@@ -33,22 +32,5 @@ impl LowOrders {
             LowOrders::Whole(low) => DEGREE as f64 / h * low,
             LowOrders::Split { rest, .. } => rest / h,
         }
-    }
-}
-
-impl Norms {
-    /// Whether rounding, and what is left of F at the middle, are all that keeps tubes from being
-    /// proved: without them one could be. A tube that is wanted narrower than it can be proved is none.
-    pub fn is_limited_by_rounding(&self, weight_of_t: f64) -> bool {
-        let with = Norms {
-            radius: f64::INFINITY,
-            ..*self
-        };
-        let without = Norms {
-            low: LowOrders::Whole(0.0),
-            ..with
-        };
-        let only_wanted = self.radius.is_finite() && with.longest(weight_of_t).is_some();
-        !only_wanted && without.longest(weight_of_t).is_some()
     }
 }

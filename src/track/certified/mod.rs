@@ -1,4 +1,10 @@
 //! Every step a theorem: tubes proved by a Krawczyk test, linked without a gap.
+//!
+//! From the bottom up: `shortfall` (which condition of the test fails), `low_orders` and `norms` (from
+//! bounds to the longest tube they prove), `precision`, `link` (tubes, and that one leads to the
+//! next), `tube`, `extended` and `exit` (the test in the full space), `reduced` (that through a
+//! construction plan), `solution` (boxes around points with t = 1), `reasons` (why runs stop), `ledger`
+//! (what has been proved so far), `tracker` (the chain of tubes, in whichever space).
 
 mod exit;
 mod extended;
@@ -6,8 +12,10 @@ mod ledger;
 mod link;
 mod low_orders;
 mod norms;
+mod precision;
 mod reasons;
 mod reduced;
+mod shortfall;
 mod solution;
 mod tracker;
 mod tube;

@@ -1,12 +1,9 @@
 //! From bounds in the norm |·|_u to the longest tube that they prove (see `tube.rs`).
 
 use super::low_orders::LowOrders;
-use super::reasons::Shortfall;
+use super::shortfall::{MAX_CONTRACTION, Shortfall};
 use crate::interval::rounding::{in_range, round_up};
 use crate::track::full::{MAX_DEGREE, ORDER};
-
-/// At most so much of the contraction may be used up by the length of the tube.
-pub(super) const MAX_CONTRACTION: f64 = 0.85;
 
 /// What is proved of a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -73,6 +70,21 @@ impl Norms {
         ]
         .into_iter()
         .all(in_range)
+    }
+
+    /// Whether rounding, and what is left of F at the middle, are all that keeps tubes from being
+    /// proved: without them one could be. A tube that is wanted narrower than it can be proved is none.
+    pub fn is_limited_by_rounding(&self, weight_of_t: f64) -> bool {
+        let with = Norms {
+            radius: f64::INFINITY,
+            ..*self
+        };
+        let without = Norms {
+            low: LowOrders::Whole(0.0),
+            ..with
+        };
+        let only_wanted = self.radius.is_finite() && with.longest(weight_of_t).is_some();
+        !only_wanted && without.longest(weight_of_t).is_some()
     }
 
     /// The contraction without the width, the factor of the width, and the defect, at `h`.

@@ -1,7 +1,7 @@
 //! Boxes around the points of the path with t = 1.
 
 use super::reasons::Doubt;
-use crate::interval::rounding::{gamma, round_up};
+use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
@@ -81,7 +81,7 @@ impl<const D: usize> SolutionProver<D> {
     /// |I − Y J(x + w)| ≤ q₀ + κ |w|, so that there is at most one solution for |w| < (1 − q₀)/κ,
     /// and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
     ///
-    /// `rising`: whether t is where the path meets t = 1. `extended`: whether x and F(x) are to be
+    /// `rising`: whether t is rising where the path meets t = 1. `extended`: whether x and F(x) are to be
     /// taken in extended precision; everything else bears relative errors of 2⁻⁵³.
     pub fn prove(
         &mut self,
@@ -136,18 +136,13 @@ impl<const D: usize> SolutionProver<D> {
         local
             .y
             .identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
-        let largest = |v: &Vector| {
-            v[..n].iter().fold(
-                0.0f64,
-                |max, &x| if x > max || x.is_nan() { x } else { max },
-            )
-        };
-        let defect = largest(&self.v);
+        let greatest = |v: &Vector| v[..n].iter().fold(0.0, |max, &x| largest(max, x));
+        let defect = greatest(&self.v);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
         // The ones of I pass through as many sums as the products that they are added to.
-        let q0 = round_up(defect + largest(&self.v) + gamma(m + 4), 2 * n + 40);
+        let q0 = round_up(defect + greatest(&self.v) + gamma(m + 4), 2 * n + 40);
         local.y.multiply_abs(&width[..m], &mut self.v);
-        let kappa = round_up(largest(&self.v), n + 20);
+        let kappa = round_up(greatest(&self.v), n + 20);
         if !(q0 < 0.5 && kappa.is_finite()) {
             return Err(Doubt::Contraction(q0));
         }
@@ -172,7 +167,7 @@ impl<const D: usize> SolutionProver<D> {
         }
         self.f[m] = 0.0;
         local.y.multiply_abs(&self.f[..m], &mut self.v);
-        let step = round_up(largest(&self.v), n + 2);
+        let step = round_up(greatest(&self.v), n + 2);
         let q = round_up(q0 + kappa * alone_within, 4);
         let all = round_up(step / (1.0 - q), 60);
         // The box itself, as it is printed, has to lie where its solution is alone.

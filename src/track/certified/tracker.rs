@@ -6,8 +6,9 @@ use super::ledger::Ledger;
 use super::link::{Ball, Frame, Tube};
 use super::norms::Proof;
 use super::reasons::{
-    Doubt, Rejection, Shortfall, no_direction, precision, undecided, unlinked, unproved, unrefined,
+    Doubt, Rejection, no_direction, precision, undecided, unlinked, unproved, unrefined,
 };
+use super::shortfall::Shortfall;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};

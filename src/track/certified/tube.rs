@@ -16,11 +16,11 @@
 //! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
-use super::extended::Precision;
 use super::link::Tube;
 use super::low_orders::LowOrders;
-use super::norms::{MAX_CONTRACTION, Norms, Proof, powers_of};
-use super::reasons::Shortfall;
+use super::norms::{Norms, Proof, powers_of};
+use super::precision::Precision;
+use super::shortfall::{MAX_CONTRACTION, Shortfall};
 use super::tracker::Test;
 use crate::interval::rounding::{gamma, in_range, largest, round_up};
 use crate::linalg::{LANE, Matrix, Vector};

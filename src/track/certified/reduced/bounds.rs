@@ -2,7 +2,7 @@
 
 use crate::interval::rounding::{in_range, round_up};
 use crate::track::certified::norms::{Contraction, Proof, longest};
-use crate::track::certified::reasons::Shortfall;
+use crate::track::certified::shortfall::Shortfall;
 
 /// Bounds in the norm |v|_ρ = max |v_i|/ρ_i of a box of size ρ, taken for |s| ≤ `h`.
 #[derive(Debug, Clone, Copy, Default)]

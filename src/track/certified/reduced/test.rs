@@ -43,7 +43,7 @@ use super::{COEFFICIENTS, ORDER};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
-use crate::track::certified::reasons::Shortfall;
+use crate::track::certified::shortfall::Shortfall;
 use crate::track::certified::tracker::Test;
 use crate::track::full::{Equations, Lengths, RefineError};
 use crate::track::{Driving, Options, Space};

@@ -1,7 +1,8 @@
 //! What a contraction's bounds prove (`norms.rs`, `Contraction`), in exact numbers.
 
 use super::*;
-use crate::track::certified::norms::{Contraction, MAX_CONTRACTION};
+use crate::track::certified::norms::Contraction;
+use crate::track::certified::shortfall::MAX_CONTRACTION;
 use proptest::prelude::*;
 
 proptest! {
