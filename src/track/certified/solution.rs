@@ -106,6 +106,46 @@ impl<const D: usize> SolutionProver<D> {
             return Err(Doubt::Newton(local.first_correction));
         }
 
+        let (q0, kappa) = self.contraction(equations);
+        if !(q0 < 0.5 && kappa.is_finite()) {
+            return Err(Doubt::Contraction(q0));
+        }
+        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
+
+        self.bound_residual(equations, extended);
+        let local = &self.local;
+        self.f[m] = 0.0;
+        local.y.multiply_abs(&self.f[..m], &mut self.v);
+        let step = round_up(greatest(&self.v[..n]), n + 2);
+        let q = round_up(q0 + kappa * alone_within, 4);
+        let all = round_up(step / (1.0 - q), 60);
+        // The box itself, as it is printed, has to lie where its solution is alone.
+        let printed = (0..m).fold(all, |max, i| {
+            max.max(all + outward(local.z[0][i], local.low[i], all))
+        });
+        if !(q < 1.0 && printed < 0.99 * alone_within) {
+            return Err(Doubt::Wide {
+                radius: printed,
+                alone: alone_within,
+            });
+        }
+        // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
+        let near = round_up((q0 + kappa * all) * all, 6);
+        let found = &mut self.found;
+        found.radius.fill(0.0);
+        for (r, v) in found.radius[..m].iter_mut().zip(self.v.iter()) {
+            *r = round_up(v + near, n + 8);
+        }
+        found.centre.copy_from_slice(&local.z[0]);
+        found.low.copy_from_slice(&local.low);
+        (found.alone_within, found.rising) = (alone_within, rising);
+        Ok(found)
+    }
+
+    /// q₀ and κ at the point of `local`.
+    fn contraction(&mut self, equations: &Equations<D>) -> (f64, f64) {
+        let (m, n) = (equations.m, equations.n());
+        let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
         let per_entry = gamma(m + 12);
         let (rounding, width) = (&mut self.rounding, &mut self.width);
@@ -136,18 +176,18 @@ impl<const D: usize> SolutionProver<D> {
         local
             .y
             .identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
-        let greatest = |v: &Vector| v[..n].iter().fold(0.0, |max, &x| largest(max, x));
-        let defect = greatest(&self.v);
+        let defect = greatest(&self.v[..n]);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
         // The ones of I pass through as many sums as the products that they are added to.
-        let q0 = round_up(defect + greatest(&self.v) + gamma(m + 4), 2 * n + 40);
+        let q0 = round_up(defect + greatest(&self.v[..n]) + gamma(m + 4), 2 * n + 40);
         local.y.multiply_abs(&width[..m], &mut self.v);
-        let kappa = round_up(greatest(&self.v), n + 20);
-        if !(q0 < 0.5 && kappa.is_finite()) {
-            return Err(Doubt::Contraction(q0));
-        }
-        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
+        let kappa = round_up(greatest(&self.v[..n]), n + 20);
+        (q0, kappa)
+    }
 
+    /// |F| at the point of `local`, with all that is not known of it, into `f`.
+    fn bound_residual(&mut self, equations: &Equations<D>, extended: bool) {
+        let (m, local) = (equations.m, &self.local);
         // The residual in intervals or in extended precision: its width is what limits the box.
         if extended {
             let (z, error) = ((&local.z[0][..], &local.low[..]), &mut self.v);
@@ -165,32 +205,6 @@ impl<const D: usize> SolutionProver<D> {
                 self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
             }
         }
-        self.f[m] = 0.0;
-        local.y.multiply_abs(&self.f[..m], &mut self.v);
-        let step = round_up(greatest(&self.v), n + 2);
-        let q = round_up(q0 + kappa * alone_within, 4);
-        let all = round_up(step / (1.0 - q), 60);
-        // The box itself, as it is printed, has to lie where its solution is alone.
-        let printed = (0..m).fold(all, |max, i| {
-            max.max(all + outward(local.z[0][i], local.low[i], all))
-        });
-        if !(q < 1.0 && printed < 0.99 * alone_within) {
-            return Err(Doubt::Wide {
-                radius: printed,
-                alone: alone_within,
-            });
-        }
-        // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
-        let near = round_up((q0 + kappa * all) * all, 6);
-        let found = &mut self.found;
-        found.radius.fill(0.0);
-        for (r, v) in found.radius[..m].iter_mut().zip(self.v.iter()) {
-            *r = round_up(v + near, n + 8);
-        }
-        found.centre.copy_from_slice(&local.z[0]);
-        found.low.copy_from_slice(&local.low);
-        (found.alone_within, found.rising) = (alone_within, rising);
-        Ok(found)
     }
 }
 
@@ -269,6 +283,11 @@ impl SolutionBox {
             })
             .collect()
     }
+}
+
+/// The greatest of some sizes; NaN if one of them is.
+fn greatest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |max, &x| largest(max, x))
 }
 
 /// More than [`SolutionBox::points`] adds to an entry by rounding outwards: twice two roundings of
