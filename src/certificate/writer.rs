@@ -1,8 +1,8 @@
 //! Writing a certificate while a run goes on.
 
 use super::format::{
-    EndClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record, SolutionClaim, TAG_END, TAG_MOVING_KRAWCZYK, TAG_SOLUTION,
-    TubeClaim, VERSION, WEIGHT_UNIT,
+    EndClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record, SolutionClaim, TAG_END,
+    TAG_MOVING_KRAWCZYK, TAG_SOLUTION, TubeClaim, VERSION, WEIGHT_UNIT,
 };
 use crate::problem::Problem;
 use crate::track::{LARGEST_SQUARE, Status, TubeSeen, Witness};

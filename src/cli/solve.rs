@@ -218,6 +218,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         && arguments.space.is_some()
         && outcome.space == track::Space::Reduced
         && options.extended
+        // A sketch that no run can leave is singular in any precision.
+        && outcome.steps > 0
         && let Status::Stopped(reason) = &mut outcome.status
         && !cancel.load(Ordering::Relaxed)
     {
