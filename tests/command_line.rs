@@ -217,3 +217,118 @@ fn a_run_leaves_a_certificate_that_verifies() {
     assert_eq!(solve(&["--mode", "float"]), Some(2));
     assert!(!cert.exists());
 }
+
+const FLAPS: &str = "problems/hard/flaps-split-8.toml";
+
+/// The reason, if the run stopped, and the list of what was switched on.
+fn solved(arguments: &[&str]) -> (Option<i32>, Option<String>, Vec<String>) {
+    let run = krawl()
+        .arg("solve")
+        .args(arguments)
+        .args(["--json", "-"])
+        .assert();
+    let output = run.get_output();
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let list = json["switched_on"].as_array().unwrap().iter();
+    (
+        output.status.code(),
+        json["reason"].as_str().map(str::to_owned),
+        list.map(|text| text.as_str().unwrap().to_owned()).collect(),
+    )
+}
+
+#[test]
+fn extended_precision_can_be_left_off() {
+    let is_extended = |list: &[String]| list.iter().any(|text| text.contains("extended precision"));
+    let (code, reason, list) = solved(&[FLAPS]);
+    assert_eq!((code, reason), (Some(0), None));
+    assert!(is_extended(&list), "{list:?}");
+    let (code, reason, list) = solved(&[FLAPS, "--no-extended"]);
+    assert_eq!(code, Some(1));
+    assert!(reason.unwrap().contains("the Krawczyk test fails"));
+    assert!(!is_extended(&list), "{list:?}");
+    // Where 53 bits do it changes nothing.
+    let (code, _, list) = solved(&[OCTAHEDRON, "--no-extended"]);
+    assert_eq!((code, list), (Some(0), Vec::new()));
+    // Float mode has none.
+    let run = krawl()
+        .args(["solve", OCTAHEDRON, "--mode", "float", "--no-extended"])
+        .assert()
+        .code(2);
+    assert!(String::from_utf8_lossy(&run.get_output().stderr).contains("`--no-extended`"));
+}
+
+#[test]
+fn stopped_runs_in_the_reduced_space_point_to_the_full_one() {
+    const HINT: &str = "the full space has extended precision";
+    let (code, reason, _) = solved(&[FLAPS, "--space", "reduced"]);
+    assert_eq!(code, Some(1));
+    assert!(reason.unwrap().contains(HINT));
+    // Not to what is not wanted.
+    let (_, reason, _) = solved(&[FLAPS, "--space", "reduced", "--no-extended"]);
+    assert!(!reason.unwrap().contains(HINT));
+}
+
+#[test]
+fn a_certificate_that_ends_early_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let cert = folder.path().join("flaps.krawl");
+    let verify = |flags: &[&str], code: i32| {
+        let run = krawl()
+            .args(["solve", FLAPS, "--cert"])
+            .arg(&cert)
+            .args(flags)
+            .assert();
+        run.code(code);
+        let run = krawl().arg("verify").arg(&cert).assert().code(1);
+        String::from_utf8(run.get_output().stdout.clone()).unwrap()
+    };
+    // The run closed.
+    let text = verify(&[], 0);
+    assert!(
+        text.contains(
+            "INCOMPLETE. The certificate ends early: the next tube was proved in extended precision"
+        ) && text.contains("went on and closed"),
+        "{text}"
+    );
+    // It stopped.
+    let text = verify(&["--no-extended"], 1);
+    assert!(
+        text.contains("INCOMPLETE. The certificate ends early: the Krawczyk test fails"),
+        "{text}"
+    );
+}
+
+/// Two points on the line between two others, all lengths being as they should be: nothing tells in which
+/// direction they leave it.
+#[test]
+fn a_singular_sketch_is_said_to_be_one_by_a_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("flat.toml");
+    let text = r#"
+        name = "flat"
+        dimension = 2
+        [points]
+        a = [0.0, 0.0]
+        b = [1.0, 0.0]
+        c = [0.4, 1.1]
+        d = [0.5, 0.0]
+        e = [0.25, 0.0]
+        [constraints]
+        distances = [
+            ["a", "b", 1.0], ["a", "c", 1.3], ["b", "c", 1.2],
+            ["a", "d", 0.5], ["b", "d", 0.5], ["a", "e", 0.25], ["b", "e", 0.75],
+        ]
+    "#;
+    fs::write(&file, text).unwrap();
+    for space in ["full", "reduced"] {
+        let (code, reason, _) = solved(&[file.to_str().unwrap(), "--space", space]);
+        let reason = reason.unwrap();
+        assert_eq!(code, Some(1));
+        assert!(
+            reason.contains("the smallest pivot of the Jacobian is 0.0e0 times its largest"),
+            "{reason}"
+        );
+        assert!(!reason.contains("the full space"), "{reason}");
+    }
+}

@@ -159,6 +159,7 @@ fn writes_json_csv_and_pictures_into_a_new_directory() {
             "narrowest",
             "residual",
             "length",
+            "switched_on",
             "verdict",
             "faults",
             "published",
@@ -499,4 +500,46 @@ fn the_papers_steps_work_at_any_scale() {
             assert_eq!(found.len(), 4, "{power}, {space:?}");
         }
     }
+}
+
+#[test]
+fn what_was_switched_on_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = krawl()
+        .args(["problems/hard/flaps-split-8.toml", K33])
+        .args(["--repeat", "1", "--limit", "0.5", "--output"])
+        .arg(folder.path())
+        .assert();
+    let text = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    let (flaps, k33) = text.split_once("\n\n").unwrap();
+    const SAID: &str = "certified, full: switched on: extended precision (double-double)";
+    assert!(flaps.contains(SAID), "{text}");
+    assert!(!k33.contains("switched on"), "{text}");
+
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let json: Value = serde_json::from_str(&read("comparison.json")).unwrap();
+    let problems = json["problems"].as_array().unwrap();
+    let rows = problems.iter().flat_map(|p| p["rows"].as_array().unwrap());
+    let text = read("comparison.csv");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let headers = reader.headers().unwrap();
+    let column = headers.iter().position(|name| name == "switched_on");
+    let mut extended = 0;
+    for (row, record) in rows.zip(reader.records().map(Result::unwrap)) {
+        let list = row["switched_on"].as_array().unwrap().iter();
+        let list: Vec<&str> = list.map(|text| text.as_str().unwrap()).collect();
+        assert_eq!(record[column.unwrap()], list.join("; "));
+        if list
+            .iter()
+            .any(|text| text.starts_with("extended precision"))
+        {
+            assert_eq!(
+                (&row["mode"], &row["space"]),
+                (&"certified".into(), &"full".into())
+            );
+            assert_eq!(row["status"], "closed");
+            extended += 1;
+        }
+    }
+    assert_eq!(extended, 1);
 }

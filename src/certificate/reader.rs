@@ -49,9 +49,10 @@ impl<R: Read> Reader<R> {
         }
         let problem = Problem::parse(&source, "the problem in the certificate")
             .map_err(|error| FormatError::Malformed(error.to_string()))?;
-        if problem.free_coordinates() > MAX_FREE_COORDINATES {
+        let free = problem.free_coordinates();
+        if free > MAX_FREE_COORDINATES {
             return Err(FormatError::Malformed(format!(
-                "the problem has more than {MAX_FREE_COORDINATES} free coordinates"
+                "the problem has {free} free coordinates, more than the {MAX_FREE_COORDINATES} that are read"
             )));
         }
         let unit_exponent = i16::from_le_bytes(array(&mut input, "the unit")?);

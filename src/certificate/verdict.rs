@@ -29,7 +29,7 @@ pub struct Verdict {
 pub enum Outcome {
     /// They do: S is closed and its points with t = 1 are those listed.
     Verified,
-    /// They do as far as they go: the run stopped before S was closed, for this reason.
+    /// They do as far as they go: the chain ends before S is closed, for this reason.
     Partial(String),
     /// One could not be proved.
     Refuted(Flaw),

@@ -1,13 +1,16 @@
 //! Writing a certificate while a run goes on.
 
 use super::format::{
-    EndClaim, MAGIC, MAX_TEXT, Record, SolutionClaim, TAG_END, TAG_MOVING_KRAWCZYK, TAG_SOLUTION,
-    TubeClaim, VERSION, WEIGHT_UNIT,
+    EndClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record, SolutionClaim, TAG_END,
+    TAG_MOVING_KRAWCZYK, TAG_SOLUTION, TubeClaim, VERSION, WEIGHT_UNIT,
 };
 use crate::problem::Problem;
-use crate::track::{Status, TubeSeen, Witness};
+use crate::track::{LARGEST_SQUARE, Status, TubeSeen, Witness};
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
+
+// What runs prove can be read again.
+const _: () = assert!(LARGEST_SQUARE <= MAX_FREE_COORDINATES);
 
 /// Boxes are written wider than they were proved, by this factor and by a few roundings of the
 /// largest coordinate, so that a checker that rounds more coarsely has room; the claim is weaker,

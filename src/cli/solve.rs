@@ -32,9 +32,14 @@ pub struct Arguments {
     /// Longest step allowed, in arc length
     #[arg(long, value_name = "X", value_parser = positive)]
     max_step: Option<f64>,
-    /// Certified mode: how far the path may be from the middle of a tube
+    /// Certified mode: how far the path may be from the middle of a tube. Extended precision is never
+    /// switched on for the sake of a small radius alone
     #[arg(long, value_name = "X", value_parser = positive)]
     tube_radius: Option<f64>,
+    /// Certified mode: keep to 53 bits, and stop where they do not suffice, instead of switching extended
+    /// precision on there (which only the full space has)
+    #[arg(long)]
+    no_extended: bool,
     /// Float mode: points are corrected until a correction is about this small
     #[arg(long, value_name = "X", value_parser = positive)]
     tolerance: Option<f64>,
@@ -107,6 +112,12 @@ impl Arguments {
                     .to_owned(),
             );
         }
+        if self.mode == Mode::Float && self.no_extended {
+            return Err(
+                "float mode has no extended precision: leave out `--no-extended`, or `--mode float`"
+                    .to_owned(),
+            );
+        }
         Ok(())
     }
 
@@ -126,6 +137,7 @@ impl Arguments {
             tolerance: self.tolerance,
             reverse: self.reverse,
             alpha: self.alpha,
+            extended: !self.no_extended,
             ..options
         }
     }
@@ -201,7 +213,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     }
     line.clear();
-    let outcome = outcome.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
+    let mut outcome = outcome.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
+    if arguments.mode == Mode::Certified
+        && arguments.space.is_some()
+        && outcome.space == track::Space::Reduced
+        && options.extended
+        // A sketch that no run can leave is singular in any precision.
+        && outcome.steps > 0
+        && let Status::Stopped(reason) = &mut outcome.status
+        && !cancel.load(Ordering::Relaxed)
+    {
+        *reason += "; the full space has extended precision (`--space full`)";
+    }
 
     // The file first: a table that nobody reads any more must not cost it.
     let mut written = true;

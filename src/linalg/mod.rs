@@ -7,7 +7,9 @@
 mod inverse;
 mod matrix;
 mod pivots;
+mod rank;
 pub mod rstructure;
 
 pub use inverse::{Inverter, Singular};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
+pub use rank::extreme_pivots;

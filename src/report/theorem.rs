@@ -34,7 +34,7 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
         }
         Outcome::Partial(reason) => writeln!(
             out,
-            "{name}: INCOMPLETE. The run stopped: {reason}.\n\
+            "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
              Verified so far: a regular arc of the curve through the sketch, with t between {low:.6} and \
              {high:.6}, and on it exactly {} with t = 1. Nothing is claimed of the rest of \
              the curve.",

@@ -96,7 +96,7 @@ pub fn solve(
 /// Most free coordinates but for float runs in the reduced space: the others keep half a dozen dense
 /// matrices with as many rows and columns, 288 MB each here (certified ones in the reduced space, as many
 /// triangular ones, of two numbers per entry).
-const LARGEST_SQUARE: usize = 6000;
+pub(crate) const LARGEST_SQUARE: usize = 6000;
 
 /// Bounds on the step below this, in units of the problem's typical length, are refused: no path
 /// would end.

@@ -26,7 +26,8 @@ pub struct Options {
     pub tolerance: Option<f64>,
     /// Certified mode: every point of the path is proved to be no further than this from the middle
     /// of its tube, coordinate by coordinate, in the lengths of the problem. `None`: as far as a proof
-    /// goes.
+    /// goes. A radius too small for 53 bits ends the run: where it is all that keeps tubes from being
+    /// proved, extended precision is not switched on for it.
     pub tube_radius: Option<f64>,
     /// Follow the loop the other way round.
     pub reverse: bool,

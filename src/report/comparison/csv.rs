@@ -1,10 +1,10 @@
 //! Comparisons for spreadsheets.
 
-use super::{Compared, faults, status, verdict};
+use super::{Compared, faults, status, switched_on, verdict};
 use crate::compare::Row;
 
 /// The columns.
-const HEADING: [&str; 22] = [
+const HEADING: [&str; 23] = [
     "problem",
     "mode",
     "space",
@@ -24,13 +24,15 @@ const HEADING: [&str; 22] = [
     "narrowest",
     "residual",
     "length",
+    "switched_on",
     "published_steps",
     "published_seconds",
     "published_solutions",
 ];
 
 /// One line per row of each comparison, those of the sweeps after the others, below a heading. The
-/// columns are those of [`super::comparisons_to_json`]; `runs` is their number. What is not known
+/// columns are those of [`super::comparisons_to_json`]; `runs` is their number, and what was switched on
+/// is divided by semicolons. What is not known
 /// is left empty.
 pub fn comparisons_to_csv(compared: &[Compared]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -49,7 +51,7 @@ pub fn comparisons_to_csv(compared: &[Compared]) -> String {
     String::from_utf8(bytes).expect("all of it was text")
 }
 
-fn line(compared: &Compared, row: &Row) -> [String; 22] {
+fn line(compared: &Compared, row: &Row) -> [String; 23] {
     fn text<T: ToString>(x: Option<T>) -> String {
         x.map_or(String::new(), |x| x.to_string())
     }
@@ -78,6 +80,7 @@ fn line(compared: &Compared, row: &Row) -> [String; 22] {
         float(widths.map(|w| w.1)),
         float(measured.and_then(|m| m.residual)),
         float(outcome.map(|o| o.length)),
+        switched_on(row).join("; "),
         text(published.and_then(|p| p.steps)),
         float(published.and_then(|p| p.seconds)),
         text(published.and_then(|p| p.solutions)),

@@ -1,6 +1,6 @@
 //! Comparisons for programs.
 
-use super::{Compared, status, verdict};
+use super::{Compared, status, switched_on, verdict};
 use crate::compare::{Fault, Row, Verdict};
 use crate::problem::Published;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use serde::Serialize;
 ///    "rows": [{"mode": "certified", "space": "full", "setting": null, "value": null,
 ///      "relative": null, "status": "closed", "reason": null, "steps": 0, "rejected": 0,
 ///      "runs": [0.0], "seconds": 0.0, "ratio": 1.0, "solutions": 0, "widest": 0.0,
-///      "narrowest": 0.0, "residual": 0.0, "length": 0.0, "verdict": "right", "faults": [],
+///      "narrowest": 0.0, "residual": 0.0, "length": 0.0, "switched_on": [], "verdict": "right", "faults": [],
 ///      "published": {"method": "...", "steps": 0, "seconds": 0.0, "solutions": 0}}],
 ///    "sweep": [],
 ///    "published": [{"method": "...", "steps": null, "seconds": 0.0, "solutions": 0}]}]}
@@ -68,6 +68,7 @@ struct RowEntry<'a> {
     narrowest: Option<f64>,
     residual: Option<f64>,
     length: Option<f64>,
+    switched_on: &'a [String],
     verdict: &'static str,
     faults: Vec<FaultEntry>,
     published: Option<PublishedEntry<'a>>,
@@ -131,6 +132,7 @@ fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
         narrowest: widths.map(|w| w.1),
         residual: measured.and_then(|m| m.residual),
         length: outcome.map(|o| o.length),
+        switched_on: switched_on(row),
         verdict: verdict(&row.verdict),
         faults: match &row.verdict {
             Verdict::Wrong(faults) => faults.iter().map(fault).collect(),

@@ -52,6 +52,11 @@ fn status(row: &Row) -> (&'static str, Option<&str>) {
     }
 }
 
+/// What was switched on beyond the plain run, and why.
+fn switched_on(row: &Row) -> &[String] {
+    row.measured().map_or(&[], |m| &m.outcome.switched_on)
+}
+
 /// A verdict in a word.
 fn verdict(verdict: &Verdict) -> &'static str {
     match verdict {

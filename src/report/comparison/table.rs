@@ -1,7 +1,7 @@
 //! A comparison for people.
 
-use super::{Compared, faults, status};
-use crate::compare::{Knob, Row, Verdict};
+use super::{Compared, faults, status, switched_on};
+use crate::compare::{Knob, Row, Verdict, Way};
 use std::fmt::Write;
 
 /// The comparison as lines of text, at most about 120 wide.
@@ -62,6 +62,9 @@ pub fn comparison_to_table(compared: &Compared) -> String {
         }
         if wrong {
             remarks.push(format!("{place}: WRONG: {}", faults(&row.verdict)));
+        }
+        for what in switched_on(row) {
+            remarks.push(format!("{place}: switched on: {what}"));
         }
         grid.push(cells);
     }
@@ -138,6 +141,19 @@ fn sweep(compared: &Compared) -> String {
         grid.push(cells);
     }
     out += &grid.render("  ");
+    for way in Way::all() {
+        let settings = comparison.sweep.iter().filter(|row| row.way == way);
+        let switched = settings.clone().filter(|row| !switched_on(row).is_empty());
+        let (switched, settings) = (switched.count(), settings.count());
+        if switched > 0 {
+            let _ = writeln!(
+                out,
+                "  {}, {}: something was switched on at {switched} of {settings} settings; JSON and CSV say what",
+                way.method.name(),
+                way.space_name()
+            );
+        }
+    }
     out
 }
 

@@ -41,6 +41,8 @@ pub enum Doubt {
     Time(Undecided),
     /// Where the solution is: Newton's method does not converge after a correction so large.
     Newton(f64),
+    /// Nor can it begin: the smallest pivot of the Jacobian is so many times the largest.
+    Singular(f64),
     /// Whether there is exactly one: |I − Y J| at its middle is this.
     Contraction(f64),
     /// Nor here: it may be `radius` away, and is alone within `alone`.
@@ -55,12 +57,12 @@ pub enum Doubt {
     Direction(f64),
 }
 
-/// Why the path cannot even be set out upon.
-pub fn no_direction() -> String {
+/// Why the path cannot even be set out upon, the Jacobian there having pivots of this ratio.
+pub fn no_direction(pivots: f64) -> String {
     format!(
-        "the sketch is a singular point of its path: no direction of travel could be computed, as the path \
-         moves more than {LARGEST_TANGENT:.0e} times as far as any one coordinate, or no Jacobian can be \
-         inverted"
+        "the sketch is a singular point of its path: no direction of travel could be computed, as the smallest \
+         pivot of the Jacobian is {pivots:.1e} times its largest (whichever coordinate is held, the path moves \
+         more than {LARGEST_TANGENT:.0e} times as far, or the matrix cannot be inverted)"
     )
 }
 
@@ -83,10 +85,16 @@ pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
 ) -> String {
     let (first, ratio) = (local.first_correction, local.contraction);
     match error {
-        RefineError::Singular => "the Jacobian is singular in 53 bits".to_owned(),
-        RefineError::Diverged if !first.is_finite() => {
-            "the corrector does not converge: its first correction overflows".to_owned()
-        }
+        RefineError::Singular => local.y.obstacle().unwrap_or_else(|| {
+            format!(
+                "the Jacobian cannot be inverted in 53 bits: its smallest pivot is {:.1e} times the largest",
+                local.pivot_ratio(equations)
+            )
+        }),
+        RefineError::Diverged if !first.is_finite() => format!(
+            "the corrector does not converge: its first correction, from a residual of {:.1e}, overflows",
+            local.largest_residual(equations) * unit * unit
+        ),
         RefineError::Diverged if ratio > 0.25 || ratio.is_nan() => format!(
             "the corrector does not converge: its first correction is {:.1e}, the next {ratio:.1e} times that",
             first * unit
@@ -188,9 +196,10 @@ pub fn undecided(doubt: Doubt, is_extended: bool, unit: f64) -> String {
              between {:.1e} and {:.1e})",
             value.0, value.1, slope.0, slope.1
         ),
-        Doubt::Newton(correction) if !correction.is_finite() => {
-            format!("{WHETHER}: the Jacobian of a figure there is singular in 53 bits")
-        }
+        Doubt::Singular(pivots) => format!(
+            "{WHETHER}: the Jacobian of a figure there is singular in 53 bits (its smallest pivot is {pivots:.1e} \
+             times the largest)"
+        ),
         Doubt::Newton(correction) => format!(
             "{WHETHER}: Newton's method does not come to a figure there (it begins with a correction of {:.1e})",
             correction * unit
@@ -225,5 +234,63 @@ pub fn undecided(doubt: Doubt, is_extended: bool, unit: f64) -> String {
             "it could not be decided whether the path comes back to the sketch in the direction in which it \
              left: that is known up to {known:.1e}"
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
+    use crate::track::certified::solution::SolutionProver;
+
+    fn problem() -> Problem {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/problems/octahedron.toml");
+        Problem::read(file).unwrap()
+    }
+
+    #[test]
+    fn what_cannot_be_refined_has_a_number() {
+        let homotopy = Homotopy::new(&problem()).unwrap();
+        let equations = Equations::<3>::new(&homotopy);
+        let mut inverter = equations.inverter();
+        let mut local = Local::<3>::new(&equations);
+        let mut reason = |size: f64, normal: f64| {
+            for (i, z) in local.z[0].iter_mut().enumerate() {
+                *z = size * (i as f64 + 0.3).sin();
+            }
+            local.normal.fill(normal);
+            let error = local
+                .refine(&equations, &mut inverter, 1e-9, 8)
+                .unwrap_err();
+            unrefined(error, &equations, &mut local, 1e-9, homotopy.unit)
+        };
+        // All points in one.
+        assert_eq!(
+            reason(0.0, 0.1),
+            "the Jacobian cannot be inverted in 53 bits: its smallest pivot is 0.0e0 times the largest"
+        );
+        // No cross-section.
+        assert!(reason(1.0, 0.0).ends_with("its smallest pivot is 0.0e0 times the largest"));
+        let far = reason(1e200, 0.1);
+        assert!(far.contains("from a residual of inf, overflows"), "{far}");
+    }
+
+    #[test]
+    fn figures_with_a_singular_jacobian_have_a_number() {
+        let homotopy = Homotopy::new(&problem()).unwrap();
+        let equations = Equations::<3>::new(&homotopy);
+        let mut inverter = equations.inverter();
+        let mut prover = SolutionProver::new(&homotopy, &equations);
+        let guess = vec![0.0; equations.n()];
+        let doubt = prover
+            .prove(&equations, &mut inverter, &guess, (true, false))
+            .unwrap_err();
+        assert_eq!(doubt, Doubt::Singular(0.0));
+        let reason = undecided(doubt, false, 1.0);
+        assert!(
+            reason.contains("its smallest pivot is 0.0e0 times"),
+            "{reason}"
+        );
     }
 }

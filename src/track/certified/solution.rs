@@ -103,7 +103,12 @@ impl<const D: usize> SolutionProver<D> {
             local.polish_at(equations, inverter, 1.0)
         };
         if polished.is_none() {
-            return Err(Doubt::Newton(local.first_correction));
+            let first = local.first_correction;
+            return Err(if first.is_finite() {
+                Doubt::Newton(first)
+            } else {
+                Doubt::Singular(local.pivot_ratio(equations))
+            });
         }
 
         let (q0, kappa) = self.contraction(equations);

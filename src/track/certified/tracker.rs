@@ -330,7 +330,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
         let reverse = options.reverse;
         first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
-            .map_err(|_| no_direction())?;
+            .map_err(|_| no_direction(at_sketch.pivot_ratio_of_jacobian(equations)))?;
         self.first_normal.copy_from_slice(&at_sketch.normal);
         loop {
             match self.tube_at_sketch(max_h) {

@@ -85,7 +85,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// Brings differences and lengths up to date with `z[0]`.
     #[inline(always)]
-    fn look(&mut self, equations: &Equations<D>) {
+    pub(super) fn look(&mut self, equations: &Equations<D>) {
         if self.is_extended {
             let z = (&self.z[0][..], &self.low[..]);
             equations

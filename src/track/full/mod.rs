@@ -7,6 +7,7 @@ mod equations;
 mod extended;
 mod local;
 mod preconditioner;
+mod singular;
 mod start;
 
 pub use equations::{Equations, Lengths, MAX_DEGREE};

@@ -22,6 +22,11 @@ pub trait Preconditioner<const D: usize> {
         at: (&[Vector; D], &Lengths, &Vector),
     ) -> Result<bool, Singular>;
 
+    /// Why none could be made last, where that is not because the matrix is singular.
+    fn obstacle(&self) -> Option<String> {
+        None
+    }
+
     /// `out = Y f`; entries of `f` beyond its end are zero.
     fn solve(&self, equations: &Equations<D>, f: &[f64], out: &mut Vector);
 }

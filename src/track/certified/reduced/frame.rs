@@ -1,7 +1,7 @@
 //! The frame of a tube in the reduced space: which box was proved, and in which coordinates.
 
 use super::COEFFICIENTS;
-use super::elimination::{Elimination, Maker};
+use super::elimination::{Elimination, MAX_KEYS, Maker};
 use super::passes::{Lane, with_width};
 use super::resolvent::Resolvent;
 use crate::interval::rounding::{largest, round_up};
@@ -67,6 +67,16 @@ impl<const D: usize> Preconditioner<D> for Reduction<D> {
     ) -> Result<bool, Singular> {
         self.elimination.make(maker, equations, at)?;
         Ok(false)
+    }
+
+    fn obstacle(&self) -> Option<String> {
+        let keys = self.elimination.layout.keys();
+        (keys > MAX_KEYS).then(|| {
+            format!(
+                "the construction plan has {keys} key unknowns, more than the {MAX_KEYS} that the reduced \
+                 space has room for"
+            )
+        })
     }
 
     fn solve(&self, equations: &Equations<D>, f: &[f64], out: &mut Vector) {
