@@ -3,12 +3,14 @@
 
 mod common;
 
-use common::boxes::check;
+use common::boxes::{View, check, float_matching, matching};
+use common::hard::boundary::SINES;
 use common::hard::{Answer, Family, families};
 use common::moves::{ratio, scaled};
-use common::{FLOAT_SPACES, numbers_in, solve};
-use krawl::problem::Problem;
-use krawl::track::{Options, Outcome, Status};
+use common::{FLOAT_SPACES, closed, numbers_in, solve};
+use krawl::plan::boundary::gamma_two;
+use krawl::problem::{Distance, Problem, Target};
+use krawl::track::{Options, Outcome, Space, Status};
 use std::fs;
 
 const MAX_STEPS: usize = 50_000;
@@ -60,23 +62,39 @@ fn family(name: &str) -> &'static Family {
     families().find(|f| f.name == name).expect("a family")
 }
 
+const SOME_THRESHOLDS: &[i32] = &[2, 6, 9, 15];
+
 #[test]
 fn certified_runs_are_right_or_stop() {
     let mut wrong = Vec::new();
     for family in families() {
         for k in family.range.clone() {
-            // The exact answer of the crowd takes seconds.
-            if family.name == "crowd" && ![2, 8].contains(&k) {
+            // The exact answer of the crowd takes seconds, those of the others a good part of one.
+            let some: &[i32] = match family.name {
+                "crowd" => &[2, 8],
+                "threshold" | "threshold-crossed" => SOME_THRESHOLDS,
+                "graze-spheres" | "graze-spheres-stopped" => &[1, 4, 7, 10, 12],
+                _ => &[k],
+            };
+            if !some.contains(&k) {
                 continue;
             }
             let (problem, answer) = (family.problem(k), family.answer(k));
-            for options in [Options::certified(), Options::certified().reversed()] {
-                let outcome = solve(&problem, &limited(options));
-                if let Err(what) = is_right(&problem, answer, &outcome) {
-                    wrong.push(format!("{}: {what}", problem.name));
-                }
-                if k <= family.proved && outcome.status != Status::Closed {
-                    wrong.push(format!("{}: {:?}", problem.name, outcome.status));
+            for space in FLOAT_SPACES {
+                let options = Options {
+                    space,
+                    ..limited(Options::certified())
+                };
+                for options in [options.clone(), options.reversed()] {
+                    let outcome = solve(&problem, &options);
+                    if let Err(what) = is_right(&problem, answer, &outcome) {
+                        wrong.push(format!("{}, {space:?}: {what}", problem.name));
+                    }
+                    // How far runs close is said of the default space only.
+                    let must_close = space == Space::Full && k <= family.proved;
+                    if must_close && outcome.status != Status::Closed {
+                        wrong.push(format!("{}: {:?}", problem.name, outcome.status));
+                    }
                 }
             }
         }
@@ -158,6 +176,99 @@ fn float_runs_jump_where_certified_ones_do_not() {
     assert!(wrong > 1, "{wrong}");
 }
 
+/// How near γ (of p and r) and the sine of the angle (of q and s) come to their thresholds: by that much.
+#[test]
+fn thresholds_are_met_but_for_the_parameter() {
+    for (name, sign) in [("threshold", 1.0), ("threshold-crossed", -1.0)] {
+        for k in family(name).range.clone() {
+            let problem = family(name).problem(k);
+            // p, q, r, s: arms to a, b; a, b; a, p; b, q.
+            let length = |i: usize, j: usize| {
+                let joins = |d: &&Distance| d.points == [i, j] || d.points == [j, i];
+                match &problem.distances.iter().find(joins).unwrap().target {
+                    Target::Length(length) => length.to_f64(),
+                    Target::SquaredLength(_) => unreachable!("lengths are given"),
+                }
+            };
+            // a b is 8 long at t = ½, where it is longest.
+            let at = problem.homotopy.bend_coefficient.to_f64() / 4.0;
+            let longest = length(0, 1) + at;
+            assert_eq!(longest, 8.0);
+            let (alpha, delta) = (Options::certified().alpha, sign * 10f64.powi(-k));
+            for (point, [c1, c2], base) in [
+                (2, [0, 1], longest),
+                (3, [0, 1], longest),
+                (4, [0, 2], length(0, 2)),
+                (5, [1, 3], length(1, 3)),
+            ] {
+                let (r1, r2) = (length(c1, point), length(c2, point));
+                let x = (base * base + r1 * r1 - r2 * r2) / (2.0 * base);
+                let y = (r1 * r1 - x * x).sqrt();
+                let (value, wanted) = match point {
+                    2 | 4 => {
+                        let gamma = gamma_two([x, y, 0.0], [0.0; 3], [base, 0.0, 0.0]);
+                        (gamma, alpha + delta)
+                    }
+                    _ => (base * y / (r1 * r2), SINES * alpha + delta),
+                };
+                // y comes from a difference of squares of about 25, with a few roundings, and is 0.3 or more.
+                let rounding = 64.0 * f64::EPSILON * 25.0;
+                let off = (value - wanted).abs();
+                assert!(
+                    off <= rounding,
+                    "{name}-{k}, point {point}: {value} and {wanted}"
+                );
+            }
+        }
+    }
+}
+
+/// What is found does not depend on when plans are changed, in any space or mode.
+#[test]
+fn any_threshold_gives_the_same() {
+    let (mut changes, mut certified_changes) = (Vec::new(), Vec::new());
+    for name in ["threshold", "threshold-crossed"] {
+        for &k in SOME_THRESHOLDS {
+            let (problem, answer) = (family(name).problem(k), family(name).answer(k));
+            let full = closed(&problem, &limited(Options::certified()));
+            let usual = Options::certified().alpha;
+            let delta = 10f64.powi(-k);
+            let beside = [usual.next_down(), usual.next_up()];
+            for alpha in [usual, usual - 2.0 * delta, usual + 2.0 * delta]
+                .into_iter()
+                .chain(beside)
+            {
+                let reduced = |options: Options| Options {
+                    space: Space::Reduced,
+                    alpha,
+                    ..limited(options)
+                };
+                for options in [Options::certified(), Options::certified().reversed()] {
+                    let certified = solve(&problem, &reduced(options));
+                    assert_eq!(certified.status, Status::Closed, "{name}-{k}, α = {alpha}");
+                    is_right(&problem, answer, &certified).unwrap();
+                    matching(&certified.solutions, &View::same(&problem), &full).unwrap();
+                    certified_changes.push(certified.plan_changes);
+                }
+                let float = Options::float(Space::Reduced);
+                for options in [float.clone(), float.reversed()] {
+                    let float = solve(&problem, &reduced(options));
+                    assert_eq!(float.status, Status::Closed, "{name}-{k}, α = {alpha}");
+                    float_matching(&problem, &full, &float.solutions).unwrap();
+                    changes.push(float.plan_changes);
+                }
+            }
+        }
+    }
+    // Plans that are changed, and plans that are not, or not as often.
+    for mut changes in [changes, certified_changes] {
+        changes.sort_unstable();
+        changes.dedup();
+        println!("changes of plan: {changes:?}");
+        assert!(changes.len() > 1, "{changes:?}");
+    }
+}
+
 /// What the README of the folder says must come out of a file.
 fn in_words(answer: Answer) -> String {
     match answer {
@@ -227,20 +338,37 @@ fn write_files() {
     }
 }
 
+/// Why a run stopped, as the legend of the table says; of reasons that are not in it, how they begin.
+fn in_short(reason: &str) -> String {
+    const REASONS: [(&str, &str); 9] = [
+        ("could not be decided", "t = 1 undecided"),
+        (
+            "cannot be told whether the path meets t = 1",
+            "t = 1 undecided",
+        ),
+        ("cannot be isolated", "not isolated"),
+        ("Krawczyk", "no tube proved"),
+        ("linked", "no link"),
+        ("the corrector", "corrector fails"),
+        ("no step succeeds", "no step"),
+        ("the limit o", "too many steps"),
+        ("the sketch could not be corrected", "sketch not corrected"),
+    ];
+    let known = REASONS.iter().find(|(part, _)| reason.contains(part));
+    known.map_or_else(
+        || {
+            let words: Vec<&str> = reason.split_whitespace().take(6).collect();
+            words.join(" ")
+        },
+        |(_, short)| (*short).to_owned(),
+    )
+}
+
 /// A run in a cell of the table: the count, bold if it is wrong, or why the run stopped.
 fn cell(outcome: &Outcome, answer: Answer) -> String {
     let found = outcome.solutions.len();
     match &outcome.status {
-        Status::Stopped(reason) => {
-            let reasons = [
-                ("could not be decided", "stopped: t = 1 undecided"),
-                ("Krawczyk", "stopped: no tube proved"),
-                ("linked", "stopped: no link"),
-                ("limit of", "stopped: too many steps"),
-            ];
-            let short = reasons.iter().find(|(part, _)| reason.contains(part));
-            short.map_or("stopped: no step", |s| s.1).to_owned()
-        }
+        Status::Stopped(reason) => format!("stopped: {}", in_short(reason)),
         Status::Closed => match answer {
             Answer::Path { solutions, .. } if found != solutions => format!("**{found}**"),
             Answer::NeverCloses => format!("**{found}**"),
@@ -324,8 +452,12 @@ fn table() {
             let tubes = effort.iter().map(|e| e.0);
             let (least, most) = (tubes.clone().min().unwrap(), tubes.max().unwrap());
             let ms = effort.iter().map(|e| e.1).fold(0.0, f64::max);
+            let tubes = match least == most {
+                true => least.to_string(),
+                false => format!("{least} … {most}"),
+            };
             println!(
-                "| {} | {delta} | {right} | {plain} | {extended} | {least} … {most} | {ms:.1} | {full} | {reduced} |",
+                "| {} | {delta} | {right} | {plain} | {extended} | {tubes} | {ms:.1} | {full} | {reduced} |",
                 family.name
             );
         }

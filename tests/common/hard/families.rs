@@ -24,7 +24,10 @@ pub struct Family {
     answer: fn(&Problem) -> Answer,
     /// The k that make sense.
     pub range: RangeInclusive<i32>,
-    /// Certified runs close up to this k. They may close beyond.
+    /// Certified runs in the default space close up to this k without extended precision. They may close
+    /// beyond.
+    pub proved_in_53_bits: i32,
+    /// The same of runs as they are made unless told otherwise.
     pub proved: i32,
     /// The k of the files in `problems/hard`.
     pub files: &'static [i32],
@@ -47,14 +50,16 @@ impl Family {
             make,
             answer,
             range,
+            proved_in_53_bits: -1,
             proved: -1,
             files: &[],
         }
     }
 
-    /// With the k up to which certified runs close, and those of the files.
-    pub const fn proved(self, proved: i32, files: &'static [i32]) -> Self {
+    /// With the k up to which certified runs close, in 53 bits and in all, and those of the files.
+    pub const fn proved(self, in_53_bits: i32, proved: i32, files: &'static [i32]) -> Self {
         Family {
+            proved_in_53_bits: in_53_bits,
             proved,
             files,
             ..self
@@ -380,7 +385,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[3, 8]),
+    .proved(4, 11, &[3, 8]),
     Family::new(
         "flaps-apart",
         TWO_PATHS,
@@ -389,7 +394,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[3]),
+    .proved(4, 11, &[3]),
     Family::new(
         "tents-split",
         TWO_PIECES,
@@ -398,7 +403,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 11, &[4]),
     Family::new(
         "tents-apart",
         TWO_PATHS,
@@ -407,7 +412,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 11, &[4]),
     Family::new(
         "parallelogram-crank",
         "where the four bars are nearly on a line, which they are twice, another motion of the linkage passes",
@@ -416,7 +421,7 @@ pub const FAMILIES: &[Family] = &[
         |p| bars::answer(p, 0),
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 11, &[4]),
     Family::new(
         "parallelogram-coupler",
         "where the four bars are nearly on a line, which they are twice, two pieces of the motion pass each other",
@@ -425,7 +430,7 @@ pub const FAMILIES: &[Family] = &[
         |p| bars::answer(p, 0),
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 11, &[4]),
     Family::new(
         "triple",
         "three solutions about to merge: t = 1 is met three times in a row, between two folds",
@@ -438,7 +443,7 @@ pub const FAMILIES: &[Family] = &[
         },
         1..=10,
     )
-    .proved(2, &[2, 3]),
+    .proved(2, 5, &[2, 3]),
     Family::new(
         "fold",
         "two solutions about to merge, on either side of a flat triangle",
@@ -447,7 +452,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(5, &[5, 8]),
+    .proved(5, 12, &[5, 8]),
     Family::new(
         "fold-missed",
         "the path turns back just before t = 1, in a flat triangle",
@@ -456,7 +461,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(5, &[5]),
+    .proved(5, 12, &[5]),
     Family::new(
         "peak",
         "two solutions about to merge, on either side of a flat tetrahedron",
@@ -465,7 +470,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 12, &[4]),
     Family::new(
         "graze",
         "two circles nearly tangent around t = 0.5, and the path of mirror images near",
@@ -474,7 +479,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 10, &[4]),
     Family::new(
         "graze-stopped",
         "two circles that part just before t = 0.5 and meet again soon after: another path lies on the other side",
@@ -483,7 +488,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[4]),
+    .proved(4, 10, &[4]),
     Family::new(
         "crowd",
         "ten points, one after the other near a boundary configuration, so that plans must change often, \
@@ -493,5 +498,5 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, &[2]),
+    .proved(4, 11, &[2]),
 ];
