@@ -6,8 +6,10 @@ mod common;
 use common::boxes::{View, check, matching};
 use common::moves::{mirrored, moved, ratio, relabelled, scaled};
 use common::random::{Recipe, recipe, same_each_time};
+use common::{SHORT, shipped};
 use krawl::problem::Problem;
-use krawl::track::{self, Control, Options, Outcome, Space, Status};
+use krawl::track::{self, Control, Options, Outcome, Solution, Space, Status};
+use nalgebra::DMatrix;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseError, TestError, TestRng, TestRunner};
 use std::cell::Cell;
@@ -21,6 +23,7 @@ fn limited(options: Options) -> Options {
 
 fn closed(problem: &Problem, options: Options) -> Option<Outcome> {
     let outcome = track::solve(problem, &limited(options), &mut Control::default()).ok()?;
+    common::no_bug(problem, &outcome);
     (outcome.status == Status::Closed).then_some(outcome)
 }
 
@@ -113,29 +116,93 @@ fn other_reference(problem: &Problem, first: &Outcome) -> Result<bool, String> {
     }
 }
 
-fn agree(problem: &Problem, step: f64, compared: &Cell<usize>) -> Result<(), String> {
+/// The sign of det ∂F/∂X at every solution, in the order of the path; F has a row ½ (|p_i − p_j|² − a²)
+/// for every distance. `None`: floats cannot tell one of them.
+///
+/// The path's tangent solves J τ = 0, so that by Cramer's rule it is the vector of J's minors times one
+/// factor, which never vanishes on a regular path and so keeps its sign; the minor of t is this one. So
+/// t rises at the solutions of one sign and falls at those of the other.
+fn signs(problem: &Problem, solutions: &[Solution]) -> Option<Vec<bool>> {
+    let d = problem.dimension;
+    let mut column = vec![[None; 3]; problem.points.len()];
+    let mut count = 0;
+    for (p, column) in column.iter_mut().enumerate() {
+        let fixed = problem.homotopy.reference.iter().position(|&r| r == p);
+        for axis in 0..fixed.unwrap_or(d).min(d) {
+            column[axis] = Some(count);
+            count += 1;
+        }
+    }
+    assert_eq!(count, problem.distances.len(), "as many as equations");
+    let sign = |solution: &Solution| {
+        let mut jacobian = DMatrix::<f64>::zeros(count, count);
+        for (e, distance) in problem.distances.iter().enumerate() {
+            let [p, q] = distance.points;
+            for axis in 0..d {
+                let away = solution.points[p][axis].mid() - solution.points[q][axis].mid();
+                for (end, away) in [(p, away), (q, -away)] {
+                    if let Some(k) = column[end][axis] {
+                        jacobian[(e, k)] = away;
+                    }
+                }
+            }
+        }
+        let factors = jacobian.full_piv_lu();
+        let pivots: Vec<f64> = factors.u().diagonal().iter().map(|u| u.abs()).collect();
+        let largest = pivots.iter().copied().fold(0.0, f64::max);
+        let safe = pivots.iter().all(|&u| u > 1e-9 * largest);
+        safe.then(|| factors.determinant() > 0.0)
+    };
+    solutions.iter().map(sign).collect()
+}
+
+/// A closed curve crosses t = 1 upwards and downwards in turn, as often the one as the other.
+fn crossings_alternate(rising: &[bool]) -> Result<(), String> {
+    let ups = rising.iter().filter(|&&up| up).count();
+    let in_turn = rising.windows(2).all(|pair| pair[0] != pair[1]);
+    if in_turn && 2 * ups == rising.len() {
+        Ok(())
+    } else {
+        Err(format!("t = 1 is crossed in these directions: {rising:?}"))
+    }
+}
+
+fn agree(problem: &Problem, step: f64, tally: &Tally) -> Result<(), String> {
     let Some(first) = closed(problem, Options::certified()) else {
         return Ok(());
     };
     check(problem, &first.solutions)?;
-    if !first.solutions.len().is_multiple_of(2) {
-        return Err("t = 1 is crossed more often one way than the other".to_owned());
+    match signs(problem, &first.solutions) {
+        Some(rising) => {
+            crossings_alternate(&rising)?;
+            tally.crossings.set(tally.crossings.get() + rising.len());
+        }
+        None if first.solutions.len().is_multiple_of(2) => {}
+        None => return Err("t = 1 is crossed more often one way than the other".to_owned()),
     }
     for (what, other, options, view) in others(problem, step) {
         if let Some(outcome) = closed(&other, options) {
             matching(&first.solutions, &view, &outcome.solutions)
                 .map_err(|e| format!("{what}: {e}"))?;
-            compared.set(compared.get() + 1);
+            tally.compared.set(tally.compared.get() + 1);
         }
     }
     if other_reference(problem, &first)? {
-        compared.set(compared.get() + 1);
+        tally.compared.set(tally.compared.get() + 1);
     }
     Ok(())
 }
 
+#[derive(Debug, Default)]
+struct Tally {
+    /// Runs compared with another.
+    compared: Cell<usize>,
+    /// Crossings of t = 1 of which the direction was found.
+    crossings: Cell<usize>,
+}
+
 fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<TestRng>) {
-    let compared = Cell::new(0);
+    let tally = Tally::default();
     let config = Config {
         cases,
         failure_persistence: None,
@@ -149,7 +216,7 @@ fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<Test
         let problem = recipe
             .build()
             .map_err(|e| TestCaseError::reject(e.to_string()))?;
-        agree(&problem, step, &compared).map_err(TestCaseError::fail)
+        agree(&problem, step, &tally).map_err(TestCaseError::fail)
     });
     match result {
         Ok(()) => {}
@@ -161,8 +228,30 @@ fn try_all(strategy: impl Strategy<Value = Recipe>, cases: u32, rng: Option<Test
         }
         Err(error) => panic!("{error}"),
     }
-    println!("{} runs compared for {cases} problems", compared.get());
-    assert!(compared.get() > 5 * cases as usize, "{}", compared.get());
+    println!("{tally:?} for {cases} problems");
+    let cases = cases as usize;
+    assert!(tally.compared.get() > 5 * cases, "{tally:?}");
+    // Many paths turn back before t = 1.
+    assert!(4 * tally.crossings.get() > cases, "{tally:?}");
+}
+
+#[test]
+fn crossings_of_shipped_problems_alternate() {
+    for (name, count) in SHORT {
+        let problem = shipped(name);
+        for options in [Options::certified(), Options::certified().reversed()] {
+            let outcome = closed(&problem, options).expect(name);
+            let rising = signs(&problem, &outcome.solutions).expect("regular solutions");
+            assert_eq!(rising.len(), count, "{name}");
+            crossings_alternate(&rising).unwrap_or_else(|e| panic!("{name}: {e}"));
+            // With any of them lost it would not hold.
+            for lost in 0..count {
+                let mut rest = rising.clone();
+                rest.remove(lost);
+                assert!(crossings_alternate(&rest).is_err());
+            }
+        }
+    }
 }
 
 #[test]

@@ -42,6 +42,7 @@ fn limited(options: Options) -> Options {
 /// case, and a closed run leaves a certificate that verifies; the other way round the loop are the same solutions; and float tracking agrees.
 fn laws(problem: &Problem, tally: &mut Tally) -> Result<(), String> {
     let (outcome, certificate) = common::certificate::of(problem, &limited(Options::certified()));
+    common::no_bug(problem, &outcome);
     check(problem, &outcome.solutions)?;
     same_verdict(&outcome, &certificate)?;
     if let Status::Stopped(reason) = &outcome.status {

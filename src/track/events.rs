@@ -55,11 +55,11 @@ const MAX_PIECES: usize = 10_000;
 impl<const N: usize> TimeAlong<N> {
     /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
     pub fn new(z: [f64; N], h: f64, distance: f64, slope_distance: f64) -> Self {
-        Self::extended(z, 0.0, h, distance, slope_distance)
+        Self::with_low(z, 0.0, h, distance, slope_distance)
     }
 
     /// The same with z_0 + `low` for z_0.
-    pub fn extended(z: [f64; N], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
+    pub fn with_low(z: [f64; N], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
         // Near t = 1 the difference is exact (Sterbenz); anywhere its error is relative to itself.
         let from_one = z[0] - 1.0;
         let (mut curvature, mut slope, mut power) = (0.0, 0.0, 1.0);
@@ -236,5 +236,43 @@ impl Scan<'_> {
         }
         self.above = above;
         Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What t is more than a float counts, and is not lost in the bounds' own rounding.
+    #[test]
+    fn low_words_tell_t_from_one() {
+        for low in [1e-20, -1e-20, 3e-31] {
+            let mut z = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            for slope in [0.0, 1.0] {
+                z[1] = slope;
+                // Rounding is relative to what a tube so short can reach.
+                let h = 1e-3 * f64::abs(low);
+                let ((lo, hi), _) = TimeAlong::with_low(z, low, h, 0.0, 0.0).bounds(0.0, 0.0);
+                assert!(lo <= low && low <= hi, "{low:e} not in [{lo:e}, {hi:e}]");
+                assert!(lo > 0.0 || hi < 0.0, "[{lo:e}, {hi:e}]");
+                assert!(hi - lo < 1e-12 * low.abs(), "[{lo:e}, {hi:e}]");
+                let ((lo, hi), _) = TimeAlong::new(z, h, 0.0, 0.0).bounds(0.0, 0.0);
+                assert!(lo <= 0.0 && hi >= 0.0);
+            }
+        }
+    }
+
+    /// A crossing is sought where it is with the low word.
+    #[test]
+    fn low_words_move_crossings() {
+        let (z, low, h) = ([1.0, 1.0, 0.0, 0.0, 0.0, 0.0], 1e-20, 1e-19);
+        let time = TimeAlong::with_low(z, low, h, 1e-24, 1e-6);
+        let mut found = Vec::new();
+        time.crossings(-h, h, &mut found).unwrap();
+        let (a, b) = found[0].between;
+        assert!(found.len() == 1 && found[0].rising && a <= -low && -low <= b);
+        assert!((time.zero_between((a, b)) + low).abs() < 1e-30);
+        time.crossings(-0.5 * low, h, &mut found).unwrap();
+        assert!(found.is_empty(), "{found:?}");
     }
 }

@@ -68,7 +68,20 @@ pub fn turning_triangle() -> Problem {
 
 /// The result of a run.
 pub fn solve(problem: &Problem, options: &Options) -> Outcome {
-    track::solve(problem, options, &mut Control::default()).unwrap()
+    let outcome = track::solve(problem, options, &mut Control::default()).unwrap();
+    no_bug(problem, &outcome);
+    outcome
+}
+
+/// Fails if a run stopped at what the program itself takes for a fault of its own.
+pub fn no_bug(problem: &Problem, outcome: &Outcome) {
+    if let Status::Stopped(reason) = &outcome.status {
+        assert!(
+            !reason.contains("this is a bug"),
+            "{reason}\n\n{}",
+            problem.to_toml()
+        );
+    }
 }
 
 /// The solutions of a run that must close.

@@ -215,7 +215,7 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     pub fn time_if(&self, proof: &Proof) -> TimeAlong<N> {
         let t = self.weights.len() - 2;
         // One rounding each, within what `TimeAlong` adds for its own.
-        TimeAlong::extended(
+        TimeAlong::with_low(
             std::array::from_fn(|k| self.local.z[k][t]),
             self.local.low[t],
             proof.h,

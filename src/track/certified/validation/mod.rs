@@ -323,6 +323,7 @@ impl<'a> Exact<'a> {
 }
 
 /// A proved tube, and its A.
+#[derive(Clone)]
 pub struct Sample<const D: usize> {
     pub tube: Tube<D>,
     pub a: Matrix,
@@ -397,9 +398,12 @@ impl<const D: usize> Workshop<D> {
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
         tube.local.normal[..n].copy_from_slice(&normal[..n]);
-        tube.local
-            .refine(&self.equations, &mut self.inverter, 1e-9, 8)
-            .ok()?;
+        let (equations, inverter) = (&self.equations, &mut self.inverter);
+        match self.test.precision.extended {
+            true => tube.local.refine_extended(equations, inverter),
+            false => tube.local.refine(equations, inverter, 1e-9, 8),
+        }
+        .ok()?;
         tube.local.expand(&self.equations);
         let mut proof = None;
         for _ in 0..rounds {

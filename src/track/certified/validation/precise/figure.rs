@@ -131,7 +131,7 @@ impl Figure {
     pub fn point_near(&self, through: &[Big], c: &[f64]) -> Option<(Vec<Big>, Vec<Big>)> {
         let mut z = through.to_vec();
         let normal = exact(&c[..self.n]);
-        for _ in 0..12 {
+        for _ in 0..40 {
             let mut g = self.residual(&z);
             let away: Vec<Big> = z.iter().zip(through).map(|(z, x)| z - x).collect();
             g.push(dot(&normal, &away));

@@ -40,11 +40,14 @@ fn times(a: &Rows, b: &Rows) -> Rows {
     a.iter().map(row).collect()
 }
 
+/// ẑ(s), its low words included, and ẑ'(s).
 fn at<const D: usize>(sample: &Sample<D>, s: &Big) -> (Vec<Big>, Vec<Big>) {
     let of = |i: usize| std::array::from_fn::<f64, { ORDER + 1 }, _>(|k| sample.tube.local.z[k][i]);
     let n = sample.a.rows();
     (
-        (0..n).map(|i| horner(&of(i), s)).collect(),
+        (0..n)
+            .map(|i| horner(&of(i), s) + Big::of(sample.tube.local.low[i]))
+            .collect(),
         (0..n).map(|i| horner_slope(&of(i), s)).collect(),
     )
 }
@@ -132,7 +135,7 @@ fn check_norms<const D: usize>(
 }
 
 /// What a proof says of the path: its point, its direction, its t, where it is found.
-fn check_path<const D: usize>(
+pub fn check_path<const D: usize>(
     figure: &Figure,
     sample: &Sample<D>,
     random: &mut Random,
@@ -171,7 +174,12 @@ fn check_path<const D: usize>(
     };
     for i in 0..n {
         ball.centre[i] = z[i].to_f64();
-        ball.radius[i] = (&z[i] - &Big::of(z[i].to_f64())).abs().to_f64().next_up();
+        let mut left = &z[i] - &Big::of(ball.centre[i]);
+        if tube.local.is_extended {
+            ball.low[i] = left.to_f64();
+            left -= Big::of(ball.low[i]);
+        }
+        ball.radius[i] = left.abs().to_f64().next_up();
     }
     if let Some(between) = tube.locate(&ball) {
         within("its own parameter", &s, between, ratios);
@@ -180,7 +188,7 @@ fn check_path<const D: usize>(
 }
 
 /// The exit's box, also as tight as it gets, with the tangent; and the next tube's entry.
-fn check_exit<const D: usize>(
+pub fn check_exit<const D: usize>(
     workshop: &mut Workshop<D>,
     figure: &Figure,
     (sample, next): (&Sample<D>, Option<&Sample<D>>),
@@ -194,14 +202,10 @@ fn check_exit<const D: usize>(
         .test
         .tighten_exit(&workshop.equations, &mut tight)?;
     for i in 0..n {
-        let away = |centre: f64| (&z[i] - &Big::of(centre)).abs();
+        let away = |b: &Ball| (&z[i] - &Big::of(b.centre[i]) - Big::of(b.low[i])).abs();
         let (exit, tight_exit) = (&sample.tube.exit, &tight.exit);
-        ratios.check("exit", &away(exit.centre[i]), exit.radius[i]);
-        ratios.check(
-            "tight exit",
-            &away(tight_exit.centre[i]),
-            tight_exit.radius[i],
-        );
+        ratios.check("exit", &away(exit), exit.radius[i]);
+        ratios.check("tight exit", &away(tight_exit), tight_exit.radius[i]);
         let turned = (&x[i] - &Big::of(tight.exit_slope[i])).abs();
         let bound = round_up(tight.exit_slope_radius * tight.weights[i], 1);
         ratios.check("tight tangent", &turned, bound);

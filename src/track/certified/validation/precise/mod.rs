@@ -7,6 +7,7 @@
 
 mod big;
 mod contraction;
+mod extended;
 mod figure;
 mod full;
 mod given;

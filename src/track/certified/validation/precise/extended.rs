@@ -1,0 +1,150 @@
+//! What is proved in extended precision near singular places: tubes, exits, links, t, boxes of solutions.
+
+use super::full::{check_exit, check_path};
+use super::*;
+use crate::track::certified::solution::SolutionProver;
+use crate::track::{Control, Options, Status, solve};
+
+const NAMES: [&str; 8] = [
+    "hard/flaps-split-8",
+    "hard/fold-8",
+    "hard/triple-3",
+    "hard/crowd-2",
+    "hard/graze-4",
+    "hard/tents-split-4",
+    "hard/fold-missed-5",
+    "hard/sliver-3",
+];
+
+/// How many tubes there were, and the least distance that was proved.
+#[derive(Debug)]
+struct Tally {
+    chains: usize,
+    short: usize,
+    /// Those of a chain with a middle that is no float.
+    low: usize,
+    least: f64,
+}
+
+fn check_tubes<const D: usize>(
+    problem: &Problem,
+    (tubes, rounds): (usize, usize),
+    random: &mut Random,
+    (ratios, tally): (&mut Ratios, &mut Tally),
+) {
+    let homotopy = Homotopy::new(problem).expect("a gauge");
+    let figure = Figure::new(problem, &homotopy);
+    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    workshop.equations.extend(&homotopy);
+    workshop.test.precision.extended = true;
+    let chain = workshop.chain(&homotopy, 400);
+    println!("{}: {} tubes", problem.name, chain.len());
+    assert!(!chain.is_empty(), "{}", problem.name);
+    let stride = (chain.len() / tubes).max(1);
+    for k in (0..chain.len()).step_by(stride) {
+        let local = &chain[k].tube.local;
+        assert!(local.is_extended);
+        tally.low += usize::from(local.low.iter().any(|&x| x != 0.0));
+        let exits = (&chain[k], chain.get(k + 1));
+        check_exit(&mut workshop, &figure, exits, ratios).expect("a regular point");
+        for _ in 0..rounds {
+            check_path(&figure, &chain[k], random, ratios).expect("a regular point");
+        }
+        tally.chains += 1;
+        // The same point in shorter tubes, where order 0 and its rounding are most of what is left.
+        let mut sample = chain[k].clone();
+        let max_h = sample.tube.proof.h * 10f64.powf(random.between(-8.0, -1.0));
+        let (equations, tube) = (&workshop.equations, &mut sample.tube);
+        let mut weights = tube.weights.clone();
+        let test = &mut workshop.test;
+        let Some(proof) = test.prove(equations, &tube.local, &mut weights, max_h) else {
+            continue;
+        };
+        tube.proof = proof;
+        tube.weights.copy_from_slice(test.weights());
+        tube.exit_at = 0.97 * proof.h;
+        if test.enclose_exit(equations, tube).is_none() {
+            continue;
+        }
+        sample.a = test.moving_matrix().clone();
+        check_exit(&mut workshop, &figure, (&sample, None), ratios).expect("a regular point");
+        for _ in 0..rounds {
+            check_path(&figure, &sample, random, ratios).expect("a regular point");
+        }
+        tally.short += 1;
+        tally.least = tally.least.min(proof.distance);
+    }
+}
+
+/// Extended precision is on from the sketch on, wherever 53 bits would do.
+#[test]
+fn extended_tubes_dominate_exact_values_near_singular_places() {
+    let (mut ratios, mut random) = (Ratios::default(), Random::new(47));
+    let mut tally = Tally {
+        chains: 0,
+        short: 0,
+        low: 0,
+        least: f64::INFINITY,
+    };
+    for problem in problems(&NAMES) {
+        let (counts, out) = ((effort(12), 2), (&mut ratios, &mut tally));
+        match problem.dimension {
+            2 => check_tubes::<2>(&problem, counts, &mut random, out),
+            _ => check_tubes::<3>(&problem, counts, &mut random, out),
+        }
+    }
+    println!("{tally:?}");
+    // Far below what 53 bits can tell.
+    assert!(
+        tally.low > 50 && tally.short > 50 && tally.least < 1e-22,
+        "{tally:?}"
+    );
+    ratios.come_near(&[("distance", 0.2), ("slope_distance", 0.2)]);
+}
+
+fn check_boxes<const D: usize>(problem: &Problem, ratios: &mut Ratios) {
+    let homotopy = Homotopy::new(problem).expect("a gauge");
+    let figure = Figure::new(problem, &homotopy);
+    let mut equations = Equations::<D>::new(&homotopy);
+    equations.extend(&homotopy);
+    let mut inverter = equations.inverter();
+    let mut prover = SolutionProver::new(&homotopy, &equations);
+    let outcome = solve(problem, &Options::certified(), &mut Control::default()).unwrap();
+    assert_eq!(outcome.status, Status::Closed, "{}", problem.name);
+    let (n, m) = (figure.n, figure.m);
+    let mut normal = vec![0.0; n];
+    normal[m] = 1.0;
+    for solution in &outcome.solutions {
+        let mut guess = equations.vector();
+        for (v, &place) in homotopy.gauge.place.iter().enumerate() {
+            let (point, axis) = (place / D, place % D);
+            guess[v] = solution.points[point][axis].mid() / homotopy.unit;
+        }
+        guess[m] = 1.0;
+        let found = prover
+            .prove(&equations, &mut inverter, &guess, (true, true))
+            .expect("a box");
+        let middle = |i: usize| Big::of(found.centre[i]) + Big::of(found.low[i]);
+        let mut through: Vec<Big> = (0..n).map(middle).collect();
+        through[m] = Big::of(1.0);
+        let (z, _) = figure
+            .point_near(&through, &normal)
+            .unwrap_or_else(|| panic!("no solution near a box of {}", problem.name));
+        for (i, z) in z[..m].iter().enumerate() {
+            ratios.check("solution", &(z - &through[i]).abs(), found.radius[i]);
+        }
+    }
+}
+
+#[test]
+fn extended_boxes_hold_exact_solutions_near_singular_places() {
+    let mut ratios = Ratios::default();
+    for problem in problems(&NAMES) {
+        match problem.dimension {
+            2 => check_boxes::<2>(&problem, &mut ratios),
+            _ => check_boxes::<3>(&problem, &mut ratios),
+        }
+    }
+    assert!(ratios.count("solution") > 100);
+    ratios.come_near(&[("solution", 1e-3)]);
+}
