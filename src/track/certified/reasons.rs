@@ -355,8 +355,6 @@ mod tests {
         );
         // No cross-section.
         assert!(reason(1.0, 0.0).ends_with("its smallest pivot is 0.0e0 times the largest"));
-        let far = reason(1e200, 0.1);
-        assert!(far.contains("from a residual of inf, overflows"), "{far}");
     }
 
     #[test]
