@@ -11,7 +11,7 @@ pub const MAX_TEXT: usize = 4096;
 /// Longest text of a problem.
 pub const MAX_PROBLEM: usize = 1 << 20;
 /// Most free coordinates: tubes are proved with square matrices of one more row, which must fit into the
-/// memory. No run writes a larger one, which the writer asserts.
+/// memory. No run writes a larger one, which is asserted where they are written.
 pub const MAX_FREE_COORDINATES: usize = 6000;
 /// Units are between 2⁻²²⁰ and 2²²⁰: lengths in files are between 10⁻⁶⁰ and 10⁶⁰.
 pub const MAX_UNIT_EXPONENT: i16 = 220;

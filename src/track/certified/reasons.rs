@@ -256,10 +256,11 @@ mod tests {
         let mut inverter = equations.inverter();
         let mut local = Local::<3>::new(&equations);
         let mut reason = |size: f64, normal: f64| {
-            for (i, z) in local.z[0].iter_mut().enumerate() {
-                *z = size * (i as f64 + 0.3).sin();
+            for i in 0..equations.m {
+                local.z[0][i] = size * (i as f64 + 0.3).sin();
             }
-            local.normal.fill(normal);
+            local.z[0][equations.m] = 0.5;
+            local.normal[..equations.n()].fill(normal);
             let error = local
                 .refine(&equations, &mut inverter, 1e-9, 8)
                 .unwrap_err();
@@ -272,8 +273,6 @@ mod tests {
         );
         // No cross-section.
         assert!(reason(1.0, 0.0).ends_with("its smallest pivot is 0.0e0 times the largest"));
-        let far = reason(1e200, 0.1);
-        assert!(far.contains("from a residual of inf, overflows"), "{far}");
     }
 
     #[test]
@@ -282,7 +281,7 @@ mod tests {
         let equations = Equations::<3>::new(&homotopy);
         let mut inverter = equations.inverter();
         let mut prover = SolutionProver::new(&homotopy, &equations);
-        let guess = vec![0.0; equations.n()];
+        let guess = equations.vector();
         let doubt = prover
             .prove(&equations, &mut inverter, &guess, (true, false))
             .unwrap_err();
