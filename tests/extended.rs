@@ -119,7 +119,6 @@ fn stopped_runs_name_the_number() {
 }
 
 /// What can be written of such a run is a certificate of its beginning, and holds.
-///
 #[test]
 fn certificates_end_before() {
     for name in ["fold", "fold-missed", "peak"] {
