@@ -154,15 +154,23 @@ impl<const D: usize> KrawczykTest<D> {
         equations.residual(&self.near, &self.lengths, &mut self.f);
         let hidden = &mut self.bounds[0];
         equations.residual_error(&self.near, out.centre[m], hidden);
-        let (along, error, offset) = from_middle(local, s, out, &u[..n]);
-        self.f[m] = along;
-        hidden[m] = error;
+        self.conclude(tube)
+    }
+
+    /// Encloses the path's point at the exit, F at the middle of whose box, `f`, is known up to `bounds[0]`.
+    pub(super) fn conclude(&mut self, tube: &mut Tube<D>) -> Option<()> {
+        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
+        let n = u.len() - 1;
+        let (along, error, extent) = from_middle(local, &u[..n], s, &tube.exit, |_| 0.0);
+        // The last equation is that of the cross-section.
+        self.f[n - 1] = along;
+        self.bounds[0][n - 1] = error;
         let radius = self.radius_from_defect(local, proof, u, s);
-        if !(round_up(offset, 40) < proof.r && radius < proof.r) {
+        if !(extent < proof.r && radius < proof.r) {
             return None;
         }
         for i in 0..n {
-            out.radius[i] = round_up(radius * u[i], 1);
+            tube.exit.radius[i] = round_up(radius * u[i], 1);
         }
         tube.exit_between = (s, s);
         Some(())

@@ -110,7 +110,7 @@ impl<const D: usize> KrawczykTest<D> {
             let z = (&out.centre[..], &out.low[..]);
             extended.residual(equations, z, &mut self.f, &mut self.bounds[0]);
             // ẑ(s) was rounded to floats: that may have moved it out of the cross-section.
-            self.f[m] = from_middle(local, s, out, &u[..n]).0;
+            self.f[m] = from_middle(local, &u[..n], s, out, |_| 0.0).0;
             local.y.multiply(&self.f[..n], &mut self.v);
             self.a.multiply(&self.v[..n], &mut self.f);
             let (v, f) = (&mut self.v, &self.f);
@@ -124,19 +124,7 @@ impl<const D: usize> KrawczykTest<D> {
         }
         // The defect at the point reached, with what rounding may hide of it.
         let z = (&out.centre[..], &out.low[..]);
-        let hidden = &mut self.bounds[0];
-        extended.residual(equations, z, &mut self.f, hidden);
-        let (along, error, widest) = from_middle(local, s, out, &u[..n]);
-        self.f[m] = along;
-        hidden[m] = round_up(error, n + 8);
-        let radius = self.radius_from_defect(local, proof, u, s);
-        if !(round_up(widest, 40) < proof.r && radius < proof.r) {
-            return None;
-        }
-        for i in 0..n {
-            out.radius[i] = round_up(radius * u[i], 1);
-        }
-        tube.exit_between = (s, s);
-        Some(())
+        extended.residual(equations, z, &mut self.f, &mut self.bounds[0]);
+        self.conclude(tube)
     }
 }

@@ -8,8 +8,8 @@ use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
 
 /// What a preconditioner knows of the box in which a tube was proved.
 pub trait Frame<const D: usize>: Preconditioner<D> {
-    /// By how much the box around ẑ(s), whose size is 1, must be scaled to hold a point: `entry` tells,
-    /// for each index once and in their order, how far it is from ẑ(s), and the error of that.
+    /// By how much the box around ẑ(s), whose size is 1, must be scaled to hold a point, rounded up: `entry`
+    /// tells, for each index once and in their order, how far it is from ẑ(s), and the error of that.
     /// `weights` are the tube's.
     fn extent(&self, weights: &[f64], s: f64, entry: impl FnMut(usize) -> (f64, f64)) -> f64;
 
@@ -25,12 +25,10 @@ impl<const D: usize> Frame<D> for Matrix {
         for (i, weight) in weights.iter().enumerate() {
             let (away, error) = entry(i);
             let ratio = (away.abs() + error) / weight;
-            // A NaN must not be lost in the comparison.
-            if ratio > widest || ratio.is_nan() {
-                widest = ratio;
-            }
+            widest = largest(widest, ratio);
         }
-        widest
+        // A sum and a division.
+        round_up(widest, 2)
     }
 
     fn speed(&self, proof: &Proof) -> f64 {
@@ -136,21 +134,10 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
     pub fn spread(&self, ball: &Ball, s: f64) -> Option<(f64, f64)> {
         let n = self.weights.len() - 1;
         let (local, proof) = (&self.local, &self.proof);
-        let c = &local.normal[..n];
-        let (mut along, mut along_error) = (0.0, 0.0);
-        let mut lane = ([0.0; LANE], [0.0; LANE]);
-        let widest = local.y.extent(&self.weights[..n], s, |i| {
-            if i % LANE == 0 {
-                lane = offsets(local, i / LANE, s, ball);
-            }
-            let (away, rounding) = (lane.0[i % LANE], lane.1[i % LANE]);
-            let error = rounding + ball.radius[i];
-            along += c[i] * away;
-            along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
-            (away, error)
-        });
-        let omega = round_up((along.abs() + along_error) / self.least_advance()?, n + 8);
-        let width = round_up(widest + omega * local.y.speed(proof), n + 8);
+        let radius = |i: usize| ball.radius[i];
+        let (along, error, extent) = from_middle(local, &self.weights[..n], s, ball, radius);
+        let omega = round_up((along.abs() + error) / self.least_advance()?, 4);
+        let width = round_up(extent + omega * local.y.speed(proof), 4);
         Some((omega, width))
     }
 
@@ -279,28 +266,32 @@ pub fn offsets<const D: usize, const N: usize, Y: Preconditioner<D>>(
     (away, error)
 }
 
-/// For w, how far a ball's middle is from ẑ(s): c·w with the normal c, the error of that, and |w|_u with
-/// its error. Sums of n terms, none yet rounded up.
-pub fn from_middle<const D: usize, const N: usize, Y: Preconditioner<D>>(
+/// For w, how far the points of a ball, of the `radius` given by entry, are from ẑ(s): c·w at the ball's
+/// middle, with the normal c; how far that may be off for any of them; and the extent of all of them. The
+/// latter two are rounded up.
+#[inline(always)]
+pub fn from_middle<const D: usize, const N: usize, Y: Frame<D>>(
     local: &Local<D, N, Y>,
+    weights: &[f64],
     s: f64,
     ball: &Ball,
-    u: &[f64],
+    radius: impl Fn(usize) -> f64,
 ) -> (f64, f64, f64) {
-    let n = u.len();
+    let n = weights.len();
     let c = &local.normal[..n];
     let mut lane = ([0.0; LANE], [0.0; LANE]);
-    let (mut along, mut error, mut widest) = (0.0, 0.0, 0.0);
-    for i in 0..n {
+    let (mut along, mut along_error) = (0.0, 0.0);
+    let extent = local.y.extent(weights, s, |i| {
         if i % LANE == 0 {
             lane = offsets(local, i / LANE, s, ball);
         }
-        let (w, e) = (lane.0[i % LANE], lane.1[i % LANE]);
-        along += c[i] * w;
-        error += c[i].abs() * (e + gamma(n + 2) * w.abs());
-        widest = largest(widest, (w.abs() + e) / u[i]);
-    }
-    (along, error, widest)
+        let (away, rounding) = (lane.0[i % LANE], lane.1[i % LANE]);
+        let error = rounding + radius(i);
+        along += c[i] * away;
+        along_error += c[i].abs() * (error + gamma(n + 2) * away.abs());
+        (away, error)
+    });
+    (along, round_up(along_error, n + 8), extent)
 }
 
 /// a·b and |a|·|b|, each in interleaved sums.
@@ -320,17 +311,4 @@ fn dot_with_size(a: &[f64], b: &[f64]) -> (f64, f64) {
         size = a.abs().mul_add(b.abs(), size);
     }
     (sum, size)
-}
-
-/// How far ẑ(s)_i in floats may be from the exact value.
-pub fn evaluation_error<const D: usize, const N: usize, Y: Preconditioner<D>>(
-    local: &Local<D, N, Y>,
-    i: usize,
-    s: f64,
-) -> f64 {
-    let s = s.abs();
-    let size = (0..N)
-        .rev()
-        .fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
-    round_up(gamma(evaluation(N)) * size, evaluation(N))
 }

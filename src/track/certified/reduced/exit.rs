@@ -1,11 +1,10 @@
 //! Where the path leaves a tube.
 
-use super::elimination::MAX_KEYS;
 use super::frame::{Reduction, Tubes};
 use super::sides::Sides;
 use super::test::ReducedTest;
-use crate::interval::rounding::{gamma, largest, round_up};
-use crate::track::certified::link::{Frame, evaluation_error};
+use crate::interval::rounding::{largest, round_up};
+use crate::track::certified::link::from_middle;
 use crate::track::certified::tracker::Test;
 use crate::track::full::Equations;
 
@@ -28,7 +27,6 @@ impl<const D: usize> ReducedTest<D> {
     pub(super) fn enclose(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
         let (m, n) = (equations.m, equations.n());
         let (local, s) = (&tube.local, tube.exit_at);
-        let c = &local.normal[..n];
         let out = &mut tube.exit;
         // It could be anywhere until it is proved.
         out.radius[..n].fill(f64::INFINITY);
@@ -62,18 +60,10 @@ impl<const D: usize> ReducedTest<D> {
         equations.expand_lengths(out.centre[m], &mut self.lengths);
         equations.residual(&self.d, &self.lengths, &mut self.f);
         equations.residual_error(&self.d, out.centre[m], &mut self.hidden);
-        let (mut along, mut error) = (0.0, 0.0);
-        let extent = local.y.extent(&tube.weights[..n], s, |i| {
-            let w = out.centre[i] - local.entry_at(i, s);
-            let e = evaluation_error(local, i, s) + f64::EPSILON * w.abs();
-            along += c[i] * w;
-            error += c[i].abs() * (e + gamma(n + 2) * w.abs());
-            (w, e)
-        });
-        self.f[m] = along;
-        self.hidden[m] = round_up(error, n + 8);
+        let (along, error, extent) = from_middle(local, &tube.weights[..n], s, out, |_| 0.0);
+        (self.f[m], self.hidden[m]) = (along, error);
         let radius = self.radius_from_defect(equations, &local.y, tube.proof.q)?;
-        if !(round_up(extent, 2 * MAX_KEYS + 40) < tube.proof.r && radius < tube.proof.r) {
+        if !(extent < tube.proof.r && radius < tube.proof.r) {
             return None;
         }
         for i in 0..n {

@@ -123,11 +123,10 @@ impl<const D: usize> Reduction<D> {
                 see((v + error[i] + hidden + ROUNDING * away[i].abs()) / self.rho[i]);
             }
         }
-        widest
+        // Two sums of a product for each key unknown, and what they go through before and after.
+        round_up(widest, 2 * MAX_KEYS + 40)
     }
-}
 
-impl<const D: usize> Reduction<D> {
     /// Bounds on |w| = |T(s) v| from bounds on |v|.
     pub fn take_along(&self, v: &[f64], w: &mut [f64]) {
         let layout = &*self.elimination.layout;

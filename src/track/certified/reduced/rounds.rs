@@ -266,7 +266,7 @@ impl<const D: usize> ReducedTest<D> {
         }
         bounds.normal = sum_of_sizes(&place.local.normal[..n], omega);
         let top = omega[..n].iter().fold(0.0, |max: f64, &u| max.max(u));
-        bounds.radius = self.radius / top;
+        bounds.radius = (self.radius / top).next_down();
     }
 }
 

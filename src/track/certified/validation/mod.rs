@@ -19,12 +19,26 @@ pub use faults::inject as inject_fault;
 
 use super::link::Tube;
 use super::tube::KrawczykTest;
+use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Matrix, Vector};
 use crate::problem::{Decimal, Problem};
 use crate::system::Homotopy;
-use crate::track::full::{Equations, InverseMaker, ORDER, first_normal};
+use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
 use nalgebra::DMatrix;
+
+/// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
+fn evaluation_error<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    local: &Local<D, N, Y>,
+    i: usize,
+    s: f64,
+) -> f64 {
+    let s = s.abs();
+    let size = (0..N)
+        .rev()
+        .fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
+    round_up(gamma(4 * N) * size, 4 * N)
+}
 
 /// SplitMix64 (Steele, Lea, Flood 2014): the same numbers in every run.
 pub struct Random(u64);

@@ -7,7 +7,7 @@ use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Vector};
-use crate::track::certified::link::{Ball, Frame, evaluation_error};
+use crate::track::certified::link::{Ball, Frame};
 use crate::track::certified::reduced::{Bounds, COEFFICIENTS};
 use crate::track::certified::tracker::Test;
 
@@ -227,7 +227,7 @@ pub fn check_path<const D: usize>(
         let error = evaluation_error(&tube.local, i, at) + 2.0 * f64::EPSILON * away.abs();
         (away, error)
     });
-    ratios.check("extent", &extent, round_up(stated, n + 8));
+    ratios.check("extent", &extent, stated);
     for (i, x) in through.iter().enumerate() {
         let error = (Big::of(tube.local.entry_at(i, at)) - x).abs();
         ratios.check(
