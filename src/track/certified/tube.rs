@@ -130,7 +130,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// The bounds that do not depend on the final h, and the others at the largest h worth trying.
-    fn norms(
+    pub(super) fn norms(
         &mut self,
         equations: &Equations<D>,
         local: &Local<D>,
@@ -385,17 +385,6 @@ impl<const D: usize> KrawczykTest<D> {
     /// The weights of the last proof.
     pub(super) fn weights(&self) -> &Vector {
         &self.u
-    }
-
-    /// The bounds for |s| ≤ `max_h` at most, whether or not they prove anything.
-    pub(super) fn norms_at(
-        &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
-        weights: &Vector,
-        max_h: f64,
-    ) -> Option<Norms> {
-        self.norms(equations, local, weights, max_h)
     }
 
     /// A of the last proof.

@@ -295,7 +295,7 @@ fn check_problem<const D: usize>(
             let (equations, tube) = (&workshop.equations, &sample.tube);
             let norms = workshop
                 .test
-                .norms_at(equations, &tube.local, &tube.weights, h);
+                .norms(equations, &tube.local, &tube.weights, h);
             sample.a = workshop.test.moving_matrix().clone();
             if let Some(norms) = norms {
                 for _ in 0..rounds {
@@ -374,7 +374,7 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
     let (equations, local) = (&workshop.equations, &tube.local);
     let norms = workshop
         .test
-        .norms_at(equations, local, &tube.weights, 1.0)
+        .norms(equations, local, &tube.weights, 1.0)
         .expect("bounds");
     assert_eq!(norms.h, 1.0);
     let a = workshop.test.moving_matrix().clone();
