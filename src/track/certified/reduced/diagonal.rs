@@ -1,5 +1,6 @@
 //! What bounds the inverse of one diagonal block of A(s) X.
 
+use super::passes::by_adjugate;
 use crate::interval::rounding::round_up;
 
 /// How much more: far above rounding where R is not larger than this.
@@ -17,23 +18,12 @@ pub fn bound_on_inverse(b: &[[f64; 3]; 3], size: usize) -> Option<[[f64; 3]; 3]>
             a[r][c] = if r == c { 1.0 - entry } else { -entry };
         }
     }
-    let minor = |r: usize, c: usize| {
-        let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
-        a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
-    };
-    let scale = 1.0 / (0..3).map(|c| a[0][c] * minor(0, c)).sum::<f64>();
-    let mut bound = [[0.0; 3]; 3];
-    let mut sums = [0.0; 3];
-    for r in 0..3 {
-        for c in 0..3 {
-            bound[r][c] = minor(c, r) * scale;
-            sums[r] += bound[r][c];
-        }
-    }
+    let mut bound = by_adjugate(&a);
     // A little more than the inverse: with x = (I − B)⁻¹ 1, x − B x = 1.
-    for r in 0..3 {
-        for c in 0..3 {
-            bound[r][c] += MORE * (bound[r][c] + sums[r]);
+    for row in &mut bound {
+        let sum: f64 = row.iter().sum();
+        for entry in row {
+            *entry += MORE * (*entry + sum);
         }
     }
     let mut holds = true;

@@ -1,5 +1,6 @@
 //! Which unknowns are key and which equations ignored at a point of the path.
 
+use super::elimination::MAX_KEYS;
 use crate::linalg::Vector;
 use crate::plan::Plan;
 use crate::system::Homotopy;
@@ -203,6 +204,12 @@ impl Layout {
     /// The number of key unknowns, t included, and of ignored equations, the normal's included.
     pub fn keys(&self) -> usize {
         self.keys.len()
+    }
+
+    /// The rows of S in matrices with a row per distance and the normal's, the `m`-th: the ignored
+    /// distances, then the normal. What comes after [`Layout::keys`] of them is the normal again.
+    pub fn rows_of_s(&self, m: usize) -> [usize; MAX_KEYS] {
+        std::array::from_fn(|l| self.ignored.get(l).map_or(m, |&e| e as usize))
     }
 
     /// Whether there are as many ignored equations as key unknowns: always, where no distance is

@@ -3,7 +3,6 @@
 //! Both are summed over orders in s: what does not get smaller with s, and what does like s³.
 
 use super::along::Along;
-use super::elimination::MAX_KEYS;
 use super::frame::{Reduction, SERIES};
 use super::passes::{Row, add};
 use super::series::{SIGNED, Series, add_product};
@@ -67,10 +66,7 @@ pub fn of_s<const D: usize, const W: usize>(
     let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
     let keys = layout.keys();
     let m = zs[0].len() - 1;
-    let mut ignored = [m; MAX_KEYS];
-    for (row, &e) in ignored.iter_mut().zip(&layout.ignored) {
-        *row = e as usize;
-    }
+    let rows_of_s = layout.rows_of_s(m);
     let mut parts = [[[0.0; LANE]; W]; 2];
     for q in 0..=SERIES + SIGNED {
         let mut columns = [[[[0.0; LANE]; W]; LANE]; W];
@@ -80,7 +76,7 @@ pub fn of_s<const D: usize, const W: usize>(
                 // E as well has these orders, and its rows and the ignored ones are all.
                 add_product(0..m + 1, zs[i], jk, &mut columns);
             } else {
-                add_product(ignored[..keys].iter().copied(), zs[i], jk, &mut columns);
+                add_product(rows_of_s[..keys].iter().copied(), zs[i], jk, &mut columns);
             }
         }
         let part = &mut parts[(q > SERIES) as usize];

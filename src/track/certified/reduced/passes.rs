@@ -197,6 +197,25 @@ impl<const D: usize> Derivative<'_, D> {
 /// The inverse of a diagonal block: `inverse[column][row]`.
 pub type Inverse = [[f64; 3]; 3];
 
+/// The inverse of `a[row][column]` by its adjugate, as `inverse[column][row]`: whoever uses it finds
+/// out what it is worth.
+#[inline]
+pub fn by_adjugate(a: &[[f64; 3]; 3]) -> Inverse {
+    let minor = |r: usize, c: usize| {
+        let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
+        a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
+    };
+    let determinant: f64 = (0..3).map(|c| a[0][c] * minor(0, c)).sum();
+    let scale = 1.0 / determinant;
+    let mut out = [[0.0; 3]; 3];
+    for c in 0..3 {
+        for r in 0..3 {
+            out[c][r] = minor(r, c) * scale;
+        }
+    }
+    out
+}
+
 /// The entries of a diagonal block: `entries[row][column]`.
 pub fn entries<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
     let mut out = [[0.0; 3]; 3];
@@ -220,19 +239,7 @@ pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
             out[0] = [a[1][1] * scale, -a[0][1] * scale, 0.0];
             out[1] = [-a[1][0] * scale, a[0][0] * scale, 0.0];
         }
-        _ => {
-            let minor = |r: usize, c: usize| {
-                let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
-                a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
-            };
-            let determinant: f64 = (0..3).map(|c| a[0][c] * minor(0, c)).sum();
-            let scale = 1.0 / determinant;
-            for c in 0..3 {
-                for r in 0..3 {
-                    out[c][r] = minor(r, c) * scale;
-                }
-            }
-        }
+        _ => out = by_adjugate(&a),
     }
     out
 }

@@ -1,7 +1,6 @@
 //! K(s) and Z(s): the eliminating transformation and the preconditioner along the path, as
 //! polynomials; and what they leave over.
 
-use super::elimination::MAX_KEYS;
 use super::frame::{Locals, SERIES};
 use super::passes::{Derivative, Lane, Row, add, slices};
 use crate::linalg::{LANE, Vector};
@@ -89,10 +88,7 @@ impl<const D: usize> Series<D> {
         // Z: order by order, first the ignored equations' rows from S, then those of A so that
         // (Zᵀ J)_q = 0 in the columns of A.
         let keys = layout.keys();
-        let rows_of_s: [usize; MAX_KEYS] = std::array::from_fn(|l| match layout.ignored.get(l) {
-            Some(&e) => e as usize,
-            None => m,
-        });
+        let rows_of_s = layout.rows_of_s(m);
         let p0 = y.elimination.p.as_chunks::<W>().0;
         for q in 0..=SERIES {
             let (before, after) = y.z.split_at_mut(q);
