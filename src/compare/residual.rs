@@ -1,5 +1,6 @@
 //! How well reported figures meet the dimensions.
 
+use crate::interval::rounding::largest;
 use crate::interval::{enclose, point};
 use crate::problem::{Problem, Target};
 use crate::track::Solution;
@@ -33,9 +34,4 @@ pub fn residual_bound(problem: &Problem, solutions: &[Solution]) -> Option<f64> 
         distances.fold(0.0, largest)
     };
     (!solutions.is_empty()).then(|| solutions.iter().map(of).fold(0.0, largest))
-}
-
-/// The larger one; NaN is larger than all.
-fn largest(max: f64, x: f64) -> f64 {
-    if x > max || x.is_nan() { x } else { max }
 }

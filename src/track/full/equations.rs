@@ -259,15 +259,10 @@ impl<const D: usize> Equations<D> {
                 size += (d[axis][e] * dv[axis][e]).abs();
                 moved += spread[axis][e] * dv[axis][e].abs();
             }
-            let (e1, e2) = (self.e[1][e].abs(), self.e[2][e].abs());
-            let (r1, r2) = (self.e_radius[1][e], self.e_radius[2][e]);
-            let mut slope_size = e1 + 2.0 * t * e2;
-            let mut slope_radius = r1 + 2.0 * t * r2;
-            let mut curvature = 2.0 * (e2 + r2);
+            let (slope_size, slope_radius) = self.slope_of_length(e, t);
+            let mut curvature = 2.0 * (self.e[2][e].abs() + self.e_radius[2][e]);
             if e == self.bend.edge {
                 let (c, r) = (self.bend.e.map(f64::abs), &self.bend.e_radius);
-                slope_size += t * t * (3.0 * c[3] + 4.0 * t * c[4]);
-                slope_radius += t * t * (3.0 * r[3] + 4.0 * t * r[4]);
                 curvature += t * (6.0 * (c[3] + r[3]) + 12.0 * t * (c[4] + r[4]));
             }
             let time = slope_radius + curvature * t_radius;

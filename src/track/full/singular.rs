@@ -1,6 +1,7 @@
 //! How near to singular a Jacobian is, and how far a prediction was off: for the reasons of stopped runs.
 
 use super::{Equations, Local, Preconditioner};
+use crate::interval::rounding::largest;
 use crate::linalg::extreme_pivots;
 
 impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
@@ -28,8 +29,6 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// The largest entry of the residual from which the last correction was computed.
     pub fn largest_residual(&self, equations: &Equations<D>) -> f64 {
         let sizes = self.f[..equations.m].iter();
-        sizes.fold(0.0, |size, x| {
-            crate::interval::rounding::largest(size, x.abs())
-        })
+        sizes.fold(0.0, |size, x| largest(size, x.abs()))
     }
 }

@@ -205,13 +205,12 @@ impl<const D: usize> Along<D> {
             }
         }
         let bend = &equations.bend;
-        let slope = |c: [f64; 5]| c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + 4.0 * t * c[4]));
         let beyond = t + 1.0;
         let second = |c: [f64; 5]| 2.0 * c[2] + beyond * (6.0 * c[3] + 12.0 * beyond * c[4]);
-        let (e, r) = (bend.e.map(f64::abs), bend.e_radius);
-        self.slope_size[bend.edge] = slope(e);
-        self.slope_radius[bend.edge] = slope(r);
-        self.curvature[bend.edge] = second(e) + second(r);
+        let (size, radius) = equations.slope_of_length(bend.edge, t);
+        self.slope_size[bend.edge] = size;
+        self.slope_radius[bend.edge] = radius;
+        self.curvature[bend.edge] = second(bend.e.map(f64::abs)) + second(bend.e_radius);
     }
 
     /// What orders above s^SIGNED add to the slope of a length's half square.
