@@ -242,9 +242,13 @@ pub(super) fn did_you_mean(nearest: &Option<String>) -> String {
         .map_or(String::new(), |name| format!("; did you mean `{name}`?"))
 }
 
-/// `1 point`, `2 points`.
-fn counted(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+/// `1 point`, `2 points`, `2 boxes`.
+pub(crate) fn counted(n: usize, what: &str) -> String {
+    match what {
+        _ if n == 1 => format!("1 {what}"),
+        _ if what.ends_with('x') => format!("{n} {what}es"),
+        _ => format!("{n} {what}s"),
+    }
 }
 
 fn count_message(

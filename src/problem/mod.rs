@@ -17,6 +17,7 @@ mod write;
 pub use builder::ProblemBuilder;
 pub use check::{Rigidity, rigidity};
 pub use decimal::{Decimal, DecimalError};
+pub(crate) use error::counted;
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};
 pub use published::Published;

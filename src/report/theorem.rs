@@ -2,6 +2,7 @@
 
 use super::certain_digits;
 use crate::certificate::{Outcome, Verdict};
+use crate::problem::counted;
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -60,15 +61,6 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
         time.as_secs_f64(),
         verdict.program.escape_debug()
     )
-}
-
-/// `1 point`, `2 points`, `2 disjoint boxes`.
-fn counted(n: usize, what: &str) -> String {
-    match what {
-        _ if n == 1 => format!("1 {what}"),
-        _ if what.ends_with('x') => format!("{n} {what}es"),
-        _ => format!("{n} {what}s"),
-    }
 }
 
 fn classes_in_words(classes: &[u32]) -> String {
