@@ -149,8 +149,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 
 /// Reads a problem and makes sure that it can be run.
 fn read(file: &Path) -> Result<Subject, String> {
-    let problem = Problem::read(file).map_err(|error| error.to_string())?;
-    let published = Published::read(file).map_err(|error| error.to_string())?;
+    let (problem, published) =
+        Problem::read_with_published(file).map_err(|error| error.to_string())?;
     Homotopy::new(&problem).map_err(|error| format!("{}: {error}", file.display()))?;
     Ok(Subject { problem, published })
 }

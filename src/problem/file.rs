@@ -116,8 +116,23 @@ impl Problem {
     /// # Ok::<(), krawl::problem::FileError>(())
     /// ```
     pub fn read(path: impl AsRef<Path>) -> Result<Problem, FileError> {
-        let (problem, _) = read(path.as_ref())?;
+        let (problem, _) = Self::read_with_published(path)?;
         Ok(problem)
+    }
+
+    /// Reads and checks a problem file, with what it says was published about the problem.
+    ///
+    /// ```
+    /// use krawl::problem::Problem;
+    /// let (problem, rows) = Problem::read_with_published("problems/octahedron.toml")?;
+    /// assert_eq!(problem.name, "octahedron");
+    /// assert!(rows.iter().any(|row| row.space.as_deref() == Some("reduced") && row.steps == Some(173)));
+    /// # Ok::<(), krawl::problem::FileError>(())
+    /// ```
+    pub fn read_with_published(
+        path: impl AsRef<Path>,
+    ) -> Result<(Problem, Vec<Published>), FileError> {
+        read(path.as_ref())
     }
 
     /// Reads and checks a problem from the text of a file. `file` is for messages, and its stem
@@ -151,8 +166,8 @@ impl Problem {
     }
 }
 
-/// Reads and checks a problem file, with what was published about the problem.
-pub(super) fn read(path: &Path) -> Result<(Problem, Vec<Published>), FileError> {
+/// See [`Problem::read_with_published`].
+fn read(path: &Path) -> Result<(Problem, Vec<Published>), FileError> {
     let file = path.display().to_string();
     let fail = |line, fault| FileError {
         file: file.clone(),
