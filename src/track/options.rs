@@ -112,6 +112,16 @@ impl Options {
         }
     }
 
+    /// The bound on the step in homotopies' units.
+    pub(crate) fn step_in(&self, unit: f64) -> Option<f64> {
+        self.max_step.map(|step| step / unit)
+    }
+
+    /// The tolerance in homotopies' units.
+    pub(crate) fn tolerance_in(&self, unit: f64) -> Option<f64> {
+        self.tolerance.map(|tolerance| tolerance / unit)
+    }
+
     /// The tubes' radius in homotopies' units.
     pub(crate) fn radius(&self, unit: f64) -> f64 {
         self.tube_radius

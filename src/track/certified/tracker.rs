@@ -216,8 +216,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
 
     fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), String> {
         let max_h = options
-            .max_step
-            .map_or(f64::INFINITY, |step| 0.5 * step / self.homotopy.unit);
+            .step_in(self.homotopy.unit)
+            .map_or(f64::INFINITY, |step| 0.5 * step);
         self.start(options, max_h)?;
         self.show_tube(control, 0);
         // How far back the next tube is expected to reach, from the half lengths of the last two.

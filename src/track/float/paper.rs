@@ -126,8 +126,8 @@ impl<'a, const D: usize> Paper<'a, D> {
         std::mem::swap(&mut self.tangent, &mut self.next_tangent);
         let direction = self.tangent.clone();
         let unit = self.homotopy.unit;
-        let largest = options.max_step.map_or(LARGEST_STEP, |step| step / unit);
-        let tolerance = options.tolerance.map_or(TOLERANCE, |x| x / unit);
+        let largest = options.step_in(unit).unwrap_or(LARGEST_STEP);
+        let tolerance = options.tolerance_in(unit).unwrap_or(TOLERANCE);
         let mut step = largest;
         loop {
             for i in 0..n {

@@ -54,8 +54,8 @@ fn run<const D: usize>(
 ) -> Result<(), String> {
     let (m, n) = (equations.m, equations.n());
     let tolerance = options
-        .tolerance
-        .map_or(POINT_TOLERANCE, |tolerance| tolerance / homotopy.unit);
+        .tolerance_in(homotopy.unit)
+        .unwrap_or(POINT_TOLERANCE);
     let mut inverter = equations.inverter();
     let (mut now, mut next) = (Local::new(equations), Local::new(equations));
     let mut sketch = equations.vector();
@@ -71,9 +71,7 @@ fn run<const D: usize>(
     now.expand(equations);
     let direction = now.normal.clone();
 
-    let longest = options
-        .max_step
-        .map_or(f64::INFINITY, |step| step / homotopy.unit);
+    let longest = options.step_in(homotopy.unit).unwrap_or(f64::INFINITY);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations, tolerance);
     let mut step = FIRST_STEP.min(longest);

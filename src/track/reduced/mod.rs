@@ -86,7 +86,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
             homotopy,
             options,
             started,
-            corrector: Corrector::new(places, options.tolerance.map(|x| x / homotopy.unit)),
+            corrector: Corrector::new(places, options.tolerance_in(homotopy.unit)),
             evaluation,
             plan,
             start: station.clone(),

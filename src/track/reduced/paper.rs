@@ -14,8 +14,8 @@ impl<const D: usize> Tracker<'_, D> {
     pub(super) fn follow_as_in_the_paper(&mut self, control: &mut Control) -> Status {
         let longest = self
             .options
-            .max_step
-            .map_or(LONGEST_STEP, |step| step / self.homotopy.unit);
+            .step_in(self.homotopy.unit)
+            .unwrap_or(LONGEST_STEP);
         let mut differences = Differences::default();
         let mut delta = longest;
         loop {

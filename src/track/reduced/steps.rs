@@ -57,8 +57,8 @@ impl<const D: usize> Tracker<'_, D> {
     pub(super) fn follow(&mut self, control: &mut Control) -> Status {
         let longest = self
             .options
-            .max_step
-            .map_or(f64::INFINITY, |step| step / self.homotopy.unit);
+            .step_in(self.homotopy.unit)
+            .unwrap_or(f64::INFINITY);
         let mut pace = Pace {
             h: FIRST_STEP.min(longest),
             longest,
