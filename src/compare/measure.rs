@@ -147,7 +147,7 @@ impl<'a> Session<'a> {
         rows
     }
 
-    /// One run. Nothing, if it was broken off; an error, if there is no such way.
+    /// One run. Nothing, if it was broken off; an error, if this way cannot take the problem.
     fn once(&self, options: &Options, hooks: &mut Hooks) -> Option<Result<Outcome, String>> {
         if hooks.is_cancelled() {
             return None;

@@ -33,7 +33,6 @@ pub use ways::{Knob, Method, Setting, Way};
 
 use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};
-use crate::track::Space;
 use judge::Reference;
 use measure::Session;
 
@@ -44,7 +43,7 @@ pub struct Row {
     pub way: Way,
     /// What was set, if anything.
     pub setting: Option<Setting>,
-    /// What came of it, or why this way is not to be had.
+    /// What came of it, or why this way cannot take the problem.
     pub result: Result<Measured, String>,
     /// What it is worth beside the certified run.
     pub verdict: Verdict,
@@ -94,7 +93,7 @@ impl Comparison {
 }
 
 /// Runs a problem in all modes and spaces, each several times, and if wanted at the settings of a
-/// sweep. A way that krawl does not have (yet) is a row that says so.
+/// sweep. A way that cannot take the problem, as it has too many coordinates, is a row that says so.
 ///
 /// Fails where the sketch cannot be seen from the reference, which no way could mend.
 pub fn compare(
@@ -127,12 +126,4 @@ pub fn compare(
         sweep,
         interrupted: hooks.is_cancelled(),
     })
-}
-
-/// What a space is called.
-pub(crate) fn name_of(space: Space) -> &'static str {
-    match space {
-        Space::Full => "full",
-        Space::Reduced => "reduced",
-    }
 }

@@ -49,7 +49,7 @@ const WAYS: [Way; 6] = {
 };
 
 impl Way {
-    /// All ways, whether krawl has them already or not.
+    /// All ways, in the order of a comparison's rows.
     pub fn all() -> impl Iterator<Item = Way> {
         WAYS.into_iter()
     }
@@ -64,11 +64,6 @@ impl Way {
             Method::Float => Options::float(self.space),
             Method::Paper => Options::paper(self.space),
         }
-    }
-
-    /// What people call its space.
-    pub fn space_name(self) -> &'static str {
-        super::name_of(self.space)
     }
 }
 

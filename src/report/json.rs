@@ -2,7 +2,7 @@
 
 use crate::interval::Interval;
 use crate::problem::Problem;
-use crate::track::{Mode, Outcome, Solution, Space, Status};
+use crate::track::{Outcome, Solution, Status};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The results as one line of JSON:
@@ -64,14 +64,8 @@ impl<'a> Document<'a> {
         };
         Document {
             problem: &problem.name,
-            mode: match outcome.mode {
-                Mode::Certified => "certified",
-                Mode::Float => "float",
-            },
-            space: match outcome.space {
-                Space::Full => "full",
-                Space::Reduced => "reduced",
-            },
+            mode: outcome.mode.name(),
+            space: outcome.space.name(),
             status,
             reason,
             solutions: outcome

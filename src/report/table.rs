@@ -165,14 +165,7 @@ fn float_digits(x: f64) -> String {
 
 fn numbers(outcome: &Outcome) -> Vec<(&'static str, String)> {
     let (lo, hi) = outcome.t_range;
-    let mode = match outcome.mode {
-        Mode::Certified => "certified",
-        Mode::Float => "float",
-    };
-    let space = match outcome.space {
-        Space::Full => "full",
-        Space::Reduced => "reduced",
-    };
+    let (mode, space) = (outcome.mode.name(), outcome.space.name());
     let mut rows = vec![
         ("mode, space", format!("{mode}, {space}")),
         ("steps", outcome.steps.to_string()),

@@ -11,6 +11,16 @@ pub enum Mode {
     Float,
 }
 
+impl Mode {
+    /// Its name in tables and files, and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Mode::Certified => "certified",
+            Mode::Float => "float",
+        }
+    }
+}
+
 /// Where the path is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Space {
@@ -21,6 +31,14 @@ pub enum Space {
 }
 
 impl Space {
+    /// Its name in tables and files, and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Space::Full => "full",
+            Space::Reduced => "reduced",
+        }
+    }
+
     /// The space in which certified runs are faster, by the number of free coordinates (which is
     /// that of distances): the reduced one from about 70 on (docs/reduced.md).
     pub fn for_certified(coordinates: usize) -> Self {

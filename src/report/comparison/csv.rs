@@ -63,7 +63,7 @@ fn line(compared: &Compared, row: &Row) -> [String; 23] {
     [
         compared.comparison.problem.clone(),
         row.way.method.name().into(),
-        row.way.space_name().into(),
+        row.way.space.name().into(),
         text(row.setting.map(|s| s.knob.name())),
         float(row.setting.map(|s| s.value)),
         float(row.setting.map(|s| s.relative)),

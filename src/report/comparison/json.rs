@@ -116,7 +116,7 @@ fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
     let widths = measured.and_then(|m| m.widths());
     RowEntry {
         mode: row.way.method.name(),
-        space: row.way.space_name(),
+        space: row.way.space.name(),
         setting: row.setting.map(|s| s.knob.name()),
         value: row.setting.map(|s| s.value),
         relative: row.setting.map(|s| s.relative),

@@ -24,7 +24,7 @@ pub struct Compared {
 impl Compared {
     /// The published run that belongs beside a row: the paper's, in the same space.
     fn beside(&self, row: &Row) -> Option<&Published> {
-        let space = row.way.space_name();
+        let space = row.way.space.name();
         let wanted = row.way.method == Method::Paper && row.setting.is_none();
         let mut published = self.published.iter();
         published.find(|p| wanted && p.space.as_deref() == Some(space))

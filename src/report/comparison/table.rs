@@ -27,7 +27,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
     let mut grid = Grid::new(&heading, &[0, 1, 7]);
     let mut remarks = Vec::new();
     for row in &comparison.rows {
-        let mut cells = vec![row.way.method.name().into(), row.way.space_name().into()];
+        let mut cells = vec![row.way.method.name().into(), row.way.space.name().into()];
         let (word, reason) = status(row);
         match row.measured() {
             Some(measured) => cells.extend([
@@ -56,7 +56,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
                 published.solutions.map_or("-".into(), |n| n.to_string()),
             ));
         }
-        let place = format!("{}, {}", row.way.method.name(), row.way.space_name());
+        let place = format!("{}, {}", row.way.method.name(), row.way.space.name());
         if let Some(reason) = reason {
             remarks.push(format!("{place}: {word}: {reason}"));
         }
@@ -115,7 +115,7 @@ fn sweep(compared: &Compared) -> String {
         let Some(setting) = row.setting else { continue };
         let mut cells = vec![
             row.way.method.name().into(),
-            row.way.space_name().into(),
+            row.way.space.name().into(),
             setting.knob.name().into(),
             match setting.knob {
                 Knob::MaxStep => setting.relative.to_string(),
@@ -150,7 +150,7 @@ fn sweep(compared: &Compared) -> String {
                 out,
                 "  {}, {}: something was switched on at {switched} of {settings} settings; JSON and CSV say what",
                 way.method.name(),
-                way.space_name()
+                way.space.name()
             );
         }
     }

@@ -25,7 +25,7 @@ fn draw<'a>(area: &super::style::Area<'a>, comparison: &Comparison) -> Result<()
         .iter()
         .map(|way| Entry {
             sign: Sign::Line(colour(*way)),
-            text: format!("{}, {}", way.method.name(), way.space_name()),
+            text: format!("{}, {}", way.method.name(), way.space.name()),
         })
         .collect();
     let right = match comparison.has_reference() {
