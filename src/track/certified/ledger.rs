@@ -21,8 +21,6 @@ pub struct Ledger<'a, const D: usize> {
     crossings: Vec<Crossing>,
     scratch: Vector,
     ball: Ball,
-    /// Whether solutions are proved in extended precision.
-    pub extended: bool,
     /// The length of the path, in floats.
     pub length: f64,
     /// An enclosure of the values of t.
@@ -39,7 +37,6 @@ impl<'a, const D: usize> Ledger<'a, D> {
             crossings: Vec::new(),
             scratch: equations.vector(),
             ball: Ball::new(equations),
-            extended: false,
             length: 0.0,
             t_range: (f64::INFINITY, f64::NEG_INFINITY),
         }
@@ -56,13 +53,15 @@ impl<'a, const D: usize> Ledger<'a, D> {
     }
 
     /// Finds all solutions in a linked tube, from its entry to its exit, or to the sketch where
-    /// the loop is closed at the parameters `closing`. If it fails nothing is changed.
+    /// the loop is closed at the parameters `closing`; `extended` is whether their boxes are proved in
+    /// extended precision. If it fails nothing is changed.
     pub fn enter<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
         closing: Option<(f64, f64)>,
+        extended: bool,
     ) -> Result<(), Doubt> {
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
@@ -76,12 +75,12 @@ impl<'a, const D: usize> Ledger<'a, D> {
             crossings.iter().try_for_each(|&crossing| {
                 let (a, b) = crossing.between;
                 // Where solutions are near each other it matters from where they are sought.
-                let near = if self.extended {
+                let near = if extended {
                     time.zero_between((a, b))
                 } else {
                     0.5 * (a + b)
                 };
-                self.prove_crossing(equations, inverter, tube, (crossing, near))
+                self.prove_crossing(equations, inverter, tube, (crossing, near), extended)
             })
         });
         self.crossings = crossings;
@@ -109,10 +108,11 @@ impl<'a, const D: usize> Ledger<'a, D> {
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
         (crossing, near): (Crossing, f64),
+        extended: bool,
     ) -> Result<(), Doubt> {
         let (a, b) = crossing.between;
         tube.local.at(near, &mut self.scratch);
-        let how = (crossing.rising, self.extended);
+        let how = (crossing.rising, extended);
         let found = self.prover.prove(equations, inverter, &self.scratch, how)?;
         self.ball.centre.copy_from_slice(&found.centre);
         self.ball.low.copy_from_slice(&found.low);

@@ -385,8 +385,15 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             .locate(&self.sketch)
             .filter(|entry| entry.1 < self.now.exit_at)
             .ok_or(Rejection::Unlinked)?;
+        let extended = self.extension.is_on();
         self.ledger
-            .enter(&self.equations, &mut self.inverter, &self.now, None)
+            .enter(
+                &self.equations,
+                &mut self.inverter,
+                &self.now,
+                None,
+                extended,
+            )
             .map_err(Rejection::Undecided)?;
         self.test.accept(&self.now);
         Ok(())
@@ -445,8 +452,15 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             return Err(Rejection::Unlinked);
         }
         let closing = self.closes(&self.next)?;
+        let extended = self.extension.is_on();
         self.ledger
-            .enter(&self.equations, &mut self.inverter, &self.next, closing)
+            .enter(
+                &self.equations,
+                &mut self.inverter,
+                &self.next,
+                closing,
+                extended,
+            )
             .map_err(Rejection::Undecided)?;
         self.test.accept(&self.next);
         match &mut self.previous {

@@ -125,7 +125,6 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         }
         self.equations.extend(self.homotopy);
         self.extension.switch_on(rejection.in_short());
-        self.ledger.extended = true;
         // It can be enclosed more tightly now.
         self.now.exit_is_tight = false;
         true
@@ -148,7 +147,6 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let t = tube.local.z[0][self.equations.m];
         if self.extension.count(t, enough) {
             self.test.set_extended(false);
-            self.ledger.extended = false;
         }
     }
 
