@@ -176,6 +176,27 @@ fn float_runs_jump_where_certified_ones_do_not() {
     assert!(wrong > 1, "{wrong}");
 }
 
+/// Near another piece of path a step's two ends do not see the same one; near a fold they do, and what is
+/// not known is whether it reaches t = 1.
+#[test]
+fn float_runs_say_whether_it_is_t_that_stops_them() {
+    for (name, k, short) in [
+        ("graze", 8, "ends apart"),
+        ("flaps-split", 8, "ends apart"),
+        ("fold", 8, "t = 1 undecided"),
+        ("fold-missed", 8, "t = 1 undecided"),
+    ] {
+        let run = solve(
+            &family(name).problem(k),
+            &limited(Options::float(Space::Full)),
+        );
+        let Status::Stopped(reason) = run.status else {
+            panic!("{name}-{k} is closed");
+        };
+        assert_eq!(in_short(&reason), short, "{name}-{k}: {reason}");
+    }
+}
+
 /// How near γ (of p and r) and the sine of the angle (of q and s) come to their thresholds: by that much.
 #[test]
 fn thresholds_are_met_but_for_the_parameter() {
@@ -340,12 +361,13 @@ fn write_files() {
 
 /// Why a run stopped, as the legend of the table says; of reasons that are not in it, how they begin.
 fn in_short(reason: &str) -> String {
-    const REASONS: [(&str, &str); 9] = [
+    const REASONS: [(&str, &str); 10] = [
         ("could not be decided", "t = 1 undecided"),
         (
             "cannot be told whether the path meets t = 1",
             "t = 1 undecided",
         ),
+        ("two ends do not meet", "ends apart"),
         ("cannot be isolated", "not isolated"),
         ("Krawczyk", "no tube proved"),
         ("linked", "no link"),

@@ -96,17 +96,13 @@ fn run<const D: usize>(
             next.expand(equations);
         }
         let turned = dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
-        let seen = refined
-            && !turned
-            && events
-                .between(equations, &mut inverter, &now, &next, step, record)
-                .is_some();
-        if !seen {
-            failure = match refined {
-                false => "the corrector fails",
-                true if turned => "the path turns too much",
-                true => "it cannot be told whether the path meets t = 1",
-            };
+        let seen = match refined {
+            false => Err("the corrector fails"),
+            true if turned => Err("the path turns too much"),
+            true => events.between(equations, &mut inverter, &now, &next, step, record),
+        };
+        if let Err(reason) = seen {
+            failure = reason;
             record.rejected += 1;
             step *= 0.5;
             continue;
@@ -168,7 +164,8 @@ impl<const D: usize> Events<D> {
     }
 
     /// Records the solutions between two points: the first half of the way is read off the
-    /// expansion at one, the second off the other. `None`: they could not be separated.
+    /// expansion at one, the second off the other. The error is the reason, for people: these do not
+    /// meet in the middle, or the solutions could not be separated.
     fn between(
         &mut self,
         equations: &Equations<D>,
@@ -177,7 +174,8 @@ impl<const D: usize> Events<D> {
         next: &Local<D>,
         step: f64,
         record: &mut Record<D>,
-    ) -> Option<()> {
+    ) -> Result<(), &'static str> {
+        const UNDECIDED: &str = "it cannot be told whether the path meets t = 1";
         // The expansions are off by 2^-(ORDER + 1) of the prediction's error at half the way, and
         // their slopes by (ORDER + 1) / (step / 2) times that.
         let error = next.first_correction / 32.0 + 10.0 * self.tolerance;
@@ -188,31 +186,29 @@ impl<const D: usize> Events<D> {
         let ends = self.scratch.iter().zip(self.other.iter());
         let apart = ends.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()));
         if apart > APART * step {
-            return None;
+            return Err("the expansions at a step's two ends do not meet");
         }
         let error = error.max(apart);
         for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
             let z: [f64; ORDER + 1] = std::array::from_fn(|k| local.z[k][equations.m]);
             let reach = 2.0 * (to - from);
             let time = TimeAlong::new(z, reach, error, 12.0 * error / step);
-            time.crossings(from, to, &mut self.crossings).ok()?;
+            time.crossings(from, to, &mut self.crossings)
+                .map_err(|_| UNDECIDED)?;
             for k in 0..self.crossings.len() {
                 let (a, b) = self.crossings[k].between;
-                local.meet(
-                    equations,
-                    0.5 * (a + b),
-                    1.0,
-                    &mut self.meeting,
-                    &mut self.scratch,
-                )?;
-                record.solution(equations, inverter, &self.scratch)?;
+                let (at, meeting) = (0.5 * (a + b), &mut self.meeting);
+                local
+                    .meet(equations, at, 1.0, meeting, &mut self.scratch)
+                    .and_then(|()| record.solution(equations, inverter, &self.scratch))
+                    .ok_or(UNDECIDED)?;
             }
             let (_, (slope_low, slope_high)) = time.bounds(from, to);
             if slope_low < 0.0 && slope_high > 0.0 {
                 record.meet(extreme(local, from, to, equations.m));
             }
         }
-        Some(())
+        Ok(())
     }
 
     /// The parameter at `next` of the point where the expansion at `now` is left for its own: the
