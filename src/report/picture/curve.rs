@@ -1,26 +1,32 @@
-//! The path's curve between its stations, and the sizes of its steps.
+//! The path's curve between its stations, and the sizes of its steps; how it and what is on it are drawn.
 
-use super::style::{CLASSES, Entry, SCALE, Sign, size_colour};
+use super::style::{
+    CLASSES, Chart, Entry, Failure, INK, SCALE, Sign, VERMILION, draw_sign, number_signs,
+    size_colour,
+};
 use crate::compare::{PathStation, RecordedPath};
+use plotters::prelude::*;
 
 /// A point of the path: the length up to it, the free coordinates and t.
 pub type Point = (f64, Vec<f64>);
 
 /// A stretch of the path along which the steps are of one class of sizes.
-pub struct Piece {
-    /// The class.
-    pub class: usize,
+struct Piece {
+    class: usize,
     /// Its points, the last of the piece before among them.
-    pub points: Vec<Point>,
+    points: Vec<Point>,
 }
 
 /// The path as it is drawn.
 pub struct Curve {
     /// In the order of the path.
-    pub pieces: Vec<Piece>,
+    pieces: Vec<Piece>,
     bounds: Vec<f64>,
     stations: usize,
 }
+
+const SOLUTION: Sign = Sign::Ring(VERMILION);
+const SKETCH: Sign = Sign::Disc(INK);
 
 /// So many points are drawn at most, beside the stations.
 const POINTS: usize = 6000;
@@ -60,36 +66,81 @@ impl Curve {
         self.pieces.iter().flat_map(|piece| &piece.points)
     }
 
-    /// How wide to draw it: long paths finely.
-    pub fn width(&self) -> u32 {
-        if self.stations > 2000 {
+    /// What the signs mean, in these words, and the colours.
+    pub fn legend(&self, solutions: String, sketch: &str) -> Vec<Entry> {
+        let number = |x: f64| format!("{x:.2}");
+        let colours = (0..=self.bounds.len()).map(|class| {
+            let text = match (
+                class.checked_sub(1).map(|k| self.bounds[k]),
+                self.bounds.get(class),
+            ) {
+                (None, None) => "all steps".to_owned(),
+                (None, Some(high)) => format!("steps up to {}", number(*high)),
+                (Some(_), Some(high)) => format!("to {}", number(*high)),
+                (Some(low), None) => format!("above {}", number(low)),
+            };
+            Entry {
+                sign: Sign::Line(size_colour(class)),
+                text,
+            }
+        });
+        let solutions = Entry {
+            sign: SOLUTION,
+            text: solutions,
+        };
+        let sketch = Entry {
+            sign: SKETCH,
+            text: sketch.into(),
+        };
+        [solutions, sketch].into_iter().chain(colours).collect()
+    }
+
+    /// Draws it, its points at the places given: long paths finely.
+    pub fn draw<'a, X, Y>(
+        &self,
+        chart: &mut Chart<'a, X, Y>,
+        place: impl Fn(&Point) -> (f64, f64),
+    ) -> Result<(), Failure<'a>>
+    where
+        X: Ranged<ValueType = f64>,
+        Y: Ranged<ValueType = f64>,
+    {
+        let width = if self.stations > 2000 {
             SCALE
         } else {
             2 * SCALE
+        };
+        for piece in &self.pieces {
+            let line = piece.points.iter().map(&place);
+            let style = size_colour(piece.class).stroke_width(width);
+            chart.draw_series(LineSeries::new(line, style))?;
         }
+        Ok(())
     }
+}
 
-    /// What the colours mean.
-    pub fn legend(&self) -> Vec<Entry> {
-        let number = |x: f64| format!("{x:.2}");
-        (0..=self.bounds.len())
-            .map(|class| {
-                let text = match (
-                    class.checked_sub(1).map(|k| self.bounds[k]),
-                    self.bounds.get(class),
-                ) {
-                    (None, None) => "all steps".to_owned(),
-                    (None, Some(high)) => format!("steps up to {}", number(*high)),
-                    (Some(_), Some(high)) => format!("to {}", number(*high)),
-                    (Some(low), None) => format!("above {}", number(low)),
-                };
-                Entry {
-                    sign: Sign::Line(size_colour(class)),
-                    text,
-                }
-            })
-            .collect()
+/// Draws the signs of solutions and of the sketch, and numbers the solutions.
+pub fn draw_signs<'a, X, Y>(
+    chart: &Chart<'a, X, Y>,
+    solutions: &[(f64, f64)],
+    sketch: impl Iterator<Item = (f64, f64)>,
+) -> Result<(), Failure<'a>>
+where
+    X: Ranged<ValueType = f64>,
+    Y: Ranged<ValueType = f64>,
+{
+    let area = chart.plotting_area();
+    for &at in solutions {
+        draw_sign(area, at, SOLUTION)?;
     }
+    for at in sketch {
+        draw_sign(area, at, SKETCH)?;
+    }
+    // More would be a black cloud.
+    if solutions.len() <= 60 {
+        number_signs(chart, solutions)?;
+    }
+    Ok(())
 }
 
 /// Quantiles of the steps: every class has as many.

@@ -1,10 +1,7 @@
 //! The path from one side.
 
-use super::curve::Curve;
-use super::style::{
-    Entry, Failure, INK, Sign, VERMILION, draw_sign, legend, mesh, number_signs, picture, plain,
-    px, size_colour, with_room,
-};
+use super::curve::{Curve, draw_signs};
+use super::style::{Failure, legend, mesh, picture, plain, px, with_room};
 use crate::compare::RecordedPath;
 use plotters::prelude::*;
 
@@ -27,18 +24,8 @@ fn draw<'a>(
     curve: &Curve,
     [a, b]: [usize; 2],
 ) -> Result<(), Failure<'a>> {
-    let mut entries = vec![
-        Entry {
-            sign: Sign::Ring(VERMILION),
-            text: format!("solutions, t = 1 ({})", path.solutions.len()),
-        },
-        Entry {
-            sign: Sign::Disc(INK),
-            text: "sketch, t = 0".into(),
-        },
-    ];
-    entries.extend(curve.legend());
-    let body = legend(area, &entries)?;
+    let solutions = format!("solutions, t = 1 ({})", path.solutions.len());
+    let body = legend(area, &curve.legend(solutions, "sketch, t = 0"))?;
 
     let along = |k: usize| with_room(curve.points().map(move |(_, z)| z[k]), 0.05);
     let mut chart = ChartBuilder::on(&body)
@@ -51,26 +38,10 @@ fn draw<'a>(
         (&path.coordinates[a], &plain),
         (&path.coordinates[b], &plain),
     )?;
-    for piece in &curve.pieces {
-        let line = piece.points.iter().map(|(_, z)| (z[a], z[b]));
-        chart.draw_series(LineSeries::new(
-            line,
-            size_colour(piece.class).stroke_width(curve.width()),
-        ))?;
-    }
-    let area = chart.plotting_area();
-    for solution in &path.solutions {
-        draw_sign(area, (solution.z[a], solution.z[b]), Sign::Ring(VERMILION))?;
-    }
-    if let Some(sketch) = path.stations.first() {
-        draw_sign(area, (sketch.z[a], sketch.z[b]), Sign::Disc(INK))?;
-    }
-    // More would be a black cloud.
-    if path.solutions.len() <= 60 {
-        let places: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.z[a], s.z[b])).collect();
-        number_signs(&chart, &places)?;
-    }
-    Ok(())
+    curve.draw(&mut chart, |(_, z)| (z[a], z[b]))?;
+    let solutions: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.z[a], s.z[b])).collect();
+    let sketch = path.stations.iter().take(1).map(|s| (s.z[a], s.z[b]));
+    draw_signs(&chart, &solutions, sketch)
 }
 
 /// See [`projection`].

@@ -8,6 +8,8 @@ use std::ops::Range;
 
 /// What is drawn on.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// A picture's axes, and what is between them.
+pub type Chart<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
 /// What drawing may fail with; into a string it does not.
 pub type Failure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
@@ -94,7 +96,7 @@ pub fn picture(
 
 /// Draws lines, ticks and labels of a chart's axes.
 pub fn mesh<'a, X, Y>(
-    chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
+    chart: &mut Chart<'a, X, Y>,
     (x, format_x): (&str, &dyn Fn(&f64) -> String),
     (y, format_y): (&str, &dyn Fn(&f64) -> String),
 ) -> Result<(), Failure<'a>>
@@ -263,7 +265,7 @@ pub fn places_for_numbers(signs: &[(i32, i32)]) -> Vec<Option<(i32, i32)>> {
 
 /// Numbers beside signs at the given places, 1 and up, where there is room.
 pub fn number_signs<'a, X, Y>(
-    chart: &ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
+    chart: &Chart<'a, X, Y>,
     signs: &[(f64, f64)],
 ) -> Result<(), Failure<'a>>
 where

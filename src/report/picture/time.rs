@@ -1,10 +1,7 @@
 //! t along the path.
 
-use super::curve::Curve;
-use super::style::{
-    Entry, Failure, GREY, INK, SCALE, Sign, VERMILION, draw_sign, legend, mesh, number_signs,
-    picture, plain, px, size_colour, with_room,
-};
+use super::curve::{Curve, draw_signs};
+use super::style::{Failure, GREY, SCALE, legend, mesh, picture, plain, px, with_room};
 use crate::compare::RecordedPath;
 use plotters::prelude::*;
 
@@ -26,18 +23,8 @@ fn draw<'a>(
     path: &RecordedPath,
     curve: &Curve,
 ) -> Result<(), Failure<'a>> {
-    let mut entries = vec![
-        Entry {
-            sign: Sign::Ring(VERMILION),
-            text: format!("solutions ({})", path.solutions.len()),
-        },
-        Entry {
-            sign: Sign::Disc(INK),
-            text: "sketch".into(),
-        },
-    ];
-    entries.extend(curve.legend());
-    let body = legend(area, &entries)?;
+    let solutions = format!("solutions ({})", path.solutions.len());
+    let body = legend(area, &curve.legend(solutions, "sketch"))?;
 
     let t_of = |z: &[f64]| z[z.len() - 1];
     let all = curve.points().map(|(_, z)| t_of(z)).chain([0.0, 1.0]);
@@ -64,29 +51,10 @@ fn draw<'a>(
             GREY.stroke_width(SCALE),
         ))?;
     }
-    for piece in &curve.pieces {
-        let line = piece.points.iter().map(|(at, z)| (*at, t_of(z)));
-        chart.draw_series(LineSeries::new(
-            line,
-            size_colour(piece.class).stroke_width(curve.width()),
-        ))?;
-    }
-    let area = chart.plotting_area();
-    for solution in &path.solutions {
-        draw_sign(area, (solution.at, 1.0), Sign::Ring(VERMILION))?;
-    }
-    for station in path
-        .stations
-        .iter()
-        .take(1)
-        .chain(path.stations.last().filter(|_| path.closed))
-    {
-        draw_sign(area, (station.at, t_of(&station.z)), Sign::Disc(INK))?;
-    }
-    // More would be a black cloud.
-    if path.solutions.len() <= 60 {
-        let places: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.at, 1.0)).collect();
-        number_signs(&chart, &places)?;
-    }
-    Ok(())
+    curve.draw(&mut chart, |(at, z)| (*at, t_of(z)))?;
+    let solutions: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.at, 1.0)).collect();
+    let back = path.stations.last().filter(|_| path.closed);
+    let sketch = path.stations.iter().take(1).chain(back);
+    let sketch = sketch.map(|station| (station.at, t_of(&station.z)));
+    draw_signs(&chart, &solutions, sketch)
 }
