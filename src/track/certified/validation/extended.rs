@@ -198,14 +198,14 @@ fn scaled(problem: &Problem, exponent: i32) -> Option<Problem> {
 }
 
 /// A refined point of the path at the sketch with its expansion, in extended precision.
-fn at_sketch<const D: usize>(homotopy: &Homotopy, workshop: &mut Workshop<D>) -> Option<Tube<D>> {
+fn around_sketch<const D: usize>(
+    homotopy: &Homotopy,
+    workshop: &mut Workshop<D>,
+) -> Option<Tube<D>> {
     workshop.equations.extend(homotopy);
     let mut tube = Tube::new(&workshop.equations);
-    for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-        tube.local.z[0][i] = homotopy.sketch[place];
-    }
     let (equations, inverter) = (&workshop.equations, &mut workshop.inverter);
-    first_normal(equations, inverter, &mut tube.local, false).ok()?;
+    tube.local = at_sketch(homotopy, equations, inverter)?;
     tube.local.refine_extended(equations, inverter).ok()?;
     tube.local.expand(equations);
     Some(tube)
@@ -221,7 +221,7 @@ fn residuals<const D: usize>(problem: &Problem, random: &mut Random, cancelled: 
     };
     let rational = Rational::new(problem, &homotopy);
     let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
-    let Some(tube) = at_sketch(&homotopy, &mut workshop) else {
+    let Some(tube) = around_sketch(&homotopy, &mut workshop) else {
         return;
     };
     let equations = &workshop.equations;
@@ -302,7 +302,7 @@ fn tubes<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut Tal
     let homotopy = Homotopy::new(problem).unwrap();
     let rational = Rational::new(problem, &homotopy);
     let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
-    let Some(good) = at_sketch(&homotopy, &mut workshop) else {
+    let Some(good) = around_sketch(&homotopy, &mut workshop) else {
         return;
     };
     let n = workshop.equations.n();
@@ -450,7 +450,7 @@ fn low_words_do_not_outlive_their_tubes() {
     for problem in shipped().iter().filter(|p| p.dimension == 3) {
         let homotopy = Homotopy::new(problem).unwrap();
         let mut workshop = Workshop::<3>::new(&homotopy, f64::INFINITY);
-        let mut tube = at_sketch(&homotopy, &mut workshop).unwrap();
+        let mut tube = around_sketch(&homotopy, &mut workshop).unwrap();
         let prove = |workshop: &mut Workshop<3>, tube: &mut Tube<3>| {
             let (equations, test) = (&workshop.equations, &mut workshop.test);
             Test::refine(test, equations, &mut tube.local, 1e-9).unwrap();
@@ -530,7 +530,7 @@ fn blurred<const D: usize>(problem: &Problem, random: &mut Random) -> Option<(f6
     let size = 10f64.powf(random.between(-22.0, -12.0));
     let extended = workshop.equations.in_extended_mut();
     extended.blur(|_| size * random.sign());
-    let mut tube = at_sketch(&homotopy, &mut workshop)?;
+    let mut tube = around_sketch(&homotopy, &mut workshop)?;
     let max_h = 10f64.powf(random.between(-10.0, -4.0));
     if !prove_as_it_is(&mut workshop, &mut tube, max_h) {
         return None;
@@ -555,7 +555,7 @@ fn rough<const D: usize>(problem: &Problem, random: &mut Random) -> Option<(f64,
     let homotopy = Homotopy::new(problem).unwrap();
     let rational = Rational::new(problem, &homotopy);
     let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
-    let mut tube = at_sketch(&homotopy, &mut workshop)?;
+    let mut tube = around_sketch(&homotopy, &mut workshop)?;
     let m = workshop.equations.m;
     let mut rounded = |x: &mut f64| *x *= 1.0 + 40.0 * f64::EPSILON * random.between(-1.0, 1.0);
     for e in 0..m {

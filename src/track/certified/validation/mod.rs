@@ -3,6 +3,7 @@
 //!
 //! A test here that fails shows a claim that is false, or one that is made without a proof.
 
+mod along;
 mod components;
 mod crossings;
 mod extended;
@@ -16,6 +17,8 @@ mod solutions;
 mod tubes;
 
 pub use faults::inject as inject_fault;
+
+use along::{at_sketch, check_entry, link_is_true, middle, sketch, slope};
 
 use super::link::Tube;
 use super::tube::KrawczykTest;
@@ -344,31 +347,6 @@ pub struct Sample<const D: usize> {
 }
 
 impl<const D: usize> Sample<D> {
-    /// ẑ(s), in intervals.
-    pub fn at(&self, s: f64) -> Vec<Interval> {
-        let n = self.a.rows();
-        (0..n)
-            .map(|i| {
-                (0..=ORDER).rev().fold(point(0.0), |sum, k| {
-                    sum * point(s) + point(self.tube.local.z[k][i])
-                })
-            })
-            .collect()
-    }
-
-    /// ẑ'(s).
-    pub fn slope(&self, s: f64) -> Vec<Interval> {
-        let n = self.a.rows();
-        let term = |k: usize, i: usize| point(k as f64) * point(self.tube.local.z[k][i]);
-        (0..n)
-            .map(|i| {
-                (1..=ORDER)
-                    .rev()
-                    .fold(point(0.0), |sum, k| sum * point(s) + term(k, i))
-            })
-            .collect()
-    }
-
     /// A lower bound of |v|_u.
     pub fn norm(&self, v: &[Interval]) -> f64 {
         v.iter()
@@ -435,19 +413,11 @@ impl<const D: usize> Workshop<D> {
         })
     }
 
-    /// The tube around the sketch.
-    pub fn first(&mut self, homotopy: &Homotopy) -> Option<Sample<D>> {
-        let mut tube = Tube::new(&self.equations);
-        for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-            tube.local.z[0][i] = homotopy.sketch[place];
-        }
-        first_normal(&self.equations, &mut self.inverter, &mut tube.local, false).ok()?;
-        self.tube(&tube.local.z[0], &tube.local.normal, 4)
-    }
-
     /// Linked tubes from the sketch on, at most `count`.
     pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample<D>> {
-        let Some(first) = self.first(homotopy) else {
+        let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
+            .and_then(|local| self.tube(&local.z[0], &local.normal, 4));
+        let Some(first) = first else {
             return Vec::new();
         };
         let mut chain = vec![first];

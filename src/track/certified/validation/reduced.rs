@@ -7,7 +7,6 @@ use super::super::tracker::Test;
 use super::*;
 use crate::interval::rounding::round_up;
 use crate::linalg::LANE;
-use crate::track::full::Local;
 use crate::track::{Options, Space};
 
 pub type ReducedFrame<const D: usize> = <ReducedTest<D> as Test<D, COEFFICIENTS>>::Frame;
@@ -57,20 +56,6 @@ fn raise(max: &mut f64, x: f64) {
 impl<const D: usize> Proved<D> {
     fn n(&self) -> usize {
         self.tube.weights.len() - 1
-    }
-
-    /// ẑ(s) and ẑ'(s).
-    fn at(&self, s: f64) -> (Vec<Interval>, Vec<Interval>) {
-        let (z, s) = (&self.tube.local.z, point(s));
-        let horner = |i: usize, from: usize, factor: &dyn Fn(usize) -> f64| {
-            (from..COEFFICIENTS).rev().fold(point(0.0), |sum, k| {
-                sum * s + point(factor(k)) * point(z[k][i])
-            })
-        };
-        (
-            (0..self.n()).map(|i| horner(i, 0, &|_| 1.0)).collect(),
-            (0..self.n()).map(|i| horner(i, 1, &|k| k as f64)).collect(),
-        )
     }
 
     pub fn keys(&self) -> Vec<usize> {
@@ -134,7 +119,7 @@ impl<const D: usize> Proved<D> {
     /// 𝒴(s) g for columns g, a row per equation: a row per unknown.
     fn preconditioned(&self, exact: &Exact, g: &Rows, s: f64) -> Option<Rows> {
         let ((unknowns, rows), columns) = (self.inner(), g[0].len());
-        let jacobian = exact.bordered(&self.at(s).0, &self.tube.local.normal);
+        let jacobian = exact.bordered(&middle(&self.tube, s), &self.tube.local.normal);
         let a: Rows = rows
             .iter()
             .map(|&e| unknowns.iter().map(|&i| jacobian[e][i]).collect())
@@ -161,7 +146,8 @@ impl<const D: usize> Proved<D> {
         let n = self.n();
         let v: Vec<Interval> = v.iter().map(|&v| point(v)).collect();
         let w = self.sheared(&v, s, 1.0);
-        let z: Vec<Interval> = self.at(s).0.iter().zip(&w).map(|(z, w)| *z + *w).collect();
+        let there = middle(&self.tube, s);
+        let z: Vec<Interval> = there.iter().zip(&w).map(|(z, w)| *z + *w).collect();
         let mut rows = exact.bordered(&z, &self.tube.local.normal);
         // J T: what hangs on the key unknowns is added to their columns.
         let (keys, inner) = (self.keys(), self.inner().0);
@@ -235,6 +221,17 @@ fn solved(a: &Rows, g: &Rows) -> Option<Rows> {
     Some(out)
 }
 
+/// So many rows of right-hand sides, full or with few entries.
+pub fn right_hand_sides(random: &mut Random, rows: usize) -> Vec<[f64; LANE]> {
+    let sparse = random.below(2) == 0;
+    let mut entry = || match sparse && random.below(4) > 0 {
+        true => 0.0,
+        false => random.between(-1.0, 1.0),
+    };
+    let row = |_| std::array::from_fn(|_| entry());
+    (0..rows).map(row).collect()
+}
+
 pub struct Shop<const D: usize> {
     pub equations: Equations<D>,
     inverter: InverseMaker,
@@ -289,15 +286,9 @@ impl<const D: usize> Shop<D> {
 
     /// Linked tubes from the sketch on, at most `count`.
     pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved<D>> {
-        let mut local = Local::<D>::new(&self.equations);
-        for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-            local.z[0][i] = homotopy.sketch[place];
-        }
-        let set = first_normal(&self.equations, &mut self.inverter, &mut local, false);
-        if set.is_err() {
-            return Vec::new();
-        }
-        let Some(first) = self.tube(&local.z[0], &local.normal, true) else {
+        let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
+            .and_then(|local| self.tube(&local.z[0], &local.normal, true));
+        let Some(first) = first else {
             return Vec::new();
         };
         let mut chain = vec![first];
@@ -350,14 +341,14 @@ fn check_tube<const D: usize>(
     // Φ' at the middle, and Φ there.
     let s = any(random, stated.h);
     let x = s.abs() / stated.h;
-    let Some(middle) = sample.contraction(exact, s, &vec![0.0; n]) else {
+    let Some(norm) = sample.contraction(exact, s, &vec![0.0; n]) else {
         tally.unresolved += 1;
         return;
     };
     let bound = stated.constant + stated.cubic * x.powi(3);
-    assert!(middle <= bound, "|Φ'(0)| ≥ {middle} > {bound} at {x} of H");
-    raise(&mut tally.middle, middle / bound);
-    let mut f = exact.residual(&sample.at(s).0);
+    assert!(norm <= bound, "|Φ'(0)| ≥ {norm} > {bound} at {x} of H");
+    raise(&mut tally.middle, norm / bound);
+    let mut f = exact.residual(&middle(tube, s));
     f.push(point(0.0));
     let f: Rows = f.into_iter().map(|f| vec![f]).collect();
     if let Some(step) = sample.preconditioned(exact, &f, s) {
@@ -392,21 +383,12 @@ fn check_tube<const D: usize>(
     let (unknowns, rows) = sample.inner();
     if !rows.is_empty() {
         let s = any(random, stated.h);
-        let jacobian = exact.bordered(&sample.at(s).0, c);
+        let jacobian = exact.bordered(&middle(tube, s), c);
         let a: Rows = rows
             .iter()
             .map(|&e| unknowns.iter().map(|&i| jacobian[e][i]).collect())
             .collect();
-        let sparse = random.below(2) == 0;
-        let g: Vec<[f64; LANE]> = rows
-            .iter()
-            .map(|_| {
-                std::array::from_fn(|_| match sparse && random.below(4) > 0 {
-                    true => 0.0,
-                    false => random.between(-1.0, 1.0),
-                })
-            })
-            .collect();
+        let g = right_hand_sides(random, rows.len());
         let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.map(f64::abs)).collect();
         let (mut work, mut bound) = (sizes.clone(), sizes.clone());
         y.resolvent.bound(
@@ -435,7 +417,7 @@ fn check_tube<const D: usize>(
 
     // The path's point and direction.
     let s = any(random, proof.h);
-    let (through, slope) = sample.at(s);
+    let (through, slope) = (middle(tube, s), slope(tube, s));
     let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
     let Some((z, tangent)) = exact.point_near(&start, c, &through) else {
         tally.unresolved += 1;
@@ -475,7 +457,7 @@ fn check_tube<const D: usize>(
     let w = sample.sheared(&v, s, 1.0);
     let fixed: Vec<f64> = (0..n).map(|i| (through[i] + w[i]).mid()).collect();
     let extent = |s: f64| {
-        let there = sample.at(s).0;
+        let there = middle(tube, s);
         let away: Vec<Interval> = (0..n).map(|i| point(fixed[i]) - there[i]).collect();
         let stated = y.extent(&weights[..n], s, |i| {
             let away = fixed[i] - tube.local.entry_at(i, s);
@@ -517,7 +499,7 @@ fn check_link<const D: usize>(
     tally: &mut Tally,
 ) {
     let (n, c) = (exact.n, &sample.tube.local.normal[..exact.n]);
-    let through = sample.at(sample.tube.exit_at).0;
+    let through = middle(&sample.tube, sample.tube.exit_at);
     let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
     let Some((z, x)) = exact.point_near(&start, c, &through) else {
         tally.unresolved += 1;
@@ -531,18 +513,7 @@ fn check_link<const D: usize>(
     };
     in_ball(&z, &sample.tube.exit);
     if let Some(next) = next {
-        let g = |s: f64| {
-            let there = next.at(s).0;
-            (0..n).fold(point(0.0), |sum, i| {
-                sum + point(next.tube.local.normal[i]) * (z[i] - there[i])
-            })
-        };
-        let (lo, hi) = next.tube.entry;
-        assert!(g(lo).sup() >= 0.0 && g(hi).inf() <= 0.0, "the entry");
-        let along = (0..n).fold(point(0.0), |sum, i| {
-            sum + point(next.tube.local.normal[i]) * x[i]
-        });
-        assert!(along.sup() > 0.0, "the next tube is followed backwards");
+        check_entry(&next.tube, (&z, &x));
     }
     let mut tight = sample.tube.clone();
     if shop
@@ -638,33 +609,6 @@ fn reduced_proofs_hold_along_random_problems() {
     );
 }
 
-/// Whether an exit that was linked is in the other tube where it is said to be, and both run the
-/// same way there.
-fn link_is_true<const D: usize>(
-    exact: &Exact,
-    from: &Proved<D>,
-    to: &Proved<D>,
-    entry: (f64, f64),
-) -> bool {
-    let at = |sample: &Proved<D>, s: f64| {
-        let through = sample.at(s).0;
-        let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
-        exact
-            .point_near(&start, &sample.tube.local.normal[..exact.n], &through)
-            .expect("a regular point")
-    };
-    let (exit, ahead) = at(from, from.tube.exit_at);
-    let (there, along) = at(to, 0.5 * (entry.0 + entry.1));
-    let allowed = 1e-9 + 2.0 * (entry.1 - entry.0);
-    let pairs = || exit.iter().zip(&there);
-    let near = pairs().all(|(a, b)| (*a - *b).abs().inf() <= allowed);
-    let product = ahead
-        .iter()
-        .zip(&along)
-        .fold(point(0.0), |sum, (a, b)| sum + *a * *b);
-    near && product.sup() > 0.0
-}
-
 #[test]
 fn false_links_are_refused_in_the_reduced_space() {
     fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut [usize; 4]) {
@@ -676,7 +620,12 @@ fn false_links_are_refused_in_the_reduced_space() {
         let stride = (chain.len() / 20).max(1);
         for k in (0..chain.len() - 1).step_by(stride) {
             let (from, next) = (&chain[k], &chain[k + 1]);
-            assert!(link_is_true(&exact, from, next, next.tube.entry));
+            assert!(link_is_true(
+                &exact,
+                &from.tube,
+                &next.tube,
+                next.tube.entry
+            ));
             let (z, normal) = (&next.tube.local.z[0], &next.tube.local.normal);
             let last_axis = |i: usize| i < m && homotopy.gauge.place[i] % D == D - 1;
             let flip = |v: &[f64]| -> Vec<f64> {
@@ -704,13 +653,16 @@ fn false_links_are_refused_in_the_reduced_space() {
                     "a link to a tube that runs backwards"
                 );
                 if let Some(entry) = link {
-                    assert!(link_is_true(&exact, from, &other, entry), "kind {kind}");
+                    assert!(
+                        link_is_true(&exact, &from.tube, &other.tube, entry),
+                        "kind {kind}"
+                    );
                 }
             }
             for other in &chain {
                 if let Some(entry) = from.tube.leads_to(&other.tube) {
                     tally[3] += 1;
-                    assert!(link_is_true(&exact, from, other, entry));
+                    assert!(link_is_true(&exact, &from.tube, &other.tube, entry));
                 }
             }
         }

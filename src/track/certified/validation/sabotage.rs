@@ -2,38 +2,6 @@
 
 use super::*;
 
-/// If two tubes are linked, then the first one's exit is in the second where it is said to be,
-/// and both run the same way there.
-fn link_is_true<const D: usize>(
-    exact: &Exact,
-    from: &Sample<D>,
-    to: &Sample<D>,
-    entry: (f64, f64),
-) -> bool {
-    let at = |sample: &Sample<D>, s: f64| {
-        let through = sample.at(s);
-        let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
-        exact
-            .point_near(&start, sample.normal(), &through)
-            .expect("a regular point")
-    };
-    let (exit, ahead) = at(from, from.tube.exit_at);
-    let (there, along) = at(to, 0.5 * (entry.0 + entry.1));
-    // The entry's width moves the point by about as much, the weights aside.
-    let allowed = 1e-9 + 2.0 * (entry.1 - entry.0);
-    let near = exit
-        .iter()
-        .zip(&there)
-        .all(|(a, b)| (*a - *b).abs().inf() <= allowed);
-    let same_way = ahead
-        .iter()
-        .zip(&along)
-        .fold(point(0.0), |sum, (a, b)| sum + *a * *b)
-        .sup()
-        > 0.0;
-    near && same_way
-}
-
 #[derive(Debug, Default)]
 struct Tally {
     branches: usize,
@@ -53,7 +21,12 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
     let stride = (chain.len() / 40).max(1);
     for k in (0..chain.len() - 1).step_by(stride) {
         let (from, next) = (&chain[k], &chain[k + 1]);
-        assert!(link_is_true(&exact, from, next, next.tube.entry));
+        assert!(link_is_true(
+            &exact,
+            &from.tube,
+            &next.tube,
+            next.tube.entry
+        ));
 
         // The same piece of path, followed backwards.
         let back: Vec<f64> = next.normal()[..n].iter().map(|c| -c).collect();
@@ -78,7 +51,7 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
         {
             if let Some(entry) = from.tube.leads_to(&mirrored.tube) {
                 assert!(
-                    link_is_true(&exact, from, &mirrored, entry),
+                    link_is_true(&exact, &from.tube, &mirrored.tube, entry),
                     "linked to the mirror image"
                 );
             }
@@ -117,7 +90,7 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
             if let Some(other) = workshop.tube(&start, &normal, 2) {
                 if let Some(entry) = from.tube.leads_to(&other.tube) {
                     assert!(
-                        link_is_true(&exact, from, &other, entry),
+                        link_is_true(&exact, &from.tube, &other.tube, entry),
                         "linked to another branch"
                     );
                 } else {
@@ -132,7 +105,7 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
             if let Some(entry) = from.tube.leads_to(&other.tube) {
                 tally.linked_pairs += 1;
                 assert!(
-                    link_is_true(&exact, from, other, entry),
+                    link_is_true(&exact, &from.tube, &other.tube, entry),
                     "tubes that do not touch were linked"
                 );
             }

@@ -22,8 +22,7 @@ struct Tally {
 /// M(s, w) = I − (I − s A) Y [J(ẑ(s) + w); c] in intervals; a lower bound of |M|_u.
 fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f64]) -> f64 {
     let n = exact.n;
-    let z: Vec<Interval> = sample
-        .at(s)
+    let z: Vec<Interval> = middle(&sample.tube, s)
         .iter()
         .zip(w)
         .map(|(&z, &w)| z + point(w))
@@ -97,7 +96,7 @@ fn check_tube<const D: usize>(
 
         // (b) The path's point and direction.
         let s = any(random);
-        let through = sample.at(s);
+        let through = middle(&sample.tube, s);
         let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
         let Some((z, x)) = exact.point_near(&start, sample.normal(), &through) else {
             tally.unresolved += 1;
@@ -112,7 +111,7 @@ fn check_tube<const D: usize>(
             proof.distance
         );
         tally.nearest_distance = tally.nearest_distance.max(distance / proof.distance);
-        let slope = sample.slope(s);
+        let slope = slope(&sample.tube, s);
         let advance = (0..n).fold(point(0.0), |sum, i| {
             sum + point(sample.normal()[i]) * slope[i]
         });
@@ -170,7 +169,7 @@ fn check_link<const D: usize>(
     tally: &mut Tally,
 ) {
     let n = exact.n;
-    let through = sample.at(sample.tube.exit_at);
+    let through = middle(&sample.tube, sample.tube.exit_at);
     let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
     let Some((z, x)) = exact.point_near(&start, sample.normal(), &through) else {
         tally.unresolved += 1;
@@ -208,20 +207,8 @@ fn check_link<const D: usize>(
     }
     tally.tangents += 1;
     if let Some(next) = next {
-        let g = |s: f64| {
-            let there = next.at(s);
-            (0..n).fold(point(0.0), |sum, i| {
-                sum + point(next.normal()[i]) * (z[i] - there[i])
-            })
-        };
-        let (lo, hi) = next.tube.entry;
-        assert!(
-            g(lo).sup() >= 0.0 && g(hi).inf() <= 0.0,
-            "the entry is not in [{lo}, {hi}]"
-        );
         // x is along this tube's direction, as c·x = 1.
-        let along = (0..n).fold(point(0.0), |sum, i| sum + point(next.normal()[i]) * x[i]);
-        assert!(along.sup() > 0.0, "the next tube is followed backwards");
+        check_entry(&next.tube, (&z, &x));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Bounds of the full space: along certified runs, and with numbers changed on purpose.
 
-use super::big::{exact, horner, horner_slope};
+use super::big::exact;
 use super::moved::lengthen;
 use super::reduced::{check_time, within};
 use super::*;
@@ -40,18 +40,6 @@ fn times(a: &Rows, b: &Rows) -> Rows {
     a.iter().map(row).collect()
 }
 
-/// ẑ(s), its low words included, and ẑ'(s).
-fn at<const D: usize>(sample: &Sample<D>, s: &Big) -> (Vec<Big>, Vec<Big>) {
-    let of = |i: usize| std::array::from_fn::<f64, { ORDER + 1 }, _>(|k| sample.tube.local.z[k][i]);
-    let n = sample.a.rows();
-    (
-        (0..n)
-            .map(|i| horner(&of(i), s) + Big::of(sample.tube.local.low[i]))
-            .collect(),
-        (0..n).map(|i| horner_slope(&of(i), s)).collect(),
-    )
-}
-
 /// |v|_u.
 fn norm(u: &[f64], v: &[Big]) -> Big {
     v.iter()
@@ -77,7 +65,12 @@ fn contraction<const D: usize>(
     (y, s): (&Rows, &Big),
     w: &[Big],
 ) -> Rows {
-    let z: Vec<Big> = at(sample, s).0.iter().zip(w).map(|(z, w)| z + w).collect();
+    let z: Vec<Big> = at(&sample.tube, s)
+        .0
+        .iter()
+        .zip(w)
+        .map(|(z, w)| z + w)
+        .collect();
     let mut out = times(y, &figure.bordered(&z, sample.normal()));
     for (i, row) in out.iter_mut().enumerate() {
         for (j, x) in row.iter_mut().enumerate() {
@@ -123,7 +116,7 @@ fn check_norms<const D: usize>(
         &norm_of(u, &change),
         round_up(width * size, 1),
     );
-    let (z, slope) = at(sample, &s);
+    let (z, slope) = at(&sample.tube, &s);
     let mut f = figure.residual(&z);
     f.push(Big::of(0.0));
     let step: Vec<Big> = y.iter().map(|row| dot(row, &f)).collect();
@@ -145,7 +138,7 @@ pub fn check_path<const D: usize>(
     let (proof, u, c) = (&tube.proof, &tube.weights[..n], &sample.normal()[..n]);
     let place = parameter(random, proof.h);
     let s = Big::of(place);
-    let (through, slope) = at(sample, &s);
+    let (through, slope) = at(tube, &s);
     let (z, tangent) = figure.point_near(&through, c)?;
     let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
     ratios.check("distance", &norm(u, &away), proof.distance);
@@ -195,7 +188,7 @@ pub fn check_exit<const D: usize>(
     ratios: &mut Ratios,
 ) -> Option<()> {
     let (n, c) = (figure.n, sample.normal());
-    let (through, _) = at(sample, &Big::of(sample.tube.exit_at));
+    let (through, _) = at(&sample.tube, &Big::of(sample.tube.exit_at));
     let (z, x) = figure.point_near(&through, c)?;
     let mut tight = sample.tube.clone();
     workshop
@@ -211,21 +204,7 @@ pub fn check_exit<const D: usize>(
         ratios.check("tight tangent", &turned, bound);
     }
     if let Some(next) = next {
-        let normal = exact(&next.normal()[..n]);
-        let g = |s: f64| {
-            let (there, _) = at(next, &Big::of(s));
-            let away: Vec<Big> = z.iter().zip(&there).map(|(z, x)| z - x).collect();
-            dot(&normal, &away)
-        };
-        let (lo, hi) = next.tube.entry;
-        assert!(
-            g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0),
-            "the entry is not in [{lo}, {hi}]"
-        );
-        assert!(
-            dot(&normal, &x) > Big::of(0.0),
-            "the next tube is followed backwards"
-        );
+        check_entry(&next.tube, (&z, &x));
     }
     Some(())
 }
@@ -354,9 +333,7 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
     let mut workshop = Workshop::<2>::new(&homotopy, 1.0);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&workshop.equations);
-    for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-        tube.local.z[0][i] = homotopy.sketch[place];
-    }
+    tube.local.z[0] = sketch(&homotopy, &workshop.equations);
     tube.local.normal[m] = 1.0;
     for step in 0..=50 {
         tube.local.z[0][m] = 0.01 * f64::from(step);

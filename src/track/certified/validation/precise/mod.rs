@@ -18,7 +18,7 @@ mod shears;
 mod view;
 
 use super::*;
-use big::{Big, Rows, dot, solve};
+use big::{Big, Rows, dot, exact, horner, horner_slope, solve};
 use figure::Figure;
 use std::collections::BTreeMap;
 
@@ -123,6 +123,52 @@ pub fn parameter(random: &mut Random, h: f64) -> f64 {
         3 => 1e-3 * random.between(-h, h),
         _ => random.between(-h, h),
     }
+}
+
+/// ẑ(s), its low words included, and ẑ'(s).
+pub fn at<const D: usize, const N: usize, Y>(
+    tube: &Tube<D, N, Y>,
+    s: &Big,
+) -> (Vec<Big>, Vec<Big>) {
+    let of = |i: usize| std::array::from_fn::<f64, N, _>(|k| tube.local.z[k][i]);
+    let all = 0..tube.weights.len() - 1;
+    (
+        all.clone()
+            .map(|i| horner(&of(i), s) + Big::of(tube.local.low[i]))
+            .collect(),
+        all.map(|i| horner_slope(&of(i), s)).collect(),
+    )
+}
+
+/// Whether a point of the path is in a tube between these parameters.
+pub fn is_between<const D: usize, const N: usize, Y>(
+    tube: &Tube<D, N, Y>,
+    z: &[Big],
+    (lo, hi): (f64, f64),
+) -> bool {
+    let g = |s: f64| {
+        let (there, _) = at(tube, &Big::of(s));
+        let away: Vec<Big> = z.iter().zip(&there).map(|(z, x)| z - x).collect();
+        dot(&exact(&tube.local.normal[..z.len()]), &away)
+    };
+    g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0)
+}
+
+/// The exit of the tube before, and the path's direction there: it is in this tube where its entry
+/// says, and this tube is followed the same way.
+pub fn check_entry<const D: usize, const N: usize, Y>(
+    tube: &Tube<D, N, Y>,
+    (z, direction): (&[Big], &[Big]),
+) {
+    assert!(
+        is_between(tube, z, tube.entry),
+        "the entry is not in {:?}",
+        tube.entry
+    );
+    assert!(
+        dot(&exact(&tube.local.normal[..z.len()]), direction) > Big::of(0.0),
+        "the next tube is followed backwards"
+    );
 }
 
 /// Brings what follows from ẑ's coefficients up to date with them.

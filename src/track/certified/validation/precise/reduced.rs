@@ -1,6 +1,6 @@
 //! Bounds of the reduced space along certified runs.
 
-use super::super::reduced::{Proved, ReducedTube, Shop};
+use super::super::reduced::{Proved, ReducedTube, Shop, right_hand_sides};
 use super::big::{exact, horner};
 use super::view::View;
 use super::*;
@@ -129,15 +129,7 @@ pub fn check_resolvent<const D: usize>(
                 .collect()
         })
         .collect();
-    let sparse = random.below(2) == 0;
-    let g: Vec<[f64; LANE]> = (0..view.rows.len())
-        .map(|_| {
-            std::array::from_fn(|_| match sparse && random.below(4) > 0 {
-                true => 0.0,
-                false => random.between(-1.0, 1.0),
-            })
-        })
-        .collect();
+    let g = right_hand_sides(random, view.rows.len());
     let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.map(f64::abs)).collect();
     let (mut work, mut bound) = (sizes.clone(), sizes.clone());
     let layout = &y.elimination.layout;
@@ -297,8 +289,7 @@ pub fn check_exit<const D: usize>(
 ) -> Option<()> {
     let (n, tube) = (figure.n, &sample.tube);
     let c = &tube.local.normal[..n];
-    let view = View::new(figure, tube);
-    let (through, _) = view.at(&Big::of(tube.exit_at));
+    let (through, _) = at(tube, &Big::of(tube.exit_at));
     let (z, x) = figure.point_near(&through, c)?;
     let away = |z: &[Big], i: usize, centre: f64| (&z[i] - &Big::of(centre)).abs();
     for i in 0..n {
@@ -309,22 +300,7 @@ pub fn check_exit<const D: usize>(
         );
     }
     if let Some(next) = next {
-        let there = View::new(figure, &next.tube);
-        let normal = exact(&next.tube.local.normal[..n]);
-        let g = |s: f64| {
-            let (at, _) = there.at(&Big::of(s));
-            let away: Vec<Big> = z.iter().zip(&at).map(|(z, x)| z - x).collect();
-            dot(&normal, &away)
-        };
-        let (lo, hi) = next.tube.entry;
-        assert!(
-            g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0),
-            "the entry is not in [{lo}, {hi}]"
-        );
-        assert!(
-            dot(&normal, &x) > Big::of(0.0),
-            "the next tube is followed backwards"
-        );
+        check_entry(&next.tube, (&z, &x));
     }
     let mut tight = tube.clone();
     if shop
@@ -350,16 +326,7 @@ pub fn check_tied<const D: usize>(
     assert!(tube.entry.1 < lo && lo <= hi && hi <= tube.exit_at);
     let through = exact(&tight.exit.centre[..n]);
     let (z, x) = figure.point_near(&through, c)?;
-    let view = View::new(figure, tube);
-    let g = |s: f64| {
-        let (at, _) = view.at(&Big::of(s));
-        let away: Vec<Big> = z.iter().zip(&at).map(|(z, x)| z - x).collect();
-        dot(&exact(c), &away)
-    };
-    assert!(
-        g(lo) >= Big::of(0.0) && g(hi) <= Big::of(0.0),
-        "the tied exit's parameter"
-    );
+    assert!(is_between(tube, &z, (lo, hi)), "the tied exit's parameter");
     let advance = dot(&exact(c), &exact(&tight.exit_slope[..n]));
     for i in 0..n {
         let away = (&z[i] - &through[i]).abs();

@@ -138,9 +138,7 @@ fn the_bend_counts_to_its_last_order() {
     let mut shop = Shop::<2>::new(&homotopy, 0.1, f64::INFINITY);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&shop.equations);
-    for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-        tube.local.z[0][i] = homotopy.sketch[place];
-    }
+    tube.local.z[0] = sketch(&homotopy, &shop.equations);
     tube.local.normal[m] = 1.0;
     // The bend grows from 1 to 2 in small steps of t.
     for step in 0..=50 {

@@ -4,7 +4,7 @@ use super::super::reduced::ReducedTube;
 use super::big::{exact, horner, horner_slope};
 use super::*;
 use crate::linalg::LANE;
-use crate::track::certified::reduced::{Block, COEFFICIENTS};
+use crate::track::certified::reduced::Block;
 
 /// A tube of the reduced space, its numbers taken for exact.
 pub struct View<'a, const D: usize> {
@@ -34,17 +34,9 @@ impl<'a, const D: usize> View<'a, D> {
         }
     }
 
-    fn coefficients(&self, i: usize) -> [f64; COEFFICIENTS] {
-        std::array::from_fn(|k| self.tube.local.z[k][i])
-    }
-
     /// ẑ(s) and ẑ'(s).
     pub fn at(&self, s: &Big) -> (Vec<Big>, Vec<Big>) {
-        let all = || (0..self.figure.n).map(|i| self.coefficients(i));
-        (
-            all().map(|c| horner(&c, s)).collect(),
-            all().map(|c| horner_slope(&c, s)).collect(),
-        )
+        at(self.tube, s)
     }
 
     /// Coefficients of row i, entry l of a series.

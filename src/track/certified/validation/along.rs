@@ -1,0 +1,103 @@
+//! What tests of both spaces look at along a chain: where it starts, tubes' middles, their links.
+
+use super::*;
+
+/// The sketch, with t = 0.
+pub fn sketch<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> Vector {
+    let mut z = equations.vector();
+    for (z, &place) in z.iter_mut().zip(&homotopy.gauge.place) {
+        *z = homotopy.sketch[place];
+    }
+    z
+}
+
+/// That point, its normal in the direction in which t rises. `None`: it is singular.
+pub fn at_sketch<const D: usize>(
+    homotopy: &Homotopy,
+    equations: &Equations<D>,
+    inverter: &mut InverseMaker,
+) -> Option<Local<D>> {
+    let mut local = Local::new(equations);
+    local.z[0].copy_from_slice(&sketch(homotopy, equations));
+    first_normal(equations, inverter, &mut local, false).ok()?;
+    Some(local)
+}
+
+/// ẑ(s), in intervals.
+pub fn middle<const D: usize, const N: usize, Y>(tube: &Tube<D, N, Y>, s: f64) -> Vec<Interval> {
+    let term = |k: usize, i: usize| point(tube.local.z[k][i]);
+    (0..tube.weights.len() - 1)
+        .map(|i| {
+            (0..N)
+                .rev()
+                .fold(point(0.0), |sum, k| sum * point(s) + term(k, i))
+        })
+        .collect()
+}
+
+/// ẑ'(s).
+pub fn slope<const D: usize, const N: usize, Y>(tube: &Tube<D, N, Y>, s: f64) -> Vec<Interval> {
+    let term = |k: usize, i: usize| point(k as f64) * point(tube.local.z[k][i]);
+    (0..tube.weights.len() - 1)
+        .map(|i| {
+            (1..N)
+                .rev()
+                .fold(point(0.0), |sum, k| sum * point(s) + term(k, i))
+        })
+        .collect()
+}
+
+/// A point of the path, the exit of the tube before, and the path's direction there: it is in this tube
+/// where its entry says, and this tube is followed the same way.
+pub fn check_entry<const D: usize, const N: usize, Y>(
+    tube: &Tube<D, N, Y>,
+    (z, direction): (&[Interval], &[Interval]),
+) {
+    let normal = &tube.local.normal;
+    let along = |v: &[Interval]| {
+        let terms = v.iter().zip(normal.iter());
+        terms.fold(point(0.0), |sum, (v, &c)| sum + point(c) * *v)
+    };
+    let g = |s: f64| {
+        let there = middle(tube, s);
+        let away: Vec<Interval> = z.iter().zip(&there).map(|(z, x)| *z - *x).collect();
+        along(&away)
+    };
+    let (lo, hi) = tube.entry;
+    assert!(
+        g(lo).sup() >= 0.0 && g(hi).inf() <= 0.0,
+        "the entry is not in [{lo}, {hi}]"
+    );
+    assert!(
+        along(direction).sup() > 0.0,
+        "the next tube is followed backwards"
+    );
+}
+
+/// If two tubes are linked, then the first one's exit is in the second where it is said to be,
+/// and both run the same way there.
+pub fn link_is_true<const D: usize, const N: usize, Y>(
+    exact: &Exact,
+    from: &Tube<D, N, Y>,
+    to: &Tube<D, N, Y>,
+    entry: (f64, f64),
+) -> bool {
+    let at = |tube: &Tube<D, N, Y>, s: f64| {
+        let through = middle(tube, s);
+        let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
+        exact
+            .point_near(&start, &tube.local.normal, &through)
+            .expect("a regular point")
+    };
+    let (exit, ahead) = at(from, from.exit_at);
+    let (there, along) = at(to, 0.5 * (entry.0 + entry.1));
+    // The entry's width moves the point by about as much, the weights aside.
+    let allowed = 1e-9 + 2.0 * (entry.1 - entry.0);
+    let mut pairs = exit.iter().zip(&there);
+    let near = pairs.all(|(a, b)| (*a - *b).abs().inf() <= allowed);
+    let product = ahead
+        .iter()
+        .zip(&along)
+        .fold(point(0.0), |sum, (a, b)| sum + *a * *b);
+    near && product.sup() > 0.0
+}
