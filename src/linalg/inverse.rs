@@ -139,12 +139,14 @@ fn exchange<const L: usize>(
     free: &mut Vector,
 ) -> Result<bool, Singular> {
     let mut negative = pivots.odd;
+    // A column is so many blocks of L lanes.
+    let (blocks, per_column) = (data.as_chunks_mut::<L>().0, lanes / L);
     for (step, &k) in pivots.order.iter().enumerate() {
         let touched = &pivots.touched[pivots.starts[step]..pivots.starts[step + 1]];
-        let (lane, at) = (k / LANE, k % LANE);
-        let column = &mut data[k * lanes..(k + 1) * lanes];
-        let pivot = column[lane][at];
-        let largest = largest(column, free.lanes());
+        let (block_of_k, lane, at) = (k / (L * LANE), k / LANE % L, k % LANE);
+        let column = &mut blocks[k * per_column..(k + 1) * per_column];
+        let pivot = column[block_of_k][lane][at];
+        let largest = largest(column.as_flattened(), free.lanes());
         // Also refuses a NaN and an infinity.
         let strong = pivot.abs() >= WEAK_PIVOT * largest && pivot != 0.0 && largest.is_finite();
         if !strong {
@@ -153,34 +155,31 @@ fn exchange<const L: usize>(
         negative ^= pivot < 0.0;
         free[k] = 0.0;
         let inverse = 1.0 / pivot;
-        column[lane][at] = 0.0;
-        for (m, x) in multipliers.lanes_mut().iter_mut().zip(column.iter_mut()) {
-            for i in 0..LANE {
-                x[i] *= inverse;
-                m[i] = -x[i];
-            }
+        column[block_of_k][lane][at] = 0.0;
+        let column_lanes = column.as_flattened_mut().iter_mut();
+        for (m, x) in multipliers.lanes_mut().iter_mut().zip(column_lanes) {
+            let scaled = x.map(|x| x * inverse);
+            *x = scaled;
+            *m = scaled.map(|x| -x);
         }
-        column[lane][at] = inverse;
-        for offset in (0..lanes).step_by(L) {
-            let m: [Lane; L] = multipliers.lanes()[offset..offset + L]
-                .try_into()
-                .expect("L lanes");
+        column[block_of_k][lane][at] = inverse;
+        // The block of the pivot's row last, as all the others read it.
+        let others = (0..per_column).filter(|&at| at != block_of_k);
+        for block in others.chain([block_of_k]) {
+            let m = multipliers.lanes().as_chunks::<L>().0[block];
             for &j in touched {
-                let column = &mut data[j as usize * lanes..(j as usize + 1) * lanes];
-                let c = column[lane][at];
-                let block: &mut [Lane; L] = (&mut column[offset..offset + L])
-                    .try_into()
-                    .expect("L lanes");
-                for l in 0..L {
-                    for i in 0..LANE {
-                        block[l][i] = m[l][i].mul_add(c, block[l][i]);
-                    }
+                let from = j as usize * per_column;
+                let c = blocks[from + block_of_k][lane][at];
+                let entries = &mut blocks[from + block];
+                for (entry, m) in entries.iter_mut().zip(&m) {
+                    let sum = *entry;
+                    *entry = std::array::from_fn(|i| m[i].mul_add(c, sum[i]));
+                }
+                if block == block_of_k {
+                    // Its multiplier was zero.
+                    entries[lane][at] = c * -inverse;
                 }
             }
-        }
-        // The pivot's row last, as all blocks read it; its multiplier was zero.
-        for &j in touched {
-            data[j as usize * lanes + lane][at] *= -inverse;
         }
     }
     Ok(negative)

@@ -138,9 +138,12 @@ impl<const D: usize> KrawczykTest<D> {
             equations.residual(&self.near, &self.lengths, &mut self.f);
             local.y.multiply(&self.f[..m], &mut self.v);
             self.a.multiply(&self.v[..n], &mut self.f);
-            for i in 0..n {
-                self.v[i] -= s * self.f[i];
-                out.centre[i] -= self.v[i];
+            // Beyond n all of these are zero.
+            let moved = self.v.lanes_mut().iter_mut().zip(self.f.lanes());
+            for ((v, f), centre) in moved.zip(out.centre.lanes_mut()) {
+                let (step, from) = (*v, *centre);
+                *v = std::array::from_fn(|i| step[i] - s * f[i]);
+                *centre = std::array::from_fn(|i| from[i] - (step[i] - s * f[i]));
             }
             let last = step;
             step = norm_of(&self.v, u, n);

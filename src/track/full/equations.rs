@@ -37,18 +37,21 @@ pub struct Equations<const D: usize> {
     pub bend: Bend,
     /// The lengths in extended precision, once that was asked for.
     extended: Option<Box<Extended>>,
-    /// The pattern of a derivative of the Jacobian, and which value each of its entries has:
-    /// (axis, distance, sign), or the entry of t.
+    /// The pattern of a derivative of the Jacobian.
     pattern: Sparse,
     /// The pattern of the Jacobian with the normal for its last row.
     bordered: Sparse,
-    sources: Vec<Source>,
+    /// For each axis, which entries of these its differences are.
+    sources: [Vec<Source>; D],
 }
 
+/// An entry that is a difference, or minus one.
 #[derive(Debug, Clone, Copy)]
 struct Source {
-    axis: u32,
     edge: u32,
+    /// Its place among the values of the pattern, and of the bordered one.
+    plain: u32,
+    bordered: u32,
     sign: f64,
 }
 
@@ -74,25 +77,34 @@ impl<const D: usize> Equations<D> {
             out
         };
         let bend = homotopy.bend;
-        let mut columns: Vec<Vec<(usize, Source)>> = vec![Vec::new(); m];
+        // The edges of each column's entries, with axes and signs.
+        let mut columns = vec![Vec::new(); m];
         for axis in 0..D {
             for (edge, &end) in ends[axis].iter().enumerate() {
                 for (end, sign) in end.into_iter().zip([1.0, -1.0]) {
                     if (end as usize) < m {
-                        let source = Source {
-                            axis: axis as u32,
-                            edge: edge as u32,
-                            sign,
-                        };
-                        columns[end as usize].push((edge, source));
+                        columns[end as usize].push((edge, axis, sign));
                     }
                 }
             }
         }
-        let rows = |column: &[(usize, Source)]| column.iter().map(|c| c.0).collect::<Vec<_>>();
-        let time: Vec<usize> = (0..m).collect();
-        let mut plain: Vec<Vec<usize>> = columns.iter().map(|c| rows(c)).collect();
-        plain.push(time);
+        let mut sources: [Vec<Source>; D] = std::array::from_fn(|_| Vec::new());
+        let mut plain = 0;
+        for (column, entries) in columns.iter().enumerate() {
+            for &(edge, axis, sign) in entries {
+                sources[axis].push(Source {
+                    edge: edge as u32,
+                    plain,
+                    // The normal has one entry in each column before.
+                    bordered: plain + column as u32,
+                    sign,
+                });
+                plain += 1;
+            }
+        }
+        let rows = |column: &Vec<(usize, usize, f64)>| column.iter().map(|c| c.0).collect();
+        let mut plain: Vec<Vec<usize>> = columns.iter().map(rows).collect();
+        plain.push((0..m).collect());
         let bordered: Vec<Vec<usize>> = plain
             .iter()
             .map(|column| column.iter().copied().chain([m]).collect())
@@ -110,7 +122,7 @@ impl<const D: usize> Equations<D> {
             extended: None,
             pattern: Sparse::new(&plain),
             bordered: Sparse::new(&bordered),
-            sources: columns.into_iter().flatten().map(|c| c.1).collect(),
+            sources,
         }
     }
 
@@ -306,11 +318,13 @@ impl<const D: usize> Equations<D> {
     /// Values for [`Equations::pattern`]: the differences, and minus `time` in the column of t.
     #[inline(always)]
     pub fn pattern_values(&self, d: &[Vector; D], time: &[f64], out: &mut [f64]) {
-        let (entries, last) = out.split_at_mut(self.sources.len());
-        for (out, source) in entries.iter_mut().zip(&self.sources) {
-            *out = source.sign * d[source.axis as usize][source.edge as usize];
+        for (sources, d) in self.sources.iter().zip(d) {
+            for source in sources {
+                out[source.plain as usize] = source.sign * d[source.edge as usize];
+            }
         }
-        for (out, time) in last.iter_mut().zip(time) {
+        let last = self.pattern.entries() - self.m;
+        for (out, time) in out[last..].iter_mut().zip(time) {
             *out = -time;
         }
     }
@@ -323,22 +337,20 @@ impl<const D: usize> Equations<D> {
         normal: &[f64],
         out: &mut [f64],
     ) {
-        let (mut at, mut from) = (0, 0);
-        for column in 0..self.m {
-            let count = self.pattern.entries_of(column);
-            for source in &self.sources[from..from + count] {
-                out[at] = source.sign * d[source.axis as usize][source.edge as usize];
-                at += 1;
+        for (sources, d) in self.sources.iter().zip(d) {
+            for source in sources {
+                out[source.bordered as usize] = source.sign * d[source.edge as usize];
             }
-            from += count;
-            out[at] = normal[column];
-            at += 1;
         }
-        for slope in lengths.terms[1].iter() {
-            out[at] = -slope;
-            at += 1;
+        let mut last = 0;
+        for (column, normal) in normal[..self.m].iter().enumerate() {
+            last += self.bordered.entries_of(column);
+            out[last - 1] = *normal;
         }
-        out[at] = normal[self.m];
+        let of_time = lengths.terms[1].iter().map(|slope| -slope);
+        for (out, value) in out[last..].iter_mut().zip(of_time.chain([normal[self.m]])) {
+            *out = value;
+        }
     }
 }
 
