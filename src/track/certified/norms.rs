@@ -149,7 +149,8 @@ impl Norms {
         let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
         // Otherwise no tube after this one could be proved to go the same way.
         let direction = slope_distance * self.normal;
-        if direction > 0.5 {
+        let is_known = direction <= 0.5;
+        if !is_known {
             return Err(Shortfall::Direction(direction));
         }
         Ok(Proof {

@@ -230,28 +230,33 @@ impl<const D: usize> KrawczykTest<D> {
         let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
         for l in 0..e0.len() {
-            for i in 0..LANE {
-                let (mut j_near, mut j_far, mut j_width, mut size) = (0.0, 0.0, 0.0, 0.0);
-                for axis in 0..D {
-                    let sum = self.sums[axis].lanes()[l][i];
-                    let (near, far) = (self.near[axis].lanes()[l][i], self.far[axis].lanes()[l][i]);
-                    j_near += near * sum;
-                    j_far += far * sum;
-                    j_width += sum * sum;
-                    size += (near + far) * (near + far);
+            let (mut j_near, mut j_far) = ([0.0; LANE], [0.0; LANE]);
+            let (mut j_width, mut size) = ([0.0; LANE], [0.0; LANE]);
+            for axis in 0..D {
+                let of = |vectors: &[Vector; D]| vectors[axis].lanes()[l];
+                let (sum, near, far) = (of(&self.sums), of(&self.near), of(&self.far));
+                for i in 0..LANE {
+                    j_near[i] += near[i] * sum[i];
+                    j_far[i] += far[i] * sum[i];
+                    j_width[i] += sum[i] * sum[i];
+                    size[i] += (near[i] + far[i]) * (near[i] + far[i]);
                 }
-                let [e0, e1, e2] = [e0[l][i], e1[l][i], e2[l][i]].map(f64::abs);
-                let [r0, r1, r2] = [r0[l][i], r1[l][i], r2[l][i]];
-                let slope_size = e1 + 2.0 * t * e2;
-                let slope_radius = r1 + 2.0 * t * r2;
-                rounding.lanes_mut()[l][i] =
-                    per_entry * (j_near + slope_size * ut) + slope_radius * ut;
-                higher.lanes_mut()[l][i] = j_far + 2.0 * e2 * t_higher * ut;
-                width.lanes_mut()[l][i] = j_width + 2.0 * (e2 + r2) * (ut * ut);
-                let length_size = e0 + t * (e1 + t * e2);
-                let length_radius = r0 + t * (r1 + t * r2);
-                low.lanes_mut()[l][i] = gamma(200) * (size + length_size) + length_radius;
             }
+            let [e0, e1, e2] = [e0[l], e1[l], e2[l]].map(|e| e.map(f64::abs));
+            let (r0, r1, r2) = (r0[l], r1[l], r2[l]);
+            rounding.lanes_mut()[l] = std::array::from_fn(|i| {
+                let slope_size = e1[i] + 2.0 * t * e2[i];
+                let slope_radius = r1[i] + 2.0 * t * r2[i];
+                per_entry * (j_near[i] + slope_size * ut) + slope_radius * ut
+            });
+            higher.lanes_mut()[l] = std::array::from_fn(|i| j_far[i] + 2.0 * e2[i] * t_higher * ut);
+            width.lanes_mut()[l] =
+                std::array::from_fn(|i| j_width[i] + 2.0 * (e2[i] + r2[i]) * (ut * ut));
+            low.lanes_mut()[l] = std::array::from_fn(|i| {
+                let length_size = e0[i] + t * (e1[i] + t * e2[i]);
+                let length_radius = r0[i] + t * (r1[i] + t * r2[i]);
+                gamma(200) * (size[i] + length_size) + length_radius
+            });
         }
         self.bound_bend(local, equations, t, ut, hs, per_entry);
 
@@ -396,12 +401,17 @@ impl<const D: usize> KrawczykTest<D> {
 impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
     type Frame = Matrix;
     const SPACE: Space = Space::Full;
+    const FORESEES: bool = false;
 
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
         KrawczykTest {
             radius: options.radius(homotopy.unit),
             ..KrawczykTest::new(equations)
         }
+    }
+
+    fn adopt(&mut self, inverter: &InverseMaker) {
+        self.maker = inverter.clone();
     }
 
     fn refine(

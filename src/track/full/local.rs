@@ -218,10 +218,10 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         // tells how near it was, further ones stop shrinking at the limit of precision.
         for _ in 0..3 {
             self.z[0][m] = t;
-            let refined = self.refine(equations, maker, 1e-13, 20);
-            if refined.is_err() && (self.first_correction.is_nan() || self.first_correction > 1e-5)
-            {
-                return None;
+            match self.refine(equations, maker, 1e-13, 20) {
+                Ok(()) => break,
+                Err(_) if self.first_correction <= 1e-5 => {}
+                Err(_) => return None,
             }
         }
         self.z[0][m] = t;
@@ -287,10 +287,13 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         let [p1, p2, p3, p4] = &mut self.powers;
         p1[k] = t;
         let (mut s2, mut s3, mut s4) = (0.0, 0.0, 0.0);
-        for a in 1..k.min(Self::ORDER + 1) {
-            s2 += p1[a] * p1[k - a];
-            s3 += p1[a] * p2[k - a];
-            s4 += p1[a] * p3[k - a];
+        // t_a, 1 ≤ a ≤ ORDER, with what goes with it from order k − 1 down.
+        let last = k.clamp(1, Self::ORDER + 1);
+        let others = p1[..k].iter().zip(&p2[..k]).zip(&p3[..k]).rev();
+        for (t, ((p1, p2), p3)) in p1[1..last].iter().zip(others) {
+            s2 += t * p1;
+            s3 += t * p2;
+            s4 += t * p3;
         }
         (p2[k], p3[k], p4[k]) = (s2, s3, s4);
     }
@@ -308,10 +311,8 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         let slope = self.lengths.terms[1].lanes();
         let lanes = e2.len();
         let out_lanes = &mut out.lanes_mut()[..lanes];
-        for (l, out) in out_lanes.iter_mut().enumerate() {
-            for i in 0..LANE {
-                out[i] = -(e2[l][i].mul_add(square, slope[l][i] * linear));
-            }
+        for ((out, e2), slope) in out_lanes.iter_mut().zip(e2).zip(slope) {
+            *out = std::array::from_fn(|i| -(e2[i].mul_add(square, slope[i] * linear)));
         }
         for a in least..=k / 2 {
             let b = k - a;
@@ -427,13 +428,13 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// ẑ'(s).
     pub fn slope(&self, s: f64, out: &mut Vector) {
-        let z = self.z.each_ref().map(|z| z.lanes());
         for (l, out) in out.lanes_mut().iter_mut().enumerate() {
-            for i in 0..LANE {
-                out[i] = (1..N)
-                    .rev()
-                    .fold(0.0, |sum: f64, k| sum.mul_add(s, k as f64 * z[k][l][i]));
+            let mut sum = [0.0f64; LANE];
+            for (k, z) in self.z.iter().enumerate().skip(1).rev() {
+                let (k, z) = (k as f64, z.lanes()[l]);
+                sum = std::array::from_fn(|i| sum[i].mul_add(s, k * z[i]));
             }
+            *out = sum;
         }
     }
 }

@@ -75,7 +75,8 @@ impl Bounds {
         let slope_distance = round_up(slope, 80);
         // Otherwise no tube after this one could be proved to go the same way.
         let direction = slope_distance * self.normal;
-        if direction > 0.5 {
+        let is_known = direction <= 0.5;
+        if !is_known {
             return Err(Shortfall::Direction(direction));
         }
         Ok(Proof {
