@@ -128,6 +128,11 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
             .then(|| ((s - omega).next_down(), (s + omega).next_up()))
     }
 
+    /// Whether the cross-section through the middle of a ball may be one of the tube's: no proof.
+    pub fn reaches(&self, ball: &Ball) -> bool {
+        self.parameter_near(ball).abs() < self.proof.h
+    }
+
     /// For a ball with its middle near the cross-section of `s`: how far from s its points may be along
     /// the tube, and from the tube's middle in the norm of the box.
     #[inline(always)]

@@ -14,6 +14,8 @@ use crate::track::full::{Equations, LARGEST_TANGENT, Local, Preconditioner, Refi
 pub enum Rejection {
     /// No point of the path was found.
     Refine(RefineError),
+    /// The tube would be so short that it could not reach back, as far as can be foreseen.
+    Short(f64),
     /// No tube around it could be proved.
     Unproved,
     /// It could not be linked to what comes before.
@@ -28,7 +30,7 @@ impl Rejection {
         match self {
             Rejection::Refine(_) => "bring points onto the path",
             Rejection::Unproved => "prove a tube",
-            Rejection::Unlinked => "link two tubes",
+            Rejection::Short(_) | Rejection::Unlinked => "link two tubes",
             Rejection::Undecided(_) => "tell whether the path meets t = 1",
         }
     }

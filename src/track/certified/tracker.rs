@@ -1,6 +1,7 @@
 //! The chain of tubes from the sketch back to the sketch.
 
 mod extension;
+mod stride;
 
 use super::ledger::Ledger;
 use super::link::{Ball, Frame, Tube};
@@ -15,15 +16,11 @@ use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition,
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use extension::Extension;
 use std::time::Instant;
+use stride::Stride;
 
 /// The path leaves a tube at this fraction of its half length, so that there is room behind the
 /// exit for a crossing of t = 1 that falls on it.
 const EXIT: f64 = 0.97;
-/// The next tube is expected to reach back over this fraction of its predicted half length.
-const REACH: f64 = 0.85;
-/// How a rejection changes what is expected, and each accepted tube after it.
-const DISTRUST: f64 = 0.8;
-const RECOVERY: f64 = 1.02;
 /// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
@@ -34,9 +31,14 @@ pub trait Test<const D: usize, const N: usize>: Sized {
     type Frame: Frame<D>;
     /// The space in which it works.
     const SPACE: Space;
+    /// Whether the last coefficient of the expansion tells how long the tube will be.
+    const FORESEES: bool;
 
     /// Room for the tubes of a problem.
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self;
+
+    /// Takes over the pivots that were chosen for the Jacobian at the sketch, if it has use for them.
+    fn adopt(&mut self, _inverter: &InverseMaker) {}
 
     /// Brings a predicted point onto the path.
     fn refine(
@@ -184,6 +186,9 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     rejected: usize,
     shortened: usize,
     extension: Extension,
+    /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
+    /// short, or depends on other things.
+    typical: f64,
 }
 
 impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
@@ -210,6 +215,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             rejected: 0,
             shortened: 0,
             extension: Extension::default(),
+            typical: f64::NAN,
             equations,
         }
     }
@@ -220,20 +226,18 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             .map_or(f64::INFINITY, |step| 0.5 * step);
         self.start(options, max_h)?;
         self.show_tube(control, 0);
-        // How far back the next tube is expected to reach, from the half lengths of the last two.
-        let mut before = self.now.proof.h;
-        // How much of the expectation to believe: less after a rejection, then more again.
-        let mut trust = 1.0;
+        let mut stride = Stride::new(&self.equations);
         // What could not be told of this tube when it was longer.
         let mut doubt = None;
-        // What a rejection taught about this tube.
-        let mut shorter = f64::INFINITY;
         // A bound on the half length where t = 1 is hard to separate; it grows back.
         let mut limit = max_h;
         loop {
-            let h = self.now.proof.h;
-            let estimate = h * (h / before).sqrt().clamp(0.5, 1.5);
-            let reach = (REACH * trust * estimate.min(limit)).min(shorter);
+            let reach = stride.reach(&self.now, limit);
+            self.typical = if T::FORESEES && limit > self.now.proof.h {
+                self.now.proof.h * self.now.local.last_root()
+            } else {
+                f64::NAN
+            };
             let known = self.ledger.solutions_so_far();
             match self.step(self.now.exit_at + reach, limit) {
                 Ok(closed) => {
@@ -242,39 +246,28 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     if closed {
                         return Ok(());
                     }
-                    before = h;
                     doubt = None;
-                    shorter = f64::INFINITY;
-                    trust = (RECOVERY * trust).min(1.0);
+                    stride.accept();
                     limit = (2.0 * limit).min(max_h);
                     self.account_for_precision();
                 }
                 Err(rejection) => {
                     self.rejected += 1;
                     self.test.reject();
-                    if shorter.is_infinite() {
-                        trust *= DISTRUST;
-                    }
-                    match rejection {
-                        Rejection::Undecided(_) => {
-                            doubt = Some(rejection);
-                            self.shortened += 1;
-                            limit = 0.25 * self.next.proof.h.min(limit);
-                        }
-                        // The tube is known but for a little shift of its middle.
-                        Rejection::Unlinked => {
-                            shorter = (REACH * self.next.proof.h).min(0.6 * reach)
-                        }
-                        Rejection::Refine(_) | Rejection::Unproved => shorter = 0.5 * reach,
+                    stride.reject(rejection, &self.now, &self.next, reach);
+                    if let Rejection::Undecided(_) = rejection {
+                        doubt = Some(rejection);
+                        self.shortened += 1;
+                        limit = 0.25 * self.next.proof.h.min(limit);
                     }
                     let smallest = self.smallest_step();
-                    if limit < smallest || shorter < smallest {
+                    if limit < smallest || stride.is_below(smallest) {
                         if !(options.extended && self.extend(rejection)) {
                             return Err(self.stuck(doubt.unwrap_or(rejection), reach, limit));
                         }
                         // That was in 53 bits.
-                        doubt = None;
-                        (trust, shorter, limit) = (1.0, f64::INFINITY, max_h);
+                        (doubt, limit) = (None, max_h);
+                        stride.forget();
                     }
                 }
             }
@@ -332,6 +325,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
             .map_err(|_| no_direction(at_sketch.pivot_ratio_of_jacobian(equations)))?;
         self.first_normal.copy_from_slice(&at_sketch.normal);
+        self.test.adopt(&self.inverter);
         loop {
             match self.tube_at_sketch(max_h) {
                 Ok(()) => {
@@ -430,6 +424,10 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         self.test
             .expand(equations, &mut next.local)
             .map_err(Rejection::Refine)?;
+        let expected = self.typical / next.local.last_root();
+        if expected < -next.local.parameter_of(&self.now.exit.centre) {
+            return Err(Rejection::Short(expected));
+        }
         if !self.test.prove(equations, next, limit) {
             return Err(Rejection::Unproved);
         }
@@ -439,7 +437,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             .ok_or(Rejection::Unproved)?;
         next.entry = match self.now.leads_to(next) {
             Some(entry) => entry,
-            None if self.now.exit_is_tight => return Err(Rejection::Unlinked),
+            None if self.now.exit_is_tight || !next.reaches(&self.now.exit) => {
+                return Err(Rejection::Unlinked);
+            }
             // The next tube may be too narrow for what is known of the exit.
             None => {
                 self.test
@@ -561,7 +561,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             Rejection::Unproved => {
                 unproved(self.test.shortfall(equations, tube, limit), tube, unit)
             }
-            Rejection::Unlinked => match before {
+            Rejection::Short(_) | Rejection::Unlinked => match before {
                 None => unlinked("the sketch", &self.sketch, 0.0, tube, unit),
                 Some(before) => {
                     let direction = match before.exit_is_tight {

@@ -8,6 +8,7 @@ mod extended;
 mod local;
 mod preconditioner;
 mod singular;
+mod singularity;
 mod start;
 
 pub use equations::{Equations, Lengths, MAX_DEGREE};

@@ -97,6 +97,7 @@ pub struct ReducedTest<const D: usize> {
 impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     type Frame = Reduction<D>;
     const SPACE: Space = Space::Reduced;
+    const FORESEES: bool = true;
 
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
         let m = equations.m;

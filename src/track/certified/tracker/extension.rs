@@ -118,7 +118,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             Rejection::Unproved => self.test.is_limited_by_rounding(),
             Rejection::Refine(RefineError::Singular) => false,
             Rejection::Refine(RefineError::Diverged) => true,
-            Rejection::Undecided(_) | Rejection::Unlinked => true,
+            Rejection::Undecided(_) | Rejection::Short(_) | Rejection::Unlinked => true,
         };
         if self.extension.on || !rounding || !self.test.set_extended(true) {
             return false;
