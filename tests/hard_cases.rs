@@ -122,7 +122,7 @@ fn stopped_runs_name_a_number_in_the_lengths_of_the_file() {
         ("peak", 7, false, &in_53_bits),
         ("lengths", 6, true, &extended),
         ("graze", 12, true, &extended),
-        ("flaps-split", 12, true, &extended),
+        ("flaps-split", 13, true, &extended),
         ("crossing", 0, true, &extended),
         ("tangent", 0, false, &extended),
     ] {

@@ -37,9 +37,6 @@ pub trait Test<const D: usize, const N: usize>: Sized {
     /// Room for the tubes of a problem.
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self;
 
-    /// Takes over the pivots that were chosen for the Jacobian at the sketch, if it has use for them.
-    fn adopt(&mut self, _inverter: &InverseMaker) {}
-
     /// Brings a predicted point onto the path.
     fn refine(
         &mut self,
@@ -325,7 +322,6 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
             .map_err(|_| no_direction(at_sketch.pivot_ratio_of_jacobian(equations)))?;
         self.first_normal.copy_from_slice(&at_sketch.normal);
-        self.test.adopt(&self.inverter);
         loop {
             match self.tube_at_sketch(max_h) {
                 Ok(()) => {

@@ -410,10 +410,6 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         }
     }
 
-    fn adopt(&mut self, inverter: &InverseMaker) {
-        self.maker = inverter.clone();
-    }
-
     fn refine(
         &mut self,
         equations: &Equations<D>,
