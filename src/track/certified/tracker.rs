@@ -229,9 +229,10 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         // A bound on the half length where t = 1 is hard to separate; it grows back.
         let mut limit = max_h;
         loop {
+            let h = self.now.proof.h;
             let reach = stride.reach(&self.now, limit);
-            self.typical = if T::FORESEES && limit > self.now.proof.h {
-                self.now.proof.h * self.now.local.last_root()
+            self.typical = if T::FORESEES && limit > h {
+                h * self.now.local.last_root()
             } else {
                 f64::NAN
             };
@@ -244,7 +245,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         return Ok(());
                     }
                     doubt = None;
-                    stride.accept();
+                    stride.accept(h);
                     limit = (2.0 * limit).min(max_h);
                     self.account_for_precision();
                 }

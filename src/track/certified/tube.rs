@@ -33,6 +33,9 @@ use crate::track::{Driving, Options, Space};
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
 
+/// Where |I − Y [J₀; c]|_u is more than this and nothing could be proved, Y is made anew.
+const STALE: f64 = 0.1;
+
 /// Work space of the test.
 #[derive(Debug, Clone)]
 pub struct KrawczykTest<const D: usize> {
@@ -58,6 +61,8 @@ pub struct KrawczykTest<const D: usize> {
     next_weights: Vector,
     kept_weights: Vector,
     maker: InverseMaker,
+    /// |I − Y [J₀; c]|_u in the last proof that was tried.
+    staleness: f64,
     /// Whether points and F at them are taken in extended precision, and what the last proof rested on.
     pub(super) precision: Precision,
 }
@@ -89,6 +94,7 @@ impl<const D: usize> KrawczykTest<D> {
             next_weights: ones.clone(),
             kept_weights: ones,
             maker: equations.inverter(),
+            staleness: 0.0,
             precision: Precision::default(),
         }
     }
@@ -142,6 +148,7 @@ impl<const D: usize> KrawczykTest<D> {
         // Differences, sums over a column, and the powers of t(s): fewer roundings than this.
         let per_entry = gamma(m + 120);
         let [a, a2, square, r0] = self.products(equations, local);
+        self.staleness = r0;
         let a = round_up(a, n + 2);
         let a2 = round_up(a2, n + 2);
         let square = round_up(square + gamma(n + m + 8) * (a * a + a2), n + 8);
@@ -443,7 +450,15 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
     fn prove(&mut self, equations: &Equations<D>, tube: &mut Tube<D>, max_h: f64) -> bool {
         self.kept_weights.copy_from_slice(&self.next_weights);
         let mut weights = std::mem::take(&mut self.next_weights);
-        let proof = KrawczykTest::prove(self, equations, &tube.local, &mut weights, max_h);
+        let mut proof = KrawczykTest::prove(self, equations, &tube.local, &mut weights, max_h);
+        // Tubes can be so short that the prediction, where Y was made, is as far from the path as they are long.
+        if proof.is_none()
+            && self.staleness > STALE
+            && tube.local.precondition(equations, &mut self.maker).is_ok()
+        {
+            tube.local.expand(equations);
+            proof = KrawczykTest::prove(self, equations, &tube.local, &mut weights, max_h);
+        }
         self.next_weights = weights;
         let Some(proof) = proof else { return false };
         tube.proof = proof;

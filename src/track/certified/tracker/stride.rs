@@ -13,7 +13,7 @@ const REACH_SEEN: f64 = 0.85;
 const DISTRUST: f64 = 0.95;
 const RECOVERY: f64 = 1.05;
 /// Tubes are predicted to be longer by no more than this times, or shorter.
-const GROWTH: (f64, f64) = (0.3, 1.4);
+const GROWTH: (f64, f64) = (0.3, 1.5);
 
 /// What is known of the next tube's place.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub(super) struct Stride {
     trust: f64,
     /// What rejections taught about this tube: the next one must reach back over less.
     shorter: f64,
+    /// The half length of the tube before the last.
+    before: f64,
     room: Vector,
 }
 
@@ -30,6 +32,7 @@ impl Stride {
         Stride {
             trust: 1.0,
             shorter: f64::INFINITY,
+            before: f64::INFINITY,
             room: equations.vector(),
         }
     }
@@ -47,12 +50,14 @@ impl Stride {
     ) -> f64 {
         let (h, local) = (tube.proof.h, &tube.local);
         let singularities = local.singularities();
+        // Behind a narrow place it is mostly the old singularity that is left further and further behind.
+        let trend = (h / self.before).sqrt();
         let mut reach = REACH * h;
         for _ in 0..2 {
             let s = tube.exit_at + reach;
             // The next tube's parameter is arc length; in this one's the path is faster as it bends away.
             let speed = local.speed(s, &mut self.room).min(2.0);
-            let growth = (singularities.distance(s) * speed).sqrt();
+            let growth = (singularities.distance(s) * speed).sqrt().max(trend);
             let growth = if growth.is_nan() {
                 1.0
             } else {
@@ -63,8 +68,9 @@ impl Stride {
         reach.min(self.shorter)
     }
 
-    /// The tube was accepted.
-    pub fn accept(&mut self) {
+    /// A tube was accepted behind one of this half length.
+    pub fn accept(&mut self, h: f64) {
+        self.before = h;
         self.trust = (RECOVERY * self.trust).min(1.0);
         self.shorter = f64::INFINITY;
     }
