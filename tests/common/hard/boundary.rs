@@ -156,7 +156,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, 10, &[4]),
+    .proved(4, 11, &[4]),
     Family::new(
         "graze-spheres-stopped",
         "two spheres that part just before t = 0.5 and meet again soon after: another path lies on the other side",
@@ -165,7 +165,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=12,
     )
-    .proved(4, 10, &[4]),
+    .proved(4, 11, &[4]),
     Family::new(
         "threshold",
         "points whose γ comes down to the threshold α of plans or keeps to it, from above: to change the plan or not is \

@@ -212,7 +212,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=6,
     )
-    .proved(1, 3, &[1, 6]),
+    .proved(2, 3, &[1, 6]),
     Family::new(
         "sliver",
         "reference points that are nearly collinear",
@@ -221,7 +221,7 @@ pub const FAMILIES: &[Family] = &[
         trees::answer,
         1..=8,
     )
-    .proved(3, 3, &[3]),
+    .proved(3, 4, &[3]),
     Family::new(
         "dixon",
         "the target is nearly flexible: a whole curve of figures meets it but for the parameter",
