@@ -10,8 +10,10 @@ const REACH: f64 = 0.65;
 /// The same where a rejected tube has shown how long tubes are there.
 const REACH_SEEN: f64 = 0.85;
 /// How a rejection changes what is believed, and each accepted tube after it.
-const DISTRUST: f64 = 0.95;
-const RECOVERY: f64 = 1.05;
+const DISTRUST: f64 = 0.93;
+const RECOVERY: f64 = 1.005;
+/// Where nothing is rejected, as where it is a bound on the radius that keeps tubes short.
+const MOST_TRUST: f64 = 1.3;
 /// Tubes are predicted to be longer by no more than this times, or shorter.
 const GROWTH: (f64, f64) = (0.3, 1.5);
 
@@ -71,7 +73,7 @@ impl Stride {
     /// A tube was accepted behind one of this half length.
     pub fn accept(&mut self, h: f64) {
         self.before = h;
-        self.trust = (RECOVERY * self.trust).min(1.0);
+        self.trust = (RECOVERY * self.trust).min(MOST_TRUST);
         self.shorter = f64::INFINITY;
     }
 
