@@ -145,6 +145,7 @@ impl<const D: usize> KrawczykTest<D> {
                 *v = std::array::from_fn(|i| step[i] - s * f[i]);
                 *centre = std::array::from_fn(|i| from[i] - (step[i] - s * f[i]));
             }
+            debug_assert!(out.centre[n] == 0.0 || out.centre[n].is_nan());
             let last = step;
             step = norm_of(&self.v, u, n);
             if step < goal || step > STAGNATION * last {

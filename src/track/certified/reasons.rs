@@ -14,7 +14,7 @@ use crate::track::full::{Equations, LARGEST_TANGENT, Local, Preconditioner, Refi
 pub enum Rejection {
     /// No point of the path was found.
     Refine(RefineError),
-    /// The tube would be so short that it could not reach back, as far as can be foreseen.
+    /// The tube would be so short that it could not reach back: the half length that is foreseen.
     Short(f64),
     /// No tube around it could be proved.
     Unproved,

@@ -184,7 +184,7 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     shortened: usize,
     extension: Extension,
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
-    /// short, or depends on other things.
+    /// short, where the test does not foresee it, and after the first attempt: what is foreseen may be wrong.
     typical: f64,
 }
 
@@ -231,7 +231,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         loop {
             let h = self.now.proof.h;
             let reach = stride.reach(&self.now, limit);
-            self.typical = if T::FORESEES && limit > h {
+            self.typical = if T::FORESEES && stride.is_first() && limit > h {
                 h * self.now.local.last_root()
             } else {
                 f64::NAN

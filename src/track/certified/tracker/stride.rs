@@ -59,12 +59,9 @@ impl Stride {
             let s = tube.exit_at + reach;
             // The next tube's parameter is arc length; in this one's the path is faster as it bends away.
             let speed = local.speed(s, &mut self.room).min(2.0);
-            let growth = (singularities.distance(s) * speed).sqrt().max(trend);
-            let growth = if growth.is_nan() {
-                1.0
-            } else {
-                growth.clamp(GROWTH.0, GROWTH.1)
-            };
+            let growth = (singularities.distance(s) * speed).sqrt();
+            let growth = if growth.is_nan() { 1.0 } else { growth };
+            let growth = growth.max(trend).clamp(GROWTH.0, GROWTH.1);
             reach = REACH * self.trust * (h * growth).min(limit) / speed.max(1.0);
         }
         reach.min(self.shorter)
@@ -85,7 +82,7 @@ impl Stride {
         next: &Tube<D, N, Y>,
         reach: f64,
     ) {
-        let is_first = self.shorter.is_infinite();
+        let is_first = self.is_first();
         if is_first {
             self.trust *= DISTRUST;
         }
@@ -99,6 +96,11 @@ impl Stride {
             Rejection::Short(h) if is_first => interpolated((here, h), tube.exit_at, reach),
             _ => 0.5 * reach,
         };
+    }
+
+    /// Whether no place for this tube has been tried yet.
+    pub fn is_first(&self) -> bool {
+        self.shorter.is_infinite()
     }
 
     /// Nothing is known any more.
