@@ -214,8 +214,8 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         self.normal[m] = 1.0;
         self.z[0][m] = t;
         self.refine(equations, maker, 1e-6, 20).ok()?;
-        // Newton's method with the preconditioner of the refined point: the first correction
-        // tells how near it was, further ones stop shrinking at the limit of precision.
+        // Newton's method with the preconditioner of the refined point. It is done where corrections fall below
+        // 1e-13; where they stop shrinking before, at the limit of precision, the first one tells how near it was.
         for _ in 0..3 {
             self.z[0][m] = t;
             match self.refine(equations, maker, 1e-13, 20) {

@@ -35,8 +35,13 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// Guerrieri, SIAM J. Appl. Math. 39, 1980).
     pub fn singularities(&self) -> Singularities {
         const TERMS: usize = 3;
+        const {
+            assert!(
+                N > TERMS + 2,
+                "the first of the equations goes back two more"
+            )
+        };
         let n = self.z[0].len() - 1;
-        let first = N - 2 - TERMS;
         // y_{N−1−i}·y_{N−1−i−j}
         let mut products = [[0.0; 3]; TERMS + 2];
         for (i, row) in products.iter_mut().enumerate() {
@@ -48,7 +53,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         }
         // The scale in which the first and the last of them are of the same size.
         let ratio = products[TERMS + 1][0] / products[0][0];
-        let scale = ratio.powf(-1.0 / (N - 1 - first) as f64);
+        let scale = ratio.powf(-1.0 / (TERMS + 1) as f64);
         let (mut g11, mut g12, mut g22, mut r1, mut r2) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let mut f = 1.0;
         for i in 0..TERMS {
