@@ -54,6 +54,7 @@
 
 pub mod certificate;
 pub mod compare;
+pub mod complete;
 pub mod generate;
 pub mod interval;
 pub mod linalg;
