@@ -44,17 +44,20 @@
 //!
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
 //! - [`generate`]: large problems made to measure
+//! - [`constraint`]: what each kind of constraint means, and its equations
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
+//! - [`complete`]: all real solutions, proved to be all
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`report`]: tables, JSON, pictures, progress
 
 pub mod certificate;
 pub mod compare;
 pub mod complete;
+pub mod constraint;
 pub mod generate;
 pub mod interval;
 pub mod linalg;

@@ -131,7 +131,11 @@ impl<'a> Draft<'a> {
 
     /// The neighbours of a point that are placed, the least deep first.
     fn standing(&self, p: usize) -> Vec<usize> {
-        let mut out: Vec<usize> = self.neighbours[p].iter().copied().filter(|&q| self.placed[q]).collect();
+        let mut out: Vec<usize> = self.neighbours[p]
+            .iter()
+            .copied()
+            .filter(|&q| self.placed[q])
+            .collect();
         out.sort_by_key(|&q| (self.depth[q], q));
         out
     }
@@ -218,7 +222,11 @@ impl<'a> Draft<'a> {
             .collect();
         self.depth[p] = 1 + from.iter().map(|&q| self.depth[q]).max().unwrap_or(0);
         self.placed[p] = true;
-        self.steps.push(Step { point: p, kind, closing });
+        self.steps.push(Step {
+            point: p,
+            kind,
+            closing,
+        });
     }
 
     fn pop(&mut self) {
@@ -247,7 +255,9 @@ impl<'a> Draft<'a> {
             for (j, &b) in standing[..i].iter().enumerate() {
                 for &c in &standing[..j] {
                     let pairs = [joined(a, b), joined(b, c), joined(c, a)];
-                    let cost = self.depth[a] + self.depth[b] + self.depth[c]
+                    let cost = self.depth[a]
+                        + self.depth[b]
+                        + self.depth[c]
                         + 2 * (3 - pairs.iter().sum::<u32>());
                     if best.1.is_empty() || cost < best.0 {
                         // The one that the others are joined to comes first.
@@ -271,7 +281,10 @@ impl<'a> Draft<'a> {
     fn driven(&self, p: usize, standing: &[usize]) -> Option<(Kind, Vec<Drive>)> {
         let parameter = self.drives.len();
         if self.targets.dimension == 2 {
-            let kind = Kind::Arm { centre: standing[0], parameter };
+            let kind = Kind::Arm {
+                centre: standing[0],
+                parameter,
+            };
             return Some((kind, vec![Drive::Angle]));
         }
         if let [c1, c2] = standing[..]
@@ -318,7 +331,8 @@ impl<'a> Draft<'a> {
             let deep = f64::from(self.depth[step.point]);
             let moving = match &step.kind {
                 Kind::Meet { centres, .. } => {
-                    let pair = |a: usize, b: usize| self.targets.edge(centres[a], centres[b]).is_none();
+                    let pair =
+                        |a: usize, b: usize| self.targets.edge(centres[a], centres[b]).is_none();
                     let pairs = match centres.len() {
                         2 => [pair(0, 1), false, false],
                         _ => [pair(0, 1), pair(1, 2), pair(2, 0)],

@@ -62,10 +62,7 @@ pub fn contract<const S: usize, const M: usize>(
 }
 
 /// Narrows each symbol's range by one equation.
-fn solve<const S: usize, const M: usize>(
-    e: &Model<S, M>,
-    u: &mut [Range; S],
-) -> Result<(), Empty> {
+fn solve<const S: usize, const M: usize>(e: &Model<S, M>, u: &mut [Range; S]) -> Result<(), Empty> {
     if !(e.r < 1e100) {
         return Ok(());
     }
@@ -124,9 +121,15 @@ fn largest(u: Range) -> f64 {
 
 fn times(g: f64, u: Range) -> Range {
     if g >= 0.0 {
-        Range { lo: g * u.lo, hi: g * u.hi }
+        Range {
+            lo: g * u.lo,
+            hi: g * u.hi,
+        }
     } else {
-        Range { lo: g * u.hi, hi: g * u.lo }
+        Range {
+            lo: g * u.hi,
+            hi: g * u.lo,
+        }
     }
 }
 
@@ -138,5 +141,11 @@ fn square(h: f64, u: Range) -> Range {
     } else {
         0.0
     };
-    times(h, Range { lo: least, hi: greatest })
+    times(
+        h,
+        Range {
+            lo: least,
+            hi: greatest,
+        },
+    )
 }

@@ -61,7 +61,9 @@ impl Prover {
             edges: targets.edges.clone(),
             squares: targets.squares.clone(),
             m,
-            upper: upper.map(|(place, &p)| unknown[3 * p + place - 1]).collect(),
+            upper: upper
+                .map(|(place, &p)| unknown[3 * p + place - 1])
+                .collect(),
             unknown,
         }
     }
@@ -136,7 +138,11 @@ impl Prover {
             }
             self.residual(&x, &mut f);
             for (i, s) in step.iter_mut().enumerate() {
-                *s = y[i * m..(i + 1) * m].iter().zip(&f).map(|(a, b)| a * b).sum();
+                *s = y[i * m..(i + 1) * m]
+                    .iter()
+                    .zip(&f)
+                    .map(|(a, b)| a * b)
+                    .sum();
             }
             let size = step.iter().fold(0.0, |a, x| largest(a, x.abs()));
             if !(size < 1.0) {
@@ -178,7 +184,10 @@ impl Prover {
             let mut free = [0.0f64; 3];
             let [a, b] = self.edges[e];
             for k in 0..self.dimension {
-                let count = [a, b].iter().filter(|&&p| self.unknown[3 * p + k] != FIXED).count();
+                let count = [a, b]
+                    .iter()
+                    .filter(|&&p| self.unknown[3 * p + k] != FIXED)
+                    .count();
                 free[k] = count as f64;
             }
             self.row(&x, e, |_, d| sizes[e] += d.abs());
@@ -240,7 +249,11 @@ impl Figure {
 
     /// The greatest difference of coordinates of the middles.
     pub fn distance(&self, other: &Figure) -> f64 {
-        let pairs = self.centre.iter().flatten().zip(other.centre.iter().flatten());
+        let pairs = self
+            .centre
+            .iter()
+            .flatten()
+            .zip(other.centre.iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, largest)
     }
 

@@ -111,12 +111,15 @@ fn best_of(searches: &[Search]) -> usize {
     }
     let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0);
     let sampled = |searches: &[Search], from: &[usize], ways: usize| -> Vec<(f64, usize)> {
-        let mut out: Vec<(f64, usize)> =
-            from.iter().map(|&i| (searches[i].sample(ways, 3000), i)).collect();
+        let mut out: Vec<(f64, usize)> = from
+            .iter()
+            .map(|&i| (searches[i].sample(ways, 3000), i))
+            .collect();
         out.sort_by(order);
         out
     };
-    let everyone: Vec<usize> = (0..searches.len().min(if k == 1 { 8 } else { CANDIDATES })).collect();
+    let everyone: Vec<usize> =
+        (0..searches.len().min(if k == 1 { 8 } else { CANDIDATES })).collect();
     let first = sampled(searches, &everyone, if k == 1 { 2 } else { 8 });
     if k == 1 {
         return first[0].1;

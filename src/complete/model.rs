@@ -267,7 +267,8 @@ impl<const S: usize, const M: usize> Model<S, M> {
         // Each is a sum of four terms that are at most (1 + |e|)² in size, or the quotient of such
         // whose denominator 1 + e has a relative error of u/(1 + e).
         let widest = 1.0 + low.abs().max(high);
-        let error = 16.0 * UNIT_ROUNDOFF * (widest * widest + at[0].abs() / (1.0 + low) + at[1].abs());
+        let error =
+            16.0 * UNIT_ROUNDOFF * (widest * widest + at[0].abs() / (1.0 + low) + at[1].abs());
         let (middle, half) = (0.5 * (at[0] + at[1]), 0.5 * (at[0] - at[1]).abs() + error);
 
         let (k1, k2) = (k[1] / c, k[2] / (c * c));
@@ -326,9 +327,7 @@ pub fn rotation<const S: usize, const M: usize>(
     // is divided by 3!; the nearest τ to 0 is at least |middle| − radius away.
     let nearest = (t.abs() - radius).max(0.0);
     let third = 2.0 / (1.0 + nearest * nearest).powi(2);
-    let r = (third * radius.powi(3)
-        + 64.0 * UNIT_ROUNDOFF * (1.0 + radius + radius * radius))
-        * UP
+    let r = (third * radius.powi(3) + 64.0 * UNIT_ROUNDOFF * (1.0 + radius + radius * radius)) * UP
         + UNDERFLOW;
     let quadratic = {
         // The place of u_i².
@@ -350,5 +349,130 @@ pub fn rotation<const S: usize, const M: usize>(
         [part(1, -1.0), part(0, 1.0)]
     } else {
         [part(0, 1.0), part(1, 1.0)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use num_traits::{One, Signed, Zero};
+    use proptest::prelude::*;
+
+    type Two = Model<2, 6>;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    /// The polynomial at a point, exactly.
+    fn polynomial<const S: usize, const M: usize>(f: &Model<S, M>, u: &[f64]) -> BigRational {
+        let mut sum = exact(f.c[0]);
+        let mut q = 1 + S;
+        for i in 0..S {
+            sum += exact(f.c[1 + i]) * exact(u[i]);
+            for j in i..S {
+                sum += exact(f.c[q]) * exact(u[i]) * exact(u[j]);
+                q += 1;
+            }
+        }
+        sum
+    }
+
+    fn encloses<const S: usize, const M: usize>(
+        f: &Model<S, M>,
+        u: &[f64],
+        value: &BigRational,
+    ) -> bool {
+        (polynomial(f, u) - value).abs() <= exact(f.r)
+    }
+
+    fn model() -> impl Strategy<Value = Two> {
+        let number = || (-1.0f64..1.0, -12i32..3).prop_map(|(x, e)| x * 2f64.powi(e));
+        (prop::array::uniform6(number()), 0.0f64..1.0, -40i32..-1).prop_map(|(c, r, e)| Model {
+            c,
+            r: r * 2f64.powi(e),
+        })
+    }
+
+    /// A value that the model may stand for at u: the polynomial and part of the remainder.
+    fn value(f: &Two, u: &[f64], part: f64) -> BigRational {
+        polynomial(f, u) + exact(f.r) * exact(part)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3000))]
+        #[test]
+        fn operations_enclose(
+            (f, g) in (model(), model()),
+            u in prop::array::uniform2(prop_oneof![Just(1.0), Just(-1.0), -1.0f64..1.0]),
+            part in prop::array::uniform2(prop_oneof![Just(1.0), Just(-1.0), -1.0f64..1.0]),
+            factor in -3.0f64..3.0,
+            shift in 1.0f64..9.0,
+        ) {
+            let (x, y) = (value(&f, &u, part[0]), value(&g, &u, part[1]));
+            prop_assert!(encloses(&f.plus(&g), &u, &(&x + &y)));
+            prop_assert!(encloses(&f.minus(&g), &u, &(&x - &y)));
+            prop_assert!(encloses(&f.times(&g), &u, &(&x * &y)));
+            prop_assert!(encloses(&f.scaled(factor), &u, &(&x * exact(factor))));
+            let number = Number { mid: factor, rad: 0.01 };
+            let near = exact(factor) + exact(0.01) * exact(part[1]);
+            prop_assert!(encloses(&f.by(number), &u, &(&x * &near)));
+            prop_assert!(encloses(&f.shifted(number), &u, &(&x + &near)));
+            let range = f.range();
+            prop_assert!(exact(range.lo) <= x && x <= exact(range.hi));
+            prop_assert!((&x - exact(f.c[0])).abs() <= exact(f.reach()));
+
+            // Shifted so far that it is positive, and less than so far that 0 is near.
+            let shift = f.reach() * (1.0 + shift * shift * 0.01) - f.c[0];
+            let f = f.shifted(Number { mid: shift, rad: 0.0 });
+            let x = value(&f, &u, part[0]);
+            let range = f.range();
+            if range.lo > 0.0 {
+                let over = f.reciprocal(range);
+                if over.r.is_finite() {
+                    prop_assert!(encloses(&over, &u, &(BigRational::one() / &x)));
+                }
+                let root = f.square_root(range);
+                if root.r.is_finite() {
+                    let (p, r) = (polynomial(&root, &u), exact(root.r));
+                    let (low, high) = (&p - &r, &p + &r);
+                    prop_assert!(!high.is_negative() && &high * &high >= x);
+                    prop_assert!(low.is_negative() || &low * &low <= x);
+                }
+            }
+        }
+
+        #[test]
+        fn rotations_enclose(
+            middle in -1.0f64..1.0,
+            radius in prop_oneof![0.0f64..1.0, 0.0f64..1e-3, Just(0.0)],
+            u in prop_oneof![Just(1.0), Just(-1.0), -1.0f64..1.0],
+            turned: bool,
+        ) {
+            let pair: [Two; 2] = rotation(1, middle, radius, turned);
+            let t = exact(middle) + exact(radius) * exact(u);
+            let below = BigRational::one() + &t * &t;
+            let z = [
+                (BigRational::one() - &t * &t) / &below,
+                (&t + &t) / &below,
+            ];
+            let wanted = if turned { [-z[1].clone(), z[0].clone()] } else { z };
+            for k in 0..2 {
+                prop_assert!(encloses(&pair[k], &[0.5, u], &wanted[k]));
+            }
+            // And not by being wide.
+            prop_assert!(pair[0].r <= 2.1 * radius.powi(3) + 1e-13);
+        }
+    }
+
+    #[test]
+    fn products_are_not_wide() {
+        let f = Two {
+            c: [1.0, 0.1, 0.02, 0.01, 0.0, 0.003],
+            r: 1e-9,
+        };
+        let g = f.times(&f);
+        assert!(g.r < 0.02 && g.c[0] == 1.0 && !g.range().lo.is_zero());
     }
 }

@@ -49,7 +49,11 @@ impl Node {
             .filter(|&i| plan.drives[i] == Drive::Angle)
             .collect();
         let first_is_angle = plan.steps.first().is_some_and(|s| !s.is_signed());
-        let free = if first_is_angle { &angles[1..] } else { &angles[..] };
+        let free = if first_is_angle {
+            &angles[1..]
+        } else {
+            &angles[..]
+        };
         let count = 1usize << free.len();
         let root = |choice: usize| {
             let (mut lo, mut hi) = ([0.0; MAX_SYMBOLS], [0.0; MAX_SYMBOLS]);

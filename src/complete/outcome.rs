@@ -84,7 +84,9 @@ pub enum Unserved {
     )]
     TooManyParameters,
     /// Too large.
-    #[error("not served yet: the problem has more than 250 points, or more than 64 with two places each")]
+    #[error(
+        "not served yet: the problem has more than 250 points, or more than 64 with two places each"
+    )]
     Large,
 }
 
@@ -145,7 +147,9 @@ impl Options<'_> {
             if self.threads == 0 {
                 return search();
             }
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(self.threads)
+                .build();
             match pool {
                 Ok(pool) => pool.install(search),
                 Err(_) => search(),
@@ -259,7 +263,10 @@ impl Complete {
             }
         }
         if status == Status::Complete && solutions.is_empty() {
-            reason = Some("no figure has these distances: every part of the parameter space is excluded".to_owned());
+            reason = Some(
+                "no figure has these distances: every part of the parameter space is excluded"
+                    .to_owned(),
+            );
         }
         let order = search.plan.base.iter().copied();
         Complete {
@@ -270,7 +277,9 @@ impl Complete {
             reason,
             boxes: found.boxes,
             driving: search.plan.parameters(),
-            plan: order.chain(search.plan.steps.iter().map(|s| s.point)).collect(),
+            plan: order
+                .chain(search.plan.steps.iter().map(|s| s.point))
+                .collect(),
             seconds: begin.elapsed().as_secs_f64(),
         }
     }
@@ -292,8 +301,14 @@ pub(super) fn too_long(problem: &Problem, edge: usize, way: &[usize]) -> String 
 }
 
 fn are_apart(one: &Solution, other: &Solution) -> bool {
-    let pairs = one.points.iter().flatten().zip(other.points.iter().flatten());
-    pairs.into_iter().any(|(a, b)| a.sup() < b.inf() || b.sup() < a.inf())
+    let pairs = one
+        .points
+        .iter()
+        .flatten()
+        .zip(other.points.iter().flatten());
+    pairs
+        .into_iter()
+        .any(|(a, b)| a.sup() < b.inf() || b.sup() < a.inf())
 }
 
 /// A figure's box seen from reference points, in the problem's units. `None` if these may be in line.

@@ -162,7 +162,9 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
             match meeting {
                 Meeting::Empty => Placed::None,
                 Meeting::Rigid(numbers) => rigid(node, *index, numbers, c1, (&a, &b)),
-                Meeting::Moving => moving(targets, plan, node, *index, (centres, radii), c1, (&a, &b)),
+                Meeting::Moving => {
+                    moving(targets, plan, node, *index, (centres, radii), c1, (&a, &b))
+                }
             }
         }
         _ => unreachable!("what is known of a step is of the step's own kind"),
@@ -271,7 +273,11 @@ fn moving<const D: usize, const S: usize, const M: usize>(
         let here = plus(&middle, &times(&n_vector, &w));
         return Placed::Folded(here, n.minus(&w.squared()));
     }
-    let least = if sign.is_some() { LEAST_DECIDED } else { LEAST_OPEN };
+    let least = if sign.is_some() {
+        LEAST_DECIDED
+    } else {
+        LEAST_OPEN
+    };
     if height.lo > least * height.hi && height.lo > 1e-9 {
         let off = times(&n_vector, &n.square_root(height));
         return sided(node, index, middle, off);

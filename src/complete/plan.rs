@@ -201,7 +201,12 @@ impl Meeting {
             let q2 = (r1 - r3 + b) * half;
             let delta = a * b - c.sqr();
             let (first, second) = (q1 * b - q2 * c, q2 * a - q1 * c);
-            (first, second, delta, r1 * delta - (first * q1 + second * q2))
+            (
+                first,
+                second,
+                delta,
+                r1 * delta - (first * q1 + second * q2),
+            )
         };
         if delta.inf() <= 1e-9 {
             return None;

@@ -70,7 +70,8 @@ const SHARE_UNIT: f64 = (1u64 << 60) as f64;
 impl Search {
     /// Prepares the search by a plan.
     pub fn new(targets: &Targets, plan: Plan) -> Result<Self, Unfit> {
-        if targets.points > 250 || plan.steps.iter().filter(|s| s.is_signed()).count() > MAX_SIGNED {
+        if targets.points > 250 || plan.steps.iter().filter(|s| s.is_signed()).count() > MAX_SIGNED
+        {
             return Err(Unfit::Large);
         }
         let base = base_coordinates(targets, &plan.base).ok_or(Unfit::Base)?;
@@ -81,16 +82,16 @@ impl Search {
             signed.push(usize::MAX);
             known.push(match &step.kind {
                 Kind::Arm { centre, .. } => {
-                    let edge = targets.edge(step.point, *centre).expect("an arm is a distance");
+                    let edge = targets
+                        .edge(step.point, *centre)
+                        .expect("an arm is a distance");
                     Known::Length(Number::new(targets.lengths[edge]))
                 }
-                Kind::Hinge { frame, .. } => {
-                    match HingeNumbers::new(targets, step.point, *frame) {
-                        Some(Ok(numbers)) => Known::Hinge(numbers),
-                        Some(Err(())) => return Err(Unfit::Empty(step.point)),
-                        None => return Err(Unfit::Hinge),
-                    }
-                }
+                Kind::Hinge { frame, .. } => match HingeNumbers::new(targets, step.point, *frame) {
+                    Some(Ok(numbers)) => Known::Hinge(numbers),
+                    Some(Err(())) => return Err(Unfit::Empty(step.point)),
+                    None => return Err(Unfit::Hinge),
+                },
                 Kind::Meet { centres, radii } => {
                     *signed.last_mut().expect("just pushed") = count;
                     count += 1;
@@ -124,9 +125,15 @@ impl Search {
 
     fn each(&self, run: &Run, nodes: Vec<Node>, depth: usize) -> Vec<Found> {
         if rayon::current_num_threads() == 1 || nodes.len() < 2 {
-            nodes.into_iter().map(|node| self.descend(run, node, depth)).collect()
+            nodes
+                .into_iter()
+                .map(|node| self.descend(run, node, depth))
+                .collect()
         } else {
-            nodes.into_par_iter().map(|node| self.descend(run, node, depth)).collect()
+            nodes
+                .into_par_iter()
+                .map(|node| self.descend(run, node, depth))
+                .collect()
         }
     }
 
@@ -162,7 +169,7 @@ impl Search {
             }
             if ended {
                 let share = node.share;
-                found.leave(&node, share, Why::Unfinished);
+                found.leave(share, Why::Unfinished);
                 continue;
             }
             self.look_at(node, run, found, &mut children);
@@ -174,7 +181,7 @@ impl Search {
     fn look(&self, run: &Run, node: Node, found: &mut Found, children: &mut Vec<Node>) {
         if run.stop.load(Ordering::Relaxed) || run.boxes.load(Ordering::Relaxed) > run.most_boxes {
             let share = node.share;
-            return found.leave(&node, share, Why::Unfinished);
+            return found.leave(share, Why::Unfinished);
         }
         self.look_at(node, run, found, children);
     }
@@ -229,7 +236,9 @@ impl Search {
         if m == 0 || !self.settle(&mut x, 1e-11) {
             return false;
         }
-        let Some(direction) = self.weakest(&x) else { return false };
+        let Some(direction) = self.weakest(&x) else {
+            return false;
+        };
         for sign in [1.0, -1.0] {
             let mut y = x.clone();
             self.prover.moved(&mut y, &direction, sign * 1e-2);
@@ -260,7 +269,9 @@ impl Search {
                 return false;
             }
             self.prover.jacobian(x, &mut j);
-            let Some(step) = least_squares(&j, &f, m, 1e-9 * size.min(1e-3)) else { return false };
+            let Some(step) = least_squares(&j, &f, m, 1e-12) else {
+                return false;
+            };
             self.prover.moved(x, &step, -1.0);
         }
         false
@@ -271,7 +282,9 @@ impl Search {
         let m = self.prover.m;
         let mut j = Vec::new();
         self.prover.jacobian(x, &mut j);
-        let mut v: Vec<f64> = (0..m).map(|i| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0).collect();
+        let mut v: Vec<f64> = (0..m)
+            .map(|i| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0)
+            .collect();
         for _ in 0..6 {
             // (JᵀJ + ε)⁻¹ v, by inverse iteration.
             v = normal_solve(&j, &v, m, 1e-12)?;
@@ -290,7 +303,9 @@ impl Search {
 
 /// (JᵀJ + ε)⁻¹ Jᵀ f.
 fn least_squares(j: &[f64], f: &[f64], m: usize, epsilon: f64) -> Option<Vec<f64>> {
-    let right: Vec<f64> = (0..m).map(|i| (0..m).map(|e| j[e * m + i] * f[e]).sum()).collect();
+    let right: Vec<f64> = (0..m)
+        .map(|i| (0..m).map(|e| j[e * m + i] * f[e]).sum())
+        .collect();
     normal_solve(j, &right, m, epsilon)
 }
 
@@ -310,7 +325,13 @@ fn normal_solve(j: &[f64], right: &[f64], m: usize, epsilon: f64) -> Option<Vec<
     let mut y = Vec::new();
     super::krawczyk::invert(&a, m, &mut y).then(|| {
         (0..m)
-            .map(|i| y[i * m..(i + 1) * m].iter().zip(right).map(|(a, b)| a * b).sum())
+            .map(|i| {
+                y[i * m..(i + 1) * m]
+                    .iter()
+                    .zip(right)
+                    .map(|(a, b)| a * b)
+                    .sum()
+            })
             .collect()
     })
 }

@@ -32,7 +32,12 @@ impl Targets {
             Target::SquaredLength(squared) => enclose(squared).sqrt(),
         };
         let count = problem.distances.len().max(1) as f64;
-        let mean = problem.distances.iter().map(|d| wanted(&d.target).mid()).sum::<f64>() / count;
+        let mean = problem
+            .distances
+            .iter()
+            .map(|d| wanted(&d.target).mid())
+            .sum::<f64>()
+            / count;
         let unit = 2f64.powi(mean.log2().round() as i32);
         let per_unit = point(1.0 / unit);
         let points = problem.points.len();
@@ -55,7 +60,11 @@ impl Targets {
             unit,
             edges: problem.distances.iter().map(|d| d.points).collect(),
             squares: squares.collect(),
-            lengths: problem.distances.iter().map(|d| wanted(&d.target) * per_unit).collect(),
+            lengths: problem
+                .distances
+                .iter()
+                .map(|d| wanted(&d.target) * per_unit)
+                .collect(),
             table,
         }
     }

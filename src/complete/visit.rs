@@ -29,8 +29,6 @@ pub struct Undecided {
     pub why: Why,
     /// Its share of the search space.
     pub share: f64,
-    /// The part.
-    pub node: Node,
 }
 
 /// What visits find.
@@ -63,13 +61,12 @@ const SHRUNK: f64 = 0.3;
 
 impl Found {
     /// Notes a part that stays undecided.
-    pub fn leave(&mut self, node: &Node, share: f64, why: Why) {
+    pub fn leave(&mut self, share: f64, why: Why) {
         self.marks.put(Mark::Undecided);
         self.undecided_count += 1;
         self.undecided_share += share;
         if self.undecided.len() < KEPT {
-            let node = node.clone();
-            self.undecided.push(Undecided { why, share, node });
+            self.undecided.push(Undecided { why, share });
         }
     }
 
@@ -147,7 +144,13 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         }
         let point = search.plan.steps[step].point;
         let known = &search.known[step];
-        let placed = place(&search.targets, &search.plan, &self.node, (step, known), &self.points);
+        let placed = place(
+            &search.targets,
+            &search.plan,
+            &self.node,
+            (step, known),
+            &self.points,
+        );
         match placed {
             Placed::Here(here) => {
                 self.points[point] = here;
@@ -176,7 +179,11 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 }
                 self.node.share *= 2.0;
             }
-            Placed::Near { height, far, square } => {
+            Placed::Near {
+                height,
+                far,
+                square,
+            } => {
                 let index = search.signed[step];
                 let room = (self.node.symbols as usize) < MAX_SYMBOLS.min(search.most_symbols);
                 if far < FOLD && room {
@@ -201,17 +208,22 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         let search = self.search;
         let now = &search.plan.steps[step];
         let here = self.points[now.point];
-        let blur = here.iter().map(|x| x.r).fold(0.0, crate::interval::rounding::largest);
+        let blur = here
+            .iter()
+            .map(|x| x.r)
+            .fold(0.0, crate::interval::rounding::largest);
         if !(blur <= BLURRED) {
             return self.part(step, true, movers(&here));
         }
         let before = self.equations.len();
         for (place, &e) in now.closing.iter().enumerate() {
             let [a, b] = search.targets.edges[e];
-            let equation = squared_distance(&self.points[a], &self.points[b])
-                .shifted(search.minus_squares[e]);
+            let equation =
+                squared_distance(&self.points[a], &self.points[b]).shifted(search.minus_squares[e]);
             if equation.range().misses_zero(1.0) {
-                self.found.marks.put(Mark::WrongDistance(step as u8, place as u8));
+                self.found
+                    .marks
+                    .put(Mark::WrongDistance(step as u8, place as u8));
                 self.equations.truncate(before);
                 return;
             }
@@ -262,7 +274,9 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             [child.lo[i], child.hi[i]] = ranges[i];
         }
         child.depth = child.depth.saturating_add(1);
-        self.found.marks.put(Mark::Within(step as u8, ranges, S as u8));
+        self.found
+            .marks
+            .put(Mark::Within(step as u8, ranges, S as u8));
         self.children.push(child);
         true
     }
@@ -294,7 +308,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                     if self.node.depth % 4 == 0 && search.flexes(&guess) =>
                 {
                     let share = self.node.share;
-                    return self.found.leave(&self.node, share, Why::Flexible);
+                    return self.found.leave(share, Why::Flexible);
                 }
                 _ => {}
             }
@@ -306,9 +320,10 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
     /// Whether all figures of this part lie where this one is alone.
     fn is_alone(&self, figure: &Figure) -> bool {
         let limit = figure.alone * (1.0 - 1e-6);
-        self.points.iter().zip(&figure.centre).all(|(p, at)| {
-            (0..D).all(|k| (p[k].c[0] - at[k]).abs() + p[k].reach() < limit)
-        })
+        self.points
+            .iter()
+            .zip(&figure.centre)
+            .all(|(p, at)| (0..D).all(|k| (p[k].c[0] - at[k]).abs() + p[k].reach() < limit))
     }
 
     /// Parts this part in the symbol of the greatest weight, the signs of the steps up to this one
@@ -319,16 +334,22 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         for i in 0..S {
             let width = self.node.hi[i] - self.node.lo[i];
             let least = search.least_width * (1.0 + self.node.lo[i].abs());
-            let weight = if weights[i].is_finite() { weights[i] } else { width };
+            let weight = if weights[i].is_finite() {
+                weights[i]
+            } else {
+                width
+            };
             if width > least && best.is_none_or(|(_, w)| weight > w) {
                 best = Some((i, weight));
             }
         }
         let Some((symbol, _)) = best else {
             let share = self.node.share;
-            return self.found.leave(&self.node, share, Why::Small);
+            return self.found.leave(share, Why::Small);
         };
-        self.found.marks.put(Mark::Halves(step as u8, with, symbol as u8));
+        self.found
+            .marks
+            .put(Mark::Halves(step as u8, with, symbol as u8));
         self.children.extend(self.node.parted(symbol));
     }
 }
