@@ -305,7 +305,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                     return;
                 }
                 Err(Doubt::Singular | Doubt::Away)
-                    if self.node.depth % 4 == 0 && search.flexes(&guess) =>
+                    if self.node.depth.is_multiple_of(4) && search.flexes(&guess) =>
                 {
                     let share = self.node.share;
                     return self.found.leave(share, Why::Flexible);
