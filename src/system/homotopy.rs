@@ -75,6 +75,12 @@ impl Homotopy {
             unit.is_normal() && unit > 0.0 && unit.to_bits() << 12 == 0,
             "the unit {unit} is not a power of two"
         );
+        // No constraint is ever left out.
+        if !problem.is_distances_only() {
+            let refusal = "only distances between points can be solved for as yet; `krawl check` reads all \
+                           other constraints";
+            return Err(GaugeError::Constraints(refusal.to_owned()));
+        }
         let gauge = Gauge::new(problem);
         let per_unit = point(1.0 / unit);
         let sketch_box: Vec<Interval> = gauge
