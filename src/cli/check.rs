@@ -207,8 +207,15 @@ fn object_line(problem: &Problem, object: &Object) -> String {
         Shape::Plane(points) => format!("{name}, the plane through {}", names(points)),
         Shape::FreePlane { .. } => format!("{name}, a plane of its own"),
         Shape::Round { center, radius } => {
-            let what = if problem.dimension == 2 { "circle" } else { "sphere" };
-            format!("{name}, a {what} about {} (in the sketch {radius})", names(&[*center]))
+            let what = if problem.dimension == 2 {
+                "circle"
+            } else {
+                "sphere"
+            };
+            format!(
+                "{name}, a {what} about {} (in the sketch {radius})",
+                names(&[*center])
+            )
         }
         Shape::Arc { center, start, end } => format!(
             "{name}, an arc about {} from {} to {}",

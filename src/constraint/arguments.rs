@@ -62,7 +62,9 @@ impl<'a> Arguments<'a> {
     /// How many points come next, before anything else.
     pub fn points_ahead(&self) -> usize {
         let points = self.items.iter();
-        points.take_while(|item| matches!(item, Item::Point(_))).count()
+        points
+            .take_while(|item| matches!(item, Item::Point(_)))
+            .count()
     }
 
     /// What comes next.

@@ -43,19 +43,25 @@ impl<'a> Floats<'a> {
             free.push(sketch.len());
             sketch.push(float(value));
         }
-        let lengths = problem.distances.iter().enumerate().map(|(index, distance)| {
-            let [a, b] = distance.points.map(|p| problem.points[p].sketch.each_ref().map(|x| x.to_f64()));
-            let start = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
-            let end = match &distance.target {
-                Target::Length(x) => x.to_f64(),
-                Target::SquaredLength(x) => x.to_f64().sqrt(),
-            };
-            let c = match problem.bend() == Some(index) {
-                true => problem.homotopy.bend_coefficient.to_f64(),
-                false => 0.0,
-            };
-            [start, end - start + c, -c]
-        });
+        let lengths = problem
+            .distances
+            .iter()
+            .enumerate()
+            .map(|(index, distance)| {
+                let [a, b] = distance
+                    .points
+                    .map(|p| problem.points[p].sketch.each_ref().map(|x| x.to_f64()));
+                let start = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+                let end = match &distance.target {
+                    Target::Length(x) => x.to_f64(),
+                    Target::SquaredLength(x) => x.to_f64().sqrt(),
+                };
+                let c = match problem.bend() == Some(index) {
+                    true => problem.homotopy.bend_coefficient.to_f64(),
+                    false => 0.0,
+                };
+                [start, end - start + c, -c]
+            });
         let equations = lowered.tail.equations.iter();
         Ok(Floats {
             rights: equations
@@ -109,7 +115,11 @@ impl<'a> Floats<'a> {
         let distances = self.problem.distances.len();
         let horner = |all: f64, x: f64| all * t + x;
         if equation < distances {
-            let a = self.lengths[equation].iter().rev().copied().fold(0.0, horner);
+            let a = self.lengths[equation]
+                .iter()
+                .rev()
+                .copied()
+                .fold(0.0, horner);
             return 0.5 * a * a;
         }
         let right = &self.rights[equation - distances];

@@ -67,6 +67,7 @@ pub struct Given<'a> {
 impl Given<'_> {
     /// The number.
     pub fn number(&self) -> &Decimal {
-        self.value.expect("checked: a number where there is a measure")
+        self.value
+            .expect("checked: a number where there is a measure")
     }
 }

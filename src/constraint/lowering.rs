@@ -222,8 +222,7 @@ impl<'a> Lowering<'a> {
     ) -> [Entry; 3] {
         let mut entries = [Entry::Zero; 3];
         for (axis, at) in at.into_iter().enumerate().take(self.dimension()) {
-            let flips =
-                std::array::from_fn(|k| k < self.dimension() && (k == axis) != axial);
+            let flips = std::array::from_fn(|k| k < self.dimension() && (k == axis) != axial);
             let name = format!("{name}, {}", ["x", "y", "z"][axis]);
             entries[axis] = self.unknown(name, Role::Free, power, flips, at);
         }
@@ -239,7 +238,10 @@ impl<'a> Lowering<'a> {
         power: i32,
         vanishing: bool,
     ) {
-        assert!(right.len() <= MAX_DEGREE + 1, "{name}: the degree is too high");
+        assert!(
+            right.len() <= MAX_DEGREE + 1,
+            "{name}: the degree is too high"
+        );
         // Equations have ½ on the left.
         let products = products.into_iter().map(|p| Product {
             factor: 2 * p.factor,
@@ -291,13 +293,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A new unknown that is the polynomial `of`: a coefficient that varies, or is no whole number.
-    pub fn coefficient(
-        &mut self,
-        name: &str,
-        power: i32,
-        parity: Parity,
-        of: Polynomial,
-    ) -> Entry {
+    pub fn coefficient(&mut self, name: &str, power: i32, parity: Parity, of: Polynomial) -> Entry {
         let entry = self.scalar(name.to_owned(), power, parity, of[0].clone());
         self.equate(name, vec![product(1, value(entry), Form::One)], of, power);
         entry
@@ -367,7 +363,9 @@ impl<'a> Lowering<'a> {
     /// a(t) of a distance of the problem.
     fn given_length(&self, index: usize) -> Polynomial {
         let distance = &self.problem.distances[index];
-        let [a, b] = distance.points.map(|p| vector(&self.problem.points[p].sketch));
+        let [a, b] = distance
+            .points
+            .map(|p| vector(&self.problem.points[p].sketch));
         let start = length(&minus(&b, &a));
         let end = match &distance.target {
             Target::Length(x) => Real::from(x.value().clone()),
@@ -449,10 +447,7 @@ impl<'a> Lowering<'a> {
 
     /// The products of factor · (a × b) in the plane.
     pub fn cross_in_plane(&self, factor: i32, a: &[Form; 3], b: &[Form; 3]) -> Vec<Product> {
-        vec![
-            product(factor, a[0], b[1]),
-            product(-factor, a[1], b[0]),
-        ]
+        vec![product(factor, a[0], b[1]), product(-factor, a[1], b[0])]
     }
 
     /// Says that `products`, which are a number times the lengths of some vectors, are so with the number

@@ -149,7 +149,9 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
     };
     match (value, wanted) {
         (None, None) => Ok(()),
-        (Some(value), None) => Err(format!("there is a number, {value}, but nothing to measure")),
+        (Some(value), None) => Err(format!(
+            "there is a number, {value}, but nothing to measure"
+        )),
         (None, Some(wanted)) => Err(format!("there is no number at its end: give {wanted}")),
         (Some(value), Some(wanted)) => {
             let number = value.value();

@@ -2,7 +2,9 @@
 //! bring along.
 
 use super::arguments::{LineName, PlaneName};
-use super::frame::{Vector, cross, cross_in_plane, dot, is_zero, length, minus, times, vector, zero};
+use super::frame::{
+    Vector, cross, cross_in_plane, dot, is_zero, length, minus, times, vector, zero,
+};
 use super::lowering::{Arrow, Fault, Lowering, Parity, Place};
 use super::polynomial::{multiply, ramp};
 use super::quadratic::{Entry, Form, Product, Role, product, value};
@@ -86,7 +88,13 @@ impl Lowering<'_> {
                 let name = self.problem.objects[object].name.clone();
                 let three = |from: usize| {
                     let entry = |k| entries.get(from + k).copied().unwrap_or(Entry::Zero);
-                    std::array::from_fn(|k| if k < self.dimension() { entry(k) } else { Entry::Zero })
+                    std::array::from_fn(|k| {
+                        if k < self.dimension() {
+                            entry(k)
+                        } else {
+                            Entry::Zero
+                        }
+                    })
                 };
                 Line {
                     base: Place {
@@ -213,7 +221,9 @@ impl Lowering<'_> {
                 if is_zero(&normal) {
                     return Err("the normal is zero: give one".to_owned());
                 }
-                let mut entries = self.unit(&format!("the normal of {name}"), &normal).to_vec();
+                let mut entries = self
+                    .unit(&format!("the normal of {name}"), &normal)
+                    .to_vec();
                 let level = dot(&normal, &minus(&point, &self.frame.origin));
                 let what = format!("the level of {name}");
                 entries.push(self.scalar(what, 1, Parity::Even, level.into()));
@@ -221,7 +231,9 @@ impl Lowering<'_> {
             }
             Shape::Round { radius, .. } => {
                 if !radius.is_positive() {
-                    return Err(format!("the radius is {radius}, but must be greater than zero"));
+                    return Err(format!(
+                        "the radius is {radius}, but must be greater than zero"
+                    ));
                 }
                 let at = Real::from(radius.value().clone());
                 vec![self.radius(&name, at)]
@@ -393,7 +405,11 @@ impl Coordinates {
         match self.edges.as_slice() {
             [u] => {
                 let square = dot(u, u);
-                [dot(u, &d) / &square, cross_in_plane(u, &d) / &square, zero()]
+                [
+                    dot(u, &d) / &square,
+                    cross_in_plane(u, &d) / &square,
+                    zero(),
+                ]
             }
             [u, v] => {
                 let w = cross(u, v);

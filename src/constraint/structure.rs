@@ -113,7 +113,9 @@ impl<'a> System<'a> {
             index if index < self.problem.constraints.len() => {
                 format!("`{}`", self.problem.constraint_name(index))
             }
-            _ => self.lowered.tail.equations[equation - distances].name.clone(),
+            _ => self.lowered.tail.equations[equation - distances]
+                .name
+                .clone(),
         }
     }
 

@@ -18,11 +18,6 @@ impl Figure {
         [x[0], x[1], x.get(2).copied().unwrap_or(0.0)]
     }
 
-    /// An auxiliary unknown.
-    pub fn value(&self, name: &str) -> f64 {
-        self.0[name][0]
-    }
-
     /// From one point to another.
     pub fn arrow(&self, from: &str, to: &str) -> [f64; 3] {
         let (a, b) = (self.at(from), self.at(to));
@@ -116,7 +111,12 @@ fn holds_in_the_sketch(problem: &Problem) {
             },
         };
         for p in &equation.products {
-            assert_eq!(power(p.left) + power(p.right), equation.power, "{}", equation.name);
+            assert_eq!(
+                power(p.left) + power(p.right),
+                equation.power,
+                "{}",
+                equation.name
+            );
         }
     }
 }
@@ -149,7 +149,11 @@ pub fn solution(problem: &Problem) -> Figure {
         x[column] += 1e-3 * ((k * 7 + 3) as f64).sin();
     }
     let ratio = newton(&floats, &mut x, 0.0).unwrap();
-    assert!(ratio > 1e-6, "{}: singular in the sketch, {ratio:e}", problem.name);
+    assert!(
+        ratio > 1e-6,
+        "{}: singular in the sketch, {ratio:e}",
+        problem.name
+    );
     for (a, b) in x.iter().zip(&floats.sketch) {
         assert!((a - b).abs() < 1e-9, "{}: another figure", problem.name);
     }

@@ -4,12 +4,18 @@ use super::testing::{Figure, angle, cross, dot, examine, near, size};
 
 /// A problem in the plane.
 fn plane(points: &str, rest: &str) -> Figure {
-    examine(&format!("name = \"test\"\ndimension = 2\n[points]\n{points}\n{rest}"))
+    examine(&format!(
+        "name = \"test\"\ndimension = 2\n[points]\n{points}\n{rest}\n\
+         [homotopy]\nbend_coefficient = 0"
+    ))
 }
 
 /// A problem in space.
 fn space(points: &str, rest: &str) -> Figure {
-    examine(&format!("name = \"test\"\ndimension = 3\n[points]\n{points}\n{rest}"))
+    examine(&format!(
+        "name = \"test\"\ndimension = 3\n[points]\n{points}\n{rest}\n\
+         [homotopy]\nbend_coefficient = 0"
+    ))
 }
 
 const QUADRANGLE: &str = "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2.9, 2.2]\nd = [0.2, 1.9]";
@@ -27,26 +33,30 @@ fn angles_at_a_point_between_known_lengths() {
 fn angles_between_unknown_lengths() {
     let f = plane(
         QUADRANGLE,
-        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.5]]\n\
-         angles = [[\"d\", \"a\", \"b\", 75], [\"b\", \"c\", \"d\", 85], [\"a\", \"b\", \"c\", 110]]",
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.7]]\n\
+         angles = [[\"d\", \"a\", \"b\", 81], [\"b\", \"c\", \"d\", 86], [\"a\", \"b\", \"c\", 92]]",
     );
-    near(angle(f.arrow("a", "d"), f.arrow("a", "b")), 75.0);
-    near(angle(f.arrow("c", "b"), f.arrow("c", "d")), 85.0);
+    near(angle(f.arrow("a", "d"), f.arrow("a", "b")), 81.0);
+    near(angle(f.arrow("c", "b"), f.arrow("c", "d")), 86.0);
     let f = plane(
-        QUADRANGLE,
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2.9, 2.2]\nd = [0.2, 1.3]",
         "[lines]\ng = [\"a\", \"b\"]\nh = [\"c\", \"d\"]\n[constraints]\n\
-         distances = [[\"a\", \"b\", 3], [\"c\", \"b\", 2.5], [\"a\", \"d\", 2]]\n\
-         angles = [[\"g\", \"h\", 20], [\"a\", \"d\", \"b\", \"c\", 30]]",
+         distances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.8], [\"a\", \"d\", 1.4]]\n\
+         angles = [[\"g\", \"h\", 16], [\"d\", \"a\", \"b\", 80]]",
     );
-    // The sketch's lines run opposite ways: 160 degrees between the directions.
-    near(angle(f.arrow("a", "b"), f.arrow("c", "d")), 160.0);
-    near(angle(f.arrow("a", "d"), f.arrow("b", "c")), 30.0);
+    // The sketch's lines run opposite ways: 164 degrees between the directions.
+    near(angle(f.arrow("a", "b"), f.arrow("c", "d")), 164.0);
+    near(angle(f.arrow("a", "d"), f.arrow("a", "b")), 80.0);
 }
 
 #[test]
 fn distances_from_lines_in_the_plane() {
     for known in ["[\"a\", \"b\", 3], ", ""] {
-        let more = if known.is_empty() { "dx = [[\"a\", \"b\", 3]]\nhorizontal = [[\"a\", \"b\"]]" } else { "" };
+        let more = if known.is_empty() {
+            "dx = [[\"a\", \"b\", 3]]\nhorizontal = [[\"a\", \"b\"]]"
+        } else {
+            ""
+        };
         let f = plane(
             "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]",
             &format!(
@@ -89,26 +99,27 @@ fn distances_in_space() {
 
 #[test]
 fn planes_and_angles_in_space() {
-    let points = "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 1.6]";
+    let points =
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 1.6]";
     let f = space(
         points,
         "[planes]\nbase = [\"a\", \"b\", \"c\"]\nroof = [\"c\", \"d\", \"e\"]\n[constraints]\n\
-         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
-         [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"c\", \"e\", 1.5], [\"d\", \"e\", 1.7]]\n\
-         angles = [[\"base\", \"roof\", 75], [\"base\", \"a\", \"d\", 60]]",
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.7], [\"a\", \"c\", 2.2], \
+         [\"d\", \"c\", 2.1], [\"d\", \"a\", 2.5], [\"c\", \"e\", 1.5], [\"d\", \"e\", 1.7]]\n\
+         angles = [[\"base\", \"roof\", 78], [\"base\", \"a\", \"d\", 48]]",
     );
     let n = f.normal("a", "b", "c");
     let between = angle(n, f.normal("c", "d", "e"));
-    near(between.min(180.0 - between), 75.0);
-    near((90.0 - angle(n, f.arrow("a", "d"))).abs(), 60.0);
+    near(between.min(180.0 - between), 78.0);
+    near((90.0 - angle(n, f.arrow("a", "d"))).abs(), 48.0);
     let f = space(
         points,
         "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
          [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.8], [\"c\", \"e\", 1.5]]\n\
-         coplanar = [[\"a\", \"c\", \"d\", \"e\"]]\nparallel = [[\"a\", \"d\", \"b\", \"d\", \"e\"]]",
+         coplanar = [[\"a\", \"c\", \"d\", \"e\"]]\nparallel = [[\"c\", \"e\", \"a\", \"b\", \"d\"]]",
     );
     near(f.from_plane("e", "a", "c", "d"), 0.0);
-    near(dot(f.normal("b", "d", "e"), f.arrow("a", "d")), 0.0);
+    near(dot(f.normal("a", "b", "d"), f.arrow("c", "e")), 0.0);
 }
 
 #[test]
@@ -118,11 +129,14 @@ fn parallel_planes_and_lines_on_planes() {
         points,
         "[planes]\nbase = [\"a\", \"b\", \"c\"]\nroof = [\"d\", \"e\", \"f\"]\n[constraints]\n\
          distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
-         [\"d\", \"base\", 2], [\"d\", \"e\", 2], [\"e\", \"f\", 2.1], [\"d\", \"f\", 1.8], [\"c\", \"f\", 2.1]]\n\
-         parallel = [[\"base\", \"roof\"]]\nperpendicular = [[\"d\", \"a\", \"b\", \"e\"]]",
+         [\"d\", \"base\", 1.8], [\"d\", \"e\", 2], [\"e\", \"f\", 2.1], [\"d\", \"f\", 1.8], [\"c\", \"f\", 2], [\"a\", \"d\", 2.5]]\n\
+         parallel = [[\"base\", \"roof\"]]\nperpendicular = [[\"a\", \"b\", \"b\", \"e\"]]",
     );
-    near(angle(f.normal("a", "b", "c"), f.normal("d", "e", "f")) % 180.0, 0.0);
-    near(dot(f.arrow("d", "a"), f.arrow("b", "e")), 0.0);
+    near(
+        size(cross(f.normal("a", "b", "c"), f.normal("d", "e", "f"))),
+        0.0,
+    );
+    near(dot(f.arrow("a", "b"), f.arrow("b", "e")), 0.0);
     let f = space(
         points,
         "[planes]\nbase = [\"a\", \"b\", \"c\"]\nroof = [\"d\", \"e\", \"f\"]\n[lines]\ng = [\"c\", \"f\"]\n[constraints]\n\
@@ -216,16 +230,16 @@ fn lines_and_planes_of_their_own() {
     let f = plane(
         "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]",
         "[lines]\ng = { point = [0, 3], direction = [3, 1] }\n[constraints]\n\
-         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5], [\"c\", \"a\", 2.6], [\"a\", \"g\", 3]]\non = [[\"c\", \"g\"]]",
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.3], [\"c\", \"a\", 2.95], [\"a\", \"g\", 2.7]]\non = [[\"c\", \"g\"]]",
     );
     near(f.distance("a", "b"), 3.0);
     let f = space(
         "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]",
         "[lines]\ng = { point = [1, 1, 1], direction = [1, 0.3, 0.2] }\nh = { point = [0, 1, 2], direction = [0, 1, 0.2] }\n\
          [planes]\np = { point = [0, 0, 3], normal = [0.1, 0, 1] }\n[constraints]\n\
-         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], [\"a\", \"g\", 1], [\"b\", \"g\", 1.2], \
-         [\"c\", \"g\", 1.3], [\"a\", \"h\", 2], [\"b\", \"h\", 3], [\"g\", \"h\", 1.1], [\"a\", \"p\", 2.8], [\"b\", \"p\", 3]]\n\
-         angles = [[\"g\", \"h\", 70], [\"h\", \"p\", 10]]\nperpendicular = []",
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], [\"a\", \"g\", 1], [\"b\", \"g\", 1.7], \
+         [\"c\", \"g\", 1.25], [\"a\", \"h\", 1.8], [\"b\", \"h\", 3.4], [\"g\", \"h\", 1.1], [\"a\", \"p\", 2.9], [\"b\", \"p\", 2.6], [\"c\", \"p\", 2.6]]\n\
+         angles = [[\"g\", \"h\", 70], [\"h\", \"p\", 11]]\n",
     );
     near(f.distance("a", "b"), 3.0);
 }

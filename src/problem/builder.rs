@@ -371,10 +371,12 @@ impl ProblemBuilder {
         problem.homotopy.reference = match (reference, own_frame) {
             (Some(_), true) => {
                 let all = 0..problem.constraints.len();
-                let fixing = all.map(|index| (index, &problem.constraints[index])).find(|(_, c)| {
-                    let kind = constraint::kind(&c.kind);
-                    kind.is_some_and(|kind| kind.fixes(&problem, &c.items).frame)
-                });
+                let fixing =
+                    all.map(|index| (index, &problem.constraints[index]))
+                        .find(|(_, c)| {
+                            let kind = constraint::kind(&c.kind);
+                            kind.is_some_and(|kind| kind.fixes(&problem, &c.items).frame)
+                        });
                 let name = fixing.map(|(index, _)| problem.constraint_name(index));
                 let name = format!("`{}`", name.unwrap_or_default());
                 return Err(ProblemError::ReferenceInOwnFrame(name));

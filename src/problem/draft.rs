@@ -117,7 +117,10 @@ impl ProblemBuilder {
 
     /// Adds an arc in the plane.
     pub fn arc(self, name: &str, center: &str, start: &str, end: &str) -> Self {
-        self.object(name, DraftShape::Arc([center, start, end].map(str::to_owned)))
+        self.object(
+            name,
+            DraftShape::Arc([center, start, end].map(str::to_owned)),
+        )
     }
 
     /// Adds a rigid body: points of the problem, with their coordinates in the body's own frame.
@@ -137,7 +140,9 @@ impl ProblemBuilder {
         C: IntoIterator<Item = N>,
         P: IntoIterator<Item = (&'static str, C)>,
     {
-        let points = points.into_iter().map(|(p, at)| (p.to_owned(), numbers(at)));
+        let points = points
+            .into_iter()
+            .map(|(p, at)| (p.to_owned(), numbers(at)));
         let points = points.collect();
         self.object(name, DraftShape::Body(points))
     }
@@ -169,11 +174,7 @@ impl ProblemBuilder {
     ///     .finish().unwrap();
     /// assert!(problem.is_absolute());
     /// ```
-    pub fn constraint<S: AsRef<str>>(
-        self,
-        kind: &str,
-        names: impl IntoIterator<Item = S>,
-    ) -> Self {
+    pub fn constraint<S: AsRef<str>>(self, kind: &str, names: impl IntoIterator<Item = S>) -> Self {
         self.with_constraint(kind, names, None)
     }
 
@@ -225,7 +226,11 @@ impl ProblemBuilder {
                         index,
                         what,
                         name: draft.name.clone(),
-                        space: if only == Some(2) { "the plane" } else { "space" },
+                        space: if only == Some(2) {
+                            "the plane"
+                        } else {
+                            "space"
+                        },
                     });
                 }
                 let find = |name: &str| {
@@ -322,9 +327,23 @@ impl ProblemBuilder {
         objects: &[Object],
     ) -> Result<Vec<Constraint>, ProblemError> {
         let mut items: HashMap<&str, Item> = HashMap::new();
-        items.extend(points.iter().enumerate().map(|(p, point)| (point.name.as_str(), Item::Point(p))));
-        items.extend(objects.iter().enumerate().map(|(o, object)| (object.name.as_str(), Item::Object(o))));
-        items.extend(AXES.iter().enumerate().map(|(k, &name)| (name, Item::Axis(k))));
+        items.extend(
+            points
+                .iter()
+                .enumerate()
+                .map(|(p, point)| (point.name.as_str(), Item::Point(p))),
+        );
+        items.extend(
+            objects
+                .iter()
+                .enumerate()
+                .map(|(o, object)| (object.name.as_str(), Item::Object(o))),
+        );
+        items.extend(
+            AXES.iter()
+                .enumerate()
+                .map(|(k, &name)| (name, Item::Axis(k))),
+        );
         let mut drafts = Vec::with_capacity(self.constraints.len());
         for draft in &self.constraints {
             let order = KINDS.iter().position(|kind| kind.key() == draft.kind);
@@ -472,7 +491,11 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
                 index,
                 what,
                 name: object.name.clone(),
-                space: if problem.dimension == 2 { "space" } else { "the plane" },
+                space: if problem.dimension == 2 {
+                    "space"
+                } else {
+                    "the plane"
+                },
             });
         }
     }

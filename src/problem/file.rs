@@ -501,7 +501,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The exact number that the text of `value` says.
-    pub(super) fn number(&self, line: Line, key: &str, value: &Value) -> Result<Decimal, FileError> {
+    pub(super) fn number(
+        &self,
+        line: Line,
+        key: &str,
+        value: &Value,
+    ) -> Result<Decimal, FileError> {
         let line = self.line(value.span()).or(line);
         let text = match value {
             Value::Integer(_) | Value::Float(_) => value.span().and_then(|s| self.text.get(s)),
@@ -529,7 +534,12 @@ impl<'a> Reader<'a> {
         })
     }
 
-    pub(super) fn point_names(&self, line: Line, key: &str, item: &Item) -> Result<Vec<String>, FileError> {
+    pub(super) fn point_names(
+        &self,
+        line: Line,
+        key: &str,
+        item: &Item,
+    ) -> Result<Vec<String>, FileError> {
         let wanted = "names of points in brackets, each in quotes";
         let Some(array) = item.as_array() else {
             return Err(self.wrong_kind(line, key, wanted, item));
@@ -632,14 +642,26 @@ impl<'a> Reader<'a> {
         self.fail(None, fault)
     }
 
-    pub(super) fn wrong_kind(&self, line: Line, key: &str, wanted: &str, found: &Item) -> FileError {
+    pub(super) fn wrong_kind(
+        &self,
+        line: Line,
+        key: &str,
+        wanted: &str,
+        found: &Item,
+    ) -> FileError {
         match found.as_value() {
             Some(value) => self.wrong_value(line, key, wanted, value),
             None => self.wrong(line, key, wanted, format!("a {}", found.type_name())),
         }
     }
 
-    pub(super) fn wrong_value(&self, line: Line, key: &str, wanted: &str, found: &Value) -> FileError {
+    pub(super) fn wrong_value(
+        &self,
+        line: Line,
+        key: &str,
+        wanted: &str,
+        found: &Value,
+    ) -> FileError {
         let text = found.span().and_then(|span| self.text.get(span));
         let text: String = text.unwrap_or("").chars().take(41).collect();
         let found = match text.as_str() {

@@ -18,9 +18,9 @@ mod vocabulary;
 mod write;
 
 pub use builder::ProblemBuilder;
+pub(crate) use check::field;
 pub use check::{Rigidity, rigidity};
 pub use decimal::{Decimal, DecimalError};
-pub(crate) use check::field;
 pub(crate) use error::counted;
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};

@@ -145,9 +145,16 @@ impl Reader<'_> {
             };
             let mut parts: Vec<&Value> = parts.iter().collect();
             let is_number = |value: &&Value| value.is_integer() || value.is_float();
-            let number = match kind.measure() {
-                Measure::Nothing => None,
-                _ => parts.pop_if(|last| is_number(last)),
+            let wants_number = kind.measure() != Measure::Nothing;
+            // A number in quotes is no name: it is refused as what it is.
+            let quoted = |value: &&Value| {
+                value
+                    .as_str()
+                    .is_some_and(|text| text.parse::<Decimal>().is_ok() && !objects.contains(text))
+            };
+            let number = match parts.len() {
+                0 | 1 => parts.pop_if(|last| wants_number && is_number(last)),
+                _ => parts.pop_if(|last| wants_number && (is_number(last) || quoted(last))),
             };
             let mut names = Vec::with_capacity(parts.len());
             for part in parts {
@@ -157,12 +164,13 @@ impl Reader<'_> {
                 })?;
                 names.push(name);
             }
-            if number.is_none() && kind.measure() != Measure::Nothing {
+            if number.is_none() && wants_number {
                 let found = format!("a list of {}", names.len());
                 return Err(self.wrong(line, &key, &wanted, found));
             }
-            let between_points =
-                kind.key() == "distances" && names.len() == 2 && !names.iter().any(|&n| objects.contains(n));
+            let between_points = kind.key() == "distances"
+                && names.len() == 2
+                && !names.iter().any(|&n| objects.contains(n));
             let shown: Vec<String> = names.iter().map(|n| n.chars().take(40).collect()).collect();
             let here = format!("{key}: {}", shown.join("-"));
             let number = number.map(|n| self.number(line, &here, n)).transpose()?;

@@ -50,7 +50,11 @@ impl Problem {
         let distances = self.distances.iter();
         let lengths: Vec<String> = distances.clone().filter(is_length).map(line).collect();
         let squares = distances.filter(|d| !is_length(d)).map(line).collect();
-        write_list(out, "distances", [lengths, self.entries("distances")].concat())?;
+        write_list(
+            out,
+            "distances",
+            [lengths, self.entries("distances")].concat(),
+        )?;
         write_list(out, "squared_distances", squares)?;
         for kind in KINDS.iter().filter(|kind| kind.key() != "distances") {
             write_list(out, kind.key(), self.entries(kind.key()))?;
@@ -86,8 +90,9 @@ impl Problem {
         constraints
             .map(|constraint| {
                 let items = constraint.items.iter();
-                let mut parts: Vec<String> =
-                    items.map(|&item: &Item| quoted(self.item_name(item))).collect();
+                let mut parts: Vec<String> = items
+                    .map(|&item: &Item| quoted(self.item_name(item)))
+                    .collect();
                 parts.extend(constraint.value.as_ref().map(number));
                 format!("[{}]", parts.join(", "))
             })
@@ -124,7 +129,11 @@ impl Problem {
                         format!("{{ point = {point}, normal = {normal} }}")
                     }
                     Shape::Round { center, radius } => {
-                        format!("{{ center = {}, radius = {} }}", name(center), number(radius))
+                        format!(
+                            "{{ center = {}, radius = {} }}",
+                            name(center),
+                            number(radius)
+                        )
                     }
                     Shape::Arc { center, start, end } => format!(
                         "{{ center = {}, start = {}, end = {} }}",

@@ -37,7 +37,14 @@ impl Kind for Angles {
         if of.items.next() == Sort::Point && of.items.left() == 3 {
             let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
             let (u, v) = (low.span(b, a)?, low.span(b, c)?);
-            return between(of.name, low, &u, &v, Real::cosine_of_degrees(degrees), false);
+            return between(
+                of.name,
+                low,
+                &u,
+                &v,
+                Real::cosine_of_degrees(degrees),
+                false,
+            );
         }
         let first = direction(&mut of.items, low)?;
         let second = direction(&mut of.items, low)?;

@@ -58,11 +58,13 @@ impl Kind for Distances {
             };
         }
         let first = of.items.next();
-        if first == Sort::Plane || first == Sort::Line && of.items.left() == 2 && {
-            let mut rest = of.items.clone();
-            rest.line()?;
-            rest.next() == Sort::Point
-        } {
+        if first == Sort::Plane
+            || first == Sort::Line && of.items.left() == 2 && {
+                let mut rest = of.items.clone();
+                rest.line()?;
+                rest.next() == Sort::Point
+            }
+        {
             // The point may stand second.
             let mut rest = of.items.clone();
             let thing = if first == Sort::Plane {
@@ -136,9 +138,8 @@ fn from_plane(
     then: Real,
 ) -> Result<(), Fault> {
     let now = plane.height_in_sketch(low, place);
-    let then = with_sign(&now, then).ok_or(
-        "the point is in the plane in the sketch: move it to the side where it is wanted",
-    )?;
+    let then = with_sign(&now, then)
+        .ok_or("the point is in the plane in the sketch: move it to the side where it is wanted")?;
     let products = plane.height(low, 1, place);
     low.measure(
         name,
@@ -181,7 +182,8 @@ fn from_line(
         return Ok(());
     }
     let along = dot(&line.along.at, &across.at);
-    let square = dot(&across.at, &across.at) - &along * &along / dot(&line.along.at, &line.along.at);
+    let square =
+        dot(&across.at, &across.at) - &along * &along / dot(&line.along.at, &line.along.at);
     if square.is_zero() {
         return Err(on_it.to_owned());
     }

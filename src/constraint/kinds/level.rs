@@ -42,7 +42,9 @@ impl Kind for Level {
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         if low.dimension() == 3 {
-            return Err("this is for problems of dimension 2; in space say `dx`, `dy` or `dz`".to_owned());
+            return Err(
+                "this is for problems of dimension 2; in space say `dx`, `dy` or `dz`".to_owned(),
+            );
         }
         let line = of.items.line()?;
         of.items.end()?;

@@ -11,12 +11,30 @@ pub struct Position {
 
 /// All six.
 pub const POSITIONS: [Position; 6] = [
-    Position { axis: 0, difference: false },
-    Position { axis: 1, difference: false },
-    Position { axis: 2, difference: false },
-    Position { axis: 0, difference: true },
-    Position { axis: 1, difference: true },
-    Position { axis: 2, difference: true },
+    Position {
+        axis: 0,
+        difference: false,
+    },
+    Position {
+        axis: 1,
+        difference: false,
+    },
+    Position {
+        axis: 2,
+        difference: false,
+    },
+    Position {
+        axis: 0,
+        difference: true,
+    },
+    Position {
+        axis: 1,
+        difference: true,
+    },
+    Position {
+        axis: 2,
+        difference: true,
+    },
 ];
 
 impl Kind for Position {
@@ -27,7 +45,9 @@ impl Kind for Position {
     fn meaning(&self) -> &'static str {
         match self.difference {
             false => "a coordinate of a point is that number",
-            true => "the second point is by that much further along the axis than the first (with its sign)",
+            true => {
+                "the second point is by that much further along the axis than the first (with its sign)"
+            }
         }
     }
 
@@ -72,7 +92,12 @@ impl Kind for Position {
         };
         let then = Real::from(of.number().value().clone());
         of.items.end()?;
-        low.equate(of.name, vec![product(1, form, Form::One)], ramp(now.into(), then), 1);
+        low.equate(
+            of.name,
+            vec![product(1, form, Form::One)],
+            ramp(now.into(), then),
+            1,
+        );
         Ok(())
     }
 }
