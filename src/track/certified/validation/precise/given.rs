@@ -51,22 +51,27 @@ fn check(problem: &Problem, random: &mut Random, ratios: &mut Ratios) {
         return;
     };
     let figure = Figure::new(problem, &homotopy);
-    for (length, e) in homotopy.lengths.iter().zip(&figure.e) {
+    for (right, e) in homotopy.rights.iter().zip(&figure.e) {
         for k in 0..5 {
             assert!(
-                e[k].is_in(length.half_square()[k]),
-                "coefficient {k} of a length's half square"
+                e[k].is_in(right.enclosures()[k]),
+                "coefficient {k} of a right-hand side"
             );
-            let away = (&e[k] - &Big::of(length.e[k])).abs();
-            ratios.check("coefficients of E", &away, length.e_radius[k]);
+            let away = (&e[k] - &Big::of(right.e[k])).abs();
+            ratios.check("coefficients of E", &away, right.e_radius[k]);
         }
         let all = |t: &Big| e.iter().rev().fold(Big::of(0.0), |sum, c| &sum * t + c);
-        assert!(all(&Big::of(1.0)).is_in(length.target_half_square()));
+        assert!(all(&Big::of(1.0)).is_in(right.at_target()));
         let (a, b) = (random.between(-3.0, 3.0), random.between(-3.0, 3.0));
         let (lo, hi) = (a.min(b), a.max(b));
         let t = Big::of(random.between(lo, hi));
-        let half_square = all(&t);
-        assert!(half_square.is_in(length.enclose_half_square(hull(lo, hi))));
+        assert!(all(&t).is_in(right.enclose(hull(lo, hi))));
+    }
+    for (length, e) in homotopy.lengths.iter().zip(&figure.e) {
+        let all = |t: &Big| e.iter().rev().fold(Big::of(0.0), |sum, c| &sum * t + c);
+        let (a, b) = (random.between(-3.0, 3.0), random.between(-3.0, 3.0));
+        let (lo, hi) = (a.min(b), a.max(b));
+        let half_square = all(&Big::of(random.between(lo, hi)));
         // |a| where E ≥ 0: both signs are looked at.
         let root = (Big::of(2.0) * half_square.max(Big::of(0.0))).sqrt();
         let range = length.enclose(hull(lo, hi));
@@ -112,13 +117,11 @@ fn check_residual<const D: usize>(
     };
     for size in [1e-3, 1.0, 30.0] {
         let (z, v, away) = (vector(size), vector(1.0), vector(1e-9 * size));
-        let per_axis = || std::array::from_fn(|_| equations.per_edge());
-        let (mut d, mut dv, mut sums): ([Vector; D], [Vector; D], [Vector; D]) =
-            (per_axis(), per_axis(), per_axis());
-        let mut lengths = crate::track::full::Lengths::new(m);
+        let [mut d, mut dv, mut sums] = std::array::from_fn(|_| equations.room());
+        let mut lengths = crate::track::full::Lengths::new(&equations);
         let [mut f, mut error] = std::array::from_fn(|_| equations.vector());
         equations.differences(&z, &mut d);
-        equations.differences(&v, &mut dv);
+        equations.directions(&v, &mut dv);
         equations.expand_lengths(z[m], &mut lengths);
         equations.residual(&d, &lengths, &mut f);
         equations.residual_error(&d, z[m], &mut error);

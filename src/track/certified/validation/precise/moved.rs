@@ -104,7 +104,7 @@ pub fn lengthen<const D: usize>(
     size: f64,
     random: &mut Random,
 ) -> Figure {
-    let bend = equations.bend.edge;
+    let bend = equations.bends[0].edge;
     let mut e = Vec::new();
     for edge in 0..equations.m {
         let coefficients: [Big; 5] = std::array::from_fn(|k| {
@@ -113,11 +113,11 @@ pub fn lengthen<const D: usize>(
             }
             let (middle, radius) = if edge == bend {
                 let radius = size * random.unit();
-                equations.bend.e_radius[k] = radius;
+                equations.bends[0].e_radius[k] = radius;
                 if k < 3 {
                     equations.e_radius[k][edge] = radius;
                 }
-                (equations.bend.e[k], radius)
+                (equations.bends[0].e[k], radius)
             } else {
                 let radius = size * random.unit();
                 equations.e_radius[k][edge] = radius;
