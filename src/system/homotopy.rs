@@ -226,10 +226,9 @@ impl Homotopy {
 
     /// The unknown that a point's coordinate is, or `None` where it is zero.
     pub fn coordinate(&self, point: usize, axis: usize) -> Option<usize> {
-        let free = (axis < self.dimension)
+        (axis < self.dimension)
             .then(|| self.gauge.variable[point * self.dimension + axis])
-            .filter(|&v| v < self.equations);
-        free
+            .filter(|&v| v < self.equations)
     }
 
     /// The terms of 2 q_e of any equation: the squares of a distance's differences, or what a
@@ -263,18 +262,6 @@ impl Homotopy {
         match self.gauge.place.get(unknown) {
             Some(place) => place % self.dimension == axis,
             None => self.tail.unknowns[unknown - self.gauge.place.len()].flips[axis],
-        }
-    }
-
-    /// F_e = ½(|p_i − p_j|² − a_e(t)²) of the distances, in floats.
-    pub fn residual(&self, figure: &[f64], t: f64, out: &mut [f64]) {
-        let d = self.dimension;
-        for ((edge, length), f) in self.edges.iter().zip(&self.lengths).zip(out) {
-            let [i, j] = edge.points.map(|p| p * d);
-            let squared: f64 = (0..d)
-                .map(|k| (figure[i + k] - figure[j + k]).powi(2))
-                .sum();
-            *f = 0.5 * (squared - length.value(t).powi(2));
         }
     }
 

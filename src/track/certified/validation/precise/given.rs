@@ -1,5 +1,6 @@
 //! What a run is given: lengths and sketches in floats, against those of the problem in 256 bits.
 
+use super::super::disguise::Disguised;
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
@@ -46,11 +47,8 @@ fn sketch(problem: &Problem, homotopy: &Homotopy) -> Vec<Big> {
         .collect()
 }
 
-fn check(problem: &Problem, random: &mut Random, ratios: &mut Ratios) {
-    let Ok(homotopy) = Homotopy::new(problem) else {
-        return;
-    };
-    let figure = Figure::new(problem, &homotopy);
+fn check((problem, homotopy): (&Problem, &Homotopy), random: &mut Random, ratios: &mut Ratios) {
+    let figure = Figure::new(problem, homotopy);
     for (right, e) in homotopy.rights.iter().zip(&figure.e) {
         for k in 0..5 {
             assert!(
@@ -78,7 +76,7 @@ fn check(problem: &Problem, random: &mut Random, ratios: &mut Ratios) {
         assert!(root.is_in(range) || (-root.clone()).is_in(range));
     }
     let m = homotopy.equations;
-    for (place, x) in sketch(problem, &homotopy).iter().enumerate() {
+    for (place, x) in sketch(problem, homotopy).iter().enumerate() {
         if homotopy.gauge.variable[place] < m {
             let box_ = homotopy.sketch_box[place];
             assert!(x.is_in(box_), "place {place} of the sketch");
@@ -94,8 +92,8 @@ fn check(problem: &Problem, random: &mut Random, ratios: &mut Ratios) {
 
     // F and J in floats, at points and with directions of any size.
     match problem.dimension {
-        2 => check_residual::<2>(&homotopy, &figure, random, ratios),
-        _ => check_residual::<3>(&homotopy, &figure, random, ratios),
+        2 => check_residual::<2>(homotopy, &figure, random, ratios),
+        _ => check_residual::<3>(homotopy, &figure, random, ratios),
     }
 }
 
@@ -170,7 +168,13 @@ fn lengths_sketches_and_residuals_are_enclosed() {
         list.push(random_problem(&mut random, dimension, points, 0.5));
     }
     for problem in &list {
-        check(problem, &mut random, &mut ratios);
+        if let Ok(homotopy) = Homotopy::new(problem) {
+            check((problem, &homotopy), &mut random, &mut ratios);
+        }
+        let disguised = Disguised::new(problem, 0.7, &mut random);
+        if let Some(homotopy) = disguised.homotopy() {
+            check((&disguised.rest, &homotopy), &mut random, &mut ratios);
+        }
     }
     ratios.come_near(&[
         ("coefficients of E", 0.9),
