@@ -35,6 +35,9 @@ pub enum GaugeError {
              them in 53 bits; choose others"
     )]
     Collinear(String, String, String),
+    /// There are constraints that no tracker takes.
+    #[error("{0}")]
+    Constraints(String),
 }
 
 impl Gauge {
