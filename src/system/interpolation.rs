@@ -50,6 +50,21 @@ impl Length {
         }
     }
 
+    /// A length that stays what it is: a target, and half of its square.
+    pub fn constant(length: Interval, half_square: Interval) -> Self {
+        let zero = crate::interval::point(0.0);
+        let half_square = [half_square, zero, zero, zero, zero];
+        Length {
+            coefficients: [length, zero, zero],
+            half_square,
+            target: length,
+            a: [length.mid(), 0.0, 0.0],
+            e: half_square.map(|x| x.mid()),
+            e_radius: half_square.map(|x| x.rad()),
+            degree: 2,
+        }
+    }
+
     /// An enclosure of the values that a takes on a set of t.
     ///
     /// Evaluated around the middle of the set, so that narrow sets give narrow values.
@@ -67,6 +82,13 @@ impl Length {
     pub fn enclose_half_square(&self, t: Interval) -> Interval {
         let e = &self.half_square;
         e[0] + t * (e[1] + t * (e[2] + t * (e[3] + t * e[4])))
+    }
+
+    /// An enclosure of E'' on a set of t.
+    pub fn enclose_curvature(&self, t: Interval) -> Interval {
+        let [_, _, e2, e3, e4] = self.half_square;
+        let point = crate::interval::point;
+        point(2.0) * e2 + t * (point(6.0) * e3 + t * (point(12.0) * e4))
     }
 
     /// Enclosures of the coefficients of E(t).

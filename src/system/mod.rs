@@ -3,12 +3,13 @@
 //! Distances are taken squared, `F_e = ½(|p_i − p_j|² − a_e(t)²)`: the same zeros while a_e > 0,
 //! no square roots, and second derivatives in X that do not depend on X.
 
+mod edit;
 mod exact;
 mod gauge;
 mod homotopy;
 mod interpolation;
 
 pub use exact::ExactLength;
-pub use gauge::{Gauge, GaugeError};
+pub use gauge::{Gauge, GaugeError, Placement};
 pub use homotopy::{Edge, Homotopy};
 pub use interpolation::Length;

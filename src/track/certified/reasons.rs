@@ -41,6 +41,8 @@ impl Rejection {
 pub enum Doubt {
     /// Whether t is 1 somewhere.
     Time(Undecided),
+    /// Whether t goes on rising.
+    Turn(Undecided),
     /// Where the solution is: Newton's method does not converge after a correction so large.
     Newton(f64),
     /// Nor can it begin: the smallest pivot of the Jacobian is so many times the largest.
@@ -195,6 +197,11 @@ pub fn undecided(doubt: Doubt, is_extended: bool, unit: f64) -> String {
     match doubt {
         Doubt::Time(Undecided { value, slope }) => format!(
             "{WHETHER}: a fold is too near, or two solutions are (t − 1 is between {:.1e} and {:.1e}, dt/ds \
+             between {:.1e} and {:.1e})",
+            value.0, value.1, slope.0, slope.1
+        ),
+        Doubt::Turn(Undecided { value, slope }) => format!(
+            "it could not be decided whether the path turns back (t − 1 is between {:.1e} and {:.1e}, dt/ds \
              between {:.1e} and {:.1e})",
             value.0, value.1, slope.0, slope.1
         ),

@@ -75,6 +75,13 @@ impl<const D: usize> SolutionProver<D> {
         }
     }
 
+    /// Takes other target lengths.
+    pub fn set_targets(&mut self, homotopy: &Homotopy) {
+        self.half_squares.clear();
+        let targets = homotopy.lengths.iter().map(|l| l.target_half_square());
+        self.half_squares.extend(targets);
+    }
+
     /// Proves a box around the solution near `guess`, the equations being F(X, a(1)) = 0.
     ///
     /// Krawczyk's test with the norm max |w_i|: with Y the inverse at the middle x,

@@ -126,6 +126,20 @@ impl<const D: usize> Equations<D> {
         }
     }
 
+    /// Takes the lengths of another homotopy between the same points.
+    pub fn set_lengths(&mut self, homotopy: &Homotopy) {
+        let lengths = &homotopy.lengths;
+        for k in 0..3 {
+            for (e, length) in lengths.iter().enumerate() {
+                self.e[k][e] = length.e[k];
+                self.e_radius[k][e] = length.e_radius[k];
+            }
+        }
+        let bend = &lengths[self.bend.edge];
+        (self.bend.e, self.bend.e_radius) = (bend.e, bend.e_radius);
+        self.extended = None;
+    }
+
     /// Makes room for extended precision.
     pub fn extend(&mut self, homotopy: &Homotopy) {
         if self.extended.is_none() {
