@@ -50,6 +50,10 @@ impl Session {
     ) -> Result<Self, OpenError> {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
+        if !problem.is_distances_only() {
+            let what = "only distances between points can be edited as yet, and there are other constraints";
+            return Err(StartError::Unsupported(what.to_owned()).into());
+        }
         let homotopy = Homotopy::new(&problem)?;
         if homotopy.equations > LARGEST_SQUARE {
             let what = format!(
