@@ -55,6 +55,9 @@ use visit::Found;
 /// The sketch and the homotopy play no part.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
+    if !problem.is_distances_only() {
+        return Err(Unserved::Constraints);
+    }
     let targets = Targets::new(problem);
     if let Some((edge, way)) = emptiness::too_long(&targets) {
         let reason = outcome::too_long(problem, edge, &way);

@@ -70,6 +70,11 @@ pub struct Complete {
 /// Why a problem cannot be searched.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Unserved {
+    /// Other constraints.
+    #[error(
+        "not served yet: the search takes distances between points alone, and there are other constraints"
+    )]
+    Constraints,
     /// No base.
     #[error(
         "not served yet: the search begins with two joined points in the plane, or three mutually joined \

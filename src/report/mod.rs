@@ -3,6 +3,7 @@
 mod comparison;
 mod complete;
 mod digits;
+mod edit;
 mod json;
 pub mod picture;
 mod progress;
@@ -12,6 +13,7 @@ mod theorem;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
 pub use complete::{complete_to_json, complete_to_table};
 pub use digits::certain_digits;
+pub use edit::{edit_in_words, edit_to_json, edit_to_table, edit_to_value, limit_in_words};
 pub use json::to_json;
 pub use progress::ProgressLine;
 pub use table::to_table;

@@ -4,12 +4,15 @@
 //! no square roots, and second derivatives in X that do not depend on X. All other constraints are
 //! quadratic equations too ([`crate::constraint`]).
 
+mod edit;
 mod exact;
 mod gauge;
 mod homotopy;
 mod interpolation;
+mod right;
 
 pub use exact::ExactLength;
-pub use gauge::{Gauge, GaugeError};
-pub use homotopy::{Edge, Homotopy};
+pub use gauge::{Gauge, GaugeError, Placement};
+pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
+pub use right::Right;
