@@ -44,7 +44,11 @@ fn shipped_problems_verify() {
 fn the_cover_is_the_same_for_any_number_of_threads() {
     let problem = shipped("disulfide");
     let with = |threads| {
-        let options = Options { cover: true, threads, ..Options::default() };
+        let options = Options {
+            cover: true,
+            threads,
+            ..Options::default()
+        };
         all(&problem, &options).unwrap().cover.unwrap()
     };
     assert!(with(1) == with(3));
@@ -64,10 +68,18 @@ fn random_problems_verify() {
             let Ok(problem) = recipe.build() else {
                 return Err(TestCaseError::reject("not a problem"));
             };
-            let Ok(result) = all(&problem, &Options { cover: true, ..Options::default() }) else {
+            let Ok(result) = all(
+                &problem,
+                &Options {
+                    cover: true,
+                    ..Options::default()
+                },
+            ) else {
                 return Ok(());
             };
-            let Some(bytes) = &result.cover else { return Ok(()) };
+            let Some(bytes) = &result.cover else {
+                return Ok(());
+            };
             let verdict = verify_cover(bytes).unwrap();
             prop_assert_eq!(&verdict.flaw, &None, "{}", problem.to_toml());
             prop_assert_eq!(verdict.undecided == 0, result.status == Status::Complete);
@@ -110,7 +122,9 @@ fn without_folds() -> Cover {
         let mut at = 0;
         let mut folded = false;
         while at < cover.marks.len() {
-            let Some((mark, next)) = Mark::read(&cover.marks, at, cover.drives.len()) else { break };
+            let Some((mark, next)) = Mark::read(&cover.marks, at, cover.drives.len()) else {
+                break;
+            };
             folded |= matches!(mark, Mark::Fold(..));
             at = next;
         }
@@ -125,26 +139,46 @@ fn without_folds() -> Cover {
 fn a_mark_left_out_or_turned_into_another_is_noticed() {
     let cover = without_folds();
     let all = marks(&cover);
-    let ends: Vec<usize> = all.iter().map(|m| m.0).skip(1).chain([cover.marks.len()]).collect();
+    let ends: Vec<usize> = all
+        .iter()
+        .map(|m| m.0)
+        .skip(1)
+        .chain([cover.marks.len()])
+        .collect();
     for ((at, mark), end) in all.iter().zip(&ends) {
         let mut less = cover.clone();
         less.marks.drain(*at..*end);
-        assert!(damaged(&less).is_none_or(|v| v.flaw.is_some()), "{mark:?} left out");
+        assert!(
+            damaged(&less).is_none_or(|v| v.flaw.is_some()),
+            "{mark:?} left out"
+        );
         // A part with a figure in it is not excluded by any other reason.
         if *mark == Mark::Figure {
-            for wrong in [Mark::Excluded(cover.steps.len() - 1), Mark::WrongDistance(cover.steps.len() - 1, 0)] {
+            for wrong in [
+                Mark::Excluded(cover.steps.len() - 1),
+                Mark::WrongDistance(cover.steps.len() - 1, 0),
+            ] {
                 let mut other = cover.clone();
                 let mut bytes = Vec::new();
                 wrong.put(cover.drives.len(), &mut bytes);
                 other.marks.splice(*at..*end, bytes);
-                assert!(damaged(&other).is_none_or(|v| v.flaw.is_some()), "{wrong:?}");
+                assert!(
+                    damaged(&other).is_none_or(|v| v.flaw.is_some()),
+                    "{wrong:?}"
+                );
             }
         }
         // And what is excluded holds no figure.
-        if matches!(mark, Mark::NoPlace(_) | Mark::Excluded(_) | Mark::WrongDistance(..)) {
+        if matches!(
+            mark,
+            Mark::NoPlace(_) | Mark::Excluded(_) | Mark::WrongDistance(..)
+        ) {
             let mut other = cover.clone();
             other.marks.splice(*at..*end, [8]);
-            assert!(damaged(&other).is_none_or(|v| v.flaw.is_some()), "{mark:?} for a figure");
+            assert!(
+                damaged(&other).is_none_or(|v| v.flaw.is_some()),
+                "{mark:?} for a figure"
+            );
             // Nothing claimed is no flaw, and no proof either.
             let mut open = cover.clone();
             open.marks.splice(*at..*end, [9]);
@@ -169,7 +203,10 @@ fn a_solution_left_out_added_or_moved_is_noticed() {
         let mut other = cover.figures[index].clone();
         other.iter_mut().for_each(|p| p[2] = -p[2]);
         image.figures.push(other);
-        assert!(damaged(&image).unwrap().flaw.is_some(), "{index} and its image");
+        assert!(
+            damaged(&image).unwrap().flaw.is_some(),
+            "{index} and its image"
+        );
         let mut moved = cover.clone();
         moved.figures[index][cover.steps[0].0][0] += 1e-3;
         assert!(damaged(&moved).unwrap().flaw.is_some(), "{index} moved");
@@ -195,7 +232,10 @@ fn another_problem_or_plan_is_noticed() {
             .unwrap()
     };
     let (result, bytes) = searched(&problem("0.57"));
-    assert_eq!((result.status, result.solutions.len()), (Status::Complete, 0));
+    assert_eq!(
+        (result.status, result.solutions.len()),
+        (Status::Complete, 0)
+    );
     assert!(proves_all(&verify_cover(&bytes).unwrap()));
     let mut cover = Cover::from_bytes(&bytes).unwrap();
     cover.problem = problem("0.58").to_toml();
@@ -213,7 +253,9 @@ fn another_problem_or_plan_is_noticed() {
     other.steps.pop();
     assert!(damaged(&other).unwrap().flaw.is_some());
     let mut other = cover;
-    other.problem = other.problem.replacen("distances = [", "distances = [\n", 1);
+    other.problem = other
+        .problem
+        .replacen("distances = [", "distances = [\n", 1);
     // Only the text differs: the same problem.
     assert!(proves_all(&damaged(&other).unwrap()));
 }
@@ -223,7 +265,9 @@ fn any_byte_may_be_wrong() {
     let (result, bytes) = searched(&shipped("octahedron"));
     let mut state = 7u64;
     for _ in 0..400 {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         let mut other = bytes.clone();
         let at = (state >> 33) as usize % other.len();
         other[at] ^= 1 << ((state >> 20) % 8);

@@ -81,19 +81,27 @@ pub fn prove(plan: &Plan, centre: &[[f64; 3]]) -> Option<Figure> {
             off += factor.abs() * residual[e].abs();
         }
         let defect = product.iter().fold(point(0.0), |sum, x| sum + x.abs());
-        (q0, kappa, step) = (q0.max(defect.sup()), kappa.max(varied.sup()), step.max(off.sup()));
+        (q0, kappa, step) = (
+            q0.max(defect.sup()),
+            kappa.max(varied.sup()),
+            step.max(off.sup()),
+        );
     }
     if !(q0 < 0.5 && kappa > 0.0 && kappa < 1e30 && step < 1e30) {
         return None;
     }
-    let alone = (point(0.99) * (point(1.0) - point(q0)) / point(kappa)).inf().min(1.0);
+    let alone = (point(0.99) * (point(1.0) - point(q0)) / point(kappa))
+        .inf()
+        .min(1.0);
     // Where |w| ≤ radius, the test's operator maps into itself: |Y F| + (q₀ + κ radius) radius ≤ radius.
     let radius = (point(step) * point(4.0)).sup();
     let image = point(step) + (point(q0) + point(kappa) * point(radius)) * point(radius);
     let inside = radius == 0.0 || image.sup() < radius;
     // On the positive side of the axes of the base.
     let upper = plan.cover.base.iter().enumerate().skip(1);
-    let right = upper.map(|(place, &p)| centre[p][place - 1]).all(|x| x > radius);
+    let right = upper
+        .map(|(place, &p)| centre[p][place - 1])
+        .all(|x| x > radius);
     (inside && radius < 0.5 * alone && right).then(|| Figure {
         centre: centre.to_vec(),
         radius,
@@ -120,7 +128,9 @@ fn inverse(rows: &[Vec<(usize, Interval)>], m: usize) -> Option<Vec<Vec<f64>>> {
         for (r, row) in a.iter_mut().enumerate() {
             let factor = row[k];
             if r != k && factor != 0.0 {
-                row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= factor * p);
+                row.iter_mut()
+                    .zip(&pivot)
+                    .for_each(|(x, p)| *x -= factor * p);
             }
         }
     }
@@ -131,7 +141,9 @@ impl Figure {
     /// The mirror image in the base.
     pub fn mirrored(&self, dimension: usize) -> Vec<[f64; 3]> {
         let mut image = self.centre.clone();
-        image.iter_mut().for_each(|p| p[dimension - 1] = -p[dimension - 1]);
+        image
+            .iter_mut()
+            .for_each(|p| p[dimension - 1] = -p[dimension - 1]);
         image
     }
 
@@ -142,6 +154,8 @@ impl Figure {
             x + r
         };
         let pairs = self.centre.iter().flatten().zip(centre.iter().flatten());
-        pairs.into_iter().any(|(&x, &y)| box_of(x, self.radius).disjoint(box_of(y, radius)))
+        pairs
+            .into_iter()
+            .any(|(&x, &y)| box_of(x, self.radius).disjoint(box_of(y, radius)))
     }
 }

@@ -82,10 +82,14 @@ pub enum Mark {
 impl Cover {
     /// The bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut out = format!("{FIRST_LINE}\nversion {VERSION}\nunit {}\n", self.unit_exponent);
+        let mut out = format!(
+            "{FIRST_LINE}\nversion {VERSION}\nunit {}\n",
+            self.unit_exponent
+        );
         // Writing to a string cannot fail.
         let _ = write!(out, "problem {}\n{}\n", self.problem.len(), self.problem);
-        let list = |points: &[usize]| -> String { points.iter().map(|p| format!(" {p}")).collect() };
+        let list =
+            |points: &[usize]| -> String { points.iter().map(|p| format!(" {p}")).collect() };
         let _ = writeln!(out, "base{}", list(&self.base));
         for drive in &self.drives {
             let _ = match drive {
@@ -126,8 +130,12 @@ impl Cover {
         let error = |what: &str| CoverError(what.to_owned());
         let mut rest = bytes;
         let mut line = || -> Result<String, CoverError> {
-            let end = rest.iter().position(|&b| b == b'\n').ok_or_else(|| error("it ends early"))?;
-            let text = std::str::from_utf8(&rest[..end]).map_err(|_| error("a line is not text"))?;
+            let end = rest
+                .iter()
+                .position(|&b| b == b'\n')
+                .ok_or_else(|| error("it ends early"))?;
+            let text =
+                std::str::from_utf8(&rest[..end]).map_err(|_| error("a line is not text"))?;
             let text = text.to_owned();
             rest = &rest[end + 1..];
             Ok(text)
@@ -136,11 +144,16 @@ impl Cover {
             return Err(error("another format or version"));
         }
         let number = |text: Option<&str>| -> Result<usize, CoverError> {
-            text.and_then(|t| t.parse().ok()).ok_or_else(|| error("a whole number is missing"))
+            text.and_then(|t| t.parse().ok())
+                .ok_or_else(|| error("a whole number is missing"))
         };
         let float = |text: &str| -> Result<f64, CoverError> {
             let x: f64 = text.parse().map_err(|_| error("a number is missing"))?;
-            if x.abs() <= 1e60 { Ok(x) } else { Err(error("a number is out of range")) }
+            if x.abs() <= 1e60 {
+                Ok(x)
+            } else {
+                Err(error("a number is out of range"))
+            }
         };
         let unit = line()?;
         let unit_exponent: i32 = unit
@@ -180,7 +193,9 @@ impl Cover {
             match kind {
                 "base" => cover.base = words.map(|w| number(Some(w))).collect::<Result<_, _>>()?,
                 "angle" => cover.drives.push(None),
-                "square" => cover.drives.push(Some(float(words.next().unwrap_or_default())?)),
+                "square" => cover
+                    .drives
+                    .push(Some(float(words.next().unwrap_or_default())?)),
                 "arm" => {
                     let point = number(words.next())?;
                     let kind = Kind::Arm(number(words.next())?, number(words.next())?);
@@ -188,8 +203,14 @@ impl Cover {
                 }
                 "hinge" => {
                     let point = number(words.next())?;
-                    let frame = [number(words.next())?, number(words.next())?, number(words.next())?];
-                    cover.steps.push((point, Kind::Hinge(frame, number(words.next())?)));
+                    let frame = [
+                        number(words.next())?,
+                        number(words.next())?,
+                        number(words.next())?,
+                    ];
+                    cover
+                        .steps
+                        .push((point, Kind::Hinge(frame, number(words.next())?)));
                 }
                 "meet" => {
                     let point = number(words.next())?;
@@ -208,7 +229,9 @@ impl Cover {
                     if all.len() % 3 != 0 {
                         return Err(error("a figure's coordinates"));
                     }
-                    cover.figures.push(all.chunks(3).map(|p| [p[0], p[1], p[2]]).collect());
+                    cover
+                        .figures
+                        .push(all.chunks(3).map(|p| [p[0], p[1], p[2]]).collect());
                 }
                 "marks" => {
                     let length = number(words.next())?;
@@ -241,7 +264,12 @@ impl Mark {
             Mark::Excluded(step) => out.extend([6, step as u8]),
             Mark::Within(step, ranges) => {
                 out.extend([7, step as u8]);
-                out.extend(ranges[..symbols].iter().flatten().flat_map(|x| x.to_le_bytes()));
+                out.extend(
+                    ranges[..symbols]
+                        .iter()
+                        .flatten()
+                        .flat_map(|x| x.to_le_bytes()),
+                );
             }
             Mark::Figure => out.push(8),
             Mark::Undecided => out.push(9),

@@ -42,7 +42,9 @@ impl Node {
     pub fn middle(&self, i: usize) -> (f64, f64) {
         let [lo, hi] = self.ranges[i];
         let middle = 0.5 * (lo + hi);
-        let reach = (point(hi) - point(middle)).sup().max((point(middle) - point(lo)).sup());
+        let reach = (point(hi) - point(middle))
+            .sup()
+            .max((point(middle) - point(lo)).sup());
         (middle, reach.max(0.0))
     }
 }
@@ -78,14 +80,18 @@ impl<'a> Plan<'a> {
             base: Vec::new(),
             closing: Vec::new(),
         };
-        plan.fix_base().ok_or("the base is not one, or may be degenerate")?;
+        plan.fix_base()
+            .ok_or("the base is not one, or may be degenerate")?;
         plan.follow().ok_or("the plan is not one of this problem")?;
         Ok(plan)
     }
 
     /// The squared distance wanted between two points.
     pub fn square(&self, a: usize, b: usize) -> Option<Interval> {
-        let found = self.edges.iter().position(|&e| e == [a, b] || e == [b, a])?;
+        let found = self
+            .edges
+            .iter()
+            .position(|&e| e == [a, b] || e == [b, a])?;
         Some(self.squares[found])
     }
 
@@ -114,7 +120,9 @@ impl<'a> Plan<'a> {
         let mut stands = vec![false; self.points];
         cover.base.iter().for_each(|&p| stands[p] = true);
         let mut driven = 0;
-        if cover.steps.len() + self.dimension != self.points || cover.drives.len() > super::format::MAX_SYMBOLS {
+        if cover.steps.len() + self.dimension != self.points
+            || cover.drives.len() > super::format::MAX_SYMBOLS
+        {
             return None;
         }
         for (new, kind) in &cover.steps {
@@ -140,7 +148,12 @@ impl<'a> Plan<'a> {
                     drive(*parameter, true)?;
                     used.extend(&frame[..2]);
                     let [c1, c2, q] = *frame;
-                    if self.dimension != 3 || !frame.iter().all(|&p| stood(p)) || c1 == c2 || q == c1 || q == c2 {
+                    if self.dimension != 3
+                        || !frame.iter().all(|&p| stood(p))
+                        || c1 == c2
+                        || q == c1
+                        || q == c2
+                    {
                         return None;
                     }
                 }
@@ -173,7 +186,9 @@ impl<'a> Plan<'a> {
                 let other = if e[0] == *new { e[1] } else { e[0] };
                 e.contains(new) && stands[other] && !used.contains(&other)
             };
-            let closing = (0..self.edges.len()).filter(|&e| closes(&self.edges[e])).collect();
+            let closing = (0..self.edges.len())
+                .filter(|&e| closes(&self.edges[e]))
+                .collect();
             self.closing.push(closing);
             stands[*new] = true;
         }
@@ -205,11 +220,22 @@ impl<'a> Plan<'a> {
         let drives = &self.cover.drives;
         let signed = !self.cover.steps.is_empty() && self.is_signed(0);
         let angles: Vec<usize> = (0..drives.len()).filter(|&i| drives[i].is_none()).collect();
-        let free = if signed || self.cover.steps.is_empty() { &angles[..] } else { &angles[1..] };
+        let free = if signed || self.cover.steps.is_empty() {
+            &angles[..]
+        } else {
+            &angles[1..]
+        };
         let root = |choice: usize| Node {
-            ranges: drives.iter().map(|d| d.map_or([-1.0, 1.0], |most| [0.0, most])).collect(),
+            ranges: drives
+                .iter()
+                .map(|d| d.map_or([-1.0, 1.0], |most| [0.0, most]))
+                .collect(),
             halves: (0..drives.len())
-                .map(|i| free.iter().position(|&f| f == i).is_some_and(|k| (choice >> k) & 1 == 1))
+                .map(|i| {
+                    free.iter()
+                        .position(|&f| f == i)
+                        .is_some_and(|k| (choice >> k) & 1 == 1)
+                })
                 .collect(),
             signs: if signed { vec![1] } else { Vec::new() },
         };
@@ -264,7 +290,9 @@ impl<'a> Plan<'a> {
     /// p = c₁ + ((q₁B − q₂C) a + (q₂A − q₁C) b ± √N n)/Δ, Δ = AB − C², N = r₁²Δ − (q₁²B − 2q₁q₂C + q₂²A), n = a × b;
     /// in the plane Δ = A, N = r₁²A − q₁², n = a turned by a right angle.
     pub fn meet(&self, step: usize, node: &Node, points: &[Place]) -> Option<Meeting> {
-        let (new, Kind::Meet(centres)) = &self.cover.steps[step] else { return None };
+        let (new, Kind::Meet(centres)) = &self.cover.steps[step] else {
+            return None;
+        };
         let s = node.ranges.len();
         let radius = |k: usize| -> Option<Model> {
             Some(match centres[k].1 {
@@ -277,12 +305,16 @@ impl<'a> Plan<'a> {
         };
         let at = |k: usize| &points[centres[k].0];
         let given = |i: usize, j: usize| {
-            self.square(centres[i].0, centres[j].0).map(|x| Model::constant(s, x))
+            self.square(centres[i].0, centres[j].0)
+                .map(|x| Model::constant(s, x))
         };
         let (minus_one, half) = (point(-1.0), point(0.5));
         let a = minus(at(1), at(0));
         let (r1, big_a) = (radius(0)?, given(0, 1).unwrap_or_else(|| dot(&a, &a)));
-        let q1 = r1.plus(minus_one, &radius(1)?).plus(point(1.0), &big_a).by(half);
+        let q1 = r1
+            .plus(minus_one, &radius(1)?)
+            .plus(point(1.0), &big_a)
+            .by(half);
         if self.dimension == 2 {
             let square = r1.times(&big_a).plus(minus_one, &q1.times(&q1));
             let over = big_a.reciprocal();
@@ -292,15 +324,25 @@ impl<'a> Plan<'a> {
                 std::array::from_fn(|k| at(0)[k].plus(point(1.0), &a[k].times(&along)))
             });
             let normal = over.map(|over| turned.map(|x| x.times(&over)));
-            return Some(Meeting { middle, normal, square });
+            return Some(Meeting {
+                middle,
+                normal,
+                square,
+            });
         }
         let b = minus(at(2), at(0));
         let big_b = given(0, 2).unwrap_or_else(|| dot(&b, &b));
         let c = match given(1, 2) {
-            Some(third) => big_a.plus(point(1.0), &big_b).plus(minus_one, &third).by(half),
+            Some(third) => big_a
+                .plus(point(1.0), &big_b)
+                .plus(minus_one, &third)
+                .by(half),
             None => dot(&a, &b),
         };
-        let q2 = r1.plus(minus_one, &radius(2)?).plus(point(1.0), &big_b).by(half);
+        let q2 = r1
+            .plus(minus_one, &radius(2)?)
+            .plus(point(1.0), &big_b)
+            .by(half);
         let delta = big_a.times(&big_b).plus(minus_one, &c.times(&c));
         let first = q1.times(&big_b).plus(minus_one, &q2.times(&c));
         let second = q2.times(&big_a).plus(minus_one, &q1.times(&c));
@@ -313,11 +355,17 @@ impl<'a> Plan<'a> {
         let middle = over.map(|over| {
             let (x, y) = (first.times(&over), second.times(&over));
             std::array::from_fn(|k| {
-                at(0)[k].plus(point(1.0), &a[k].times(&x)).plus(point(1.0), &b[k].times(&y))
+                at(0)[k]
+                    .plus(point(1.0), &a[k].times(&x))
+                    .plus(point(1.0), &b[k].times(&y))
             })
         });
         let normal = over.map(|over| n.map(|x| x.times(&over)));
-        Some(Meeting { middle, normal, square })
+        Some(Meeting {
+            middle,
+            normal,
+            square,
+        })
     }
 }
 
@@ -334,7 +382,9 @@ fn plus(a: &Place, factor: Interval, b: &Place) -> Place {
 /// a · b.
 pub fn dot(a: &Place, b: &Place) -> Model {
     let one = point(1.0);
-    a[0].times(&b[0]).plus(one, &a[1].times(&b[1])).plus(one, &a[2].times(&b[2]))
+    a[0].times(&b[0])
+        .plus(one, &a[1].times(&b[1]))
+        .plus(one, &a[2].times(&b[2]))
 }
 
 fn cross(a: &Place, b: &Place) -> Place {

@@ -32,10 +32,42 @@ pub struct CoverVerdict {
     pub flaw: Option<String>,
 }
 
+impl CoverVerdict {
+    /// Whether the solutions listed are proved to be all.
+    pub fn proves_all(&self) -> bool {
+        self.flaw.is_none() && self.undecided == 0
+    }
+
+    /// Whether this is about the points and distances of a problem, whatever its sketch.
+    pub fn is_about(&self, problem: &Problem) -> bool {
+        let names = |p: &Problem| p.points.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+        problem.is_distances_only()
+            && self.problem.dimension == problem.dimension
+            && names(&self.problem) == names(problem)
+            && self.problem.distances == problem.distances
+    }
+}
+
 /// Checks a cover.
+///
+/// ```
+/// use krawl::certificate::cover::verify_cover;
+/// use krawl::complete::{Options, all};
+/// use krawl::problem::Problem;
+///
+/// let triangle = Problem::build("triangle", 2)
+///     .point("a", ["0", "0"]).point("b", ["1", "0"]).point("c", ["0.4", "1.1"])
+///     .distance("a", "b", "1").distance("b", "c", "1.2").distance("c", "a", "1.3")
+///     .finish().unwrap();
+/// let result = all(&triangle, &Options { cover: true, ..Options::default() }).unwrap();
+/// let verdict = verify_cover(&result.cover.unwrap()).unwrap();
+/// assert!(verdict.proves_all() && verdict.is_about(&triangle));
+/// assert_eq!(verdict.solutions, 1);
+/// ```
 pub fn verify_cover(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
     let cover = Cover::from_bytes(bytes)?;
-    let problem = Problem::parse(&cover.problem, "the cover's problem").map_err(|e| CoverError(e.to_string()))?;
+    let problem = Problem::parse(&cover.problem, "the cover's problem")
+        .map_err(|e| CoverError(e.to_string()))?;
     let mut verdict = CoverVerdict {
         solutions: cover.figures.len(),
         undecided: 0,
@@ -48,6 +80,9 @@ pub fn verify_cover(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
 }
 
 fn check(cover: &Cover, verdict: &mut CoverVerdict) -> Result<(), String> {
+    if !verdict.problem.is_distances_only() {
+        return Err("the problem has other constraints than distances".to_owned());
+    }
     let plan = Plan::new(&verdict.problem, cover)?;
     let mut figures: Vec<Figure> = Vec::new();
     for (index, centre) in cover.figures.iter().enumerate() {
@@ -58,7 +93,11 @@ fn check(cover: &Cover, verdict: &mut CoverVerdict) -> Result<(), String> {
             known.is_apart(centre, figure.radius) && known.is_apart(&image, figure.radius)
         };
         if let Some(same) = figures.iter().position(|known| !apart(known)) {
-            return Err(format!("the solutions {} and {} may be the same", same + 1, index + 1));
+            return Err(format!(
+                "the solutions {} and {} may be the same",
+                same + 1,
+                index + 1
+            ));
         }
         figures.push(figure);
     }
@@ -165,7 +204,10 @@ impl Walk<'_> {
             points[new] = self.plan.driven(step, node, points).ok_or_else(unknown)?;
         } else {
             let index = self.index(step);
-            let sign = *node.signs.get(index).ok_or("a point's side is not decided")?;
+            let sign = *node
+                .signs
+                .get(index)
+                .ok_or("a point's side is not decided")?;
             let meeting = self.plan.meet(step, node, points).ok_or_else(unknown)?;
             let (middle, normal) = meeting.middle.zip(meeting.normal).ok_or_else(unknown)?;
             let height = if sign == 0 {
@@ -247,7 +289,9 @@ impl Walk<'_> {
                     None => child.signs.push(0),
                 }
                 let folds = child.signs.iter().filter(|&&s| s == 0).count();
-                child.ranges.truncate(self.plan.cover.drives.len() + folds - 1);
+                child
+                    .ranges
+                    .truncate(self.plan.cover.drives.len() + folds - 1);
                 child.ranges.push([lo, hi]);
                 self.push(child)
             }

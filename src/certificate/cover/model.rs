@@ -27,7 +27,11 @@ impl Model {
     pub fn constant(symbols: usize, x: Interval) -> Self {
         let mut c = [ZERO; MOST];
         c[0] = x;
-        Model { symbols, c, rest: ZERO }
+        Model {
+            symbols,
+            c,
+            rest: ZERO,
+        }
     }
 
     /// `middle + radius u_i`.
@@ -48,10 +52,12 @@ impl Model {
 
     /// A bound of the terms of degree 1, and one of those of degree 2.
     fn sizes(&self) -> [Interval; 2] {
-        let sum = |range: std::ops::Range<usize>| {
-            self.c[range].iter().fold(ZERO, |sum, x| sum + x.abs())
-        };
-        [sum(1..1 + self.symbols), sum(1 + self.symbols..self.count())]
+        let sum =
+            |range: std::ops::Range<usize>| self.c[range].iter().fold(ZERO, |sum, x| sum + x.abs());
+        [
+            sum(1..1 + self.symbols),
+            sum(1 + self.symbols..self.count()),
+        ]
     }
 
     /// How far the function may be from a number.
@@ -130,7 +136,12 @@ impl Model {
     }
 
     /// k (1 + k₁ e + k₂ e² + R(e)), e = f/c − 1, for a function R that is monotone on the range of e.
-    fn composed(&self, k: Interval, [k1, k2]: [f64; 2], rest: impl Fn(Interval) -> Interval) -> Option<Model> {
+    fn composed(
+        &self,
+        k: Interval,
+        [k1, k2]: [f64; 2],
+        rest: impl Fn(Interval) -> Interval,
+    ) -> Option<Model> {
         let c = point(self.c[0].mid());
         let range = self.range();
         if !(range.inf() > 0.0 && range.sup() < 1e60 && c.inf() > 0.0) {
