@@ -25,7 +25,7 @@ use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
 use crate::system::Homotopy;
 use crate::track::arc::{Figure, Fold};
-use crate::track::full::{Equations, Lengths};
+use crate::track::full::{Differences, Equations, Lengths, Tail};
 
 /// Newton's method is done where corrections are below this, or do not shrink any more.
 const ACCURACY: f64 = 1e-15;
@@ -47,12 +47,13 @@ pub struct FoldProver<const D: usize> {
     /// Values of J, and of J(v), in the equations' pattern.
     j: Vec<f64>,
     jv: Vec<f64>,
-    d: [Vector; D],
-    dv: [Vector; D],
+    d: Differences<D>,
+    dv: Differences<D>,
     lengths: Lengths,
     /// X, t and a spare entry; v likewise.
     x: Vector,
     v: Vector,
+    room: Vector,
     f: Vector,
     step: Vector,
     bound: Vector,
@@ -87,11 +88,12 @@ impl<const D: usize> FoldProver<D> {
             pattern,
             j: vec![0.0; plain.entries()],
             jv: vec![0.0; plain.entries()],
-            d: std::array::from_fn(|_| equations.per_edge()),
-            dv: std::array::from_fn(|_| equations.per_edge()),
-            lengths: Lengths::new(m),
+            d: equations.room(),
+            dv: equations.room(),
+            lengths: Lengths::new(equations),
             x: equations.vector(),
             v: equations.vector(),
+            room: equations.vector(),
             f: Vector::zeros(n),
             step: Vector::zeros(n),
             bound: Vector::zeros(n),
@@ -149,7 +151,7 @@ impl<const D: usize> FoldProver<D> {
     fn look(&mut self, equations: &Equations<D>, c: &[f64]) {
         let m = equations.m;
         equations.differences(&self.x, &mut self.d);
-        equations.differences(&self.v, &mut self.dv);
+        equations.directions(&self.v, &mut self.dv);
         equations.expand_lengths(self.x[m], &mut self.lengths);
         equations.pattern_values(&self.d, &self.lengths.terms[1], &mut self.j);
         equations.pattern_values(&self.dv, &self.lengths.terms[1], &mut self.jv);
@@ -184,15 +186,11 @@ impl<const D: usize> FoldProver<D> {
     /// Φ in floats.
     fn residual(&mut self, equations: &Equations<D>, c: &[f64]) {
         let m = equations.m;
-        for e in 0..m {
-            let (mut squared, mut moved) = (0.0, 0.0);
-            for axis in 0..D {
-                squared += self.d[axis][e] * self.d[axis][e];
-                moved += self.d[axis][e] * self.dv[axis][e];
-            }
-            self.f[e] = 0.5 * squared - self.lengths.terms[0][e];
-            self.f[m + e] = moved;
-        }
+        equations.residual(&self.d, &self.lengths, &mut self.room);
+        self.f[..m].copy_from_slice(&self.room[..m]);
+        let (d, dv) = (&self.d, &self.dv);
+        equations.jacobian_times(d, &self.lengths, dv, 0.0, &mut self.room);
+        self.f[m..2 * m].copy_from_slice(&self.room[..m]);
         let along: f64 = c.iter().zip(&self.v[..m]).map(|(c, v)| c * v).sum();
         self.f[2 * m] = along - 1.0;
     }
@@ -207,30 +205,43 @@ impl<const D: usize> FoldProver<D> {
         let m = equations.m;
         let n = 2 * m + 1;
         // |I − Y Φ'| as computed; the rounding of that product and of the Jacobian's entries, which are
-        // differences (one rounding) but for E', of at most twelve.
+        // differences (one rounding) or sums of them, but for E', of at most twelve.
         self.y
             .identity_minus_sparse_abs(&self.pattern, &self.values, &self.ones, &mut self.step);
         let defect = self.greatest_step(n);
         let t = self.x[m].abs();
         // All entries of a row, twice for those that come from X and from v.
-        let per_entry = gamma(n + 40);
+        let per_entry = gamma(n + 40 + 2 * equations.tail.longest);
+        let is_free = |end: usize| (end < m) as usize as f64;
         let mut width = Vector::zeros(n);
         for e in 0..m {
             let (mut size, mut size_v, mut change) = (0.0, 0.0, 0.0);
             for axis in 0..D {
-                let ends = equations.ends[axis][e].iter();
-                let free = ends.filter(|&&end| (end as usize) < m).count() as f64;
+                let free = equations.ends[axis][e].map(|end| is_free(end as usize));
+                let free = free[0] + free[1];
                 size += self.d[axis][e].abs() * free;
                 size_v += self.dv[axis][e].abs() * free;
                 change += free * free;
             }
+            for (half, forms) in equations.tail.products(e) {
+                let free = forms.map(|form| equations.tail.ends(form).map(is_free));
+                let [left, right] = free.map(|ends| ends[0] + ends[1]);
+                let of = |d: &Differences<D>| {
+                    let [l, r] = forms.map(|form| d.forms[form].abs());
+                    half.abs() * (l * right + r * left)
+                };
+                size += of(&self.d);
+                size_v += of(&self.dv);
+                change += 2.0 * half.abs() * left * right;
+            }
             let (slope, slope_radius) = equations.slope_of_length(e, t);
             // |E''| for |t| below this t and 1 more: the box is no wider (`alone_within` ≤ 1).
-            let curvature = homotopy.lengths[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
+            let curvature = homotopy.rights[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
             self.bound[e] = per_entry * (size + slope) + slope_radius;
             self.bound[m + e] = per_entry * (size + size_v);
-            width[e] = round_up(change + curvature.mag(), 8);
-            width[m + e] = 2.0 * change;
+            let longest = 2 * equations.tail.longest;
+            width[e] = round_up(change + curvature.mag(), longest + 8);
+            width[m + e] = round_up(2.0 * change, longest + 8);
         }
         let normal: f64 = c.iter().map(|c| c.abs()).sum();
         self.bound[2 * m] = per_entry * normal;
@@ -288,8 +299,23 @@ impl<const D: usize> FoldProver<D> {
                 squared += d.sqr();
                 moved += d * (point(self.v[i]) - point(self.v[j]));
             }
-            let length = homotopy.lengths[e].enclose_half_square(t);
-            self.f[e] = (squared * point(0.5) - length).mag();
+            let tail = &equations.tail;
+            let between = |z: &Vector, form: usize, one: f64| match form {
+                Tail::ONE => point(one),
+                _ => {
+                    let [i, j] = tail.ends(form).map(|end| point(z[end]));
+                    i - j
+                }
+            };
+            let mut value = squared * point(0.5);
+            for (half, forms) in tail.products(e) {
+                // The number 1 does not move.
+                let [l, r] = forms.map(|form| between(&self.x, form, 1.0));
+                let [dl, dr] = forms.map(|form| between(&self.v, form, 0.0));
+                value += point(half) * l * r;
+                moved += point(half) * (l * dr + dl * r);
+            }
+            self.f[e] = (value - homotopy.rights[e].enclose(t)).mag();
             self.f[m + e] = moved.mag();
         }
         let terms = c.iter().zip(&self.v[..m]);

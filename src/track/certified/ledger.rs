@@ -3,6 +3,7 @@
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
+use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -16,6 +17,8 @@ use crate::track::full::{Equations, InverseMaker, path_length};
 pub struct Ledger<const D: usize> {
     /// The homotopy's.
     unit: f64,
+    /// Auxiliary unknowns that must stay positive: which, and their entries.
+    positive: Vec<(usize, usize)>,
     prover: SolutionProver<D>,
     found: Vec<SolutionBox>,
     /// Work space.
@@ -41,8 +44,12 @@ pub struct Mark {
 impl<const D: usize> Ledger<D> {
     /// An empty account.
     pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+        let coordinates = homotopy.gauge.place.len();
+        let unknowns = homotopy.tail.unknowns.iter().enumerate();
+        let positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
         Ledger {
             unit: homotopy.unit,
+            positive: positive.map(|(k, _)| (k, coordinates + k)).collect(),
             prover: SolutionProver::new(homotopy, equations),
             found: Vec::new(),
             crossings: Vec::new(),
@@ -87,9 +94,13 @@ impl<const D: usize> Ledger<D> {
         &mut self,
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
-    ) {
+    ) -> Result<(), Doubt> {
+        if let Some(unknown) = self.not_positive(tube, (from, to)) {
+            return Err(Doubt::Sign(unknown));
+        }
         self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
         self.widen_t_range(&tube.time(), from, to);
+        Ok(())
     }
 
     /// The solutions so far, in the order of the path.
@@ -116,6 +127,9 @@ impl<const D: usize> Ledger<D> {
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
         let to = to.min(tube.proof.h);
+        if let Some(unknown) = self.not_positive(tube, (from, to)) {
+            return Err(Doubt::Sign(unknown));
+        }
         let mut crossings = std::mem::take(&mut self.crossings);
         let known = self.found.len();
         let separated = time.crossings(from, to, &mut crossings);
@@ -139,6 +153,21 @@ impl<const D: usize> Ledger<D> {
         self.length += path_length(&tube.local, from, until, self.unit, &mut self.scratch);
         self.widen_t_range(&time, from, to);
         Ok(())
+    }
+
+    /// Proves that the auxiliary unknowns which are lengths or radii are positive on a stretch of a tube.
+    /// Otherwise names the first for which that could not be proved.
+    fn not_positive<const N: usize, Y: Frame<D>>(
+        &self,
+        tube: &Tube<D, N, Y>,
+        (from, to): (f64, f64),
+    ) -> Option<usize> {
+        let fails = |&&(_, entry): &&(usize, usize)| {
+            let ((low, _), _) = tube.entry_along(entry).bounds(from, to);
+            // Bounds are of the unknown minus 1.
+            (low + 1.0).next_down() <= 0.0 || low.is_nan()
+        };
+        self.positive.iter().find(fails).map(|&(unknown, _)| unknown)
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
@@ -290,9 +319,13 @@ impl<const D: usize> Ledger<D> {
     ///
     /// The isometries that keep the gauge change the signs of coordinates. The second reference
     /// point's first coordinate and the third's second one tell which signs they must change;
-    /// that of the last coordinate is free.
+    /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
+    /// constraints fix the figure in its frame no isometry is left, and different solutions are not congruent.
     fn is_congruent(&self, homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> Same {
         let gauge = &homotopy.gauge;
+        if gauge.reference.is_empty() {
+            return Same::No;
+        }
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * D + axis];
@@ -306,13 +339,15 @@ impl<const D: usize> Ledger<D> {
             }
         }
         for last in [false, true] {
+            turned[D - 1] = last;
             // Without any change of sign they are known to differ.
-            if !last && turned == [false; 3] {
+            let reversed = turned.iter().filter(|&&turned| turned).count();
+            if reversed == 0 || reversed % 2 == 1 && !homotopy.tail.mirrors {
                 continue;
             }
-            let signs = |i: usize| match gauge.place[i] % D {
-                axis if axis == D - 1 => last,
-                axis => turned[axis],
+            let signs = |i: usize| {
+                let flips = (0..D).filter(|&axis| turned[axis] && homotopy.flips(i, axis));
+                flips.count() % 2 == 1
             };
             match one.is_same(other, signs) {
                 Same::No => {}

@@ -211,8 +211,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let equations = Equations::<D>::new(&homotopy);
         let vector = || equations.vector();
         let mut sketch = Ball::new(&equations);
-        for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-            let x = homotopy.sketch_box[place];
+        for (i, x) in homotopy.sketch_of_unknowns().enumerate() {
             sketch.centre[i] = x.mid();
             sketch.radius[i] = x.rad();
         }
@@ -441,7 +440,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     /// Begins anew: from another figure, or with other lengths in the homotopy.
     fn begin(&mut self, start: &Figure) {
         let m = self.equations.m;
-        self.equations.set_lengths(&self.homotopy);
+        self.equations.set_rights(&self.homotopy);
         self.ledger.begin(&self.homotopy);
         if self.extension.is_on() {
             self.test.set_extended(false);
@@ -638,7 +637,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     unlinked("that one's end", &before.exit, direction, tube, unit)
                 }
             },
-            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), unit),
+            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), &self.homotopy),
         }
     }
 
