@@ -6,9 +6,12 @@ mod compare;
 mod edit;
 mod generate;
 mod interrupt;
+mod limits;
 mod output;
 mod processor;
+mod serve;
 mod solve;
+mod sweep;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -46,7 +49,9 @@ enum Verb {
     Compare(compare::Arguments),
     Edit(edit::Arguments),
     Generate(generate::Arguments),
+    Limits(limits::Arguments),
     Solve(solve::Arguments),
+    Sweep(sweep::Arguments),
     Verify(verify::Arguments),
 }
 
@@ -62,7 +67,9 @@ pub fn run() -> ExitCode {
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Edit(arguments) => edit::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
+        Verb::Limits(arguments) => limits::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
+        Verb::Sweep(arguments) => sweep::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
     };
     ExitCode::from(code)
