@@ -63,7 +63,7 @@ fn distances_from_lines_in_the_plane() {
                 "[constraints]\ndistances = [[\"a\", \"c\", 2.5], {known}[\"c\", \"a\", \"b\", 1.5]]\n{more}"
             ),
         );
-        near(f.from_line("c", "a", "b"), 1.5);
+        near(f.off_line("c", "a", "b"), 1.5);
         assert!(cross(f.arrow("a", "b"), f.arrow("a", "c"))[2] > 0.0);
     }
 }
@@ -77,8 +77,8 @@ fn distances_in_space() {
          distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
          [\"d\", \"e\", 1.7], [\"d\", \"g\", 2], [\"d\", \"c\", 2.2]]",
     );
-    near(f.from_plane("d", "a", "b", "c"), 1.7);
-    near(f.from_line("d", "a", "b"), 2.0);
+    near(f.off_plane("d", "a", "b", "c"), 1.7);
+    near(f.off_line("d", "a", "b"), 2.0);
     let f = space(
         points,
         "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
@@ -118,7 +118,7 @@ fn planes_and_angles_in_space() {
          [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.8], [\"c\", \"e\", 1.5]]\n\
          coplanar = [[\"a\", \"c\", \"d\", \"e\"]]\nparallel = [[\"c\", \"e\", \"a\", \"b\", \"d\"]]",
     );
-    near(f.from_plane("e", "a", "c", "d"), 0.0);
+    near(f.off_plane("e", "a", "c", "d"), 0.0);
     near(dot(f.normal("a", "b", "d"), f.arrow("c", "e")), 0.0);
 }
 
@@ -156,8 +156,8 @@ fn points_on_lines_planes_and_spheres() {
          distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5], [\"a\", \"c\", 2.6], [\"c\", \"d\", 2.3], \
          [\"d\", \"e\", 0.8]]\non = [[\"d\", \"g\"]]\ncollinear = [[\"a\", \"c\", \"e\"]]",
     );
-    near(f.from_line("d", "a", "b"), 0.0);
-    near(f.from_line("e", "a", "c"), 0.0);
+    near(f.off_line("d", "a", "b"), 0.0);
+    near(f.off_line("e", "a", "c"), 0.0);
     let f = space(
         "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 0.6]",
         "[lines]\ng = [\"c\", \"d\"]\n[planes]\np = [\"a\", \"b\", \"c\"]\n[spheres]\ns = { center = \"a\", radius = 2.2 }\n\
@@ -167,15 +167,15 @@ fn points_on_lines_planes_and_spheres() {
     );
     near(f.distance("a", "d"), 2.5);
     near(f.distance("a", "e"), 2.5);
-    near(f.from_plane("e", "a", "b", "c"), 0.0);
+    near(f.off_plane("e", "a", "b", "c"), 0.0);
     let f = space(
         "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.1, 1.4, 1.3]\nf = [2, 1, 0.3]",
         "[lines]\ng = [\"c\", \"d\"]\n[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], \
          [\"a\", \"c\", 2.1], [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.6], [\"c\", \"e\", 1], \
          [\"f\", \"b\", 1.2]]\non = [[\"e\", \"g\"]]\ncollinear = [[\"b\", \"c\", \"f\"]]",
     );
-    near(f.from_line("e", "c", "d"), 0.0);
-    near(f.from_line("f", "b", "c"), 0.0);
+    near(f.off_line("e", "c", "d"), 0.0);
+    near(f.off_line("f", "b", "c"), 0.0);
 }
 
 #[test]
