@@ -1,8 +1,9 @@
 //! A homotopy in which everything stands still at its target but for the lengths that are edited.
 
 use super::{ExactLength, Homotopy, Length, Right};
+use crate::constraint;
 use crate::interval::{Interval, enclose, point};
-use crate::problem::Target;
+use crate::problem::{Problem, Target};
 use num_rational::BigRational;
 
 impl Homotopy {
@@ -12,10 +13,22 @@ impl Homotopy {
         self.set_length(index, length, target, target);
     }
 
-    /// Makes everything but the distances stay what it is at t = 1.
-    pub fn hold_constraints(&mut self) {
-        for right in &mut self.rights[self.edges.len()..] {
-            *right = right.held();
+    /// Makes all constraints but the distances hold throughout, while the distances go from `from` at t = 0 to
+    /// those of `problem`: a right angle between two bars stays one while a bar grows.
+    ///
+    /// # Panics
+    /// If the problem is another one but for the numbers of its distances.
+    pub fn keep_constraints(&mut self, problem: &Problem, from: &[Target]) {
+        if self.tail.is_empty() {
+            return;
+        }
+        let edited = constraint::lower_edit(problem, from);
+        assert_eq!(edited.equations.len(), self.tail.equations.len());
+        let head = self.edges.len();
+        let pairs = self.tail.equations.iter().zip(edited.equations);
+        for ((before, after), right) in pairs.zip(&mut self.rights[head..]) {
+            assert_eq!(before.products, after.products, "{}", before.name);
+            *right = Right::polynomial(&after.right, self.unit.powi(after.power));
         }
     }
 
