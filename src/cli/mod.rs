@@ -20,6 +20,8 @@ use std::process::ExitCode;
 /// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
 /// is verified.
 pub const CLOSED: u8 = 0;
+/// Exit code: the path has two ends, and what lies between them is proved.
+pub const OPEN: u8 = 5;
 /// Exit code of a run that stopped before, and of a certificate that is refuted or incomplete.
 pub const STOPPED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
@@ -35,7 +37,8 @@ pub const PASSES: u8 = 4;
 #[command(
     version,
     after_help = "Exit codes: 0 closed, verified or reached, 1 stopped, refuted or incomplete, 2 bad input or \
-                  results that could not be written, 3 an edit's limit, 4 where an edit's branches meet."
+                  results that could not be written, 3 an edit's limit, 4 where an edit's branches meet, 5 open: \
+                  the path has two ends, and what lies between is proved."
 )]
 struct Arguments {
     #[command(subcommand)]

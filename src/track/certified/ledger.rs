@@ -249,6 +249,40 @@ impl<const D: usize> Ledger<D> {
         self.lengths_are_positive(homotopy)
     }
 
+    /// What remains to be proved of an arc.
+    pub fn check_open(&self, homotopy: &Homotopy) -> Result<(), String> {
+        self.lengths_are_positive(homotopy)
+    }
+
+    /// Takes the account of the way from the sketch in the other direction to that of this way: solutions are
+    /// in the order of the path, from the end of the other way to that of this one. Fails where it cannot be told
+    /// whether a solution was found on both.
+    pub fn go_on_from(&mut self, back: Self) -> Result<(), String> {
+        let ahead = std::mem::take(&mut self.found);
+        self.found = back.found;
+        self.found.reverse();
+        for found in &mut self.found {
+            found.rising = !found.rising;
+        }
+        for found in ahead {
+            let same = |other: &SolutionBox| found.is_same(other, |_| false);
+            let answers: Vec<Same> = self.found.iter().map(same).collect();
+            if answers.contains(&Same::Unknown) {
+                return Err(
+                    "it could not be told whether a solution near the sketch is one or two"
+                        .to_owned(),
+                );
+            }
+            if !answers.contains(&Same::Yes) {
+                self.found.push(found);
+            }
+        }
+        self.length += back.length;
+        let (low, high) = back.t_range;
+        self.t_range = (self.t_range.0.min(low), self.t_range.1.max(high));
+        Ok(())
+    }
+
     /// Claim 3: a_i(t) > 0 on the whole range of t.
     fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), String> {
         let range = hull(self.t_range.0, self.t_range.1);
