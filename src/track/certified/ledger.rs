@@ -167,7 +167,10 @@ impl<const D: usize> Ledger<D> {
             // Bounds are of the unknown minus 1.
             (low + 1.0).next_down() <= 0.0 || low.is_nan()
         };
-        self.positive.iter().find(fails).map(|&(unknown, _)| unknown)
+        self.positive
+            .iter()
+            .find(fails)
+            .map(|&(unknown, _)| unknown)
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
