@@ -1,5 +1,6 @@
 //! The command line: one file per verb.
 
+mod all;
 mod check;
 mod compare;
 mod edit;
@@ -43,6 +44,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    All(all::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
     Edit(edit::Arguments),
@@ -60,6 +62,7 @@ pub fn run() -> ExitCode {
         return ExitCode::from(BAD_INPUT);
     }
     let code = match Arguments::parse().verb {
+        Verb::All(arguments) => all::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Edit(arguments) => edit::run(&arguments),

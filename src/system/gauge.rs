@@ -35,6 +35,9 @@ pub enum GaugeError {
              them in 53 bits; choose others"
     )]
     Collinear(String, String, String),
+    /// There are constraints that no tracker takes.
+    #[error("{0}")]
+    Constraints(String),
 }
 
 impl Gauge {
@@ -81,10 +84,11 @@ impl Gauge {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
         let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
         if self.reference.is_empty() {
-            let one = |axis: usize| std::array::from_fn(|k| point(f64::from(u8::from(k == axis))));
+            // The problem's own frame.
+            let (zero, one) = (point(0.0), point(1.0));
             return Ok(Placement {
-                origin: [point(0.0); 3],
-                axes: std::array::from_fn(one),
+                origin: [zero; 3],
+                axes: [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
             });
         }
         let origin = coordinates(self.reference[0]);
@@ -109,7 +113,7 @@ impl Gauge {
 
     /// Encloses the coordinates of the sketch in the gauge, point by point.
     ///
-    /// The sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
+    /// With a reference the sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
     /// p₁ to p₂, perpendicular to it towards p₃, and their cross product.
     pub fn sketch(&self, problem: &Problem) -> Result<Vec<[Interval; 3]>, GaugeError> {
         let Placement { origin, axes } = self.placement(problem)?;

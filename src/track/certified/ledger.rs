@@ -3,7 +3,6 @@
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
-use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -17,9 +16,9 @@ use crate::track::full::{Equations, InverseMaker, path_length};
 pub struct Ledger<const D: usize> {
     /// The homotopy's.
     unit: f64,
-    /// Auxiliary unknowns that must stay positive: which, and their entries.
-    positive: Vec<(usize, usize)>,
     prover: SolutionProver<D>,
+    /// The auxiliary unknowns that have to be positive.
+    positive: Vec<usize>,
     found: Vec<SolutionBox>,
     /// Work space.
     crossings: Vec<Crossing>,
@@ -44,13 +43,10 @@ pub struct Mark {
 impl<const D: usize> Ledger<D> {
     /// An empty account.
     pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
-        let coordinates = homotopy.gauge.place.len();
-        let unknowns = homotopy.tail.unknowns.iter().enumerate();
-        let positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
         Ledger {
             unit: homotopy.unit,
-            positive: positive.map(|(k, _)| (k, coordinates + k)).collect(),
             prover: SolutionProver::new(homotopy, equations),
+            positive: homotopy.positive_unknowns(),
             found: Vec::new(),
             crossings: Vec::new(),
             last_crossing: f64::NAN,
@@ -162,15 +158,13 @@ impl<const D: usize> Ledger<D> {
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
     ) -> Option<usize> {
-        let fails = |&&(_, entry): &&(usize, usize)| {
-            let ((low, _), _) = tube.entry_along(entry).bounds(from, to);
+        let fails = |&&unknown: &&usize| {
+            let along = tube.entry_along(unknown);
+            let ((low, _), _) = along.bounds(from, to);
             // Bounds are of the unknown minus 1.
             (low + 1.0).next_down() <= 0.0 || low.is_nan()
         };
-        self.positive
-            .iter()
-            .find(fails)
-            .map(|&(unknown, _)| unknown)
+        self.positive.iter().find(fails).copied()
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which

@@ -440,7 +440,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     /// Begins anew: from another figure, or with other lengths in the homotopy.
     fn begin(&mut self, start: &Figure) {
         let m = self.equations.m;
-        self.equations.set_rights(&self.homotopy);
+        self.equations.set_lengths(&self.homotopy);
         self.ledger.begin(&self.homotopy);
         if self.extension.is_on() {
             self.test.set_extended(false);
