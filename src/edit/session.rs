@@ -63,6 +63,8 @@ impl Session {
         let placement = homotopy.gauge.placement(&problem);
         let stand = Stand::new(&problem, placement.map_err(StartError::from)?);
         let space = match options.space {
+            // The reduced space is that of distances.
+            _ if !problem.is_distances_only() => Space::Full,
             Space::Full => Space::for_certified(problem.distances.len()),
             Space::Reduced => Space::Reduced,
         };
