@@ -15,18 +15,24 @@ use std::process::ExitCode;
 /// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
 /// is verified.
 pub const CLOSED: u8 = 0;
-/// Exit code of a run that stopped before, and of a certificate that is refuted or incomplete.
+/// Exit code of a run that stopped before.
 pub const STOPPED: u8 = 1;
+/// Exit code of a certificate with a false claim, or about another problem.
+pub const REFUTED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
 pub const BAD_INPUT: u8 = 2;
+/// Exit code of a certificate with a claim that may be true but could not be proved.
+pub const NOT_PROVED: u8 = 3;
+/// Exit code of a certificate whose run stopped: it is true as far as it goes.
+pub const INCOMPLETE: u8 = 4;
 
 /// Follows the real homotopy path through a sketch and finds, with proof, the figures on it that
 /// meet the dimensions.
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 closed or verified, 1 stopped, refuted or incomplete, 2 bad input or \
-                  results that could not be written."
+    after_help = "Exit codes: 0 closed or verified, 1 stopped or refuted, 2 bad input or results that \
+                  could not be written; of `verify` also 3 not proved and 4 incomplete."
 )]
 struct Arguments {
     #[command(subcommand)]

@@ -62,7 +62,7 @@ pub fn verify(
     let homotopy = match Homotopy::with_unit(&header.problem, unit) {
         Ok(homotopy) => homotopy,
         Err(error) => {
-            verdict.outcome = Outcome::Refuted(Flaw::Sketch(error.to_string()));
+            verdict.outcome = Outcome::NotProved(Flaw::Sketch(error.to_string()));
             return Ok(verdict);
         }
     };
@@ -89,7 +89,7 @@ pub fn verify(
     };
     verdict.solutions = chain.solutions.iter().map(|s| chain.points(s)).collect();
     verdict.outcome = match proved.and_then(|()| chain.conclude(&end, &mut verdict)) {
-        Err(flaw) => Outcome::Refuted(flaw),
+        Err(outcome) => outcome,
         Ok(()) => end.stopped.map_or(Outcome::Verified, Outcome::Partial),
     };
     Ok(verdict)
