@@ -85,9 +85,6 @@ pub enum Flaw {
          there in the direction of the start"
     )]
     Open(u64),
-    /// A length may vanish.
-    #[error("the length of {0} is positive for t from {1} to {2}")]
-    Length(String, f64, f64),
     /// No tube at all.
     #[error("there is a tube")]
     Empty,
@@ -111,6 +108,14 @@ impl Fault {
             why,
             margin: None,
             is_false: false,
+        }
+    }
+
+    /// That the test's margin is not positive.
+    pub const fn margin(margin: f64) -> Self {
+        Fault {
+            margin: Some(margin),
+            ..Fault::because("the Krawczyk test fails")
         }
     }
 

@@ -1,10 +1,11 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
 use super::equations::{Equations, ZERO, unknown};
-use super::place::{Place, Spot};
-use super::tube::{Stretch, Tube, Unaccounted, Whereabouts};
+use super::place::{Place, Spot, component};
+use super::refute;
+use super::tube::{Stretch, Tube, direction};
 use crate::certificate::format::{EndClaim, SolutionClaim, TubeClaim};
-use crate::certificate::verdict::{Fault, Flaw, Outcome, Verdict};
+use crate::certificate::verdict::{Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
 use rayon::prelude::*;
 
@@ -12,8 +13,8 @@ use rayon::prelude::*;
 pub struct Chain {
     pub eq: Equations,
     sketch: Spot,
-    /// The normal of the first tube, in whose direction the path starts.
-    start: Vec<f64>,
+    /// The path's direction at the sketch, along the normal of the first tube.
+    start: Vec<Interval>,
     last: Option<Tube>,
     pub solutions: Vec<Place>,
     /// Whether the path meets each of them, if that is known.
@@ -28,20 +29,14 @@ fn flaw(is_false: bool, flaw: Flaw) -> Outcome {
     }
 }
 
-fn faulty(fault: Fault, with: impl FnOnce(Fault) -> Flaw) -> Outcome {
-    flaw(fault.is_false, with(fault))
-}
-
 impl Chain {
     pub fn new(eq: Equations) -> Self {
-        let sketch = &eq.sketch[..=eq.m];
-        let near: Vec<f64> = sketch.iter().map(|x| x.mid()).collect();
-        let rest = sketch.iter().zip(&near).map(|(&x, &near)| x - point(near));
+        let places = eq.homotopy.gauge.place.iter();
+        let sketch = places.map(|&p| eq.homotopy.sketch_box[p]).chain([ZERO]);
+        let near = sketch.clone().map(|x| x.mid()).collect();
+        let rest = sketch.map(|x| x - point(x.mid())).collect();
         Chain {
-            sketch: Spot {
-                rest: rest.collect(),
-                near,
-            },
+            sketch: Spot { near, rest },
             eq,
             start: Vec::new(),
             last: None,
@@ -60,8 +55,8 @@ impl Chain {
     ) -> Result<(), Outcome> {
         let (eq, first) = (&self.eq, verdict.tubes + 1);
         let tubes = claims.par_iter().enumerate().map(|(k, (tube, _))| {
-            Tube::prove(eq, tube)
-                .map_err(|fault| faulty(fault, |f| Flaw::Tube(first + k as u64, f)))
+            let number = first + k as u64;
+            Tube::prove(eq, tube).map_err(|f| flaw(f.is_false, Flaw::Tube(number, f)))
         });
         let tubes: Vec<_> = tubes.collect();
         // How many solutions are listed up to each tube.
@@ -70,14 +65,14 @@ impl Chain {
             for solution in solutions {
                 let number = self.solutions.len() + 1;
                 let solution = Place::solution(eq, solution);
-                self.solutions
-                    .push(solution.map_err(|fault| faulty(fault, |f| Flaw::Solution(number, f)))?);
+                let solution = solution.map_err(|f| flaw(f.is_false, Flaw::Solution(number, f)));
+                self.solutions.push(solution?);
             }
             listed.push(self.solutions.len());
         }
         self.met.resize(self.solutions.len(), Some(false));
-        if let (true, Some(Ok(tube))) = (self.start.is_empty(), tubes.first()) {
-            self.start.clone_from(&tube.normal);
+        if let (true, Some((claim, _))) = (self.start.is_empty(), claims.first()) {
+            self.start = direction(eq, claim, &self.sketch).unwrap_or_default();
         }
 
         let join = |k: usize| {
@@ -123,44 +118,43 @@ impl Chain {
         closes: bool,
         listed: &[Place],
     ) -> Result<Stretch, Outcome> {
-        let found = |place: Whereabouts, claim: Flaw| match place {
-            Whereabouts::At(s) => Ok(s),
-            other => Err(flaw(other == Whereabouts::Elsewhere, claim)),
+        let find = |spot: &Spot, claim: Flaw| {
+            let place = tube.locate(spot);
+            place.ok_or_else(|| flaw(refute::elsewhere(tube, spot), claim))
+        };
+        // That a direction is along the tube's normal, and that one parameter is before another.
+        let along = |direction: &[Interval], claim: Flaw| match component(direction, &tube.normal) {
+            x if x.inf() > 0.0 => Ok(()),
+            x => Err(flaw(x.sup() < 0.0, claim)),
+        };
+        let order = |a: Interval, b: Interval, claim: Flaw| match a.sup() < b.inf() {
+            true => Ok(()),
+            false => Err(flaw(a.inf() >= b.sup(), claim)),
         };
         let entry = match before {
-            None => found(tube.locate(&self.sketch), Flaw::Start)?,
+            None => find(&self.sketch, Flaw::Start)?,
             Some(before) => {
-                let (mut link, at) = before.exit.clone();
-                let mut place = tube.locate(&link);
-                if place == Whereabouts::Unknown {
-                    link = before.narrow_exit(&self.eq);
-                    place = tube.locate(&link);
-                }
-                let entry = found(place, Flaw::Link(number))?;
-                match before.goes_along(&self.eq, &link, at, &tube.normal) {
-                    Some(true) => entry,
-                    other => return Err(flaw(other.is_some(), Flaw::Direction(number))),
-                }
+                let entry = find(&before.exit, Flaw::Link(number))?;
+                along(&before.exit_direction, Flaw::Direction(number))?;
+                entry
             }
         };
-        let mut exit = tube.exit.1;
+        let mut exit = point(tube.exit_at);
         if closes {
-            let open = |is_false| flaw(is_false, Flaw::Open(number));
-            let sketch = match tube.locate(&self.sketch) {
-                Whereabouts::At(s) if s.inf() > entry.sup() => s,
-                Whereabouts::At(s) => return Err(open(s.sup() <= entry.inf())),
-                other => return Err(open(other == Whereabouts::Elsewhere)),
-            };
-            match tube.goes_along(&self.eq, &self.sketch, sketch, &self.start) {
-                Some(true) => exit = sketch,
-                other => return Err(open(other.is_some())),
+            exit = find(&self.sketch, Flaw::Open(number))?;
+            if before.is_none() {
+                return Err(flaw(true, Flaw::Open(number)));
             }
-        } else if !(entry.sup() < exit.inf()) {
-            let is_false = entry.inf() >= exit.sup();
-            return Err(flaw(is_false, Flaw::Backwards(number)));
+            order(entry, exit, Flaw::Open(number))?;
+            along(&self.start, Flaw::Open(number))?;
+        } else {
+            order(entry, exit, Flaw::Backwards(number))?;
         }
         let stretch = tube.account(hull(entry.inf(), exit.sup()), listed);
-        stretch.map_err(|Unaccounted(a, b, missing)| flaw(missing, Flaw::Unlisted(number, a, b)))
+        stretch.map_err(|part| {
+            let claim = Flaw::Unlisted(number, part.inf(), part.sup());
+            flaw(refute::missing(tube, part, listed), claim)
+        })
     }
 
     /// What remains to be proved when all tubes are linked.
@@ -181,8 +175,7 @@ impl Chain {
                     return Err(flaw(true, Flaw::Overlap(j + 1, k + 1)));
                 }
                 let congruent = solution.is_congruent(other, &self.eq);
-                let undecided = || flaw(false, Flaw::Congruence(j + 1, k + 1));
-                if congruent.ok_or_else(undecided)? {
+                if congruent.ok_or(flaw(false, Flaw::Congruence(j + 1, k + 1)))? {
                     class = verdict.classes[j];
                 }
             }
@@ -191,20 +184,6 @@ impl Chain {
             }
             verdict.classes.push(class);
         }
-        // a(t) > 0 on every piece of the range.
-        const PIECES: u32 = 64;
-        let (low, high) = verdict.t_range;
-        for (e, length) in self.eq.homotopy.lengths.iter().enumerate() {
-            let piece = |k: u32| {
-                let part = hull(f64::from(k), f64::from(k + 1)) / point(PIECES.into());
-                point(low) + (point(high) - point(low)) * part
-            };
-            let finite = low.is_finite() && high.is_finite();
-            if !finite || !(0..PIECES).all(|k| length.enclose(piece(k)).inf() > 0.0) {
-                let name = verdict.problem.distance_name(e);
-                return Err(flaw(false, Flaw::Length(name, low, high)));
-            }
-        }
         Ok(())
     }
 
@@ -212,10 +191,8 @@ impl Chain {
     pub fn points(&self, solution: &Place) -> Vec<[Interval; 3]> {
         let homotopy = &self.eq.homotopy;
         let unit = point(homotopy.unit);
-        let coordinate = |p, axis| {
-            let claimed = solution.claimed.get(unknown(homotopy, p, axis));
-            claimed.map_or(ZERO, |&x| x * unit)
-        };
+        let claimed = |i: usize| solution.claimed.get(i).map_or(ZERO, |&x| x);
+        let coordinate = |p, axis| claimed(unknown(homotopy, p, axis)) * unit;
         let points = 0..homotopy.points;
         let points = points.map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
         points.collect()

@@ -4,34 +4,22 @@
 use crate::interval::{Interval, point};
 use crate::system::Homotopy;
 
-/// The problem's equations. Vectors of unknowns z = (X, t) have n = m + 1 entries, and one more,
-/// always zero, which is read for fixed coordinates.
+/// A factor, and the two forms that it multiplies.
+pub type Product = (i64, [usize; 2]);
+
+/// The problem's equations. Vectors of unknowns z = (X, t) have n = m + 1 entries.
 pub struct Equations {
     pub homotopy: Homotopy,
     /// The number of equations.
     pub m: usize,
-    /// Differences of two entries.
+    /// Differences of two unknowns; one that is not below m stands for zero.
     pub forms: Vec<[usize; 2]>,
     /// Per equation the products in 2 q_e.
     pub products: Vec<Vec<Product>>,
-    /// Per equation the terms of 2 ∂q_e/∂x_i, for all i.
-    pub gradient: Vec<Vec<Term>>,
-    /// The sketch: X, and t = 0.
-    pub sketch: Vec<Interval>,
-}
-
-/// `factor` times the product of two forms.
-pub struct Product {
-    pub factor: i64,
-    pub left: usize,
-    pub right: usize,
-}
-
-/// `factor` times a form, in the derivative by an unknown.
-pub struct Term {
-    pub factor: i64,
-    pub form: usize,
-    pub unknown: usize,
+    /// Per equation the terms of all 2 ∂q_e/∂x_i: i, a factor, and the form that it multiplies.
+    pub gradient: Vec<Vec<(usize, i64, usize)>>,
+    /// The coefficients of E_e, and its degree.
+    pub right: Vec<([Interval; 5], usize)>,
 }
 
 /// No equation has a larger sum of factors, so that its sums of products fit into an `i128`.
@@ -39,95 +27,76 @@ const MAX_FACTORS: i64 = 1 << 12;
 
 pub const ZERO: Interval = inari::const_interval!(0.0, 0.0);
 
-/// The unknown that a point's coordinate is, or the entry that is always zero.
+/// The unknown that a point's coordinate is, or m.
 pub fn unknown(homotopy: &Homotopy, point: usize, axis: usize) -> usize {
-    let (m, d) = (homotopy.equations, homotopy.dimension);
-    match homotopy.gauge.variable.get(point * d + axis) {
-        Some(&free) if axis < d && free < m => free,
-        _ => m + 1,
-    }
+    let place = point * homotopy.dimension + axis;
+    let free = homotopy.gauge.variable.get(place);
+    free.filter(|_| axis < homotopy.dimension)
+        .map_or(homotopy.equations, |&i| i)
 }
 
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
-        let mut forms = Vec::new();
-        let distances = homotopy.edges.iter().map(|edge| {
-            let square = |axis| {
-                forms.push(edge.points.map(|p| unknown(&homotopy, p, axis)));
-                let form = forms.len() - 1;
-                Product {
-                    factor: 1,
-                    left: form,
-                    right: form,
+        let (m, d) = (homotopy.equations, homotopy.dimension);
+        let (mut forms, mut products) = (Vec::new(), Vec::new());
+        for edge in &homotopy.edges {
+            let first = forms.len();
+            forms.extend((0..d).map(|axis| edge.points.map(|p| unknown(&homotopy, p, axis))));
+            products.push((first..first + d).map(|f| (1, [f, f])).collect());
+        }
+        let gradient = products.iter().map(|products: &Vec<Product>| {
+            assert!(products.iter().map(|p| p.0.abs()).sum::<i64>() <= MAX_FACTORS);
+            let mut terms = Vec::new();
+            for &(factor, [left, right]) in products {
+                let halves = [(left, right), (right, left)];
+                let (factor, halves) = match left == right {
+                    true => (2 * factor, &halves[..1]),
+                    false => (factor, &halves[..]),
+                };
+                for &(by, form) in halves {
+                    let [plus, minus] = forms[by];
+                    terms.extend([(plus, factor, form), (minus, -factor, form)]);
                 }
-            };
-            (0..homotopy.dimension).map(square).collect()
+            }
+            terms.retain(|term| term.0 < m);
+            terms
         });
-        let products: Vec<Vec<Product>> = distances.collect();
-        let gradient = products.iter().map(|products| {
-            assert!(products.iter().map(|p| p.factor.abs()).sum::<i64>() <= MAX_FACTORS);
-            products
-                .iter()
-                .flat_map(|p| derivative(p, &forms))
-                .collect()
-        });
-        let gradient = gradient.collect();
-        let place = homotopy.gauge.place.iter().map(|&p| homotopy.sketch_box[p]);
+        let right = homotopy
+            .lengths
+            .iter()
+            .map(|l| (*l.half_square(), l.degree));
         Equations {
-            m: homotopy.equations,
+            m,
+            gradient: gradient.collect(),
+            right: right.collect(),
             forms,
             products,
-            gradient,
-            sketch: place.chain([ZERO; 2]).collect(),
             homotopy,
         }
     }
 
     /// The coefficients of E_e(t₀ + τ) in τ.
-    pub fn half_square_at(&self, e: usize, t: Interval) -> [Interval; 5] {
-        let length = &self.homotopy.lengths[e];
-        let mut c = *length.half_square();
+    pub fn right_at(&self, e: usize, t: Interval) -> [Interval; 5] {
+        let (mut c, degree) = self.right[e];
         // Horner's scheme, repeated.
-        for from in 0..length.degree {
-            for k in (from..length.degree).rev() {
+        for from in 0..degree {
+            for k in (from..degree).rev() {
                 c[k] += t * c[k + 1];
             }
         }
         if t == point(1.0) {
             // Known better than from its way there.
-            c[0] = length.target_half_square();
+            c[0] = self.homotopy.lengths[e].target_half_square();
         }
         c
     }
 
     /// E'' on a range of t.
     pub fn bend(&self, e: usize, t: Interval) -> Interval {
-        let length = &self.homotopy.lengths[e];
-        let c = length.half_square();
-        match length.degree {
-            2 => c[2] * point(2.0),
+        let (c, degree) = self.right[e];
+        match degree {
+            ..=2 => c[2] * point(2.0),
             _ => c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))),
-        }
-    }
-}
-
-/// The terms that a product adds to the derivatives: by the unknowns of its right form, whose factor is
-/// the left form, and the other way round.
-fn derivative(product: &Product, forms: &[[usize; 2]]) -> Vec<Term> {
-    let (left, right) = (product.left, product.right);
-    let term = |by: usize, form: usize, factor: i64| {
-        let signs = forms[by].into_iter().zip([factor, -factor]);
-        signs.map(move |(unknown, factor)| Term {
-            factor,
-            form,
-            unknown,
-        })
-    };
-    match left == right {
-        true => term(left, left, 2 * product.factor).collect(),
-        false => {
-            let one = term(right, left, product.factor);
-            one.chain(term(left, right, product.factor)).collect()
         }
     }
 }

@@ -1,48 +1,73 @@
 //! Guesses in floats, which nobody has to trust: the proofs hold whatever these are.
 
-use super::equations::{Equations, ZERO};
-use super::krawczyk::{Curve, LARGE, ORDER, Section};
+use super::equations::{Equations, Product};
+use super::krawczyk::{Curve, LARGE, ORDER, Section, magnitude, weight};
 use super::whole::{J_BITS, Whole, power};
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::verdict::Fault;
-use crate::interval::point;
 
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
 
+/// Powers of two near the largest entries of the rows of [J(z₀); c] U, as exponents.
+pub fn scale(curve: &Curve, c: &[f64], u: &[u16]) -> Vec<i32> {
+    let m = curve.eq.m;
+    let units = power(-curve.bits[0]) * 0.5 * WEIGHT_UNIT;
+    let row = |e: usize| {
+        let entry = |&(i, factor, form): &(usize, i64, usize)| {
+            (factor as f64) * curve.forms[0][form] as f64 * f64::from(u[i]) * units
+        };
+        let time = (curve.slope(e, 0) * weight(u[m])).mag();
+        let entries = curve.eq.gradient[e].iter().map(entry).chain([time]);
+        magnitude(&entries.collect::<Vec<f64>>())
+    };
+    let normal = c
+        .iter()
+        .zip(u)
+        .map(|(c, &u)| c * WEIGHT_UNIT * f64::from(u));
+    let normal: Vec<f64> = normal.collect();
+    (0..m).map(row).chain([magnitude(&normal)]).collect()
+}
+
 /// A matrix near the inverse of [J(z₀); c] U, its rows scaled.
 pub struct Inverse {
     pub whole: Whole,
-    /// U Y with columns scaled: the inverse of [J(z₀); c].
+    /// U Y with columns scaled, column by column: the inverse of [J(z₀); c].
     unscaled: Vec<f64>,
 }
 
 impl Inverse {
-    /// At the first coefficient of a curve.
-    pub fn new(curve: &Curve, at: &Section) -> Result<Inverse, Fault> {
-        let n = curve.eq.m + 1;
-        let mut rests = vec![ZERO; n];
-        let j0 = curve.bordered(at, &mut rests)?;
+    pub fn new(at: &Section) -> Result<Inverse, Fault> {
+        let n = at.u.len();
         let mut matrix = vec![0.0; n * n];
-        for (i, column) in j0.iter().enumerate() {
-            column
-                .iter()
-                .for_each(|&(e, x)| matrix[e * n + i] += x as f64 * power(-J_BITS));
+        for (i, column) in at.j0.iter().enumerate() {
+            for &(e, x) in column {
+                matrix[e * n + i] += x as f64 * power(-J_BITS);
+            }
         }
         let floats = invert(n, matrix).ok_or(Fault::because("its Jacobian is singular"))?;
-        let scale: Vec<f64> = at.scale.iter().map(|&e| power(-e)).collect();
-        let entry = |(k, y): (usize, &f64)| y * WEIGHT_UNIT * f64::from(at.u[k / n]) * scale[k % n];
+        let mut unscaled = vec![0.0; n * n];
+        for (i, row) in floats.chunks(n).enumerate() {
+            let u = WEIGHT_UNIT * f64::from(at.u[i]);
+            for (e, y) in row.iter().enumerate() {
+                unscaled[e * n + i] = y * u * power(-at.scale[e]);
+            }
+        }
         Ok(Inverse {
-            whole: Whole::nearest(n, &floats).ok_or(LARGE)?,
-            unscaled: floats.iter().enumerate().map(entry).collect(),
+            whole: Whole::nearest(&floats, &at.scale).ok_or(LARGE)?,
+            unscaled,
         })
     }
 
     /// U Y f, in floats.
     pub fn times(&self, f: &[f64]) -> Vec<f64> {
-        let rows = self.unscaled.chunks(f.len());
-        rows.map(|row| row.iter().zip(f).map(|(y, f)| y * f).sum())
-            .collect()
+        let mut out = vec![0.0; f.len()];
+        for (column, f) in self.unscaled.chunks(f.len()).zip(f) {
+            for (out, y) in out.iter_mut().zip(column) {
+                *out += y * f;
+            }
+        }
+        out
     }
 }
 
@@ -65,8 +90,8 @@ pub fn newton<'a>(
     u: &[u16],
 ) -> Result<(Curve<'a>, Section, Inverse), Fault> {
     let mut curve = Curve::at(eq, near)?;
-    let at = curve.section(c, u);
-    let inverse = Inverse::new(&curve, &at)?;
+    let mut at = curve.section(c, u, scale(&curve, c, u))?;
+    let inverse = Inverse::new(&at)?;
     let (mut z, mut last) = (near.to_vec(), f64::INFINITY);
     for _ in 0..STEPS {
         let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
@@ -80,24 +105,49 @@ pub fn newton<'a>(
         }
         last = size;
     }
+    at = curve.section(c, u, at.scale)?;
     Ok((curve, at, inverse))
 }
 
 /// The preconditioner that moves along a curve, in floats.
 pub struct Moving<'a> {
-    pub curve: &'a Curve<'a>,
-    pub at: &'a Section,
-    pub inverse: &'a Inverse,
+    curve: &'a Curve<'a>,
+    at: &'a Section,
+    inverse: &'a Inverse,
+    /// E'' t₁ for each equation.
+    bends: Vec<f64>,
+    /// The coefficients of E.
+    right: Vec<[f64; 5]>,
 }
 
-impl Moving<'_> {
+impl<'a> Moving<'a> {
+    pub fn new(curve: &'a Curve<'a>, at: &'a Section, inverse: &'a Inverse) -> Self {
+        let (eq, z) = (curve.eq, &curve.z);
+        let t = crate::interval::point(z[0][eq.m]);
+        Moving {
+            bends: (0..eq.m)
+                .map(|e| eq.bend(e, t).mid() * z[1][eq.m])
+                .collect(),
+            right: eq
+                .right
+                .iter()
+                .map(|right| right.0.map(|c| c.mid()))
+                .collect(),
+            curve,
+            at,
+            inverse,
+        }
+    }
+
     /// U Ỹ(s) f.
     fn times(&self, f: &[f64], s: f64) -> Vec<f64> {
         let mut v = self.inverse.times(f);
-        let mut change = directional(self.curve.eq, &self.middle(1), &v);
-        let (m, t) = (self.curve.eq.m, self.curve.z[0][self.curve.eq.m]);
-        for (e, change) in change.iter_mut().enumerate() {
-            *change -= self.curve.eq.bend(e, t).mid() * self.curve.z[1][m].mid() * v[m];
+        let (eq, mut change) = (
+            self.curve.eq,
+            directional(self.curve.eq, &self.curve.z[1], &v),
+        );
+        for (change, bend) in change.iter_mut().zip(&self.bends) {
+            *change -= bend * v[eq.m];
         }
         change.push(0.0);
         let back = self.inverse.times(&change);
@@ -105,104 +155,86 @@ impl Moving<'_> {
         v
     }
 
-    fn middle(&self, k: usize) -> Vec<f64> {
-        self.curve.z[k].iter().map(|z| z.mid()).collect()
-    }
-
     /// A point near the zero of F in the cross-section through ẑ(s): with steps, in the norm, below
     /// `enough`, or that do not shrink any more.
     pub fn zero(&self, s: f64, enough: f64) -> Vec<f64> {
         let (eq, n) = (self.curve.eq, self.at.c.len());
-        let along = |i: usize| {
-            self.curve
-                .z
-                .iter()
-                .rev()
-                .fold(0.0, |sum, z| sum * s + z[i].mid())
-        };
+        let along = |i: usize| self.curve.z.iter().rev().fold(0.0, |sum, z| sum * s + z[i]);
         let start: Vec<f64> = (0..n).map(along).collect();
-        let (mut z, mut last) = (start.clone(), f64::INFINITY);
-        for _ in 0..STEPS {
-            let mut f = value(eq, &z);
+        let mut z = start.clone();
+        self.improve(&mut z, s, enough, |z| {
+            let right = |c: &[f64; 5]| c.iter().rev().fold(0.0, |sum, c| sum * z[eq.m] + c);
+            let left = directional(eq, z, z).into_iter().zip(&self.right);
             let ahead = z.iter().zip(&start).zip(&self.at.c);
-            f.push(ahead.map(|((z, start), c)| c * (z - start)).sum());
-            let step = self.times(&f, s);
-            z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
+            let ahead = ahead.map(|((z, start), c)| c * (z - start)).sum();
+            left.map(|(f, e)| 0.5 * f - right(e))
+                .chain([ahead])
+                .collect()
+        });
+        z
+    }
+
+    /// A vector T near the curve's direction at a point near ẑ(s), with c·T = 1.
+    pub fn tangent(&self, near: &[f64], s: f64) -> Vec<f64> {
+        let (eq, n, z) = (self.curve.eq, self.at.c.len(), &self.curve.z);
+        let slope = |i: usize| {
+            let terms = (1..z.len()).rev();
+            terms.fold(0.0, |sum, k| sum * s + k as f64 * z[k][i])
+        };
+        let mut v: Vec<f64> = (0..n).map(slope).collect();
+        let along = |v: &[f64]| v.iter().zip(&self.at.c).map(|(v, c)| v * c).sum::<f64>();
+        let advance = along(&v);
+        v.iter_mut().for_each(|v| *v /= advance);
+        let slope_of = |e: &[f64; 5]| {
+            let terms = (1..5).rev();
+            terms.fold(0.0, |sum, k| sum * near[eq.m] + k as f64 * e[k])
+        };
+        let slopes: Vec<f64> = self.right.iter().map(slope_of).collect();
+        let enough = 1e-9 * self.norm(&v);
+        self.improve(&mut v, s, enough, |v| {
+            let left = directional(eq, near, v).into_iter().zip(&slopes);
+            left.map(|(f, e)| f - e * v[eq.m])
+                .chain([along(v) - 1.0])
+                .collect()
+        });
+        v
+    }
+
+    /// Newton's steps, as far as they shrink and are not below `enough`.
+    fn improve(&self, v: &mut [f64], s: f64, enough: f64, f: impl Fn(&[f64]) -> Vec<f64>) {
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let step = self.times(&f(v), s);
+            v.iter_mut().zip(&step).for_each(|(v, step)| *v -= step);
             let size = self.norm(&step);
             if !(enough < size && size < 0.9 * last) {
                 break;
             }
             last = size;
         }
-        z
-    }
-
-    /// A vector T near the curve's direction at a point near ẑ(s), with c·T = 1.
-    pub fn tangent(&self, near: &[f64], s: f64) -> Vec<f64> {
-        let (eq, n) = (self.curve.eq, self.at.c.len());
-        let slope = |i: usize| {
-            let terms = (1..self.curve.z.len()).rev();
-            terms.fold(0.0, |sum, k| sum * s + k as f64 * self.curve.z[k][i].mid())
-        };
-        let mut v: Vec<f64> = (0..n).map(slope).collect();
-        let dot = |v: &[f64]| v.iter().zip(&self.at.c).map(|(v, c)| v * c).sum::<f64>();
-        let advance = dot(&v);
-        v.iter_mut().for_each(|v| *v /= advance);
-        let mut last = f64::INFINITY;
-        for _ in 0..STEPS {
-            let mut f = directional(eq, near, &v);
-            for (e, f) in f.iter_mut().enumerate() {
-                *f -= eq.half_square_at(e, point(near[eq.m]))[1].mid() * v[eq.m];
-            }
-            f.push(dot(&v) - 1.0);
-            let step = self.times(&f, s);
-            v.iter_mut().zip(&step).for_each(|(v, step)| *v -= step);
-            let size = self.norm(&step);
-            if !(0.0 < size && size < 0.9 * last) {
-                break;
-            }
-            last = size;
-        }
-        v
     }
 
     fn norm(&self, v: &[f64]) -> f64 {
-        let sizes = v.iter().zip(&self.at.u);
-        sizes.fold(0.0, |max, (v, &u)| {
+        let ratios = v.iter().zip(&self.at.u);
+        ratios.fold(0.0, |max, (v, &u)| {
             max.max(v.abs() / (WEIGHT_UNIT * f64::from(u)))
         })
     }
 }
 
-/// F, in floats.
-fn value(eq: &Equations, z: &[f64]) -> Vec<f64> {
-    let form = |form: usize| form_of(eq, z, form);
-    let residual = |e: usize| {
-        let products = eq.products[e].iter();
-        let q: f64 = products
-            .map(|p| 0.5 * p.factor as f64 * form(p.left) * form(p.right))
-            .sum();
-        q - eq.half_square_at(e, point(z[eq.m]))[0].mid()
-    };
-    (0..eq.m).map(residual).collect()
-}
-
 /// The derivatives of all q_e at a point in a direction, in floats.
 fn directional(eq: &Equations, z: &[f64], v: &[f64]) -> Vec<f64> {
-    let term = |p: &super::equations::Product| {
-        let [(a, b), (c, d)] = [p.left, p.right].map(|f| (form_of(eq, z, f), form_of(eq, v, f)));
-        0.5 * p.factor as f64 * (a * d + b * c)
+    let of = |v: &[f64], form: usize| {
+        let [i, j] = eq.forms[form].map(|i| if i < eq.m { v[i] } else { 0.0 });
+        i - j
+    };
+    let term = |&(factor, [left, right]): &Product| {
+        0.5 * factor as f64 * (of(z, left) * of(v, right) + of(v, left) * of(z, right))
     };
     let products = eq.products.iter();
     products
         .map(|products| products.iter().map(term).sum())
         .collect()
-}
-
-/// A difference of two entries, in floats.
-fn form_of(eq: &Equations, z: &[f64], form: usize) -> f64 {
-    let [i, j] = eq.forms[form].map(|i| if i < eq.m { z[i] } else { 0.0 });
-    i - j
 }
 
 /// A float inverse, or nothing where there is none: Gauss and Jordan in place, with row pivots.

@@ -8,6 +8,7 @@ mod equations;
 mod guess;
 mod krawczyk;
 mod place;
+mod refute;
 mod tube;
 mod whole;
 

@@ -2,80 +2,66 @@
 
 use super::equations::{Equations, ZERO};
 use super::guess::newton;
-use super::krawczyk::{Section, around, scaled, weight};
-use super::whole::{Whole, exact, size};
+use super::krawczyk::{Section, around, weight};
+use super::refute;
+use super::whole::{exact, size};
 use crate::certificate::format::SolutionClaim;
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 
 /// An enclosure of a point of a curve of F = 0, in n entries: exactly known floats, and what has to be
 /// added to them.
-#[derive(Clone)]
 pub struct Spot {
     pub near: Vec<f64>,
     pub rest: Vec<Interval>,
 }
 
 impl Spot {
-    /// The point in intervals.
+    /// One of its entries.
     pub fn at(&self, i: usize) -> Interval {
         exact(self.near[i]) + self.rest[i]
     }
 
-    /// Its difference from another one.
-    pub fn minus(&self, other: &Spot, i: usize) -> Interval {
-        (exact(self.near[i]) - exact(other.near[i])) + (self.rest[i] - other.rest[i])
+    /// Its difference from a point.
+    pub fn minus(&self, other: &[f64], i: usize) -> Interval {
+        (exact(self.near[i]) - exact(other[i])) + self.rest[i]
     }
 
-    /// One of the forms of the equations.
-    fn form(&self, eq: &Equations, form: usize) -> Interval {
-        let [i, j] = eq.forms[form];
-        let of = |i: usize| {
-            if i < eq.m {
-                (exact(self.near[i]), self.rest[i])
-            } else {
-                (ZERO, ZERO)
-            }
-        };
-        let ((a, da), (b, db)) = (of(i), of(j));
-        (a - b) + (da - db)
-    }
-
-    /// [J; c] v − e_n at the point, scaled.
+    /// [J; c] v − e_n at this point.
     pub fn off_direction(&self, eq: &Equations, at: &Section, v: &[f64]) -> Vec<Interval> {
         let t = self.at(eq.m);
-        let entry = |i: usize| v.get(i).filter(|_| i < eq.m).map_or(ZERO, |&x| exact(x));
+        let of = |i: usize| match i < eq.m {
+            true => (exact(self.near[i]), self.rest[i]),
+            false => (ZERO, ZERO),
+        };
+        let form = |form: usize| {
+            let [(a, da), (b, db)] = eq.forms[form].map(of);
+            (a - b) + (da - db)
+        };
         let row = |e: usize| {
             let terms = eq.gradient[e].iter();
-            let sum = terms.fold(ZERO, |sum, term| {
-                let factor = point(0.5 * term.factor as f64);
-                sum + factor * self.form(eq, term.form) * entry(term.unknown)
-            });
-            sum - eq.half_square_at(e, t)[1] * exact(v[eq.m])
+            let terms =
+                terms.map(|&(i, factor, f)| point(0.5 * factor as f64) * form(f) * exact(v[i]));
+            let time = eq.right_at(e, t)[1] * exact(v[eq.m]);
+            terms.fold(-time, |sum, x| sum + x)
         };
-        let rows = (0..eq.m).map(row).collect();
-        let along = v.iter().zip(&at.c);
-        let along = along.fold(point(-1.0), |sum, (&v, &c)| sum + exact(v) * point(c));
-        scaled(rows, along, at)
+        let along = v.iter().zip(&at.c).map(|(&v, &c)| exact(v) * point(c));
+        let along = along.fold(point(-1.0), |sum, x| sum + x);
+        (0..eq.m).map(row).chain([along]).collect()
     }
 }
 
-/// Whether vectors in a box have a positive (`Some(true)`), or a negative, component along another.
-pub fn goes_along(direction: &[Interval], normal: &[f64]) -> Option<bool> {
+/// The component of the vectors in a box along another one.
+pub fn component(direction: &[Interval], normal: &[f64]) -> Interval {
     let terms = direction.iter().zip(normal);
-    let along = terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c));
-    match (along.inf() > 0.0, along.sup() < 0.0) {
-        (true, _) => Some(true),
-        (_, true) => Some(false),
-        _ => None,
-    }
+    terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c))
 }
 
 /// A figure with t = 1, the only one in its box.
 pub struct Place {
     /// Where it is.
     pub spot: Spot,
-    /// The box that was claimed: n entries.
+    /// The box that was claimed, in m entries.
     pub claimed: Vec<Interval>,
     /// At most so far from the middle of `spot`, entry by entry, there is no other figure with t = 1.
     alone_within: Vec<f64>,
@@ -90,47 +76,15 @@ const SIGHT: f64 = 1.0;
 impl Place {
     /// Proves that a box holds exactly one solution of F(X, a(1)) = 0.
     pub fn solution(eq: &Equations, claim: &SolutionClaim) -> Result<Place, Fault> {
-        let m = eq.m;
-        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
         let radius = around(point(claim.radius.into()));
-        let claimed: Vec<Interval> = (0..m)
-            .map(|i| point(near[i]) + radius)
-            .chain([point(1.0)])
-            .collect();
-        let nothing = Fault::proof("there is none in it");
-        let excluded = |e: usize| {
-            let value = |i: usize| claimed.get(i).filter(|_| i < m).map_or(ZERO, |&x| x);
-            let form = |f: usize| value(eq.forms[f][0]) - value(eq.forms[f][1]);
-            let square = |p: &super::equations::Product| match p.left == p.right {
-                true => form(p.left).sqr(),
-                false => form(p.left) * form(p.right),
-            };
-            let products = eq.products[e].iter();
-            let sum = products.fold(ZERO, |sum, p| {
-                sum + point(0.5 * p.factor as f64) * square(p)
-            });
-            !(sum - eq.half_square_at(e, point(1.0))[0]).contains(0.0)
-        };
-        let proved = Place::prove(eq, &near, claimed.clone());
-        let place = match proved {
-            Err(_) if (0..m).any(excluded) => return Err(nothing),
-            proved => proved?,
-        };
-        let mut inside = true;
-        for i in 0..m {
-            let (figure, claimed) = (place.spot.at(i), place.claimed[i]);
-            let reach = size(claimed - exact(place.spot.near[i]));
-            inside &= figure.interior(claimed) && reach.sup() < place.alone_within[i];
+        let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
+        let place = Place::prove(eq, claim, claimed.clone());
+        if refute::empty(eq, &claimed, place.as_ref().ok()) {
+            return Err(Fault::proof("there is none in it"));
         }
-        // All of the claimed box is in sight, and what is there is somewhere else; or so are all solutions.
-        let apart = |i: usize| !(place.claimed[i] - place.spot.at(i)).contains(0.0);
-        let sees = |i: usize| {
-            size(place.claimed[i] - exact(place.spot.near[i])).sup() < place.alone_within[i]
-        };
-        if (0..m).all(sees) && (0..m).any(apart) || (0..m).any(excluded) {
-            return Err(nothing);
-        }
-        match inside {
+        let place = place?;
+        let inside = |i: usize| place.spot.at(i).interior(claimed[i]);
+        match (0..eq.m).all(inside) && place.covers(&claimed) {
             true => Ok(place),
             false => Err(Fault::because(
                 "it is too narrow to hold the one near it, or so wide that it may hold another one",
@@ -138,37 +92,38 @@ impl Place {
         }
     }
 
-    /// Proves that there is a figure near a point, in the cross-section t = 1.
-    fn prove(eq: &Equations, near: &[f64], claimed: Vec<Interval>) -> Result<Place, Fault> {
+    /// Proves that there is a figure with t = 1 near a box.
+    fn prove(
+        eq: &Equations,
+        claim: &SolutionClaim,
+        claimed: Vec<Interval>,
+    ) -> Result<Place, Fault> {
+        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
         let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
         (c[eq.m], u[eq.m]) = (1.0, 1);
-        let (curve, at, inverse) = newton(eq, near, &c, &u)?;
-        let y: &Whole = &inverse.whole;
-        let test = curve.test(y, &at, point(SIGHT))?;
+        let (curve, at, inverse) = newton(eq, &near, &c, &u)?;
+        let test = curve.test(&inverse.whole, &at, point(SIGHT))?;
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
-        if curve.z[0][eq.m] != point(1.0) {
+        let near = curve.z[0].clone();
+        if near[eq.m] != 1.0 {
             return Err(Fault::because("its cross-section is not t = 1"));
         }
         let weights = || u.iter().map(|&u| weight(u));
         let mut rest: Vec<Interval> = weights().map(|u| around(proof.distance * u)).collect();
         rest[eq.m] = ZERO;
-        let spot = Spot {
-            near: curve.z[0][..=eq.m].iter().map(|z| z.mid()).collect(),
-            rest,
-        };
         Ok(Place {
-            spot,
+            spot: Spot { near, rest },
             claimed,
             alone_within: weights().map(|u| (alone * u).inf()).collect(),
             margin: proof.margin,
         })
     }
 
-    /// Whether a box lies where this figure is the only one with t = 1.
-    fn covers(&self, z: &[Interval]) -> bool {
+    /// Whether a box of coordinates lies where this figure is the only one with t = 1.
+    pub fn covers(&self, z: &[Interval]) -> bool {
         let near = |i: usize| size(z[i] - exact(self.spot.near[i])).sup() < self.alone_within[i];
         (0..z.len()).all(near)
     }
@@ -197,22 +152,21 @@ impl Place {
         }
         for last in [false, true] {
             turned[d - 1] = last;
+            // Without any change of sign they differ: their boxes are disjoint.
+            if turned == [false; 3] {
+                continue;
+            }
             let image = gauge.place.iter().enumerate();
             let image = image.map(|(i, place)| match turned[place % d] {
                 true => -self.spot.at(i),
                 false => self.spot.at(i),
             });
             let image: Vec<Interval> = image.collect();
-            // Without any change of sign they differ: their boxes are disjoint.
-            if turned == [false; 3] {
-                continue;
-            }
             // The image is a solution too.
             if other.covers(&image) {
                 return Some(true);
             }
-            let mut pairs = image.iter().enumerate();
-            if pairs.all(|(i, a)| (*a - other.spot.at(i)).contains(0.0)) {
+            if !(0..eq.m).any(|i| image[i].disjoint(other.spot.at(i))) {
                 return None;
             }
         }

@@ -17,16 +17,16 @@ const A_BITS: i32 = 24;
 pub const LIMIT: f64 = (1u64 << 53) as f64;
 /// No row of |A| has a larger sum, 64: then all sums of products of two entries fit into an `i64`.
 const A_LIMIT: i64 = 1 << (A_BITS + 6);
-/// Vectors are taken to about so many bits.
-const VECTOR_BITS: i32 = 50;
 
 /// A square matrix with few entries: (row, entry) for each column.
 pub type Columns = Vec<Vec<(usize, i64)>>;
 
-/// Y: a square matrix, row by row, in units of 2^−bits.
+/// Y: a square matrix, row by row, in units of 2^−bits. It is multiplied with values of equations that are
+/// divided by powers of two, those to the exponents in `scale`.
 pub struct Whole {
     n: usize,
     bits: i32,
+    scale: Vec<i32>,
     entries: Vec<i64>,
 }
 
@@ -94,7 +94,7 @@ fn norm(n: usize, bits: i32, entries: impl Iterator<Item = i128>) -> Interval {
 
 impl Whole {
     /// The matrix nearest to one of floats, in units in which its largest entry has 52 bits.
-    pub fn nearest(n: usize, floats: &[f64]) -> Option<Self> {
+    pub fn nearest(floats: &[f64], scale: &[i32]) -> Option<Self> {
         let largest = floats.iter().fold(0.0f64, |max, x| max.max(x.abs()));
         let bits = 51 - largest.clamp(1e-9, 1e18).log2().ceil() as i32;
         let bits = bits.clamp(Y_BITS[0], Y_BITS[1]);
@@ -103,7 +103,13 @@ impl Whole {
             (whole.abs() < LIMIT).then_some(whole as i64)
         });
         let entries = entries.collect::<Option<Vec<_>>>()?;
-        Some(Whole { n, bits, entries })
+        let (n, scale) = (scale.len(), scale.to_vec());
+        Some(Whole {
+            n,
+            bits,
+            scale,
+            entries,
+        })
     }
 
     /// The units of Y J are 2 to minus this.
@@ -166,39 +172,46 @@ impl Whole {
         })
     }
 
-    /// |Y v|, the largest size of an entry: no less than the lower end for any v in a box, and no
-    /// more than the upper end.
+    /// |Y v|, the largest size of an entry: no less than the lower end for any v in a box, and no more
+    /// than the upper end. In floats: of fewer than 4 n roundings each is at most 2⁻⁵² of Σ |Y| |v|.
     pub fn image(&self, v: &[Interval]) -> Interval {
-        let largest = v.iter().fold(0.0f64, |max, x| max.max(x.mag()));
-        if !v.iter().all(|x| x.mag() <= 1e60) {
+        let split = v.iter().zip(&self.scale).map(|(x, &e)| {
+            // Scaling is exact, or below the smallest normal number, where the step to the neighbour covers it.
+            let [low, high] = [x.inf(), x.sup()].map(|x| x * power(-e));
+            let middle = 0.5 * (low + high);
+            let radius = (high - middle).max(middle - low);
+            (middle, radius.next_up())
+        });
+        let split: Vec<(f64, f64)> = split.collect();
+        if !split.iter().all(|(x, r)| x.abs() < 1e60 && *r < 1e60) {
             return between(0.0, f64::INFINITY);
         }
-        let bits = VECTOR_BITS - largest.max(1e-200).log2().ceil() as i32;
-        // Scaling by a power of two is exact, or below the smallest normal number, where the
-        // step to the neighbour covers it.
-        let scaled = |x: f64| x * power(bits);
-        let split = v.iter().map(|x| {
-            let low = scaled(x.inf()).next_down().floor() as i64;
-            let high = scaled(x.sup()).next_up().ceil() as i64;
-            let middle = (low + high) / 2;
-            (middle, (high - middle).max(middle - low))
-        });
-        let split: Vec<(i64, i64)> = split.collect();
-        let (mut least, mut most) = (0, 0);
+        let (mut least, mut most) = (0.0f64, 0.0f64);
+        let share = 4.0 * self.n as f64 * power(-52);
         for row in self.entries.chunks(self.n) {
-            let (mut middle, mut radius) = (0i128, 0i128);
+            let (mut sum, mut size, mut radius) = (0.0, 0.0, 0.0);
             for (&y, &(x, r)) in row.iter().zip(&split) {
-                middle += i128::from(y) * i128::from(x);
-                radius += i128::from(y.abs()) * i128::from(r);
+                let y = y as f64;
+                sum += y * x;
+                size += y.abs() * x.abs();
+                radius += y.abs() * r;
             }
-            let (middle, radius) = (middle.unsigned_abs(), radius.unsigned_abs());
-            least = middle.saturating_sub(radius).max(least);
-            most = (middle + radius).max(most);
+            let error = (size + radius) * share + radius;
+            least = least.max(sum.abs() - error);
+            most = most.max(sum.abs() + error);
         }
-        let above = above(most, self.bits + bits).sup();
-        // Two roundings, downwards.
-        let below = ((least as f64).next_down() * power(-self.bits - bits)).next_down();
-        between(below.max(0.0), above)
+        // A sum and a scaling more.
+        let unit = power(-self.bits);
+        between(
+            least * unit * (1.0 - power(-50)),
+            (most * unit * (1.0 + power(-50))).next_up(),
+        )
+    }
+
+    /// At least |Y v|, for every v whose entries are no larger than the upper ends of these.
+    pub fn bound(&self, v: &[Interval]) -> Interval {
+        let sizes: Vec<Interval> = v.iter().map(|x| between(-x.sup(), x.sup())).collect();
+        exact(self.image(&sizes).sup())
     }
 }
 
