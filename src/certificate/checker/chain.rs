@@ -1,6 +1,6 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
-use super::equations::{Equations, ZERO, unknown};
+use super::equations::{Equations, ZERO};
 use super::place::{Place, Spot, component};
 use super::refute;
 use super::tube::{Stretch, Tube, direction};
@@ -31,10 +31,9 @@ fn flaw(is_false: bool, flaw: Flaw) -> Outcome {
 
 impl Chain {
     pub fn new(eq: Equations) -> Self {
-        let places = eq.homotopy.gauge.place.iter();
-        let sketch = places.map(|&p| eq.homotopy.sketch_box[p]).chain([ZERO]);
-        let near = sketch.clone().map(|x| x.mid()).collect();
-        let rest = sketch.map(|x| x - point(x.mid())).collect();
+        let sketch: Vec<Interval> = eq.homotopy.sketch_of_unknowns().chain([ZERO]).collect();
+        let near = sketch.iter().map(|x| x.mid()).collect();
+        let rest = sketch.iter().map(|&x| x - point(x.mid())).collect();
         Chain {
             sketch: Spot { near, rest },
             eq,
@@ -191,8 +190,10 @@ impl Chain {
     pub fn points(&self, solution: &Place) -> Vec<[Interval; 3]> {
         let homotopy = &self.eq.homotopy;
         let unit = point(homotopy.unit);
-        let claimed = |i: usize| solution.claimed.get(i).map_or(ZERO, |&x| x);
-        let coordinate = |p, axis| claimed(unknown(homotopy, p, axis)) * unit;
+        let coordinate = |p, axis| {
+            let free = homotopy.coordinate(p, axis);
+            free.map_or(ZERO, |i| solution.claimed[i] * unit)
+        };
         let points = 0..homotopy.points;
         let points = points.map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
         points.collect()

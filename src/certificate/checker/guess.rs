@@ -128,11 +128,7 @@ impl<'a> Moving<'a> {
             bends: (0..eq.m)
                 .map(|e| eq.bend(e, t).mid() * z[1][eq.m])
                 .collect(),
-            right: eq
-                .right
-                .iter()
-                .map(|right| right.0.map(|c| c.mid()))
-                .collect(),
+            right: eq.homotopy.rights.iter().map(|right| right.e).collect(),
             curve,
             at,
             inverse,
@@ -144,7 +140,7 @@ impl<'a> Moving<'a> {
         let mut v = self.inverse.times(f);
         let (eq, mut change) = (
             self.curve.eq,
-            directional(self.curve.eq, &self.curve.z[1], &v),
+            directional(self.curve.eq, (&self.curve.z[1], 0.0), &v),
         );
         for (change, bend) in change.iter_mut().zip(&self.bends) {
             *change -= bend * v[eq.m];
@@ -164,12 +160,10 @@ impl<'a> Moving<'a> {
         let mut z = start.clone();
         self.improve(&mut z, s, enough, |z| {
             let right = |c: &[f64; 5]| c.iter().rev().fold(0.0, |sum, c| sum * z[eq.m] + c);
-            let left = directional(eq, z, z).into_iter().zip(&self.right);
+            let left = value(eq, z).into_iter().zip(&self.right);
             let ahead = z.iter().zip(&start).zip(&self.at.c);
             let ahead = ahead.map(|((z, start), c)| c * (z - start)).sum();
-            left.map(|(f, e)| 0.5 * f - right(e))
-                .chain([ahead])
-                .collect()
+            left.map(|(f, e)| f - right(e)).chain([ahead]).collect()
         });
         z
     }
@@ -192,7 +186,7 @@ impl<'a> Moving<'a> {
         let slopes: Vec<f64> = self.right.iter().map(slope_of).collect();
         let enough = 1e-9 * self.norm(&v);
         self.improve(&mut v, s, enough, |v| {
-            let left = directional(eq, near, v).into_iter().zip(&slopes);
+            let left = directional(eq, (near, 1.0), v).into_iter().zip(&slopes);
             left.map(|(f, e)| f - e * v[eq.m])
                 .chain([along(v) - 1.0])
                 .collect()
@@ -222,14 +216,29 @@ impl<'a> Moving<'a> {
     }
 }
 
-/// The derivatives of all q_e at a point in a direction, in floats.
-fn directional(eq: &Equations, z: &[f64], v: &[f64]) -> Vec<f64> {
-    let of = |v: &[f64], form: usize| {
-        let [i, j] = eq.forms[form].map(|i| if i < eq.m { v[i] } else { 0.0 });
+/// All q_e at a point, in floats.
+fn value(eq: &Equations, z: &[f64]) -> Vec<f64> {
+    let of = |form: usize| {
+        let [i, j] = eq.forms[form].map(|i| eq.entry(i, |i| z[i], [0.0, 1.0]));
+        i - j
+    };
+    let term = |&(factor, [left, right]): &Product| 0.5 * factor as f64 * of(left) * of(right);
+    let products = eq.products.iter();
+    products
+        .map(|products| products.iter().map(term).sum())
+        .collect()
+}
+
+/// The derivatives of all q_e at a point in a direction, in floats; the number 1 is `one` there.
+fn directional(eq: &Equations, (z, one): (&[f64], f64), v: &[f64]) -> Vec<f64> {
+    let of = |v: &[f64], form: usize, one: f64| {
+        let [i, j] = eq.forms[form].map(|i| eq.entry(i, |i| v[i], [0.0, one]));
         i - j
     };
     let term = |&(factor, [left, right]): &Product| {
-        0.5 * factor as f64 * (of(z, left) * of(v, right) + of(v, left) * of(z, right))
+        let [x, y] = [left, right].map(|form| of(z, form, one));
+        let [dx, dy] = [left, right].map(|form| of(v, form, 0.0));
+        0.5 * factor as f64 * (x * dy + dx * y)
     };
     let products = eq.products.iter();
     products

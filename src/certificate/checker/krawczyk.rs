@@ -48,7 +48,8 @@ impl<'a> Curve<'a> {
     pub fn at(eq: &'a Equations, centre: &[f64]) -> Result<Self, Fault> {
         let mut curve = Curve {
             eq,
-            bits: [51 - magnitude(&centre[..eq.m]); 2],
+            // The number 1 is a multiple of the unit, too.
+            bits: [51 - magnitude(&centre[..eq.m]).max(0); 2],
             z: Vec::new(),
             forms: Vec::new(),
             right: Vec::new(),
@@ -73,7 +74,8 @@ impl<'a> Curve<'a> {
         if !(whole.iter().all(|x| x.abs() < power(52)) && z[m].is_finite()) {
             return Err(LARGE);
         }
-        let of = |i: usize| whole.get(i).map_or(0.0, |&x| x);
+        let one = if k == 0 { power(bits) } else { 0.0 };
+        let of = |i: usize| self.eq.entry(i, |i| whole[i], [0.0, one]);
         let forms = self.eq.forms.iter().map(|&[i, j]| (of(i) - of(j)) as i64);
         self.forms.push(forms.collect());
         whole.iter_mut().for_each(|x| *x *= power(-bits));
@@ -108,7 +110,7 @@ impl<'a> Curve<'a> {
     pub fn residual(&self, k: usize) -> Vec<Interval> {
         let ([coarse, fine], known) = (self.bits, self.z.len());
         let residual = |e: usize| {
-            let (right, degree) = (&self.right[e], self.eq.right[e].1);
+            let (right, degree) = (&self.right[e], self.eq.degree(e));
             if k == 0 {
                 return nearly(self.products(e, 0, 0), 2 * coarse + 1) - right[0];
             }
@@ -124,7 +126,7 @@ impl<'a> Curve<'a> {
             powers.fold(f, |sum, (right, power)| sum - right * power)
         };
         // Beyond 2 ORDER there are only powers of t, in equations of higher degree.
-        let zero = |e: usize| k > 2 * ORDER && self.eq.right[e].1 <= 2;
+        let zero = |e: usize| k > 2 * ORDER && self.eq.degree(e) <= 2;
         (0..self.eq.m)
             .map(|e| if zero(e) { ZERO } else { residual(e) })
             .collect()
@@ -136,7 +138,7 @@ impl<'a> Curve<'a> {
         if k == 0 {
             return right[1];
         }
-        let terms = 2..=self.eq.right[e].1;
+        let terms = 2..=self.eq.degree(e);
         terms.fold(ZERO, |sum, j| {
             sum + point(j as f64) * right[j] * self.powers[j - 1][k]
         })
@@ -227,7 +229,7 @@ impl<'a> Curve<'a> {
                     slope += k as u128 * u128::from(factor.unsigned_abs()) * change;
                 }
             }
-            let slopes = 3..=(self.eq.right[e].1.max(2) - 1) * order;
+            let slopes = 3..=(self.eq.degree(e).max(2) - 1) * order;
             let slopes = slopes.fold(ZERO, |sum, k| sum + size(self.slope(e, k)));
             let bend = size(self.eq.bend(e, t)) * weight(u[m]);
             let fine = self.bits[1] + WEIGHT_BITS + 1;

@@ -30,9 +30,9 @@ impl Spot {
     /// [J; c] v − e_n at this point.
     pub fn off_direction(&self, eq: &Equations, at: &Section, v: &[f64]) -> Vec<Interval> {
         let t = self.at(eq.m);
-        let of = |i: usize| match i < eq.m {
-            true => (exact(self.near[i]), self.rest[i]),
-            false => (ZERO, ZERO),
+        let of = |i: usize| {
+            let of = |i: usize| (exact(self.near[i]), self.rest[i]);
+            eq.entry(i, of, [(ZERO, ZERO), (point(1.0), ZERO)])
         };
         let form = |form: usize| {
             let [(a, da), (b, db)] = eq.forms[form].map(of);
@@ -136,9 +136,10 @@ impl Place {
 
     /// Whether two different solutions are congruent up to reflection. `None`: it cannot be told.
     ///
-    /// The isometries that keep the gauge change signs of coordinates. The second reference
-    /// point's first coordinate and the third's second tell which signs one of them has to change
-    /// to make the figures equal; that of the last coordinate is free.
+    /// The isometries that keep the gauge reverse axes. The second reference point's first coordinate
+    /// and the third's second tell which axes one of them has to reverse to make the figures equal; the
+    /// last axis is free, unless constraints say which way round the figure is. Where they fix the figure in
+    /// its frame, no isometry is left.
     pub fn is_congruent(&self, other: &Place, eq: &Equations) -> Option<bool> {
         let (gauge, d) = (&eq.homotopy.gauge, eq.homotopy.dimension);
         let mut turned = [false; 3];
@@ -150,16 +151,17 @@ impl Place {
             }
             turned[axis] = sides.sup() < 0.0;
         }
-        for last in [false, true] {
+        for last in [false, true].into_iter().take(2 * gauge.reference.len()) {
             turned[d - 1] = last;
+            let axes: Vec<usize> = (0..d).filter(|&axis| turned[axis]).collect();
             // Without any change of sign they differ: their boxes are disjoint.
-            if turned == [false; 3] {
+            if axes.is_empty() || axes.len() % 2 == 1 && !eq.homotopy.tail.mirrors {
                 continue;
             }
-            let image = gauge.place.iter().enumerate();
-            let image = image.map(|(i, place)| match turned[place % d] {
-                true => -self.spot.at(i),
-                false => self.spot.at(i),
+            let image = (0..eq.m).map(|i| {
+                let flips = axes.iter().filter(|&&axis| eq.homotopy.flips(i, axis));
+                let x = self.spot.at(i);
+                if flips.count() % 2 == 1 { -x } else { x }
             });
             let image: Vec<Interval> = image.collect();
             // The image is a solution too.

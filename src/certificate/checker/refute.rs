@@ -48,7 +48,7 @@ pub fn missing(tube: &Tube, part: Interval, solutions: &[Place]) -> bool {
 /// Whether a box certainly holds no zero of F with t = 1: one of the equations has none in it; or the
 /// whole box is where a figure is the only one, and that is not in it.
 pub fn empty(eq: &Equations, claimed: &[Interval], place: Option<&Place>) -> bool {
-    let value = |i: usize| claimed.get(i).filter(|_| i < eq.m).map_or(ZERO, |&x| x);
+    let value = |i: usize| eq.entry(i, |i| claimed[i], [ZERO, point(1.0)]);
     let form = |f: usize| value(eq.forms[f][0]) - value(eq.forms[f][1]);
     let excluded = |e: usize| {
         let products = eq.products[e].iter().map(|&(factor, [left, right])| {

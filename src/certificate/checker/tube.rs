@@ -137,6 +137,15 @@ impl Tube {
         if !(advance.inf() > 0.0) {
             return Err(Fault::because("its cross-sections may turn back"));
         }
+        let least = |i: usize| {
+            let away = around(work.proof.distance * weight(work.at.u[i]));
+            (polynomial(&work.curve.z, i, around(point(1.0))) + away).inf()
+        };
+        if !eq.positive.iter().all(|&i| least(i) > 0.0) {
+            return Err(Fault::because(
+                "a length or radius in it may not be positive",
+            ));
+        }
         // A parameter in [−1, 1], whatever is rounded.
         let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);
         let moving = Moving::new(&work.curve, &work.at, &work.inverse);
