@@ -147,7 +147,9 @@ impl Verdict {
         let b = Problem::parse(&b.to_toml(), "").unwrap_or_else(|_| b.clone());
         a.dimension == b.dimension
             && a.points == b.points
+            && a.objects == b.objects
             && a.distances == b.distances
+            && a.constraints == b.constraints
             && a.homotopy == b.homotopy
     }
 }

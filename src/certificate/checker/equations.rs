@@ -1,7 +1,6 @@
 //! The equations q_e(X) = E_e(t) in intervals: 2 q_e is a sum of products of differences, with whole
 //! factors, and E_e a polynomial in t. For a distance 2 q_e = |p_i − p_j|² and 2 E_e = a_e².
 
-use crate::constraint::Role;
 use crate::interval::{Interval, point};
 use crate::system::Homotopy;
 
@@ -56,14 +55,8 @@ impl Equations {
             products.push(all);
             gradient.push(terms);
         }
-        let auxiliary = homotopy
-            .tail
-            .unknowns
-            .iter()
-            .zip(homotopy.gauge.place.len()..);
-        let positive = auxiliary.filter(|(unknown, _)| unknown.role == Role::Positive);
         Equations {
-            positive: positive.map(|(_, i)| i).collect(),
+            positive: homotopy.positive_unknowns(),
             m,
             forms,
             products,
