@@ -1,6 +1,6 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
-use super::{BAD_INPUT, CLOSED, STOPPED, output};
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, output};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, theorem};
@@ -11,7 +11,9 @@ use std::time::Instant;
 
 /// Prove all claims of a certificate again
 ///
-/// Exit codes: 0 verified, 1 refuted or incomplete, 2 not a certificate.
+/// Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another problem than FILE;
+/// 2 not a certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it;
+/// 4 incomplete, the proof of a run that stopped, true as far as it goes.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The certificate, as `solve --cert` writes it
@@ -62,7 +64,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.outcome {
-        Outcome::Verified if same => CLOSED,
-        _ => STOPPED,
+        _ if !same => REFUTED,
+        Outcome::Verified => CLOSED,
+        Outcome::Refuted(_) => REFUTED,
+        Outcome::NotProved(_) => NOT_PROVED,
+        Outcome::Partial(_) => INCOMPLETE,
     })
 }

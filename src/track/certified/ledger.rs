@@ -3,7 +3,6 @@
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
-use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -17,8 +16,8 @@ use crate::track::full::{Equations, InverseMaker, path_length};
 pub struct Ledger<const D: usize> {
     /// The homotopy's.
     unit: f64,
-    /// Auxiliary unknowns that must stay positive: which, and their entries.
-    positive: Vec<(usize, usize)>,
+    /// The auxiliary unknowns that must stay positive.
+    positive: Vec<usize>,
     prover: SolutionProver<D>,
     found: Vec<SolutionBox>,
     /// Work space.
@@ -44,12 +43,9 @@ pub struct Mark {
 impl<const D: usize> Ledger<D> {
     /// An empty account.
     pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
-        let coordinates = homotopy.gauge.place.len();
-        let unknowns = homotopy.tail.unknowns.iter().enumerate();
-        let positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
         Ledger {
             unit: homotopy.unit,
-            positive: positive.map(|(k, _)| (k, coordinates + k)).collect(),
+            positive: homotopy.positive_unknowns(),
             prover: SolutionProver::new(homotopy, equations),
             found: Vec::new(),
             crossings: Vec::new(),
@@ -162,15 +158,12 @@ impl<const D: usize> Ledger<D> {
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
     ) -> Option<usize> {
-        let fails = |&&(_, entry): &&(usize, usize)| {
+        let fails = |&&entry: &&usize| {
             let ((low, _), _) = tube.entry_along(entry).bounds(from, to);
             // Bounds are of the unknown minus 1.
             (low + 1.0).next_down() <= 0.0 || low.is_nan()
         };
-        self.positive
-            .iter()
-            .find(fails)
-            .map(|&(unknown, _)| unknown)
+        self.positive.iter().find(fails).copied()
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which

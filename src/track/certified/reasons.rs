@@ -211,7 +211,7 @@ pub fn undecided(doubt: Doubt, is_extended: bool, homotopy: &Homotopy) -> String
         ),
         Doubt::Sign(unknown) => format!(
             "{} could not be proved to stay positive; the figure degenerates there, or nearly so",
-            homotopy.tail.unknowns[unknown].name
+            homotopy.tail.unknowns[unknown - homotopy.gauge.place.len()].name
         ),
         Doubt::Singular(pivots) => format!(
             "{WHETHER}: the Jacobian of a figure there is singular in 53 bits (its smallest pivot is {pivots:.1e} \
