@@ -50,12 +50,16 @@
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
+//! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
+//! - [`complete`]: all real solutions, proved to be all
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`report`]: tables, JSON, pictures, progress
 
 pub mod certificate;
 pub mod compare;
+pub mod complete;
 pub mod constraint;
+pub mod edit;
 pub mod generate;
 pub mod interval;
 pub mod linalg;

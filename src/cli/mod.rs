@@ -1,7 +1,9 @@
 //! The command line: one file per verb.
 
+mod all;
 mod check;
 mod compare;
+mod edit;
 mod generate;
 mod interrupt;
 mod output;
@@ -19,14 +21,18 @@ pub const CLOSED: u8 = 0;
 pub const STOPPED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
 pub const BAD_INPUT: u8 = 2;
+/// Exit code of an edit that comes to a limit before the new dimensions.
+pub const LIMIT: u8 = 3;
+/// Exit code of an edit that comes to where branches of figures seem to meet.
+pub const PASSES: u8 = 4;
 
 /// Follows the real homotopy path through a sketch and finds, with proof, the figures on it that
 /// meet the dimensions.
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 closed or verified, 1 stopped, refuted or incomplete, 2 bad input or \
-                  results that could not be written."
+    after_help = "Exit codes: 0 closed, verified or reached, 1 stopped, refuted or incomplete, 2 bad input or \
+                  results that could not be written, 3 an edit's limit, 4 where an edit's branches meet."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -35,8 +41,10 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    All(all::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Edit(edit::Arguments),
     Generate(generate::Arguments),
     Solve(solve::Arguments),
     Verify(verify::Arguments),
@@ -49,8 +57,10 @@ pub fn run() -> ExitCode {
         return ExitCode::from(BAD_INPUT);
     }
     let code = match Arguments::parse().verb {
+        Verb::All(arguments) => all::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
+        Verb::Edit(arguments) => edit::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),

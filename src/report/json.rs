@@ -54,7 +54,7 @@ struct Entry<'a> {
 }
 
 /// A map from names to coordinates, in the problem's order.
-struct Points<'a>(&'a Problem, &'a Solution);
+pub(super) struct Points<'a>(pub &'a Problem, pub &'a Solution);
 
 impl<'a> Document<'a> {
     fn new(problem: &'a Problem, outcome: &'a Outcome) -> Self {

@@ -4,6 +4,7 @@
 //! no square roots, and second derivatives in X that do not depend on X. All other constraints are
 //! quadratic equations too ([`crate::constraint`]).
 
+mod edit;
 mod exact;
 mod gauge;
 mod homotopy;
@@ -11,7 +12,7 @@ mod interpolation;
 mod right;
 
 pub use exact::ExactLength;
-pub use gauge::{Gauge, GaugeError};
+pub use gauge::{Gauge, GaugeError, Placement};
 pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
 pub use right::Right;

@@ -1,5 +1,6 @@
 //! Following the path: predictor, corrector, step control, events.
 
+pub mod arc;
 pub mod certified;
 mod congruence;
 mod control;
