@@ -32,6 +32,7 @@ impl Tally {
         let (run, bytes) = common::certificate::of(problem, &options);
         let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
         let right = match &run.status {
+            Status::Open(_) => panic!("distances alone have no open paths"),
             Status::Closed
                 if run.switched_on.iter().any(|s| s.contains("extended"))
                     && matches!(verdict.outcome, Outcome::Partial(_) | Outcome::NotProved(_)) =>
