@@ -1,6 +1,6 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
-use super::{BAD_INPUT, CLOSED, STOPPED, output};
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, output};
 use krawl::certificate::cover::{FIRST_LINE, verify_cover};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::problem::Problem;
@@ -12,7 +12,9 @@ use std::time::Instant;
 
 /// Prove all claims of a certificate again
 ///
-/// Exit codes: 0 verified, 1 refuted or incomplete, 2 not a certificate.
+/// Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another problem than FILE;
+/// 2 not a certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it;
+/// 4 incomplete, the proof of a run that stopped, true as far as it goes.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The certificate, as `solve --cert` or `all --cert` writes it
@@ -67,8 +69,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.outcome {
-        Outcome::Verified if same => CLOSED,
-        _ => STOPPED,
+        _ if !same => REFUTED,
+        Outcome::Verified => CLOSED,
+        Outcome::Refuted(_) => REFUTED,
+        Outcome::NotProved(_) => NOT_PROVED,
+        Outcome::Partial(_) => INCOMPLETE,
     })
 }
 
@@ -107,9 +112,9 @@ fn verify_the_cover(
     if !arguments.quiet && !output::print(&text) {
         return Ok(BAD_INPUT);
     }
-    Ok(if verdict.proves_all() && same {
-        CLOSED
-    } else {
-        STOPPED
+    Ok(match verdict.proves_all() {
+        _ if !same || verdict.flaw.is_some() => REFUTED,
+        true => CLOSED,
+        false => INCOMPLETE,
     })
 }

@@ -45,7 +45,7 @@ pub use visit::Why;
 use crate::problem::Problem;
 use plan::Plan;
 use search::{Run, Search, Unfit};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 use targets::Targets;
 use visit::Found;
