@@ -283,9 +283,9 @@ impl Lowering<'_> {
         let local: Vec<Vector> = local.iter().map(vector).collect();
         let at: Vec<Vector> = points.iter().map(|&p| self.place(p).at).collect();
         let base = base_of(self.dimension(), &local, &at)?;
-        let ends: Vec<[usize; 2]> = match base.as_slice() {
-            &[a, b] => vec![[a, b]],
-            &[a, b, c] => vec![[a, b], [a, c], [b, c]],
+        let ends: Vec<[usize; 2]> = match *base.as_slice() {
+            [a, b] => vec![[a, b]],
+            [a, b, c] => vec![[a, b], [a, c], [b, c]],
             _ => unreachable!("a base has two or three points"),
         };
         for [i, j] in ends {
