@@ -61,8 +61,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if arguments.serve {
         return Ok(
             match open(&problem, &arguments.file, extended, &mut Control::default())? {
-                Ok(mut session) if serve::serve(&mut session) => CLOSED,
-                Ok(_) => BAD_INPUT,
+                Ok(mut session) => match serve::serve(&mut session) {
+                    true => CLOSED,
+                    false => BAD_INPUT,
+                },
                 Err(code) => code,
             },
         );

@@ -289,7 +289,12 @@ fn the_documents_examples() {
         kinds.extend(problem.constraints.into_iter().map(|c| c.kind));
     }
     for kind in super::KINDS {
-        let row = format!("| `{}` | `{}` | {} |", kind.key(), kind.example(), kind.meaning());
+        let row = format!(
+            "| `{}` | `{}` | {} |",
+            kind.key(),
+            kind.example(),
+            kind.meaning()
+        );
         assert!(text.contains(&row), "not in the document: {row}");
         let tested = ["z", "dz", "dy", "dx"].contains(&kind.key())
             || kinds.iter().any(|used| used == kind.key());
@@ -297,7 +302,10 @@ fn the_documents_examples() {
     }
     let table = text.split("<!-- kinds -->").nth(1).unwrap();
     let rows = table.split("<!-- /kinds -->").next().unwrap().lines();
-    assert_eq!(rows.filter(|line| line.starts_with("| `")).count(), super::KINDS.len());
+    assert_eq!(
+        rows.filter(|line| line.starts_with("| `")).count(),
+        super::KINDS.len()
+    );
 }
 
 #[test]
@@ -371,7 +379,9 @@ fn detours_leave_and_come_back() {
                 distances = [[\"a\", \"b\", 3.5], [\"a\", \"c\", 2]]\nperpendicular = [[\"a\", \"b\", \"a\", \"c\"]]\n";
     let right = |text: &str| {
         let problem = super::testing::read(text);
-        super::try_lower(&problem).unwrap().tail.equations[0].right.len()
+        super::try_lower(&problem).unwrap().tail.equations[0]
+            .right
+            .len()
     };
     assert_eq!(right(text), 1);
     let with = format!("{text}[homotopy]\nbend_coefficient = 0\ndetour = 0.5");
@@ -388,8 +398,14 @@ fn mirror_images_are_solutions_unless_a_side_is_meant() {
     };
     let three = "dimension = 2\n[points]\na = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]\n[constraints]\n\
                  distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.4]";
-    assert!(mirrors(&format!("{three}]\nangles = [[\"b\", \"a\", \"c\", 50]]")));
-    assert!(mirrors(&format!("{three}]\nperpendicular = [[\"b\", \"a\", \"c\", \"b\"]]")));
+    assert!(mirrors(&format!(
+        "{three}]\nangles = [[\"b\", \"a\", \"c\", 50]]"
+    )));
+    assert!(mirrors(&format!(
+        "{three}]\nperpendicular = [[\"b\", \"a\", \"c\", \"b\"]]"
+    )));
     assert!(!mirrors(&format!("{three}, [\"c\", \"a\", \"b\", 2]]")));
-    assert!(!mirrors(&format!("{three}]\nhorizontal = [[\"a\", \"b\"]]\ndx = [[\"a\", \"c\", 2]]")));
+    assert!(!mirrors(&format!(
+        "{three}]\nhorizontal = [[\"a\", \"b\"]]\ndx = [[\"a\", \"c\", 2]]"
+    )));
 }

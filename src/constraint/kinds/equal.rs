@@ -45,7 +45,8 @@ impl Kind for Equal {
                     Form::Difference(first.radius, other.radius),
                     Form::One,
                 )];
-                let start = &Real::from(first.squared.clone()).sqrt() - &Real::from(other.squared).sqrt();
+                let start =
+                    &Real::from(first.squared.clone()).sqrt() - &Real::from(other.squared).sqrt();
                 low.vanish_linear(of.name, products, start, 1);
             }
             return Ok(());
@@ -55,7 +56,9 @@ impl Kind for Equal {
             match of.items.line()? {
                 LineName::Points(points) => spans.push(points),
                 LineName::Free(_) => {
-                    return Err("a line of its own has no length: name lines through two points".to_owned());
+                    return Err(
+                        "a line of its own has no length: name lines through two points".to_owned(),
+                    );
                 }
             }
         }

@@ -27,7 +27,9 @@ impl Kind for Midpoint {
         let ends = match of.items.line()? {
             LineName::Points(points) => points,
             LineName::Free(_) => {
-                return Err("a line of its own has no middle: name one through two points".to_owned());
+                return Err(
+                    "a line of its own has no middle: name one through two points".to_owned(),
+                );
             }
         };
         of.items.end()?;
