@@ -3,9 +3,11 @@
 mod check;
 mod compare;
 mod generate;
+mod input;
 mod interrupt;
 mod output;
 mod processor;
+mod shell;
 mod solve;
 mod verify;
 
@@ -20,13 +22,22 @@ pub const STOPPED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
 pub const BAD_INPUT: u8 = 2;
 
-/// Follows the real homotopy path through a sketch and finds, with proof, the figures on it that
-/// meet the dimensions.
+/// Finds figures that meet given dimensions, with proof, from a rough sketch: it leads the sketch's
+/// dimensions to the wanted ones and follows the figure as it moves.
 #[derive(Parser)]
 #[command(
+    name = "krawl",
     version,
-    after_help = "Exit codes: 0 closed or verified, 1 stopped, refuted or incomplete, 2 bad input or \
-                  results that could not be written."
+    after_help = "\
+Examples:
+  krawl check sketch.toml                   is the input in order, and what was understood?
+  krawl solve sketch.toml                   the figures that meet the dimensions
+  krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
+
+`krawl VERB --help` has examples of each verb. The README has the format of problem files.
+
+Exit codes: 0 closed or verified, 1 stopped, refuted or incomplete, 2 bad input or results that could
+not be written."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -40,6 +51,8 @@ enum Verb {
     Generate(generate::Arguments),
     Solve(solve::Arguments),
     Verify(verify::Arguments),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 /// Runs the program. The exit code is its result.
@@ -54,6 +67,8 @@ pub fn run() -> ExitCode {
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
+        Verb::Completions(arguments) => shell::completions(&arguments),
+        Verb::Man(arguments) => shell::man(&arguments),
     };
     ExitCode::from(code)
 }

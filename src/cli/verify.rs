@@ -10,9 +10,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Prove all claims of a certificate again
-///
-/// Exit codes: 0 verified, 1 refuted or incomplete, 2 not a certificate.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl verify proof.krawl
+  krawl verify proof.krawl sketch.toml    and it is about this problem
+
+Exit codes: 0 verified, 1 refuted or incomplete, 2 not a certificate.")]
 pub struct Arguments {
     /// The certificate, as `solve --cert` writes it
     cert: PathBuf,
@@ -40,7 +44,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         threads: arguments.threads.unwrap_or(0).into(),
     };
     let clock = Instant::now();
-    let mut line = ProgressLine::new(!arguments.quiet);
+    let mut line = ProgressLine::new(!arguments.quiet, "");
     let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
     let verdict = verify(BufReader::new(file), &settings, &mut show);
     line.clear();

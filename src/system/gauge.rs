@@ -59,11 +59,8 @@ impl Gauge {
         }
     }
 
-    /// Encloses the coordinates of the sketch in the gauge, point by point.
-    ///
-    /// The sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
-    /// p₁ to p₂, perpendicular to it towards p₃, and their cross product.
-    pub fn sketch(&self, problem: &Problem) -> Result<Vec<[Interval; 3]>, GaugeError> {
+    /// How the gauge lies in the coordinates of the problem, as the sketch has it.
+    pub fn placement(&self, problem: &Problem) -> Result<Placement, GaugeError> {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
         let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
         let origin = coordinates(self.reference[0]);
@@ -80,20 +77,76 @@ impl Gauge {
             let e3 = unit(cross(e1, from_origin(self.reference[2]))).ok_or_else(collinear)?;
             (cross(e3, e1), e3)
         };
+        Ok(Placement {
+            origin,
+            axes: [e1, e2, e3],
+        })
+    }
+
+    /// Encloses the coordinates of the sketch in the gauge, point by point.
+    ///
+    /// The sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
+    /// p₁ to p₂, perpendicular to it towards p₃, and their cross product.
+    pub fn sketch(&self, problem: &Problem) -> Result<Vec<[Interval; 3]>, GaugeError> {
+        let Placement { origin, axes } = self.placement(problem)?;
         Ok((0..problem.points.len())
             .map(|p| {
-                let v = from_origin(p);
-                let mut out = [dot(e1, v), dot(e2, v), dot(e3, v)];
+                let v = sub(problem.points[p].sketch.each_ref().map(enclose), origin);
+                let mut out = axes.map(|axis| dot(axis, v));
                 for (axis, x) in out.iter_mut().enumerate() {
                     let fixed = axis >= self.dimension
                         || self.variable[p * self.dimension + axis] == self.place.len();
                     if fixed {
-                        *x = zero;
+                        *x = point(0.0);
                     }
                 }
                 out
             })
             .collect())
+    }
+}
+
+/// How the gauge lies in the coordinates of the problem: where the sketch has the first reference point,
+/// the direction from it to the second, and (in space) the side of the third.
+///
+/// Figures come in the gauge, which proofs are about. This brings them back to where the sketch is drawn:
+///
+/// ```
+/// use krawl::problem::Problem;
+/// use krawl::system::Homotopy;
+/// use krawl::track::{Control, Options, solve};
+///
+/// let problem = Problem::read("problems/k33.toml")?;
+/// let placement = Homotopy::new(&problem)?.gauge.placement(&problem)?;
+/// let outcome = solve(&problem, &Options::certified(), &mut Control::default())?;
+/// let first = outcome.solutions[0].point(&problem, "p4").unwrap();
+/// let there = placement.to_problem(first);
+/// assert!(there[0].wid() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// The gauge's origin.
+    pub origin: [Interval; 3],
+    /// The directions of its axes, of length 1 and perpendicular to each other.
+    pub axes: [[Interval; 3]; 3],
+}
+
+impl Placement {
+    /// A point of the gauge in the coordinates of the problem: an enclosure.
+    pub fn to_problem(&self, p: &[Interval; 3]) -> [Interval; 3] {
+        std::array::from_fn(|k| {
+            let [x, y, z] = self.axes;
+            self.origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]
+        })
+    }
+
+    /// The same in floats.
+    pub fn to_problem_nearly(&self, p: &[f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| {
+            let along: f64 = (0..3).map(|axis| self.axes[axis][k].mid() * p[axis]).sum();
+            self.origin[k].mid() + along
+        })
     }
 }
 

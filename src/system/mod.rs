@@ -9,6 +9,6 @@ mod homotopy;
 mod interpolation;
 
 pub use exact::ExactLength;
-pub use gauge::{Gauge, GaugeError};
+pub use gauge::{Gauge, GaugeError, Placement};
 pub use homotopy::{Edge, Homotopy};
 pub use interpolation::Length;

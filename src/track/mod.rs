@@ -1,6 +1,7 @@
 //! Following the path: predictor, corrector, step control, events.
 
 pub mod certified;
+mod choice;
 mod congruence;
 mod control;
 mod events;
@@ -9,12 +10,15 @@ pub mod full;
 mod options;
 mod outcome;
 pub mod reduced;
+mod turns;
 mod witness;
 
+pub use certified::{Fold, Sample, Trace};
+pub use choice::{prove, solve_in_best_space};
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};
 pub use options::{Options, Preset};
-pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
+pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
 pub use witness::{TubeSeen, Witness};
 
 use crate::problem::Problem;
@@ -67,6 +71,10 @@ pub fn solve(
         2 => solve_in::<2>(&homotopy, options, control),
         _ => solve_in::<3>(&homotopy, options, control),
     }?;
+    // A run that ends at the sketch has seen that only.
+    if outcome.t_range.0 > outcome.t_range.1 {
+        outcome.t_range = (0.0, 0.0);
+    }
     if let Status::Stopped(reason) = &mut outcome.status {
         let wish = match options.mode {
             Mode::Certified => options

@@ -1,6 +1,7 @@
 //! What a run reports.
 
 use crate::interval::Interval;
+use crate::problem::Problem;
 
 /// Whether steps are proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -69,6 +70,35 @@ pub struct Solution {
     pub class: usize,
     /// The widest coordinate's width, divided by the size (largest coordinate) of the figure.
     pub width: f64,
+    /// Where the path meets it. Float runs do not tell.
+    pub place: Option<Place>,
+    /// The first solution of the list (counted from 0) whose mirror image this one is, if there is one
+    /// before it.
+    pub mirror_of: Option<usize>,
+}
+
+impl Solution {
+    /// The coordinates of a point by its name, in the gauge and the units of the problem, the third
+    /// being zero in the plane. `None`: there is no such point.
+    pub fn point(&self, problem: &Problem, name: &str) -> Option<&[Interval; 3]> {
+        let mut points = problem.points.iter();
+        self.points
+            .get(points.position(|point| point.name == name)?)
+    }
+}
+
+/// Where on the path a solution is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Length of the path from the sketch to it, as in [`Outcome::length`]: a float, not an enclosure.
+    pub arc: f64,
+    /// Whether t rises through 1 there, in the direction of travel. Proved.
+    pub rising: bool,
+    /// Folds (places where dt/ds changes its sign) between the sketch and it. Each is proved; there
+    /// are no others, unless an even number of them lies within one stretch where the sign of dt/ds
+    /// is uncertain. Zero says that the sketch reaches this solution with t rising or falling all the
+    /// way.
+    pub folds: usize,
 }
 
 /// Numbers of driving parameters over a run in the reduced space (RR 8705, table 2).

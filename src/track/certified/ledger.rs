@@ -7,9 +7,10 @@ use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::Solution;
 use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{Equations, InverseMaker, path_length};
+use crate::track::turns::{Stretch, Turns};
+use crate::track::{Place, Solution};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
@@ -17,6 +18,11 @@ pub struct Ledger<'a, const D: usize> {
     homotopy: &'a Homotopy,
     prover: SolutionProver<D>,
     found: Vec<SolutionBox>,
+    /// Where on the path each of them is.
+    places: Vec<Place>,
+    turns: Turns,
+    /// The stretch of the last tube that belongs to the path, and the path's length up to it.
+    pub last_stretch: (f64, f64, f64),
     /// Work space.
     crossings: Vec<Crossing>,
     scratch: Vector,
@@ -34,6 +40,9 @@ impl<'a, const D: usize> Ledger<'a, D> {
             homotopy,
             prover: SolutionProver::new(homotopy, equations),
             found: Vec::new(),
+            places: Vec::new(),
+            turns: Turns::default(),
+            last_stretch: (0.0, 0.0, 0.0),
             crossings: Vec::new(),
             scratch: equations.vector(),
             ball: Ball::new(equations),
@@ -86,9 +95,12 @@ impl<'a, const D: usize> Ledger<'a, D> {
         self.crossings = crossings;
         if all.is_err() {
             self.found.truncate(known);
+            self.places.truncate(known);
             return all;
         }
         let until = closing.map_or(tube.exit_at, |at| at.1);
+        self.place(tube, &time, (from, to), known);
+        self.last_stretch = (from, until, self.length);
         self.length += path_length(
             &tube.local,
             from,
@@ -140,7 +152,50 @@ impl<'a, const D: usize> Ledger<'a, D> {
             }
         }
         self.found.push(found.clone());
+        // Its place in the tube, until [`Ledger::place`] knows that on the path.
+        self.places.push(Place {
+            arc: 0.5 * (a + b),
+            rising: crossing.rising,
+            folds: 0,
+        });
         Ok(())
+    }
+
+    /// Counts the folds in a tube, and places the solutions in it that were not `known` before.
+    fn place<const N: usize, Y: Frame<D>>(
+        &mut self,
+        tube: &Tube<D, N, Y>,
+        time: &TimeAlong<N>,
+        (from, to): (f64, f64),
+        known: usize,
+    ) {
+        let before = self.turns.count();
+        let new = &mut self.places[known..];
+        // From where the path is in this tube for certain, lest a fold be counted in two tubes.
+        let start = tube.entry.1.max(from);
+        self.turns.follow(time, (start, to), |stretch| {
+            if let Stretch::Turned(at, _) = stretch {
+                for place in new.iter_mut().filter(|place| place.arc >= at) {
+                    place.folds += 1;
+                }
+            }
+        });
+        let first = self.turns.first();
+        for place in new {
+            place.folds += before;
+            // The sign at a crossing is certain. Where that of the stretch around it is not, the change
+            // is seen a little later.
+            let odd = place.folds % 2 == 1;
+            place.folds += usize::from(first.is_some_and(|first| (place.rising != first) != odd));
+            place.arc = self.length
+                + path_length(
+                    &tube.local,
+                    from,
+                    place.arc,
+                    self.homotopy.unit,
+                    &mut self.scratch,
+                );
+        }
     }
 
     fn widen_t_range<const N: usize>(&mut self, time: &TimeAlong<N>, from: f64, to: f64) {
@@ -202,13 +257,17 @@ impl<'a, const D: usize> Ledger<'a, D> {
     pub fn solutions(&self) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
         let mut reason = None;
         let mut classes: Vec<usize> = Vec::new();
+        let mut mirrors: Vec<Option<usize>> = Vec::new();
         for (k, found) in self.found.iter().enumerate() {
-            let mut class = None;
+            let (mut class, mut mirror) = (None, None);
             for (j, other) in self.found[..k].iter().enumerate() {
                 match self.is_congruent(found, other) {
-                    Same::Yes => class = Some(classes[j]),
-                    Same::No => {}
-                    Same::Unknown => {
+                    (Same::Yes, mirrored) => {
+                        class = Some(classes[j]);
+                        mirror = mirror.or(mirrored.then_some(j));
+                    }
+                    (Same::No, _) => {}
+                    (Same::Unknown, _) => {
                         reason.get_or_insert(format!(
                             "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
                              are congruent; another reference may help",
@@ -220,19 +279,23 @@ impl<'a, const D: usize> Ledger<'a, D> {
                     }
                 }
             }
+            mirrors.push(mirror);
             classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
         }
         let solutions = self
             .found
             .iter()
-            .zip(classes)
-            .map(|(found, class)| {
+            .zip(&self.places)
+            .zip(classes.into_iter().zip(mirrors))
+            .map(|((found, &place), (class, mirror_of))| {
                 let points = found.points(self.homotopy);
                 let width = relative_width(&points);
                 Solution {
                     points,
                     class,
                     width,
+                    place: Some(place),
+                    mirror_of,
                 }
             })
             .collect();
@@ -244,12 +307,13 @@ impl<'a, const D: usize> Ledger<'a, D> {
 }
 
 impl<const D: usize> Ledger<'_, D> {
-    /// Whether two different solutions are congruent up to reflection.
+    /// Whether two different solutions are congruent up to reflection, and if so, whether one is the
+    /// mirror image of the other (otherwise it is the other one moved).
     ///
     /// The isometries that keep the gauge change the signs of coordinates. The second reference
     /// point's first coordinate and the third's second one tell which signs they must change;
     /// that of the last coordinate is free.
-    fn is_congruent(&self, one: &SolutionBox, other: &SolutionBox) -> Same {
+    fn is_congruent(&self, one: &SolutionBox, other: &SolutionBox) -> (Same, bool) {
         let gauge = &self.homotopy.gauge;
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
@@ -260,7 +324,7 @@ impl<const D: usize> Ledger<'_, D> {
             };
             match (side(one), side(other)) {
                 (Some(a), Some(b)) => turned[axis] = a != b,
-                _ => return Same::Unknown,
+                _ => return (Same::Unknown, false),
             }
         }
         for last in [false, true] {
@@ -274,10 +338,14 @@ impl<const D: usize> Ledger<'_, D> {
             };
             match one.is_same(other, signs) {
                 Same::No => {}
-                decided => return decided,
+                decided => {
+                    // The determinant of the diagonal matrix of signs.
+                    let changes = turned.iter().filter(|&&turned| turned).count();
+                    return (decided, (changes + usize::from(last)) % 2 == 1);
+                }
             }
         }
-        Same::No
+        (Same::No, false)
     }
 }
 

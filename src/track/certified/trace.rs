@@ -1,0 +1,318 @@
+//! The path as it was proved, kept to be drawn: the tubes' polynomials, and the folds.
+
+use super::link::{Frame, Tube};
+use crate::interval::{Interval, hull, point};
+use crate::system::{Gauge, Homotopy};
+use crate::track::turns::{Stretch, Turns};
+
+/// What a certified run proves of its path, for pictures and files: to be given to
+/// [`Control::trace`](crate::track::Control::trace).
+///
+/// Every tube is a polynomial ẑ(s) from which the path is nowhere further than a proved distance (far
+/// less than shows in a picture). So samples are points beside the path, not points of it; folds are
+/// enclosed.
+///
+/// ```
+/// use krawl::problem::Problem;
+/// use krawl::track::{Control, Options, Trace, solve};
+///
+/// let problem = Problem::read("problems/octahedron.toml")?;
+/// let mut trace = Trace::default();
+/// let mut control = Control { trace: Some(&mut trace), ..Control::default() };
+/// let outcome = solve(&problem, &Options::certified(), &mut control)?;
+///
+/// let samples = trace.samples(100);
+/// assert_eq!(samples.len(), 100);
+/// assert!((samples[99].at - outcome.length).abs() < 1e-9);
+/// // t of a fold is known as far as the tube around it shows.
+/// assert!(trace.folds().iter().all(|fold| fold.t.wid() < 0.05));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    gauge: Option<Gauge>,
+    unit: f64,
+    /// Free coordinates, and t.
+    width: usize,
+    /// Coefficients of each polynomial.
+    order: usize,
+    /// The polynomials, one after the other, each with its constant terms first.
+    coefficients: Vec<f64>,
+    pieces: Vec<Piece>,
+    turns: Turns,
+    folds: Vec<Fold>,
+    /// What holds the path since the sign of dt/ds was certain last.
+    open: Option<Open>,
+}
+
+/// The part of a tube that is the path's.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    /// Parameters of the tube.
+    from: f64,
+    to: f64,
+    /// Length of the path up to `from`.
+    at: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Open {
+    at: f64,
+    z: Vec<Interval>,
+}
+
+/// A place of the path (or beside it, at a distance that does not show).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// Length of the path from the sketch to here.
+    pub at: f64,
+    /// t there.
+    pub t: f64,
+    /// All points, in the gauge and the units of the problem.
+    pub points: Vec<[f64; 3]>,
+}
+
+/// A place where dt/ds changes its sign, and with it the direction in which the dimensions move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fold {
+    /// About the length of the path from the sketch to here.
+    pub at: f64,
+    /// An enclosure of t at the fold.
+    pub t: Interval,
+    /// Whether t rises after it, in the direction of travel.
+    pub rising: bool,
+    /// Enclosures of all points, in the gauge and the units of the problem.
+    pub points: Vec<[Interval; 3]>,
+}
+
+impl Trace {
+    /// A run begins: what was seen before is forgotten.
+    pub(super) fn begin(&mut self, homotopy: &Homotopy) {
+        *self = Trace {
+            gauge: Some(homotopy.gauge.clone()),
+            unit: homotopy.unit,
+            width: homotopy.equations + 1,
+            ..Trace::default()
+        };
+    }
+
+    /// A tube joined the chain: the path goes through it between the parameters of `stretch`, whose third
+    /// number is the length of the path before it.
+    pub(super) fn add<const D: usize, const N: usize, Y: Frame<D>>(
+        &mut self,
+        tube: &Tube<D, N, Y>,
+        stretch: (f64, f64, f64),
+    ) {
+        let n = self.width;
+        self.order = N;
+        for z in &tube.local.z {
+            self.coefficients.extend_from_slice(&z[..n]);
+        }
+        let (from, to, at) = stretch;
+        self.pieces.push(Piece { from, to, at });
+        let (from, start) = (tube.entry.0.max(-tube.proof.h), tube.entry.1);
+        let mut turns = std::mem::take(&mut self.turns);
+        turns.follow(&tube.time(), (start, to.max(start)), |seen| match seen {
+            Stretch::Same(_) => self.open = None,
+            Stretch::Open(a, b) => self.widen(tube, (if a == start { from } else { a }, b), at),
+            Stretch::Turned(s, rising) => {
+                if s == start {
+                    self.widen(tube, (from, start), at);
+                }
+                if let Some(open) = self.open.take() {
+                    self.folds.push(self.fold(open, rising));
+                }
+            }
+        });
+        self.turns = turns;
+    }
+
+    /// The path between two parameters of a tube belongs to what is open.
+    fn widen<const D: usize, const N: usize, Y: Frame<D>>(
+        &mut self,
+        tube: &Tube<D, N, Y>,
+        (a, b): (f64, f64),
+        at: f64,
+    ) {
+        let (local, s) = (&tube.local, hull(a, b));
+        let from = self.pieces.last().map_or(0.0, |piece| piece.from);
+        // A middle, and the mean value theorem: near a fold t hardly changes, and Horner's rule would not
+        // show it.
+        let middle = point(s.mid());
+        let z = (0..self.width).map(|i| {
+            let coefficient = |k: usize| point(local.z[k][i]);
+            let along = (1..N)
+                .rev()
+                .fold(point(0.0), |sum, k| (sum + coefficient(k)) * middle);
+            let slope = (1..N).rev().fold(point(0.0), |sum, k| {
+                sum * s + point(k as f64) * coefficient(k)
+            });
+            // The path's point in the cross-section of s is that near ẑ(s).
+            let near = (point(tube.proof.distance) * point(tube.weights[i])).sup();
+            let start = coefficient(0) + point(local.low[i]);
+            start + along + slope * (s - middle) + hull(-near, near)
+        });
+        match &mut self.open {
+            None => {
+                self.open = Some(Open {
+                    at: at + (0.5 * (a + b) - from).max(0.0) * self.unit,
+                    z: z.collect(),
+                });
+            }
+            Some(open) => {
+                for (all, z) in open.z.iter_mut().zip(z) {
+                    *all = all.convex_hull(z);
+                }
+            }
+        }
+    }
+
+    fn fold(&self, open: Open, rising: bool) -> Fold {
+        let (gauge, unit) = (self.gauge.as_ref(), point(self.unit));
+        let m = self.width - 1;
+        let points = gauge.map_or(Vec::new(), |gauge| {
+            all_points(gauge, |i| open.z[i] * unit, point(0.0))
+        });
+        Fold {
+            at: open.at,
+            t: open.z[m],
+            rising,
+            points,
+        }
+    }
+
+    /// The places where the path turns back in t, in its order.
+    pub fn folds(&self) -> &[Fold] {
+        &self.folds
+    }
+
+    /// The number of tubes.
+    pub fn tubes(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// The length of the path up to the middle of the part of each tube that is the path's.
+    pub fn middles(&self) -> Vec<f64> {
+        let ends = (0..self.pieces.len()).map(|k| 0.5 * (self.pieces[k].at + self.end_of(k)));
+        ends.collect()
+    }
+
+    /// The length of the path.
+    pub fn length(&self) -> f64 {
+        self.pieces
+            .len()
+            .checked_sub(1)
+            .map_or(0.0, |k| self.end_of(k))
+    }
+
+    fn end_of(&self, k: usize) -> f64 {
+        match self.pieces.get(k + 1) {
+            Some(next) => next.at,
+            None => self.pieces[k].at + self.length_of(k),
+        }
+    }
+
+    /// The length of a piece, by a sum of chords.
+    fn length_of(&self, k: usize) -> f64 {
+        const CHORDS: usize = 64;
+        let Piece { from, to, .. } = self.pieces[k];
+        let place = |i: usize| self.free(k, from + (to - from) * (i as f64 / CHORDS as f64));
+        let mut before = place(0);
+        (1..=CHORDS)
+            .map(|i| {
+                let now = place(i);
+                let chord = now.iter().zip(&before).map(|(a, b)| (a - b).powi(2));
+                let chord = chord.sum::<f64>().sqrt();
+                before = now;
+                chord
+            })
+            .sum()
+    }
+
+    /// The free coordinates (in the problem's units) and t at a parameter of a tube.
+    fn free(&self, k: usize, s: f64) -> Vec<f64> {
+        self.polynomial(k, |coefficients, i| {
+            (0..self.order)
+                .rev()
+                .fold(0.0, |sum: f64, j| sum.mul_add(s, coefficients(j, i)))
+        })
+    }
+
+    /// Their derivatives there.
+    fn slope(&self, k: usize, s: f64) -> Vec<f64> {
+        self.polynomial(k, |coefficients, i| {
+            (1..self.order).rev().fold(0.0, |sum: f64, j| {
+                sum.mul_add(s, j as f64 * coefficients(j, i))
+            })
+        })
+    }
+
+    fn polynomial(
+        &self,
+        k: usize,
+        value: impl Fn(&dyn Fn(usize, usize) -> f64, usize) -> f64,
+    ) -> Vec<f64> {
+        let (n, start) = (self.width, k * self.order * self.width);
+        let coefficient = |j: usize, i: usize| self.coefficients[start + j * n + i];
+        let units = |i: usize| if i + 1 < n { self.unit } else { 1.0 };
+        (0..n).map(|i| units(i) * value(&coefficient, i)).collect()
+    }
+
+    /// The free coordinates and t where the path is so long, and its direction there, a unit vector.
+    pub fn at(&self, at: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+        let k = self.pieces.partition_point(|piece| piece.at <= at);
+        let k = k
+            .checked_sub(1)
+            .or((!self.pieces.is_empty()).then_some(0))?;
+        let Piece {
+            from,
+            to,
+            at: start,
+        } = self.pieces[k];
+        let end = self.end_of(k);
+        let part = if end > start {
+            (at - start) / (end - start)
+        } else {
+            0.0
+        };
+        let s = from + (to - from) * part.clamp(0.0, 1.0);
+        let mut direction = self.slope(k, s);
+        let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        direction.iter_mut().for_each(|x| *x /= size);
+        Some((self.free(k, s), direction))
+    }
+
+    /// The figure where the path is so long.
+    pub fn sample(&self, at: f64) -> Option<Sample> {
+        let (z, _) = self.at(at)?;
+        let gauge = self.gauge.as_ref()?;
+        Some(Sample {
+            at,
+            t: z[self.width - 1],
+            points: all_points(gauge, |i| z[i], 0.0),
+        })
+    }
+
+    /// So many figures along the path, from the sketch to where it ends, at equal lengths.
+    pub fn samples(&self, count: usize) -> Vec<Sample> {
+        let length = self.length();
+        let steps = count.saturating_sub(1).max(1) as f64;
+        (0..count)
+            .filter_map(|k| self.sample(length * (k as f64 / steps)))
+            .collect()
+    }
+}
+
+/// All points from the free coordinates.
+fn all_points<T: Copy>(gauge: &Gauge, free: impl Fn(usize) -> T, zero: T) -> Vec<[T; 3]> {
+    let (d, m) = (gauge.dimension, gauge.place.len());
+    let points = gauge.variable.chunks_exact(d);
+    points
+        .map(|variables| {
+            std::array::from_fn(|axis| match variables.get(axis) {
+                Some(&i) if i < m => free(i),
+                _ => zero,
+            })
+        })
+        .collect()
+}
