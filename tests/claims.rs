@@ -10,6 +10,7 @@ use krawl::problem::{Decimal, Problem, Target};
 use krawl::track::{self, Control, Mode, Options, Outcome, Progress, Status};
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 fn decimal(text: &str) -> Decimal {
     text.parse().unwrap()
@@ -258,6 +259,7 @@ fn cancelled_runs_stop() {
         let mut control = Control {
             cancel: Some(&cancel),
             progress: Some(&mut after),
+            pause: Some(Duration::ZERO),
             ..Control::default()
         };
         let outcome = track::solve(&problem, &way, &mut control).unwrap();

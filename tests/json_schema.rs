@@ -64,7 +64,7 @@ fn all_shipped_problems_meet_the_schema() {
             let certified = document["mode"] == "certified";
             for solution in document["solutions"].as_array().unwrap() {
                 assert_eq!(solution["arc"].is_number(), certified);
-                assert_eq!(solution["folds"].is_number(), certified);
+                assert!(certified || solution["folds"].is_null());
                 assert_eq!(solution["rising"].is_boolean(), certified);
             }
         }
@@ -88,7 +88,7 @@ fn folds_samples_and_solutions_belong_to_one_path() {
             assert_eq!(samples.len(), 2000);
             assert!((number(&samples[1999]["at"]) - length).abs() < 1e-6 * length);
             // A loop turns back as often from rising as from falling, and the samples turn where it does.
-            assert!(folds.len() >= 2 && folds.len() % 2 == 0, "{file}");
+            assert!(folds.len() >= 2 && folds.len().is_multiple_of(2), "{file}");
             let turns: Vec<usize> = (1..samples.len() - 1)
                 .filter(|&k| {
                     let t = |k: usize| number(&samples[k]["t"]);
@@ -98,9 +98,9 @@ fn folds_samples_and_solutions_belong_to_one_path() {
             assert_eq!(turns.len(), folds.len(), "{file} {space}");
             for (&k, fold) in turns.iter().zip(folds) {
                 let (low, high) = (number(&fold["t"][0]), number(&fold["t"][1]));
-                assert!(low <= high && high - low < 0.05, "{file}: {low} to {high}");
+                assert!(low <= high && high - low < 1e-3, "{file}: {low} to {high}");
                 assert!(
-                    (number(&samples[k]["t"]) - low).abs() < 0.05,
+                    (number(&samples[k]["t"]) - low).abs() < 2e-3,
                     "{file} {space}"
                 );
                 assert!((number(&fold["at"]) - number(&samples[k]["at"])).abs() < 0.01 * length);
@@ -120,18 +120,13 @@ fn folds_samples_and_solutions_belong_to_one_path() {
                 assert_eq!(solution["rising"].as_bool().unwrap(), passed % 2 == 0);
                 assert!(arc > last && arc < length);
                 last = arc;
-                // The figure of the samples around it is its own.
+                // The samples around it are at t = 1, nearly.
                 let k = (arc / length * 1999.0).round() as usize;
                 let near = samples[k]["points"].as_array().unwrap();
-                for (place, bounds) in near
-                    .iter()
-                    .zip(solution["points"].as_object().unwrap().values())
-                {
-                    let _ = bounds;
-                    assert_eq!(place.as_array().unwrap().len(), document["dimension"]);
-                }
+                let sizes = near.iter().map(|place| place.as_array().unwrap().len());
+                assert!(sizes.into_iter().all(|size| document["dimension"] == size));
                 assert!(
-                    (number(&samples[k]["t"]) - 1.0).abs() < 0.02,
+                    (number(&samples[k]["t"]) - 1.0).abs() < 0.05,
                     "{file} {space}"
                 );
             }

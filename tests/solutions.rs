@@ -64,7 +64,7 @@ fn through_the_program(name: &str, way: &Options) -> (Value, Vec<Solution>) {
         place: solution["arc"].as_f64().map(|arc| Place {
             arc,
             rising: solution["rising"].as_bool().unwrap(),
-            folds: solution["folds"].as_u64().unwrap() as usize,
+            folds: solution["folds"].as_u64().map(|n| n as usize),
         }),
         mirror_of: solution["mirror_of"].as_u64().map(|k| k as usize),
     });

@@ -226,7 +226,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let which = output::which_of((k, problems.len()), file);
         let mut trace = Trace::default();
         let wants_path = json.is_some() && arguments.mode == Mode::Certified;
-        let (outcome, well) = follow(
+        let (mut outcome, well) = follow(
             arguments,
             problem,
             &input::name(file),
@@ -235,6 +235,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             wants_path.then_some(&mut trace),
         )?;
         written &= well;
+        if wants_path
+            && arguments.samples.is_some()
+            && let Some(finer) = follow_finely(arguments, problem, &which, &mut outcome)
+        {
+            trace = finer;
+        }
         closed &= outcome.status == Status::Closed;
         if json.is_some() {
             let run = Run {
@@ -331,4 +337,33 @@ fn follow(
         }
     }
     Ok((outcome, written))
+}
+
+/// Follows the path again in narrow tubes, if that comes to the same end, for pictures and folds: what it
+/// tells about the places of the solutions is more.
+fn follow_finely(
+    arguments: &Arguments,
+    problem: &Problem,
+    which: &str,
+    outcome: &mut Outcome,
+) -> Option<Trace> {
+    let mut line = ProgressLine::new(!arguments.quiet, format!("{which} picture").trim_start());
+    let mut show = |now: Progress| line.show(now);
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        progress: Some(&mut show),
+        ..Control::default()
+    };
+    let traced = track::trace_path(problem, &arguments.options(), &mut control);
+    line.clear();
+    let (finer, trace) = traced.ok()?;
+    let closed = |outcome: &Outcome| outcome.status == Status::Closed;
+    if closed(&finer) != closed(outcome) || finer.solutions.len() != outcome.solutions.len() {
+        return None;
+    }
+    outcome.length = finer.length;
+    for (solution, finer) in outcome.solutions.iter_mut().zip(finer.solutions) {
+        solution.place = finer.place;
+    }
+    Some(trace)
 }

@@ -288,7 +288,7 @@ impl<'a> Entry<'a> {
             points: Points(problem, solution.points.clone()),
             class: solution.class,
             width: solution.width,
-            folds: solution.place.map(|place| place.folds),
+            folds: solution.place.and_then(|place| place.folds),
             arc: solution.place.map(|place| place.arc),
             rising: solution.place.map(|place| place.rising),
             mirror_of: solution.mirror_of,

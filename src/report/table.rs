@@ -36,7 +36,7 @@ pub fn to_summary(problem: &Problem, outcome: &Outcome) -> String {
     };
     let count = outcome.solutions.len();
     let straight = outcome.solutions.iter();
-    let straight = straight.filter(|s| s.place.is_some_and(|place| place.folds == 0));
+    let straight = straight.filter(|s| s.place.is_some_and(|place| place.folds == Some(0)));
     let mut line = format!(
         "{:<20} {status:<16} {:>13} {:>9} up to congruence {:>10.4} s",
         problem.name,
@@ -178,10 +178,10 @@ fn write_solution(
     if let Some(other) = solution.mirror_of {
         write!(out, ", mirror image of solution {}", other + 1)?;
     }
-    match solution.place.map(|place| place.folds) {
+    match solution.place.and_then(|place| place.folds) {
         None => {}
         Some(0) => write!(out, ", reached without a fold")?,
-        Some(1) => write!(out, ", after 1 fold")?,
+        Some(1) => write!(out, ", after a fold")?,
         Some(folds) => write!(out, ", after {folds} folds")?,
     }
     match outcome.mode {

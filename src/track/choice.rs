@@ -1,7 +1,8 @@
 //! The choice of a space, and what to do where a run in it stops.
 
-use super::{Control, Mode, Options, Outcome, Space, StartError, Status, solve};
+use super::{Control, Mode, Options, Outcome, Space, StartError, Status, Trace, solve};
 use crate::problem::Problem;
+use crate::system::Homotopy;
 use std::sync::atomic::Ordering;
 
 /// Follows the path through the sketch of `problem`, with proof and all else as it comes: the short way
@@ -56,6 +57,42 @@ pub fn solve_in_best_space(
         }
         Err(_) => Ok(outcome),
     }
+}
+
+/// So far may the path be from the middle of a tube in [`trace_path`], in typical lengths.
+const FINE: f64 = 1e-6;
+
+/// Follows the path once more, in tubes so narrow that a picture of their middles is a picture of the path
+/// and that its folds are enclosed tightly, and keeps it. The run's own results come with it: they are
+/// about the same path, and tell more about folds.
+///
+/// `options` are those of a certified run; its tubes' radius may be smaller still. Errors are those of
+/// [`solve`].
+pub fn trace_path(
+    problem: &Problem,
+    options: &Options,
+    control: &mut Control,
+) -> Result<(Outcome, Trace), StartError> {
+    let fine = FINE * Homotopy::new(problem)?.unit;
+    let options = Options {
+        mode: Mode::Certified,
+        tube_radius: Some(options.tube_radius.map_or(fine, |radius| radius.min(fine))),
+        ..options.clone()
+    };
+    let mut trace = Trace::default();
+    let mut control = Control {
+        cancel: control.cancel,
+        limit: control.limit,
+        progress: control
+            .progress
+            .as_mut()
+            .map(|progress| &mut **progress as _),
+        pause: control.pause,
+        trace: Some(&mut trace),
+        ..Control::default()
+    };
+    let outcome = solve_in_best_space(problem, &options, &mut control)?;
+    Ok((outcome, trace))
 }
 
 fn is_cancelled(control: &Control) -> bool {

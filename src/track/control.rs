@@ -33,8 +33,11 @@ pub struct Control<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Where to give up.
     pub limit: Option<Limit>,
-    /// Called after the first step, and then whenever [`Control::PAUSE`] has passed.
+    /// Called after the first step, and then after the first one when so much time has passed since.
     pub progress: Option<&'a mut dyn FnMut(Progress)>,
+    /// The time between two calls of `progress`; `None`: [`Control::PAUSE`]. With zero it is called
+    /// after each step.
+    pub pause: Option<Duration>,
     /// When it was called last.
     pub reported: Option<Instant>,
     /// Sees the proof of a certified run.
@@ -44,7 +47,7 @@ pub struct Control<'a> {
 }
 
 impl Control<'_> {
-    /// Time between two calls of `progress`, if steps take less.
+    /// Time between two calls of `progress` where nothing else is said.
     pub const PAUSE: Duration = Duration::from_millis(100);
 
     /// To be called after each step: reports, and tells whether the run must end.
@@ -52,7 +55,8 @@ impl Control<'_> {
         // The clock is looked at only for whom it matters.
         if self.progress.is_some() || self.limit.is_some() {
             let clock = Instant::now();
-            let is_due = |last: Instant| clock.duration_since(last) >= Self::PAUSE;
+            let pause = self.pause.unwrap_or(Self::PAUSE);
+            let is_due = |last: Instant| clock.duration_since(last) >= pause;
             if let Some(progress) = &mut self.progress
                 && self.reported.is_none_or(is_due)
             {

@@ -14,7 +14,7 @@ mod turns;
 mod witness;
 
 pub use certified::{Fold, Sample, Trace};
-pub use choice::{prove, solve_in_best_space};
+pub use choice::{prove, solve_in_best_space, trace_path};
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};
 pub use options::{Options, Preset};

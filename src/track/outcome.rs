@@ -94,11 +94,11 @@ pub struct Place {
     pub arc: f64,
     /// Whether t rises through 1 there, in the direction of travel. Proved.
     pub rising: bool,
-    /// Folds (places where dt/ds changes its sign) between the sketch and it. Each is proved; there
-    /// are no others, unless an even number of them lies within one stretch where the sign of dt/ds
-    /// is uncertain. Zero says that the sketch reaches this solution with t rising or falling all the
-    /// way.
-    pub folds: usize,
+    /// How often the sign of dt/ds is proved to change between the sketch and it: folds of the path. Zero
+    /// is exact: t goes all the way from 0 to 1 without turning back. Other numbers are lower bounds, as
+    /// folds may hide in pairs where the sign is uncertain for a stretch. `None`: none was proved, and
+    /// none excluded. (A finer run, [`trace_path`](crate::track::trace_path), tells more.)
+    pub folds: Option<usize>,
 }
 
 /// Numbers of driving parameters over a run in the reduced space (RR 8705, table 2).

@@ -4,9 +4,9 @@ use super::events::TimeAlong;
 
 /// Whether t rises or falls along the path, and how often that has changed so far.
 ///
-/// A change counts once dt/ds is proved to have one sign before and the other after it, so the count
-/// is exact unless dt/ds vanishes more than once in a stretch where its sign is not certain: then it is
-/// less by an even number.
+/// A change counts once dt/ds is proved to have one sign before and the other after it. Where the sign is
+/// not certain for a stretch, there may be two more changes than are counted, or four, and so on; no
+/// changes are claimed only where the sign was certain all along.
 #[derive(Debug, Clone, Default)]
 pub struct Turns {
     /// The sign that was certain first: whether t rises.
@@ -15,6 +15,10 @@ pub struct Turns {
     rising: Option<bool>,
     /// Changes so far.
     count: usize,
+    /// Whether the sign has not been certain since it was certain last.
+    is_open: bool,
+    /// Whether it was not certain for some stretch, and the same before and after.
+    may_hide: bool,
 }
 
 /// What [`Turns::follow`] tells of a piece of a tube.
@@ -36,6 +40,11 @@ impl Turns {
     /// Changes so far.
     pub fn count(&self) -> usize {
         self.count
+    }
+
+    /// Whether it is certain that there were no others, if none was counted.
+    pub fn is_certain(&self) -> bool {
+        !self.may_hide
     }
 
     /// Whether t rose where that was certain first.
@@ -67,12 +76,15 @@ impl Turns {
             self.rising = Some(rising);
             self.first.get_or_insert(rising);
             self.count += usize::from(turned);
+            self.may_hide |= self.is_open && !turned;
+            self.is_open = false;
             seen(if turned {
                 Stretch::Turned(a, rising)
             } else {
                 Stretch::Same(a)
             });
         } else if depth == MAX_DEPTH || time.is_flat(a, b) {
+            self.is_open = true;
             seen(Stretch::Open(a, b));
         } else {
             let middle = 0.5 * (a + b);
@@ -122,6 +134,18 @@ mod tests {
                 assert!(first <= at && at <= last && last - first < 4.0 * band + 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn what_is_not_certain_is_not_claimed() {
+        // The slope comes down to 0.01, and the band is wider than that.
+        let slope = |band| {
+            let time = TimeAlong::new([0.0, 0.01, 0.0, 1.0 / 3.0, 0.0, 0.0], 1.0, 0.0, band);
+            let mut turns = Turns::default();
+            turns.follow(&time, (-1.0, 1.0), |_| {});
+            (turns.count(), turns.is_certain())
+        };
+        assert_eq!((slope(0.02), slope(0.001)), ((0, false), (0, true)));
     }
 
     #[test]

@@ -156,7 +156,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
         self.places.push(Place {
             arc: 0.5 * (a + b),
             rising: crossing.rising,
-            folds: 0,
+            folds: None,
         });
         Ok(())
     }
@@ -171,22 +171,29 @@ impl<'a, const D: usize> Ledger<'a, D> {
     ) {
         let before = self.turns.count();
         let new = &mut self.places[known..];
+        let mut passed = vec![0; new.len()];
         // From where the path is in this tube for certain, lest a fold be counted in two tubes.
         let start = tube.entry.1.max(from);
+        let was_certain = self.turns.is_certain();
         self.turns.follow(time, (start, to), |stretch| {
             if let Stretch::Turned(at, _) = stretch {
-                for place in new.iter_mut().filter(|place| place.arc >= at) {
-                    place.folds += 1;
-                }
+                let later = new
+                    .iter()
+                    .zip(&mut passed)
+                    .filter(|(place, _)| place.arc >= at);
+                later.for_each(|(_, passed)| *passed += 1);
             }
         });
         let first = self.turns.first();
-        for place in new {
-            place.folds += before;
+        // What is hidden in this tube counts for all solutions in it.
+        let is_certain = was_certain && self.turns.is_certain();
+        for (place, passed) in new.iter_mut().zip(passed) {
+            let mut folds = before + passed;
             // The sign at a crossing is certain. Where that of the stretch around it is not, the change
             // is seen a little later.
-            let odd = place.folds % 2 == 1;
-            place.folds += usize::from(first.is_some_and(|first| (place.rising != first) != odd));
+            let odd = folds % 2 == 1;
+            folds += usize::from(first.is_some_and(|first| (place.rising != first) != odd));
+            place.folds = (folds > 0 || is_certain).then_some(folds);
             place.arc = self.length
                 + path_length(
                     &tube.local,

@@ -3,6 +3,7 @@
 use super::link::{Frame, Tube};
 use crate::interval::{Interval, hull, point};
 use crate::system::{Gauge, Homotopy};
+use crate::track::full::path_length;
 use crate::track::turns::{Stretch, Turns};
 
 /// What a certified run proves of its path, for pictures and files: to be given to
@@ -51,13 +52,17 @@ struct Piece {
     /// Parameters of the tube.
     from: f64,
     to: f64,
-    /// Length of the path up to `from`.
+    /// Length of the path up to `from`, and up to `to`.
     at: f64,
+    end: f64,
 }
 
 #[derive(Debug, Clone)]
 struct Open {
+    /// Length of the path up to where t turns on the polynomial, or else to where this begins.
     at: f64,
+    /// Whether it turns there.
+    is_turn: bool,
     z: Vec<Interval>,
 }
 
@@ -109,15 +114,22 @@ impl Trace {
             self.coefficients.extend_from_slice(&z[..n]);
         }
         let (from, to, at) = stretch;
-        self.pieces.push(Piece { from, to, at });
+        let mut scratch = tube.weights.clone();
+        let mut length = |s: f64| at + path_length(&tube.local, from, s, self.unit, &mut scratch);
+        self.pieces.push(Piece {
+            from,
+            to,
+            at,
+            end: length(to),
+        });
         let (from, start) = (tube.entry.0.max(-tube.proof.h), tube.entry.1);
         let mut turns = std::mem::take(&mut self.turns);
         turns.follow(&tube.time(), (start, to.max(start)), |seen| match seen {
             Stretch::Same(_) => self.open = None,
-            Stretch::Open(a, b) => self.widen(tube, (if a == start { from } else { a }, b), at),
+            Stretch::Open(a, b) => self.widen(tube, (if a == start { from } else { a }, b)),
             Stretch::Turned(s, rising) => {
                 if s == start {
-                    self.widen(tube, (from, start), at);
+                    self.widen(tube, (from, start));
                 }
                 if let Some(open) = self.open.take() {
                     self.folds.push(self.fold(open, rising));
@@ -132,10 +144,14 @@ impl Trace {
         &mut self,
         tube: &Tube<D, N, Y>,
         (a, b): (f64, f64),
-        at: f64,
     ) {
         let (local, s) = (&tube.local, hull(a, b));
-        let from = self.pieces.last().map_or(0.0, |piece| piece.from);
+        let mut scratch = tube.weights.clone();
+        let turn = turning(tube, (a, b));
+        let at = self.pieces.last().map_or(0.0, |&Piece { from, at, .. }| {
+            let until = turn.unwrap_or(a);
+            at + path_length(local, from, until, self.unit, &mut scratch)
+        });
         // A middle, and the mean value theorem: near a fold t hardly changes, and Horner's rule would not
         // show it.
         let middle = point(s.mid());
@@ -155,11 +171,15 @@ impl Trace {
         match &mut self.open {
             None => {
                 self.open = Some(Open {
-                    at: at + (0.5 * (a + b) - from).max(0.0) * self.unit,
+                    at,
+                    is_turn: turn.is_some(),
                     z: z.collect(),
                 });
             }
             Some(open) => {
+                if !open.is_turn && turn.is_some() {
+                    (open.at, open.is_turn) = (at, true);
+                }
                 for (all, z) in open.z.iter_mut().zip(z) {
                     *all = all.convex_hull(z);
                 }
@@ -191,42 +211,14 @@ impl Trace {
         self.pieces.len()
     }
 
-    /// The length of the path up to the middle of the part of each tube that is the path's.
-    pub fn middles(&self) -> Vec<f64> {
-        let ends = (0..self.pieces.len()).map(|k| 0.5 * (self.pieces[k].at + self.end_of(k)));
-        ends.collect()
+    /// The length of the path up to the end of each tube, as far as the path goes through it.
+    pub fn ends(&self) -> Vec<f64> {
+        self.pieces.iter().map(|piece| piece.end).collect()
     }
 
     /// The length of the path.
     pub fn length(&self) -> f64 {
-        self.pieces
-            .len()
-            .checked_sub(1)
-            .map_or(0.0, |k| self.end_of(k))
-    }
-
-    fn end_of(&self, k: usize) -> f64 {
-        match self.pieces.get(k + 1) {
-            Some(next) => next.at,
-            None => self.pieces[k].at + self.length_of(k),
-        }
-    }
-
-    /// The length of a piece, by a sum of chords.
-    fn length_of(&self, k: usize) -> f64 {
-        const CHORDS: usize = 64;
-        let Piece { from, to, .. } = self.pieces[k];
-        let place = |i: usize| self.free(k, from + (to - from) * (i as f64 / CHORDS as f64));
-        let mut before = place(0);
-        (1..=CHORDS)
-            .map(|i| {
-                let now = place(i);
-                let chord = now.iter().zip(&before).map(|(a, b)| (a - b).powi(2));
-                let chord = chord.sum::<f64>().sqrt();
-                before = now;
-                chord
-            })
-            .sum()
+        self.pieces.last().map_or(0.0, |piece| piece.end)
     }
 
     /// The free coordinates (in the problem's units) and t at a parameter of a tube.
@@ -268,8 +260,8 @@ impl Trace {
             from,
             to,
             at: start,
+            end,
         } = self.pieces[k];
-        let end = self.end_of(k);
         let part = if end > start {
             (at - start) / (end - start)
         } else {
@@ -315,4 +307,30 @@ fn all_points<T: Copy>(gauge: &Gauge, free: impl Fn(usize) -> T, zero: T) -> Vec
             })
         })
         .collect()
+}
+
+/// Where t turns on the tube's polynomial, between two parameters.
+fn turning<const D: usize, const N: usize, Y: Frame<D>>(
+    tube: &Tube<D, N, Y>,
+    (a, b): (f64, f64),
+) -> Option<f64> {
+    const PIECES: usize = 16;
+    let t = tube.weights.len() - 2;
+    let slope = |s: f64| {
+        let terms = (1..N).rev();
+        terms.fold(0.0, |sum: f64, k| {
+            sum.mul_add(s, k as f64 * tube.local.z[k][t])
+        })
+    };
+    let place = |k: usize| a + (b - a) * (k as f64 / PIECES as f64);
+    let k = (0..PIECES).find(|&k| (slope(place(k)) > 0.0) != (slope(place(k + 1)) > 0.0))?;
+    let (mut low, mut high) = (place(k), place(k + 1));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match (slope(middle) > 0.0) == (slope(low) > 0.0) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    Some(0.5 * (low + high))
 }
