@@ -44,6 +44,7 @@
 //!
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
 //! - [`generate`]: large problems made to measure
+//! - [`constraint`]: what each kind of constraint means, and its equations
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
@@ -54,6 +55,7 @@
 
 pub mod certificate;
 pub mod compare;
+pub mod constraint;
 pub mod generate;
 pub mod interval;
 pub mod linalg;

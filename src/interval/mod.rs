@@ -6,11 +6,13 @@
 
 mod double_double;
 mod enclosure;
+mod real;
 pub mod rounding;
 
 pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};
 pub use inari::Interval;
+pub use real::{Ball, Real, root};
 
 /// The interval that holds just `value`.
 ///

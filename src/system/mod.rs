@@ -1,7 +1,8 @@
 //! The equations: H(X, t) = F(X, a(t)), their interpolation in t and their derivatives.
 //!
 //! Distances are taken squared, `F_e = ½(|p_i − p_j|² − a_e(t)²)`: the same zeros while a_e > 0,
-//! no square roots, and second derivatives in X that do not depend on X.
+//! no square roots, and second derivatives in X that do not depend on X. All other constraints are
+//! quadratic equations too ([`crate::constraint`]).
 
 mod exact;
 mod gauge;

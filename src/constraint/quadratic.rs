@@ -1,0 +1,144 @@
+//! Equations beyond distances: quadratic, with t on the right-hand side only.
+//!
+//! Every constraint becomes equations `½ Σ factor · left · right = E(t)`, where left and right are
+//! differences of unknowns or the constant 1, factors are small whole numbers, and E is a
+//! polynomial of degree at most 4 with exact coefficients. A distance is such an equation too; the
+//! trackers keep distances apart, as their *head*, and all others in a list, the *tail*, so that
+//! problems of distances alone pay nothing for the rest.
+
+use crate::interval::{Interval, Real};
+
+/// The highest degree of a right-hand side in t.
+pub const MAX_DEGREE: usize = 4;
+
+/// What a difference is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Entry {
+    /// A coordinate of a point, x first. Coordinates that the reference fixes are zero.
+    Coordinate {
+        /// Index of the point.
+        point: usize,
+        /// 0 for x, 1 for y, 2 for z.
+        axis: usize,
+    },
+    /// An auxiliary unknown, an index into [`Tail::unknowns`].
+    Unknown(usize),
+    /// The number 0.
+    Zero,
+}
+
+/// A factor of a product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Form {
+    /// The first entry minus the second.
+    Difference(Entry, Entry),
+    /// The number 1, for terms that are linear.
+    One,
+}
+
+/// `factor · left · right`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Product {
+    /// A whole number from −1000 to 1000, not zero.
+    pub factor: i32,
+    /// One of the two things multiplied.
+    pub left: Form,
+    /// The other.
+    pub right: Form,
+}
+
+/// `½ Σ factor · left · right = E(t)`.
+///
+/// A linear equation `x = 3` is the product of factor 2 of `x − 0` and 1, with E = 3. Several of the
+/// products may be alike; an equation needs at least one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equation {
+    /// What people call it, as in "the angle a-b-c".
+    pub name: String,
+    /// The left-hand side.
+    pub products: Vec<Product>,
+    /// The coefficients of E, of t⁰ first, at most five.
+    pub right: Vec<Real>,
+    /// The power of the unit of length that both sides have: 2 for products of lengths, 1 for
+    /// `x = 3`, 0 for pure numbers. All products have it.
+    pub power: i32,
+}
+
+/// What has to be proved of an auxiliary unknown along the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Nothing.
+    Free,
+    /// It is positive: a length or a radius, whose square is in an equation.
+    Positive,
+}
+
+/// An auxiliary unknown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// What people call it, as in "the radius of c1".
+    pub name: String,
+    /// What has to be proved of it.
+    pub role: Role,
+    /// The power of the unit of length that it has: 1 for a radius, 2 for a cross product, 0 for a cosine.
+    pub power: i32,
+    /// For each axis whether it changes its sign where that axis is reversed. So do coordinates along
+    /// the axis; a cross product's first entry does for the second and third axis.
+    pub flips: [bool; 3],
+    /// An enclosure of its value in the sketch, seen from the reference, in the problem's unit.
+    pub sketch: Interval,
+}
+
+/// All unknowns and equations beyond coordinates of points and distances. There are as many unknowns
+/// and equations in all as the problem has free coordinates and distances, and these.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tail {
+    /// The auxiliary unknowns.
+    pub unknowns: Vec<Unknown>,
+    /// The equations.
+    pub equations: Vec<Equation>,
+    /// Whether the mirror image of a solution is a solution too. It is not where a constraint says
+    /// which way round a figure is.
+    pub mirrors: bool,
+}
+
+impl Default for Tail {
+    fn default() -> Self {
+        Tail {
+            unknowns: Vec::new(),
+            equations: Vec::new(),
+            mirrors: true,
+        }
+    }
+}
+
+impl Tail {
+    /// Whether there are distances only.
+    pub fn is_empty(&self) -> bool {
+        self.equations.is_empty()
+    }
+}
+
+/// The coordinate of a point.
+pub fn coordinate(point: usize, axis: usize) -> Entry {
+    Entry::Coordinate { point, axis }
+}
+
+/// `from − to`, as a factor of a product.
+pub fn difference(from: Entry, to: Entry) -> Form {
+    Form::Difference(from, to)
+}
+
+/// An entry itself, as a factor of a product.
+pub fn value(of: Entry) -> Form {
+    Form::Difference(of, Entry::Zero)
+}
+
+/// A product.
+pub fn product(factor: i32, left: Form, right: Form) -> Product {
+    Product {
+        factor,
+        left,
+        right,
+    }
+}

@@ -1,0 +1,451 @@
+//! Exact real numbers: what the decimals of a problem denote, with roots and with cosines of angles.
+
+use super::{DoubleDouble, Interval, at_least, enclose_rational};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// An exact real number, kept as an expression. Enclosures of it are computed with some 250 bits and
+/// rounded outwards, so that each of its views ([`Real::enclose`], [`Real::double`]) is nearly as
+/// tight as its format allows.
+///
+/// ```
+/// use krawl::interval::Real;
+/// let half = Real::cosine_of_degrees(60.into());
+/// assert!(half.enclose().contains(0.5));
+/// let two = Real::from(2.into());
+/// let root = two.clone().sqrt();
+/// assert!((&(&root * &root) - &two).enclose().mag() < 1e-60);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub enum Real {
+    /// A ratio of whole numbers.
+    Rational(BigRational),
+    /// The root of a number that is not negative.
+    Root(Box<Real>),
+    /// The cosine of an angle in degrees.
+    Cosine(BigRational),
+    /// A sum.
+    Sum(Box<[Real; 2]>),
+    /// A product.
+    Product(Box<[Real; 2]>),
+    /// The first divided by the second, which is not zero.
+    Quotient(Box<[Real; 2]>),
+}
+
+impl From<BigRational> for Real {
+    fn from(value: BigRational) -> Self {
+        Real::Rational(value)
+    }
+}
+
+impl From<BigInt> for Real {
+    fn from(value: BigInt) -> Self {
+        Real::Rational(value.into())
+    }
+}
+
+impl Real {
+    /// Zero.
+    pub fn zero() -> Self {
+        Real::Rational(BigRational::zero())
+    }
+
+    /// The whole number `value`.
+    pub fn whole(value: i64) -> Self {
+        Real::Rational(BigRational::from_integer(value.into()))
+    }
+
+    /// The cosine of an angle in degrees; exact where it is a multiple of one half.
+    pub fn cosine_of_degrees(degrees: BigRational) -> Self {
+        let full = BigRational::from_integer(360.into());
+        let mut angle = &degrees - (&degrees / &full).floor() * &full;
+        if angle > BigRational::from_integer(180.into()) {
+            angle = full - angle;
+        }
+        // 0 ≤ angle ≤ 180.
+        let whole = angle.is_integer().then(|| angle.to_integer().to_i64());
+        let (above, below) = match whole.flatten() {
+            Some(0) => (1, 1),
+            Some(60) => (1, 2),
+            Some(90) => (0, 1),
+            Some(120) => (-1, 2),
+            Some(180) => (-1, 1),
+            _ => return Real::Cosine(angle),
+        };
+        Real::Rational(BigRational::new(above.into(), below.into()))
+    }
+
+    /// The sine of an angle in degrees.
+    pub fn sine_of_degrees(degrees: BigRational) -> Self {
+        Self::cosine_of_degrees(BigRational::from_integer(90.into()) - degrees)
+    }
+
+    /// The root. Where this number is a ratio of squares, it is exact.
+    ///
+    /// # Panics
+    /// If this is a negative ratio.
+    pub fn sqrt(self) -> Self {
+        if let Real::Rational(value) = &self {
+            assert!(!value.is_negative(), "the root of a negative number");
+            let (above, below) = (value.numer().sqrt(), value.denom().sqrt());
+            if &above * &above == *value.numer() && &below * &below == *value.denom() {
+                return Real::Rational(BigRational::new(above, below));
+            }
+        }
+        Real::Root(Box::new(self))
+    }
+
+    /// The number as a ratio, where it is kept as one.
+    pub fn as_rational(&self) -> Option<&BigRational> {
+        match self {
+            Real::Rational(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether the number is known to be zero without any computation.
+    pub fn is_zero(&self) -> bool {
+        self.as_rational().is_some_and(Zero::is_zero)
+    }
+
+    /// An enclosure in floats.
+    ///
+    /// # Panics
+    /// If the number is beyond the range of floats.
+    pub fn enclose(&self) -> Interval {
+        let ball = self.ball();
+        if ball.radius.is_zero() {
+            return enclose_rational(&ball.middle);
+        }
+        let low = enclose_rational(&(&ball.middle - &ball.radius));
+        let high = enclose_rational(&(&ball.middle + &ball.radius));
+        low.convex_hull(high)
+    }
+
+    /// The nearest double-double, and how far the number may be from it.
+    pub fn double(&self) -> (DoubleDouble, f64) {
+        self.ball().double()
+    }
+
+    /// A ball of ratios that holds the number.
+    pub fn ball(&self) -> Ball {
+        match self {
+            Real::Rational(value) => Ball::exactly(value.clone()),
+            Real::Root(of) => of.ball().sqrt(),
+            Real::Cosine(degrees) => cosine(degrees),
+            Real::Sum(parts) => parts[0].ball().plus(&parts[1].ball()),
+            Real::Product(parts) => parts[0].ball().times(&parts[1].ball()),
+            Real::Quotient(parts) => parts[0].ball().times(&parts[1].ball().inverse()),
+        }
+        .rounded()
+    }
+}
+
+impl<'a> Add<&'a Real> for &'a Real {
+    type Output = Real;
+    fn add(self, other: &Real) -> Real {
+        match (self, other) {
+            (Real::Rational(a), Real::Rational(b)) => Real::Rational(a + b),
+            (a, b) if a.is_zero() => b.clone(),
+            (a, b) if b.is_zero() => a.clone(),
+            (a, b) => Real::Sum(Box::new([a.clone(), b.clone()])),
+        }
+    }
+}
+
+impl Neg for &Real {
+    type Output = Real;
+    fn neg(self) -> Real {
+        self * &Real::whole(-1)
+    }
+}
+
+impl<'a> Sub<&'a Real> for &'a Real {
+    type Output = Real;
+    fn sub(self, other: &Real) -> Real {
+        self + &-other
+    }
+}
+
+impl<'a> Mul<&'a Real> for &'a Real {
+    type Output = Real;
+    fn mul(self, other: &Real) -> Real {
+        match (self, other) {
+            (Real::Rational(a), Real::Rational(b)) => Real::Rational(a * b),
+            (a, b) if a.is_zero() || b.is_zero() => Real::zero(),
+            (Real::Rational(one), x) | (x, Real::Rational(one)) if one.is_one() => x.clone(),
+            (a, b) => Real::Product(Box::new([a.clone(), b.clone()])),
+        }
+    }
+}
+
+impl<'a> Div<&'a Real> for &'a Real {
+    type Output = Real;
+    fn div(self, other: &Real) -> Real {
+        match (self, other) {
+            (Real::Rational(a), Real::Rational(b)) => Real::Rational(a / b),
+            (a, b) => Real::Quotient(Box::new([a.clone(), b.clone()])),
+        }
+    }
+}
+
+/// Numbers are kept to 2 to minus this.
+const BITS: u64 = 320;
+
+/// A ratio and how far the exact number may be from it.
+#[derive(Debug, Clone)]
+pub struct Ball {
+    /// The ratio.
+    pub middle: BigRational,
+    /// How far the number may be away.
+    pub radius: BigRational,
+}
+
+impl Ball {
+    /// Just this ratio.
+    pub fn exactly(middle: BigRational) -> Self {
+        Ball {
+            middle,
+            radius: BigRational::zero(),
+        }
+    }
+
+    /// The sums of two balls' numbers.
+    pub fn plus(&self, other: &Self) -> Self {
+        Ball {
+            middle: &self.middle + &other.middle,
+            radius: &self.radius + &other.radius,
+        }
+    }
+
+    /// The products of two balls' numbers.
+    pub fn times(&self, other: &Self) -> Self {
+        let radius =
+            self.middle.abs() * &other.radius + &self.radius * (other.middle.abs() + &other.radius);
+        Ball {
+            middle: &self.middle * &other.middle,
+            radius,
+        }
+    }
+
+    /// The numbers with the other sign.
+    pub fn negated(&self) -> Self {
+        Ball {
+            middle: -&self.middle,
+            radius: self.radius.clone(),
+        }
+    }
+
+    /// The inverses of a ball's numbers.
+    ///
+    /// # Panics
+    /// If zero is one of them.
+    pub fn inverse(&self) -> Self {
+        let least = self.middle.abs() - &self.radius;
+        assert!(least.is_positive(), "division by what may be zero");
+        // |1/x − 1/m| = |m − x| / |x m|.
+        let radius = &self.radius / (&least * self.middle.abs());
+        Ball {
+            middle: self.middle.recip(),
+            radius,
+        }
+    }
+
+    /// The roots of a ball's numbers, those below zero being none.
+    pub fn sqrt(&self) -> Self {
+        let middle = if self.middle.is_negative() {
+            BigRational::zero()
+        } else {
+            self.middle.clone()
+        };
+        if middle.is_zero() {
+            let top = root(&self.radius);
+            return Ball {
+                middle: BigRational::zero(),
+                radius: top.middle + top.radius,
+            };
+        }
+        let near = root(&middle);
+        if self.radius.is_zero() {
+            return near;
+        }
+        // |√x − √m| = |x − m| / (√x + √m).
+        let least = &near.middle - &near.radius;
+        let radius = near.radius + &self.radius / least;
+        Ball {
+            middle: near.middle,
+            radius,
+        }
+    }
+
+    /// The nearest double-double, and how far the number may be from it.
+    pub fn double(&self) -> (DoubleDouble, f64) {
+        let (near, left) = DoubleDouble::near(&self.middle);
+        // One rounding more.
+        let radius = (left + at_least(&self.radius)) * (1.0 + 1e-10);
+        (near, radius)
+    }
+
+    /// The same with a middle of fewer digits, where it is not exact anyway.
+    fn rounded(self) -> Self {
+        if self.radius.is_zero() {
+            return self;
+        }
+        // Relative to the middle's size, a power of two.
+        let size = self.middle.numer().bits() as i64 - self.middle.denom().bits() as i64;
+        let shift = BITS as i64 - size;
+        let scale = if shift >= 0 {
+            BigRational::from_integer(BigInt::one() << shift)
+        } else {
+            BigRational::new(BigInt::one(), BigInt::one() << -shift)
+        };
+        let middle = (&self.middle * &scale).round() / &scale;
+        let moved = (&middle - &self.middle).abs();
+        // A radius of few digits, not smaller.
+        let radius = self.radius + moved;
+        let radius = (&radius * &scale * BigRational::from_integer(BigInt::one() << 64u32)).ceil()
+            / (scale * BigRational::from_integer(BigInt::one() << 64u32));
+        Ball { middle, radius }
+    }
+}
+
+/// The root of a ratio that is not negative, to a relative 2⁻²⁵⁰.
+pub fn root(squared: &BigRational) -> Ball {
+    if squared.is_zero() {
+        return Ball::exactly(BigRational::zero());
+    }
+    let (above, below) = (squared.numer(), squared.denom());
+    // ⌊√⌊x 4ᵏ⌋⌋ ≤ 2ᵏ √x < that + 1.
+    let wanted = 2 * 256 + below.bits();
+    let k = wanted.saturating_sub(above.bits()) / 2 + 1;
+    let scaled: BigInt = (above << (2 * k)) / below;
+    let scale = BigInt::one() << k;
+    Ball {
+        middle: BigRational::new(scaled.sqrt(), scale.clone()),
+        radius: BigRational::new(BigInt::one(), scale),
+    }
+}
+
+/// The cosine of an angle from 0 to 180 degrees.
+fn cosine(degrees: &BigRational) -> Ball {
+    let x = pi().times(&Ball::exactly(
+        degrees / BigRational::from_integer(180.into()),
+    ));
+    let square = x.times(&x).negated().rounded();
+    // Σ (−x²)ᵏ/(2k)!; with |x| ≤ π what comes after 70 terms is below π¹⁴⁰/140! < 2⁻⁵⁰⁰.
+    let mut term = Ball::exactly(BigRational::one());
+    let mut sum = term.clone();
+    for k in 1..70i64 {
+        let factor = BigRational::new(1.into(), ((2 * k - 1) * (2 * k)).into());
+        term = term.times(&square).times(&Ball::exactly(factor)).rounded();
+        sum = sum.plus(&term).rounded();
+    }
+    sum.radius += BigRational::new(BigInt::one(), BigInt::one() << 500u32);
+    sum
+}
+
+/// π by Machin's formula: 16 arctan(1/5) − 4 arctan(1/239).
+fn pi() -> Ball {
+    // In units of 2⁻⁴⁰⁰. Each quotient is rounded down by less than one; what is left out is below
+    // the last term, which is zero.
+    let one = BigInt::one() << 400u32;
+    let mut errors = 0u32;
+    let mut arctan = |x: u32| {
+        let mut power = &one / x;
+        let (mut sum, mut k) = (BigInt::zero(), 0u32);
+        while !power.is_zero() {
+            let term = &power / (2 * k + 1);
+            if k % 2 == 0 {
+                sum += term
+            } else {
+                sum -= term
+            }
+            power /= x * x;
+            k += 1;
+            errors += 3;
+        }
+        sum
+    };
+    let middle = arctan(5) * 16 - arctan(239) * 4;
+    Ball {
+        middle: BigRational::new(middle, one.clone()),
+        // Every error at most 16-fold, and the end of both series.
+        radius: BigRational::new(BigInt::from(16 * (errors + 2)), one),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    #[test]
+    fn roots_are_enclosed() {
+        for x in [2.0, 1e-30, 1e30, 0.25, 1.0 + f64::EPSILON] {
+            let root = root(&exact(x));
+            let (lo, hi) = (&root.middle - &root.radius, &root.middle + &root.radius);
+            assert!(&lo * &lo <= exact(x) && exact(x) <= &hi * &hi);
+            assert!(root.radius * exact(2f64.powi(200)) < root.middle);
+        }
+    }
+
+    #[test]
+    fn pi_is_enclosed() {
+        let pi = pi();
+        // 40 digits, cut off.
+        let digits: BigInt = "31415926535897932384626433832795028841971".parse().unwrap();
+        let unit = BigInt::from(10).pow(40);
+        assert!(BigRational::new(digits.clone(), unit.clone()) < &pi.middle - &pi.radius);
+        assert!(&pi.middle + &pi.radius < BigRational::new(digits + 1, unit));
+    }
+
+    #[test]
+    fn cosines_are_enclosed_and_tight() {
+        for degrees in [
+            0.5, 1.0, 30.0, 45.0, 72.0, 89.5, 150.0, 179.0, -30.0, 390.0, 1000.25,
+        ] {
+            let ball = Real::cosine_of_degrees(exact(degrees)).ball();
+            let near = degrees.to_radians().cos();
+            assert!(
+                (ball.middle.to_f64().unwrap() - near).abs() < 1e-13,
+                "{degrees}"
+            );
+            assert!(ball.radius < exact(2f64.powi(-240)));
+        }
+        // cos 30° squared is 3/4, cos 45° squared 1/2, and cos 72° is (√5 − 1)/4.
+        let square = |degrees: i64| {
+            let c = Real::cosine_of_degrees(BigRational::from_integer(degrees.into()));
+            &c * &c
+        };
+        let holds = |ball: Ball, value: BigRational| (ball.middle - value).abs() <= ball.radius;
+        assert!(holds(square(30).ball(), exact(0.75)));
+        assert!(holds(square(45).ball(), exact(0.5)));
+        let golden = &(&Real::whole(5).sqrt() - &Real::whole(1)) / &Real::whole(4);
+        let off = &Real::cosine_of_degrees(BigRational::from_integer(72.into())) - &golden;
+        assert!(holds(off.ball(), BigRational::zero()));
+        // The addition theorem at 17.3° and 41.9°.
+        let [a, b] = ["173/10", "419/10"].map(|x| x.parse::<BigRational>().unwrap());
+        let (cos, sin) = (Real::cosine_of_degrees, Real::sine_of_degrees);
+        let product = &(&cos(a.clone()) * &cos(b.clone())) - &(&sin(a.clone()) * &sin(b.clone()));
+        assert!(holds((&product - &cos(a + b)).ball(), BigRational::zero()));
+    }
+
+    #[test]
+    fn every_view_holds_the_number() {
+        let x = &(&Real::whole(2).sqrt() / &Real::whole(3)) - &Real::whole(7).sqrt();
+        let ball = x.ball();
+        let inside = |low: f64, high: f64| {
+            exact(low) <= &ball.middle - &ball.radius && &ball.middle + &ball.radius <= exact(high)
+        };
+        let interval = x.enclose();
+        assert!(inside(interval.inf(), interval.sup()) && interval.wid() < 1e-15);
+        let (near, radius) = x.double();
+        let off = (exact(near.hi) + exact(near.lo) - &ball.middle).abs() + &ball.radius;
+        assert!(off <= exact(radius) && radius < 1e-30);
+    }
+}
