@@ -75,11 +75,13 @@ function fit() {
   let size = 0;
   const reach = (p) => { for (let i = 0; i < N; i++) size = Math.max(size, Math.hypot(p[3 * i] - middle[0], p[3 * i + 1] - middle[1], p[3 * i + 2] - middle[2])); };
   data.figures.slice(0, 60).forEach((f) => reach(f.points));
-  frame = { middle, size: size || 1 };
+  frame = { middle, size: size || 1, half: [0, 1].map((k) => 0.5 * (hi[k] - lo[k]) || size || 1) };
 }
 function project(points, width, height) {
   const m = state.turn, [cx, cy, cz] = frame.middle;
-  const scale = 0.42 * Math.min(width, height * 1.05) / frame.size * state.zoom;
+  // In the plane what is wide fills the width; in space a figure may turn.
+  const room = flat ? Math.min(0.44 * width / frame.half[0], 0.38 * height / frame.half[1]) : 0.47 * Math.min(width, height) / frame.size;
+  const scale = room * state.zoom;
   const x0 = width / 2 + state.shift[0], y0 = height / 2 + state.shift[1] - 8;
   const x = new Float64Array(N), y = new Float64Array(N), z = new Float64Array(N);
   for (let i = 0; i < N; i++) {
@@ -227,7 +229,7 @@ function drawChart() {
   if (at !== null) {
     pen.strokeStyle = css("--accent"); pen.lineWidth = 1.5;
     pen.beginPath(); pen.moveTo(x(at), top - 4); pen.lineTo(x(at), height - bottom + 4); pen.stroke();
-    pen.fillStyle = css("--accent"); pen.beginPath(); pen.arc(x(at), y(between(at).t), 4.5, 0, 2 * Math.PI); pen.fill();
+    pen.fillStyle = css("--accent"); pen.beginPath(); pen.arc(x(at), y(state.at === null ? data.figures[state.figure].t ?? between(at).t : between(at).t), 4.5, 0, 2 * Math.PI); pen.fill();
   }
 }
 function place() {
@@ -253,7 +255,8 @@ function says() {
   const at = place();
   if (path && at !== null) {
     $("slider").value = String(at);
-    $("where").textContent = path.parameter + " = " + between(at).t.toFixed(4);
+    const t = state.at === null && figure && figure.t !== null ? figure.t : between(at).t;
+    $("where").textContent = path.parameter + " = " + t.toFixed(4);
   } else if (path) $("where").textContent = "";
   const table = $("digits"); table.textContent = "";
   if (state.at === null && figure && figure.digits) {
