@@ -282,4 +282,6 @@ fn a_triangle_that_turns_over_is_the_same_triangle() {
     assert_eq!(outcome.status, Status::Closed);
     let classes: Vec<usize> = outcome.solutions.iter().map(|s| s.class).collect();
     assert_eq!(classes, [0, 0]);
+    // The same figure moved, not its mirror image.
+    assert!(outcome.solutions.iter().all(|s| s.mirror_of.is_none()));
 }

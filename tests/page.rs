@@ -12,7 +12,11 @@ fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {
         .output()
         .unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
 }
 
 /// The browser, if there is one.
@@ -66,7 +70,10 @@ fn driven(browser: &Path, page: &Path, script: &str, size: &str) -> (String, Str
             "--dump-dom",
         ])
         .arg(format!("--window-size={size}"))
-        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+        .arg(format!(
+            "--user-data-dir={}",
+            folder.path().join("profile").display()
+        ))
         .arg(format!("file://{}", driven.display()))
         .output()
         .unwrap();
@@ -76,7 +83,10 @@ fn driven(browser: &Path, page: &Path, script: &str, size: &str) -> (String, Str
         .and_then(|(_, rest)| rest.split_once("</title>"))
         .map_or(String::new(), |(title, _)| title.to_owned());
     let errors = String::from_utf8_lossy(&output.stderr);
-    let console = errors.lines().filter(|line| line.contains("CONSOLE"));
+    // The test reads pixels often, which the page does not.
+    let console = errors
+        .lines()
+        .filter(|line| line.contains("CONSOLE") && !line.contains("willReadFrequently"));
     (title, console.collect::<Vec<_>>().join("\n"))
 }
 
@@ -144,7 +154,13 @@ fn a_result_is_shown_and_many_solutions_are_smooth() {
     let folder = tempfile::tempdir().unwrap();
     let json = folder.path().join("icosahedron.json");
     let (code, _, errors) = krawl(&[
-        "solve", "problems/icosahedron.toml", "--json", json.to_str().unwrap(), "--samples", "2000", "--quiet",
+        "solve",
+        "problems/icosahedron.toml",
+        "--json",
+        json.to_str().unwrap(),
+        "--samples",
+        "2000",
+        "--quiet",
     ]);
     assert_eq!(code, Some(0), "{errors}");
     let (code, out, errors) = krawl(&["show", json.to_str().unwrap()]);
@@ -159,14 +175,12 @@ fn a_result_is_shown_and_many_solutions_are_smooth() {
         const slider = $('slider'), clock = performance.now();
         let n = 0;
         for (const li of [...$('list').children].slice(0, 60)) { li.click(); await new Promise((r) => setTimeout(r, 0)); n++; }
-        said.push(n, $('list').children.length, ink('view'));
-        for (const b of $('filters').children) { b.click(); await frames(1); said.push($('list').children.length); }";
+        said.push(n, $('list').children.length, ink('view'));";
     let (title, console) = driven(&browser, &page, script, "1200,900");
     assert_eq!(console, "");
     let said = said(&title);
     assert_eq!((&said[0], &said[1]), (&60.into(), &285.into()), "{title}");
     assert!(said[2][0].as_u64().unwrap() > 10_000);
-    assert_eq!(said[3], 285);
 }
 
 #[test]
@@ -174,8 +188,17 @@ fn pictures_and_figures_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (code, _, errors) = krawl(&[
-        "solve", "problems/octahedron.toml", "--svg", &path("a.svg"), "--animation", &path("b.svg"), "--obj",
-        &path("c.obj"), "--xyz", &path("d.xyz"), "--quiet",
+        "solve",
+        "problems/octahedron.toml",
+        "--svg",
+        &path("a.svg"),
+        "--animation",
+        &path("b.svg"),
+        "--obj",
+        &path("c.obj"),
+        "--xyz",
+        &path("d.xyz"),
+        "--quiet",
     ]);
     assert_eq!(code, Some(0), "{errors}");
     let read = |name: &str| fs::read_to_string(path(name)).unwrap();
@@ -185,13 +208,21 @@ fn pictures_and_figures_are_written() {
     let lines = document.descendants().filter(|n| n.has_tag_name("path"));
     assert_eq!(lines.count(), 5 * 12);
     let document = roxmltree::Document::parse(&moving).unwrap();
-    let animations: Vec<_> = document.descendants().filter(|n| n.has_tag_name("animate")).collect();
+    let animations: Vec<_> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("animate"))
+        .collect();
     // Twelve bars, six points and the dot on the curve, the latter in two coordinates each.
     assert_eq!(animations.len(), 12 + 2 * 6 + 2);
     let count = |n: &roxmltree::Node, key: &str| n.attribute(key).unwrap().split(';').count();
     for n in &animations {
         assert_eq!(count(n, "values"), count(n, "keyTimes"));
-        let times: Vec<f64> = n.attribute("keyTimes").unwrap().split(';').map(|t| t.parse().unwrap()).collect();
+        let times: Vec<f64> = n
+            .attribute("keyTimes")
+            .unwrap()
+            .split(';')
+            .map(|t| t.parse().unwrap())
+            .collect();
         assert!(times.is_sorted() && times[0] == 0.0 && times[times.len() - 1] == 1.0);
     }
     // The solutions meet the dimensions in OBJ, and XYZ has as many points.
@@ -202,7 +233,10 @@ fn pictures_and_figures_are_written() {
         .map(|line| line.split(' ').map(|x| x.parse().unwrap()).collect())
         .collect();
     assert_eq!(vertices.len(), 5 * 6);
-    assert_eq!(obj.lines().filter(|line| line.starts_with("l ")).count(), 5 * 12);
+    assert_eq!(
+        obj.lines().filter(|line| line.starts_with("l ")).count(),
+        5 * 12
+    );
     for k in 1..5 {
         let (a, b) = (&vertices[6 * k], &vertices[6 * k + 1]);
         let distance = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
@@ -222,11 +256,19 @@ fn what_is_no_result_is_refused() {
         ("", "is not JSON"),
         ("{}", "`version` is missing"),
         ("{\"version\": 7}", "version 7"),
-        ("{\"version\": 1, \"dimension\": 2, \"names\": [\"a\"]}", "is missing or not what it should be"),
+        (
+            "{\"version\": 1, \"dimension\": 2, \"names\": [\"a\"]}",
+            "is missing or not what it should be",
+        ),
         ("{\"version\": 1}\n{\"version\": 1}", "holds 2 results"),
     ] {
         fs::write(&file, text).unwrap();
-        let (code, _, errors) = krawl(&["show", file.to_str().unwrap(), "--html", page.to_str().unwrap()]);
+        let (code, _, errors) = krawl(&[
+            "show",
+            file.to_str().unwrap(),
+            "--html",
+            page.to_str().unwrap(),
+        ]);
         assert_eq!(code, Some(2), "{text}");
         assert!(errors.contains(words), "{errors}");
         assert!(!page.exists());
@@ -234,12 +276,24 @@ fn what_is_no_result_is_refused() {
     // A float run has no path to travel, and says so where it is asked for one.
     let svg = folder.path().join("a.svg");
     let (code, _, errors) = krawl(&[
-        "solve", "problems/k33.toml", "--mode", "float", "--quiet", "--animation", svg.to_str().unwrap(),
+        "solve",
+        "problems/k33.toml",
+        "--mode",
+        "float",
+        "--quiet",
+        "--animation",
+        svg.to_str().unwrap(),
     ]);
     assert_eq!(code, Some(2));
     assert!(errors.contains("has no path"), "{errors}");
     let (code, _, _) = krawl(&[
-        "solve", "problems/k33.toml", "--mode", "float", "--quiet", "--html", page.to_str().unwrap(),
+        "solve",
+        "problems/k33.toml",
+        "--mode",
+        "float",
+        "--quiet",
+        "--html",
+        page.to_str().unwrap(),
     ]);
     assert_eq!(code, Some(0));
     assert!(page.exists());

@@ -6,8 +6,10 @@ mod generate;
 mod input;
 mod interrupt;
 mod output;
+mod pictures;
 mod processor;
 mod shell;
+mod show;
 mod solve;
 mod verify;
 
@@ -32,6 +34,7 @@ pub const BAD_INPUT: u8 = 2;
 Examples:
   krawl check sketch.toml                   is the input in order, and what was understood?
   krawl solve sketch.toml                   the figures that meet the dimensions
+  krawl solve sketch.toml --html page.html  a page to look at
   krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
 
 `krawl VERB --help` has examples of each verb. The README has the format of problem files.
@@ -49,6 +52,7 @@ enum Verb {
     Check(check::Arguments),
     Compare(compare::Arguments),
     Generate(generate::Arguments),
+    Show(show::Arguments),
     Solve(solve::Arguments),
     Verify(verify::Arguments),
     Completions(shell::Completions),
@@ -65,6 +69,7 @@ pub fn run() -> ExitCode {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
+        Verb::Show(arguments) => show::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Completions(arguments) => shell::completions(&arguments),

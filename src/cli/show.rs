@@ -42,7 +42,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         false => std::fs::read_to_string(file),
     };
     let text = text.map_err(|error| format!("{}: cannot be read: {error}", file.display()))?;
-    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| !line.trim().is_empty())
+        .collect();
     if lines.len() > 1 && lines.iter().all(|line| line.starts_with('{')) {
         return Err(format!(
             "{}: holds {} results, one on each line; give `show` one of them",

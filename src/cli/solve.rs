@@ -1,10 +1,12 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
 use super::output::{self, Beside, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
+use krawl::report::page::Page;
 use krawl::report::{ProgressLine, Run, to_short_table, to_summary, to_table};
 use krawl::track::{self, Control, Options, Outcome, Progress, Status, Trace, Witness};
 use std::io::BufWriter;
@@ -21,6 +23,7 @@ use std::sync::atomic::Ordering;
 #[command(after_help = "\
 Examples:
   krawl solve sketch.toml                      the solutions, with proof
+  krawl solve sketch.toml --html page.html     a page to look at
   krawl solve sketch.toml --json out.json      for programs (docs/json.md); `krawl show` draws it
   krawl solve a.toml b.toml c.toml --summary   one line for each
   krawl generate strip --size 100 | krawl solve -
@@ -69,9 +72,11 @@ pub struct Arguments {
     /// of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Certified mode: so many figures along the path go into the JSON
-    #[arg(long, value_name = "N", requires = "json", value_parser = samples)]
+    /// Certified mode: so many figures along the path go into the JSON and the page
+    #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<usize>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print one line for each problem
     #[arg(long)]
     summary: bool,
@@ -186,6 +191,9 @@ impl Arguments {
         if self.files.len() > 1 && self.cert.is_some() {
             return Err("`--cert` is for one problem: name one file".to_owned());
         }
+        if self.files.len() > 1 && self.pictures.files().next().is_some() {
+            return Err("a page and pictures are of one problem: name one file".to_owned());
+        }
         input::only_one_standard_input(self.files.iter().map(PathBuf::as_path))
     }
 }
@@ -206,7 +214,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .as_deref()
         .map(Destination::new)
         .transpose()?;
-    for results in [&arguments.json, &arguments.cert].into_iter().flatten() {
+    let pictures = arguments.pictures.places()?;
+    let results = [&arguments.json, &arguments.cert].into_iter().flatten();
+    for results in results.chain(arguments.pictures.files()) {
         for file in &arguments.files {
             if output::is_same_file(results, file) {
                 return Err(format!(
@@ -219,13 +229,23 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let silent = arguments.quiet || json == Some(Destination::StandardOutput);
+    let standard = json == Some(Destination::StandardOutput);
+    if standard && pictures.use_standard_output() {
+        return Err("only one result can go to standard output".to_owned());
+    }
+    let silent = arguments.quiet || standard || pictures.use_standard_output();
     let mut lines = String::new();
     let (mut written, mut closed) = (true, true);
     for (k, (problem, file)) in problems.iter().zip(&arguments.files).enumerate() {
         let which = output::which_of((k, problems.len()), file);
         let mut trace = Trace::default();
-        let wants_path = json.is_some() && arguments.mode == Mode::Certified;
+        let shown = !pictures.is_empty();
+        let wants_path = (json.is_some() || shown) && arguments.mode == Mode::Certified;
+        let samples = match arguments.samples {
+            Some(samples) => samples,
+            None if arguments.pictures.want_path() => samples_for(problem),
+            None => 0,
+        };
         let (mut outcome, well) = follow(
             arguments,
             problem,
@@ -236,21 +256,25 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         )?;
         written &= well;
         if wants_path
-            && arguments.samples.is_some()
+            && samples > 0
             && let Some(finer) = follow_finely(arguments, problem, &which, &mut outcome)
         {
             trace = finer;
         }
         closed &= outcome.status == Status::Closed;
+        let run = Run {
+            problem,
+            options: &arguments.options(),
+            outcome: &outcome,
+            trace: wants_path.then_some(&trace),
+            samples,
+        };
         if json.is_some() {
-            let run = Run {
-                problem,
-                options: &arguments.options(),
-                outcome: &outcome,
-                trace: wants_path.then_some(&trace),
-                samples: arguments.samples.unwrap_or(0),
-            };
             lines += &(run.to_json() + "\n");
+        }
+        if shown {
+            let page = Page::from_result(&run.to_value()).map_err(|error| error.to_string())?;
+            written &= pictures.write(&page);
         }
         if !silent {
             let gap = if k == 0 || arguments.summary {
@@ -284,6 +308,11 @@ impl Arguments {
             (false, false) => to_short_table(problem, outcome),
         }
     }
+}
+
+/// Figures along a path for a page: smooth, and not too much to load.
+fn samples_for(problem: &Problem) -> usize {
+    (60_000 / problem.points.len()).clamp(100, 2400)
 }
 
 /// Follows the path of one problem. Also tells whether its certificate could be written.

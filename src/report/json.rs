@@ -1,5 +1,6 @@
 //! Results for programs (docs/json.md, docs/schema/result.schema.json).
 
+use super::table::verdict;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::{Homotopy, Placement};
@@ -54,12 +55,14 @@ struct Document<'a> {
     mode: &'static str,
     space: &'static str,
     options: WrittenOptions<'a>,
+    names: Vec<&'a str>,
     reference: Vec<&'a str>,
     frame: Option<WrittenFrame>,
     sketch: Points<'a, [f64; 3]>,
     constraints: Vec<Constraint<'a>>,
     status: &'static str,
     reason: Option<&'a str>,
+    verdict: String,
     solutions: Vec<Entry<'a>>,
     folds: Vec<WrittenFold<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -167,6 +170,7 @@ impl<'a> Document<'a> {
             mode: outcome.mode.name(),
             space: outcome.space.name(),
             options: WrittenOptions::new(problem, options),
+            names: problem.points.iter().map(|p| p.name.as_str()).collect(),
             reference: problem
                 .homotopy
                 .reference
@@ -178,6 +182,7 @@ impl<'a> Document<'a> {
             constraints: constraints_of(problem),
             status,
             reason,
+            verdict: verdict(outcome),
             solutions: outcome
                 .solutions
                 .iter()

@@ -3,6 +3,7 @@
 mod comparison;
 mod digits;
 mod json;
+pub mod page;
 pub mod picture;
 mod progress;
 mod table;

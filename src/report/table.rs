@@ -107,7 +107,7 @@ fn classes(outcome: &Outcome) -> usize {
 }
 
 /// What was found, in words that claim no more than was proved.
-fn verdict(outcome: &Outcome) -> String {
+pub(super) fn verdict(outcome: &Outcome) -> String {
     let count = outcome.solutions.len();
     let different = match (count, classes(outcome)) {
         (0 | 1, _) => String::new(),

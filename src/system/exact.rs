@@ -101,7 +101,7 @@ mod tests {
                 enclose(&decimal(target)) * quarter,
                 bend.map(|c| enclose(&decimal(c)) * quarter),
             );
-            for (&(near, radius), around) in length.half_square().iter().zip(wide.half_square()) {
+            for (&(near, radius), around) in length.half_square().iter().zip(&wide.half_square()) {
                 assert!(near.hi + radius >= around.inf() && near.hi - radius <= around.sup());
                 assert!(radius <= 1e-30 * near.size() + 1e-200, "{radius:e}");
             }

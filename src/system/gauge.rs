@@ -5,6 +5,9 @@ use crate::problem::{Problem, free_coordinates};
 
 /// The coordinates that rigid motions leave: the first reference point at the origin, the second
 /// on the x axis, the third (in space) in the xy plane (RR 8705, sections 2.1 and 6).
+///
+/// Without reference points all coordinates are free, and are those of the problem: then constraints
+/// say where the figure is.
 #[derive(Debug, Clone)]
 pub struct Gauge {
     /// 2 or 3.
@@ -13,7 +16,7 @@ pub struct Gauge {
     pub reference: Vec<usize>,
     /// For each free coordinate its place `point * dimension + axis`.
     pub place: Vec<usize>,
-    /// For each place its free coordinate, or the number m of them where the coordinate is fixed.
+    /// For each place its unknown, or the number m of all unknowns where the coordinate is fixed.
     pub variable: Vec<usize>,
 }
 
@@ -39,7 +42,11 @@ impl Gauge {
     pub fn new(problem: &Problem) -> Self {
         let dimension = problem.dimension;
         let reference = problem.homotopy.reference.clone();
-        let m = free_coordinates(dimension, problem.points.len());
+        let m = if reference.is_empty() {
+            dimension * problem.points.len()
+        } else {
+            free_coordinates(dimension, problem.points.len())
+        };
         let mut place = Vec::with_capacity(m);
         let mut variable = vec![m; problem.points.len() * dimension];
         for p in 0..problem.points.len() {
@@ -59,10 +66,29 @@ impl Gauge {
         }
     }
 
-    /// How the gauge lies in the coordinates of the problem, as the sketch has it.
+    /// Makes room for auxiliary unknowns behind the free coordinates.
+    pub(super) fn append(&mut self, unknowns: usize) {
+        let free = self.place.len();
+        for variable in &mut self.variable {
+            if *variable == free {
+                *variable = free + unknowns;
+            }
+        }
+    }
+
+    /// How the gauge lies in the coordinates of the problem, as the sketch has it: in the same place where
+    /// there is no reference.
     pub fn placement(&self, problem: &Problem) -> Result<Placement, GaugeError> {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
         let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
+        if self.reference.is_empty() {
+            return Ok(Placement {
+                origin: [point(0.0); 3],
+                axes: std::array::from_fn(|k| {
+                    std::array::from_fn(|axis| point(if axis == k { 1.0 } else { 0.0 }))
+                }),
+            });
+        }
         let origin = coordinates(self.reference[0]);
         let from_origin = |p: usize| sub(coordinates(p), origin);
 
@@ -85,9 +111,13 @@ impl Gauge {
 
     /// Encloses the coordinates of the sketch in the gauge, point by point.
     ///
-    /// The sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
+    /// With a reference the sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
     /// p₁ to p₂, perpendicular to it towards p₃, and their cross product.
     pub fn sketch(&self, problem: &Problem) -> Result<Vec<[Interval; 3]>, GaugeError> {
+        if self.reference.is_empty() {
+            let points = problem.points.iter();
+            return Ok(points.map(|p| p.sketch.each_ref().map(enclose)).collect());
+        }
         let Placement { origin, axes } = self.placement(problem)?;
         Ok((0..problem.points.len())
             .map(|p| {

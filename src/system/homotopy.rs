@@ -1,6 +1,7 @@
 //! H(X, t), as the trackers see it.
 
-use super::{ExactLength, Gauge, GaugeError, Length};
+use super::{ExactLength, Gauge, GaugeError, Length, Right};
+use crate::constraint::{self, Entry, Form, Tail};
 use crate::interval::{Interval, enclose, enclose_rational, point};
 use crate::problem::{Problem, Target};
 
@@ -11,8 +12,21 @@ pub struct Edge {
     pub points: [usize; 2],
 }
 
-/// The homotopy H(X, t) = F(X, a(t)) = 0 of a problem (RR 8705, section 2.2), m equations in the
-/// m free coordinates and t.
+/// `factor · left · right`, of differences of unknowns: a term of 2 q_e(X).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Term {
+    /// A small whole number.
+    pub factor: i32,
+    /// The first unknown minus the second, or the number 1. The index m + 1 stands for zero.
+    pub left: Option<[usize; 2]>,
+    /// The other factor.
+    pub right: Option<[usize; 2]>,
+}
+
+/// The homotopy H(X, t) = F(X, a(t)) = 0 of a problem (RR 8705, section 2.2): m equations
+/// q_e(X) − E_e(t) = 0 in m unknowns and t. The first equations are the distances, in the problem's
+/// order, q_e = ½|p_i − p_j|², E_e = ½ a_e²; then come those of all other constraints. The first
+/// unknowns are the free coordinates; then come the auxiliary ones.
 ///
 /// All lengths and coordinates in here are divided by [`Homotopy::unit`], a power of two near the
 /// problem's typical length, so that results do not depend on the scale of the input. A *figure*
@@ -23,7 +37,7 @@ pub struct Homotopy {
     pub dimension: usize,
     /// The number of points.
     pub points: usize,
-    /// The number m of equations and of free coordinates.
+    /// The number m of equations, and of unknowns without t.
     pub equations: usize,
     /// The length that 1 stands for in here: a power of two.
     pub unit: f64,
@@ -33,16 +47,22 @@ pub struct Homotopy {
     pub edges: Vec<Edge>,
     /// Their lengths, in the same order.
     pub lengths: Vec<Length>,
-    /// What they are made of, exactly.
-    pub exact_lengths: Vec<ExactLength>,
-    /// Which of them bends.
+    /// What other constraints there are, and their unknowns.
+    pub tail: Tail,
+    /// 2 q_e of the equations behind the distances.
+    terms: Vec<Vec<Term>>,
+    /// The right-hand sides E_e(t) of all equations.
+    pub rights: Vec<Right>,
+    /// Which of the distances bends.
     pub bend: usize,
-    /// What people call the distances.
+    /// What people call the equations.
     pub names: Vec<String>,
     /// An enclosure of the sketch, all places.
     pub sketch_box: Vec<Interval>,
     /// Its middle.
     pub sketch: Vec<f64>,
+    /// Enclosures of the auxiliary unknowns in the sketch.
+    auxiliary: Vec<Interval>,
 }
 
 impl Homotopy {
@@ -71,82 +91,177 @@ impl Homotopy {
     /// # Panics
     /// If `unit` is not a power of two: only divisions by such are exact.
     pub fn with_unit(problem: &Problem, unit: f64) -> Result<Self, GaugeError> {
+        Self::with_constraints(problem, unit, |sketch| constraint::lower(problem, sketch))
+    }
+
+    /// The same with other constraints in place of the problem's own: `lower` makes their equations from
+    /// the sketch as it is seen from the reference.
+    pub(crate) fn with_constraints(
+        problem: &Problem,
+        unit: f64,
+        lower: impl FnOnce(&[[Interval; 3]]) -> Tail,
+    ) -> Result<Self, GaugeError> {
         assert!(
             unit.is_normal() && unit > 0.0 && unit.to_bits() << 12 == 0,
             "the unit {unit} is not a power of two"
         );
-        let gauge = Gauge::new(problem);
+        let mut gauge = Gauge::new(problem);
+        let sketch = gauge.sketch(problem)?;
+        let tail = lower(&sketch);
+        let equations = gauge.place.len() + tail.unknowns.len();
+        assert_eq!(
+            equations,
+            problem.distances.len() + tail.equations.len(),
+            "as many equations as unknowns"
+        );
+        gauge.append(tail.unknowns.len());
         let per_unit = point(1.0 / unit);
-        let sketch_box: Vec<Interval> = gauge
-            .sketch(problem)?
+        let sketch_box: Vec<Interval> = sketch
             .into_iter()
             .flat_map(|p| p.into_iter().take(problem.dimension))
             .map(|x| x * per_unit)
             .collect();
-        let (lengths, exact_lengths) = problem
-            .distances
-            .iter()
-            .enumerate()
-            .map(|(index, distance)| {
-                let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
-                let squared = (0..3).fold(
-                    num_rational::BigRational::from_integer(0.into()),
-                    |sum, k| {
-                        let d = a[k].value() - b[k].value();
-                        sum + &d * &d
-                    },
-                );
-                let sketch = enclose_rational(&squared).sqrt();
-                let target = match &distance.target {
-                    Target::Length(length) => enclose(length),
-                    Target::SquaredLength(squared) => enclose(squared).sqrt(),
-                };
-                let bend = (index == problem.homotopy.bend)
-                    .then(|| enclose(&problem.homotopy.bend_coefficient) * per_unit);
-                let exact = ExactLength {
-                    sketch_squared: squared,
-                    target: distance.target.clone(),
-                    bend: (index == problem.homotopy.bend)
-                        .then(|| problem.homotopy.bend_coefficient.clone()),
-                    unit,
-                };
-                (
-                    Length::new(sketch * per_unit, target * per_unit, bend),
-                    exact,
-                )
-            })
-            .unzip();
-        Ok(Homotopy {
+        let mut homotopy = Homotopy {
             dimension: problem.dimension,
             points: problem.points.len(),
-            equations: gauge.place.len(),
+            equations,
             unit,
             edges: problem
                 .distances
                 .iter()
                 .map(|d| Edge { points: d.points })
                 .collect(),
-            lengths,
-            exact_lengths,
+            lengths: Vec::new(),
+            terms: Vec::new(),
+            rights: Vec::new(),
             bend: problem.homotopy.bend,
             names: (0..problem.distances.len())
                 .map(|d| problem.distance_name(d))
                 .collect(),
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
+            auxiliary: Vec::new(),
             gauge,
-        })
+            tail,
+        };
+        homotopy.add_distances(problem);
+        homotopy.add_constraints();
+        Ok(homotopy)
     }
 
-    /// F_e = ½(|p_i − p_j|² − a_e(t)²) for all distances, in floats.
-    pub fn residual(&self, figure: &[f64], t: f64, out: &mut [f64]) {
-        let d = self.dimension;
-        for ((edge, length), f) in self.edges.iter().zip(&self.lengths).zip(out) {
-            let [i, j] = edge.points.map(|p| p * d);
-            let squared: f64 = (0..d)
-                .map(|k| (figure[i + k] - figure[j + k]).powi(2))
-                .sum();
-            *f = 0.5 * (squared - length.value(t).powi(2));
+    fn add_distances(&mut self, problem: &Problem) {
+        let per_unit = point(1.0 / self.unit);
+        for (index, distance) in problem.distances.iter().enumerate() {
+            let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+            let squared = (0..3).fold(
+                num_rational::BigRational::from_integer(0.into()),
+                |sum, k| {
+                    let d = a[k].value() - b[k].value();
+                    sum + &d * &d
+                },
+            );
+            let sketch = enclose_rational(&squared).sqrt();
+            let target = match &distance.target {
+                Target::Length(length) => enclose(length),
+                Target::SquaredLength(squared) => enclose(squared).sqrt(),
+            };
+            let bend = (index == problem.homotopy.bend)
+                .then(|| enclose(&problem.homotopy.bend_coefficient) * per_unit);
+            let exact = ExactLength {
+                sketch_squared: squared,
+                target: distance.target.clone(),
+                bend: (index == problem.homotopy.bend)
+                    .then(|| problem.homotopy.bend_coefficient.clone()),
+                unit: self.unit,
+            };
+            let length = Length::new(sketch * per_unit, target * per_unit, bend);
+            self.rights.push(Right::half_square(&length, exact));
+            self.lengths.push(length);
+        }
+    }
+
+    fn add_constraints(&mut self) {
+        for equation in &self.tail.equations {
+            let form = |form: Form| match form {
+                Form::One => None,
+                Form::Difference(from, to) => Some([self.entry(from), self.entry(to)]),
+            };
+            let terms = equation.products.iter().map(|product| {
+                assert!(
+                    (1..=1000).contains(&product.factor.abs()),
+                    "factors are small whole numbers"
+                );
+                Term {
+                    factor: product.factor,
+                    left: form(product.left),
+                    right: form(product.right),
+                }
+            });
+            let terms: Vec<Term> = terms.collect();
+            assert!(!terms.is_empty(), "an equation has a left-hand side");
+            self.terms.push(terms);
+            let unit = self.unit.powi(equation.power);
+            self.rights.push(Right::polynomial(&equation.right, unit));
+            self.names.push(equation.name.clone());
+        }
+        for unknown in &self.tail.unknowns {
+            // Division by a power of two is exact.
+            let unit = point(1.0 / self.unit.powi(unknown.power));
+            self.auxiliary.push(unknown.sketch * unit);
+        }
+    }
+
+    /// The unknown that an entry is, or m + 1 if it is zero.
+    fn entry(&self, entry: Entry) -> usize {
+        let zero = self.equations + 1;
+        match entry {
+            Entry::Zero => zero,
+            Entry::Unknown(k) => {
+                assert!(k < self.tail.unknowns.len(), "an auxiliary unknown");
+                self.gauge.place.len() + k
+            }
+            Entry::Coordinate { point, axis } => self.coordinate(point, axis).unwrap_or(zero),
+        }
+    }
+
+    /// The unknown that a point's coordinate is, or `None` where it is zero.
+    pub fn coordinate(&self, point: usize, axis: usize) -> Option<usize> {
+        (axis < self.dimension)
+            .then(|| self.gauge.variable[point * self.dimension + axis])
+            .filter(|&v| v < self.equations)
+    }
+
+    /// The terms of 2 q_e of any equation: the squares of a distance's differences, or what a
+    /// constraint has.
+    pub fn terms(&self, equation: usize) -> Vec<Term> {
+        let head = self.edges.len();
+        if equation >= head {
+            return self.terms[equation - head].clone();
+        }
+        let zero = self.equations + 1;
+        let of_axis = |axis: usize| {
+            let ends = self.edges[equation].points;
+            let ends = ends.map(|p| self.coordinate(p, axis).unwrap_or(zero));
+            Term {
+                factor: 1,
+                left: Some(ends),
+                right: Some(ends),
+            }
+        };
+        (0..self.dimension).map(of_axis).collect()
+    }
+
+    /// An enclosure of each unknown in the sketch.
+    pub fn sketch_of_unknowns(&self) -> impl Iterator<Item = Interval> + '_ {
+        let coordinates = self.gauge.place.iter().map(|&p| self.sketch_box[p]);
+        coordinates.chain(self.auxiliary.iter().copied())
+    }
+
+    /// Whether an unknown changes its sign where an axis is reversed.
+    pub fn flips(&self, unknown: usize, axis: usize) -> bool {
+        match self.gauge.place.get(unknown) {
+            Some(place) => place % self.dimension == axis,
+            None => self.tail.unknowns[unknown - self.gauge.place.len()].flips[axis],
         }
     }
 
@@ -177,12 +292,27 @@ impl Homotopy {
     }
 }
 
-/// The power of two nearest to the mean target length.
+/// The power of two nearest to the mean target length; where there are no distances, to the mean
+/// distance of the sketch's points from their middle.
 fn typical_length(problem: &Problem) -> f64 {
-    let lengths = problem.distances.iter().map(|d| match &d.target {
-        Target::Length(length) => length.to_f64(),
-        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-    });
-    let mean = lengths.sum::<f64>() / problem.distances.len().max(1) as f64;
+    let mean = if problem.distances.is_empty() {
+        let places: Vec<[f64; 3]> = problem
+            .points
+            .iter()
+            .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+            .collect();
+        let n = places.len().max(1) as f64;
+        let middle: [f64; 3] =
+            std::array::from_fn(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
+        let away = |p: &[f64; 3]| -> f64 { (0..3).map(|k| (p[k] - middle[k]).powi(2)).sum() };
+        let mean = places.iter().map(|p| away(p).sqrt()).sum::<f64>() / n;
+        if mean > 0.0 { mean } else { 1.0 }
+    } else {
+        let lengths = problem.distances.iter().map(|d| match &d.target {
+            Target::Length(length) => length.to_f64(),
+            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+        });
+        lengths.sum::<f64>() / problem.distances.len() as f64
+    };
     2f64.powi(mean.log2().round() as i32)
 }

@@ -4,21 +4,15 @@ use crate::interval::Interval;
 #[cfg(test)]
 use crate::interval::point;
 
-/// A length a(t) = a₀ + a₁ t + a₂ t² and its half square E(t) = ½ a(t)², with enclosures of all
-/// coefficients. a₂ is zero but for the bend (RR 8705, section 3.1: −c t² + (a_so − a_sk + c) t + a_sk).
+/// A length a(t) = a₀ + a₁ t + a₂ t², with enclosures of its coefficients. a₂ is zero but for the
+/// bend (RR 8705, section 3.1: −c t² + (a_so − a_sk + c) t + a_sk).
 #[derive(Debug, Clone)]
 pub struct Length {
     coefficients: [Interval; 3],
-    half_square: [Interval; 5],
     target: Interval,
     /// The middles of the coefficients of a(t), for float use.
     pub a: [f64; 3],
-    /// The middles of the coefficients of E(t).
-    pub e: [f64; 5],
-    /// How far the exact coefficients of E(t) may be from `e`.
-    pub e_radius: [f64; 5],
-    /// The degree of E(t): 2, or 4 for the bend.
-    pub degree: usize,
+    bends: bool,
 }
 
 impl Length {
@@ -27,8 +21,20 @@ impl Length {
         let zero = crate::interval::point(0.0);
         let c = bend.unwrap_or(zero);
         let [a0, a1, a2] = [sketch, target - sketch + c, -c];
+        Length {
+            coefficients: [a0, a1, a2],
+            target,
+            a: [a0.mid(), a1.mid(), a2.mid()],
+            bends: bend.is_some(),
+        }
+    }
+
+    /// Enclosures of the coefficients of E(t) = ½ a(t)².
+    pub(super) fn half_square(&self) -> [Interval; 5] {
         let half = |x: Interval| x * crate::interval::point(0.5);
-        let half_square = if bend.is_some() {
+        let zero = crate::interval::point(0.0);
+        let [a0, a1, a2] = self.coefficients;
+        if self.bends {
             [
                 half(a0.sqr()),
                 a0 * a1,
@@ -38,16 +44,12 @@ impl Length {
             ]
         } else {
             [half(a0.sqr()), a0 * a1, half(a1.sqr()), zero, zero]
-        };
-        Length {
-            coefficients: [a0, a1, a2],
-            half_square,
-            target,
-            a: [a0.mid(), a1.mid(), a2.mid()],
-            e: half_square.map(|x| x.mid()),
-            e_radius: half_square.map(|x| x.rad()),
-            degree: if bend.is_some() { 4 } else { 2 },
         }
+    }
+
+    /// The degree of E(t): 2, or 4 for the bend.
+    pub(super) fn degree_of_square(&self) -> usize {
+        if self.bends { 4 } else { 2 }
     }
 
     /// An enclosure of the values that a takes on a set of t.
@@ -63,19 +65,8 @@ impl Length {
         centred.intersection(a0 + t * (a1 + t * a2))
     }
 
-    /// An enclosure of E on a set of t.
-    pub fn enclose_half_square(&self, t: Interval) -> Interval {
-        let e = &self.half_square;
-        e[0] + t * (e[1] + t * (e[2] + t * (e[3] + t * e[4])))
-    }
-
-    /// Enclosures of the coefficients of E(t).
-    pub fn half_square(&self) -> &[Interval; 5] {
-        &self.half_square
-    }
-
     /// An enclosure of E(1), straight from the target length.
-    pub fn target_half_square(&self) -> Interval {
+    pub(super) fn target_half_square(&self) -> Interval {
         self.target.sqr() * crate::interval::point(0.5)
     }
 
@@ -100,12 +91,8 @@ mod tests {
         assert_eq!(bend.enclose(point(0.0)), point(1.5));
         assert_eq!(bend.enclose(point(1.0)), point(2.0));
         assert_eq!(bend.value(0.5), 1.5 + 2.5 * 0.5 - 2.0 * 0.25);
-        assert!(
-            bend.enclose_half_square(point(0.5))
-                .contains(0.5 * bend.value(0.5).powi(2))
-        );
         let straight = Length::new(point(1.5), point(2.0), None);
-        assert_eq!(straight.degree, 2);
+        assert_eq!(straight.degree_of_square(), 2);
         assert_eq!(straight.enclose(point(0.5)), point(1.75));
     }
 }

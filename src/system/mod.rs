@@ -8,8 +8,10 @@ mod exact;
 mod gauge;
 mod homotopy;
 mod interpolation;
+mod right;
 
 pub use exact::ExactLength;
 pub use gauge::{Gauge, GaugeError, Placement};
-pub use homotopy::{Edge, Homotopy};
+pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
+pub use right::Right;

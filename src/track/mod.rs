@@ -47,6 +47,19 @@ pub fn solve(
         Preset::Default => Homotopy::new(problem)?,
         Preset::Paper => Homotopy::for_the_paper(problem)?,
     };
+    if !homotopy.tail.is_empty() {
+        let what = match (options.preset, options.space) {
+            (Preset::Paper, _) => Some("the paper's preset follows"),
+            (_, Space::Reduced) => Some("the reduced space has"),
+            _ => None,
+        };
+        if let Some(what) = what {
+            return Err(StartError::Unsupported(format!(
+                "{what} distances between points only, and there are other constraints; \
+                 use --space full without a preset"
+            )));
+        }
+    }
     let (what, other) = match (options.mode, options.space) {
         (Mode::Float, Space::Full) => ("the full space keeps", "--space reduced"),
         (Mode::Certified, _) => ("proofs keep", "--mode float --space reduced"),

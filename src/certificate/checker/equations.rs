@@ -42,26 +42,26 @@ impl Equations {
 
     /// The coefficients of E_e(t₀ + τ) in τ.
     pub fn half_square_at(&self, e: usize, t: Interval) -> [Interval; 5] {
-        let length = &self.homotopy.lengths[e];
-        let mut c = *length.half_square();
+        let right = &self.homotopy.rights[e];
+        let mut c = *right.enclosures();
         // Horner's scheme, repeated.
-        for from in 0..length.degree {
-            for k in (from..length.degree).rev() {
+        for from in 0..right.degree {
+            for k in (from..right.degree).rev() {
                 c[k] += t * c[k + 1];
             }
         }
         if t == point(1.0) {
             // Known better than from its way there.
-            c[0] = length.target_half_square();
+            c[0] = right.at_target();
         }
         c
     }
 
     /// E'' on a range of t.
     pub fn bend(&self, e: usize, t: Interval) -> Interval {
-        let length = &self.homotopy.lengths[e];
-        let c = length.half_square();
-        match length.degree {
+        let right = &self.homotopy.rights[e];
+        let c = right.enclosures();
+        match right.degree {
             2 => c[2] * point(2.0),
             _ => c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))),
         }

@@ -100,12 +100,12 @@ impl<'a> Curve<'a> {
             if k == 0 {
                 return half - l[0];
             }
-            let powers = (1..=self.eq.homotopy.lengths[e].degree).map(|j| (j, self.powers[j][k]));
+            let powers = (1..=self.eq.homotopy.rights[e].degree).map(|j| (j, self.powers[j][k]));
             let powers = powers.filter(|&(_, power)| power != ZERO);
             powers.fold(half, |sum, (j, power)| sum - l[j] * power)
         };
         // Beyond 2 ORDER there are only powers of t, in the one length that bends.
-        let zero = |e: usize| k > 2 * ORDER && e != self.eq.homotopy.bend;
+        let zero = |e: usize| k > 2 * ORDER && self.eq.homotopy.rights[e].degree == 2;
         (0..self.eq.m)
             .map(|e| if zero(e) { ZERO } else { residual(e) })
             .collect()
@@ -117,7 +117,7 @@ impl<'a> Curve<'a> {
         if k == 0 {
             return l[1];
         }
-        let terms = (2..=self.eq.homotopy.lengths[e].degree)
+        let terms = (2..=self.eq.homotopy.rights[e].degree)
             .map(|j| point(j as f64) * l[j] * self.powers[j - 1][k]);
         terms.fold(ZERO, |sum, x| sum + x)
     }
@@ -199,7 +199,7 @@ impl<'a> Curve<'a> {
                 slope += k as u128 * change;
                 beyond += if k > 2 { change } else { 0 };
             }
-            let degree = self.eq.homotopy.lengths[e].degree;
+            let degree = self.eq.homotopy.rights[e].degree;
             let slopes = (3..=(degree - 1) * order).map(|k| size(self.slope(e, k)));
             let slopes = slopes.fold(ZERO, |sum, x| sum + x) * weight(u[m]);
             rests[e] += above(beyond, self.bits + WEIGHT_BITS) + slopes;

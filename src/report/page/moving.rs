@@ -102,7 +102,10 @@ impl Page {
         for bar in &self.bars {
             let [a, b] = bar.ends;
             let line = |p: &Vec<[f64; 2]>| {
-                format!("M{:.1} {:.1}L{:.1} {:.1}", p[a][0], p[a][1], p[b][0], p[b][1])
+                format!(
+                    "M{:.1} {:.1}L{:.1} {:.1}",
+                    p[a][0], p[a][1], p[b][0], p[b][1]
+                )
             };
             writeln!(
                 out,
@@ -114,7 +117,10 @@ impl Page {
             writeln!(out, "</path>")?;
         }
         for k in 0..self.points.len() {
-            writeln!(out, "<circle r=\"4\" fill=\"#fff\" stroke=\"#20252b\" stroke-width=\"1.4\">")?;
+            writeln!(
+                out,
+                "<circle r=\"4\" fill=\"#fff\" stroke=\"#20252b\" stroke-width=\"1.4\">"
+            )?;
             for (axis, what) in ["cx", "cy"].into_iter().enumerate() {
                 let values = places.iter().map(|p| format!("{:.1}", p[k][axis]));
                 animate(out, what, values.collect())?;
@@ -132,7 +138,12 @@ impl Page {
         frames: &[Frame],
         animate: impl Fn(&mut String, &str, Vec<String>) -> fmt::Result,
     ) -> fmt::Result {
-        let all = || path.samples.iter().map(|s| s.t).chain(path.levels.iter().map(|l| l.t));
+        let all = || {
+            path.samples
+                .iter()
+                .map(|s| s.t)
+                .chain(path.levels.iter().map(|l| l.t))
+        };
         let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
             (low.min(t), high.max(t))
         });
@@ -150,7 +161,10 @@ impl Page {
                 escaped(&level.label)
             )?;
         }
-        let curve: Vec<String> = frames.iter().map(|f| format!("{:.1} {:.1}", x(f.at), y(f.t))).collect();
+        let curve: Vec<String> = frames
+            .iter()
+            .map(|f| format!("{:.1} {:.1}", x(f.at), y(f.t)))
+            .collect();
         writeln!(
             out,
             "<path d=\"M{}\" fill=\"none\" stroke=\"#20252b\" stroke-width=\"1.5\"/>",
@@ -174,8 +188,16 @@ impl Page {
             SIDE + CHART - 8.0,
             escaped(&path.parameter)
         )?;
-        animate(out, "cx", frames.iter().map(|f| format!("{:.1}", x(f.at))).collect())?;
-        animate(out, "cy", frames.iter().map(|f| format!("{:.1}", y(f.t))).collect())?;
+        animate(
+            out,
+            "cx",
+            frames.iter().map(|f| format!("{:.1}", x(f.at))).collect(),
+        )?;
+        animate(
+            out,
+            "cy",
+            frames.iter().map(|f| format!("{:.1}", y(f.t))).collect(),
+        )?;
         writeln!(out, "</circle>")
     }
 }

@@ -10,7 +10,7 @@ const LIGHTER = ["#58b4ee", "#ff8f40", "#3ecf9f", "#e79cc6", "#f3bb45", "#8fd0f7
 const state = {
   figure: 0, at: null, // at: a place on the path; null: a figure of the list
   show: { names: N <= 40, sizes: data.bars.length <= 14, faces: !flat, ghost: true, all: false },
-  turn: identity(), zoom: 1, shift: [0, 0], filter: "all", playing: false, dark: false,
+  turn: identity(), zoom: 1, shift: [0, 0], filter: "all", span: null, playing: false, dark: false,
 };
 
 function identity() {
@@ -200,9 +200,11 @@ function drawChart() {
   for (const s of samples) { lo = Math.min(lo, s.t); hi = Math.max(hi, s.t); }
   for (const level of path.levels) { lo = Math.min(lo, level.t); hi = Math.max(hi, level.t); }
   const room = 0.08 * (hi - lo || 1); lo -= room; hi += room;
-  const x = (at) => left + (width - left - right) * (at - start) / (last - start || 1);
+  const [from, to] = state.span || [start, last];
+  const x = (at) => left + (width - left - right) * (at - from) / (to - from || 1);
   const y = (t) => top + (height - top - bottom) * (hi - t) / (hi - lo);
-  area = { left, right, width };
+  area = { left, right, width, from, to };
+  const visible = (at) => at >= from && at <= to;
   pen.font = "12px system-ui, 'DejaVu Sans', sans-serif"; pen.textBaseline = "middle";
   for (const level of path.levels) {
     pen.strokeStyle = css("--line"); pen.setLineDash([4, 4]); pen.lineWidth = 1;
@@ -210,27 +212,31 @@ function drawChart() {
     pen.fillStyle = css("--soft"); pen.textAlign = "right"; pen.fillText(level.label, left - 6, y(level.t));
   }
   pen.textAlign = "left"; pen.fillStyle = css("--soft"); pen.fillText(path.along, left, height - 7);
-  pen.strokeStyle = css("--ink"); pen.lineWidth = 1.6; pen.lineJoin = "round"; pen.beginPath();
+  pen.save(); pen.beginPath(); pen.rect(left - 7, 0, width - left - right + 14, height); pen.clip();
+  pen.strokeStyle = css("--ink"); pen.lineWidth = samples.length > 1600 && !state.span ? 1 : 1.6; pen.lineJoin = "round"; pen.beginPath();
   samples.forEach((s, k) => k ? pen.lineTo(x(s.at), y(s.t)) : pen.moveTo(x(s.at), y(s.t)));
   pen.stroke();
-  for (const mark of path.marks) {
+  const marks = path.marks.filter((m) => visible(m.at));
+  for (const mark of marks.length > 150 ? [] : marks) {
     pen.fillStyle = css("--warn"); pen.beginPath();
-    const px = x(mark.at), py = y(mark.t), s = path.marks.length > 60 ? 2 : 3.6;
+    const px = x(mark.at), py = y(mark.t), s = marks.length > 60 ? 2 : 3.6;
     pen.moveTo(px, py - s); pen.lineTo(px + s, py); pen.lineTo(px, py + s); pen.lineTo(px - s, py); pen.fill();
   }
+  const many = data.figures.filter((f) => f.at !== null && visible(f.at)).length > 60;
   data.figures.forEach((figure, k) => {
-    if (figure.at === null || figure.t === null) return;
-    const big = data.figures.length > 60 ? 2.4 : 5;
+    if (figure.at === null || figure.t === null || !visible(figure.at)) return;
+    const big = many ? 2.4 : 5;
     pen.beginPath(); pen.arc(x(figure.at), y(figure.t), k === state.figure && state.at === null ? big + 2 : big, 0, 2 * Math.PI);
     pen.fillStyle = figure.class === null ? css("--ghost") : classColour(figure.class); pen.fill();
     pen.strokeStyle = css("--panel"); pen.lineWidth = 1.2; pen.stroke();
   });
   const at = place();
-  if (at !== null) {
+  if (at !== null && visible(at)) {
     pen.strokeStyle = css("--accent"); pen.lineWidth = 1.5;
     pen.beginPath(); pen.moveTo(x(at), top - 4); pen.lineTo(x(at), height - bottom + 4); pen.stroke();
     pen.fillStyle = css("--accent"); pen.beginPath(); pen.arc(x(at), y(state.at === null ? data.figures[state.figure].t ?? between(at).t : between(at).t), 4.5, 0, 2 * Math.PI); pen.fill();
   }
+  pen.restore();
 }
 function place() {
   if (state.at !== null) return state.at;
@@ -364,13 +370,24 @@ document.querySelectorAll("[data-show]").forEach((b) => b.addEventListener("clic
 $("list").addEventListener("click", (e) => { const li = e.target.closest("li"); if (li) pick(+li.dataset.k); });
 function chartAt(e) {
   const box = chart.getBoundingClientRect(), u = (e.clientX - box.left - area.left) / (area.width - area.left - area.right);
-  const at = start + (last - start) * u, reach = 7 * (last - start) / (area.width - area.left - area.right);
+  const at = area.from + (area.to - area.from) * u, reach = 7 * (area.to - area.from) / (area.width - area.left - area.right);
   let best = -1;
   data.figures.forEach((f, k) => { if (f.at !== null && Math.abs(f.at - at) < reach && (best < 0 || Math.abs(f.at - at) < Math.abs(data.figures[best].at - at))) best = k; });
   if (best >= 0 && e.type === "pointerdown") pick(best); else { stop(); go(at); }
 }
 chart.addEventListener("pointerdown", (e) => { chart.setPointerCapture(e.pointerId); if (area) chartAt(e); });
 chart.addEventListener("pointermove", (e) => { if (e.buttons && area) chartAt(e); });
+chart.addEventListener("wheel", (e) => {
+  if (!area) return;
+  e.preventDefault();
+  const box = chart.getBoundingClientRect(), u = (e.clientX - box.left - area.left) / (area.width - area.left - area.right);
+  const middle = area.from + (area.to - area.from) * u, f = Math.exp(e.deltaY * (e.deltaMode ? 0.05 : 0.0015));
+  const width = Math.max((last - start) / 2000, (area.to - area.from) * f);
+  const from = Math.min(Math.max(start, middle - u * width), Math.max(start, last - width));
+  state.span = width >= last - start ? null : [from, from + width];
+  redraw();
+}, { passive: false });
+chart.addEventListener("dblclick", () => { state.span = null; redraw(); });
 document.addEventListener("keydown", (e) => {
   if (e.ctrlKey || e.metaKey || e.altKey) return;
   const tag = e.target.tagName, key = e.key;

@@ -202,7 +202,9 @@ impl<'a> Reader<'a> {
                 *middle = low + 0.5 * (high - low);
             }
             points.extend(self.there(middle));
-            let shown = bounds.iter().map(|&(low, high)| certain_digits(hull(low, high)));
+            let shown = bounds
+                .iter()
+                .map(|&(low, high)| certain_digits(hull(low, high)));
             digits.push(shown.collect());
         }
         let class = solution["class"].as_u64()? as usize;
@@ -266,7 +268,7 @@ impl<'a> Reader<'a> {
             along: "length of the path".into(),
             legend: "The curve is t along the path: 0 at the sketch, 1 where the dimensions are met. \
                      Dots are solutions, coloured by class; diamonds are folds, where the path turns back. \
-                     Click or drag in it."
+                     Click or drag in it; the wheel zooms."
                 .into(),
             levels: [(0.0, "0"), (1.0, "1")]
                 .map(|(t, label)| Level {
@@ -288,15 +290,27 @@ impl<'a> Reader<'a> {
             other => other.to_string(),
         };
         let rounded = |value: &Value| value.as_f64().map_or("?".into(), |x| format!("{x:.6}"));
-        row("mode, space", format!("{}, {}", plain(&result["mode"]), plain(&result["space"])));
-        row("steps, rejected", format!("{}, {}", result["steps"], result["rejected"]));
+        row(
+            "mode, space",
+            format!("{}, {}", plain(&result["mode"]), plain(&result["space"])),
+        );
+        row(
+            "steps, rejected",
+            format!("{}, {}", result["steps"], result["rejected"]),
+        );
         row("length of the path", rounded(&result["length"]));
         let range = &result["t_range"];
-        row("range of t", format!("{} to {}", rounded(&range[0]), rounded(&range[1])));
+        row(
+            "range of t",
+            format!("{} to {}", rounded(&range[0]), rounded(&range[1])),
+        );
         row("seconds", rounded(&result["seconds"]));
         let options = &result["options"];
         let bend = [0, 1].map(|k| plain(&options["bend"][k])).join("-");
-        row("bend", format!("{bend}, c = {}", plain(&options["bend_coefficient"])));
+        row(
+            "bend",
+            format!("{bend}, c = {}", plain(&options["bend_coefficient"])),
+        );
         for text in result["switched_on"].as_array().into_iter().flatten() {
             row("switched on", plain(text));
         }

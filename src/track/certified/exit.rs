@@ -56,7 +56,7 @@ impl<const D: usize> KrawczykTest<D> {
         local.slope(s, v);
         let mut correction = f64::INFINITY;
         for _ in 0..MAX_STEPS {
-            equations.differences(v, &mut self.far);
+            equations.directions(v, &mut self.far);
             equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
             self.f[m] = dot(c, &v[..n]) - 1.0;
             local.y.multiply(&self.f[..n], &mut self.v);
@@ -71,7 +71,7 @@ impl<const D: usize> KrawczykTest<D> {
             }
         }
         // The defect of the v reached, with what rounding and the exit's radius may hide of it.
-        equations.differences(v, &mut self.far);
+        equations.directions(v, &mut self.far);
         equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
         self.f[m] = dot(c, &v[..n]) - 1.0;
         let hidden = &mut self.bounds[0];

@@ -57,6 +57,7 @@ impl<const D: usize> KrawczykTest<D> {
         let t_of = |k: usize| local.z[k][m].abs() * hs[k];
         let t = (0..=ORDER).map(t_of).sum();
         let t_rate: f64 = (1..=ORDER).map(|k| k as f64 * t_of(k)).sum();
+        let per_term = gamma(equations.roundings(200) + 6 * equations.tail.longest);
         for (e, rest) in rest[..m].iter_mut().enumerate() {
             // Of Σ_k f_k sᵏ in absolute values throughout, Σ_k k f_k sᵏ is the derivative times s; that of
             // ½ (Σ |d_k| sᵏ)² for the differences, of E(Σ |t_k| sᵏ) for the lengths.
@@ -67,7 +68,14 @@ impl<const D: usize> KrawczykTest<D> {
                 rate += size * (1..=ORDER).map(|k| k as f64 * d_of(k)).sum::<f64>();
             }
             let (slope_size, slope_radius) = equations.slope_of_length(e, t);
-            *rest = gamma(200) * (rate + slope_size * t_rate) + slope_radius * t_rate;
+            // Either factor of a product of the tail has its rate.
+            for (half, [left, right]) in equations.tail.products(e) {
+                let d_of = |form: usize, k: usize| local.d[k].forms[form].abs() * hs[k];
+                let size = |form| (0..=ORDER).map(|k| d_of(form, k)).sum::<f64>();
+                let rate_of = |form| (1..=ORDER).map(|k| k as f64 * d_of(form, k)).sum::<f64>();
+                rate += half.abs() * (size(left) * rate_of(right) + size(right) * rate_of(left));
+            }
+            *rest = per_term * (rate + slope_size * t_rate) + slope_radius * t_rate;
         }
         for k in 1..=2 * ORDER {
             local.coefficient(equations, k, 0, &mut self.coefficient);

@@ -3,6 +3,7 @@
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
+use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -77,6 +78,9 @@ impl<'a, const D: usize> Ledger<'a, D> {
         let to = closing
             .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))
             .min(tube.proof.h);
+        if let Some(unknown) = self.not_positive(tube, (from, to)) {
+            return Err(Doubt::Sign(unknown));
+        }
         let mut crossings = std::mem::take(&mut self.crossings);
         let known = self.found.len();
         let separated = time.crossings(from, to, &mut crossings);
@@ -110,6 +114,25 @@ impl<'a, const D: usize> Ledger<'a, D> {
         );
         self.widen_t_range(&time, from, to);
         Ok(())
+    }
+
+    /// Proves that the auxiliary unknowns which are lengths or radii are positive on a stretch of a tube.
+    /// Otherwise names the first for which that could not be proved.
+    fn not_positive<const N: usize, Y: Frame<D>>(
+        &self,
+        tube: &Tube<D, N, Y>,
+        (from, to): (f64, f64),
+    ) -> Option<usize> {
+        let coordinates = self.homotopy.gauge.place.len();
+        let unknowns = self.homotopy.tail.unknowns.iter().enumerate();
+        let mut positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
+        let fails = |&(k, _): &(usize, _)| {
+            let along = tube.entry_along(coordinates + k);
+            let ((low, _), _) = along.bounds(from, to);
+            // Bounds are of the unknown minus 1.
+            (low + 1.0).next_down() <= 0.0 || low.is_nan()
+        };
+        positive.find(fails).map(|(k, _)| k)
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
@@ -154,7 +177,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
         self.found.push(found.clone());
         // Its place in the tube, until [`Ledger::place`] knows that on the path.
         self.places.push(Place {
-            arc: 0.5 * (a + b),
+            arc: tube.time().zero_between((a, b)),
             rising: crossing.rising,
             folds: None,
         });
@@ -319,9 +342,13 @@ impl<const D: usize> Ledger<'_, D> {
     ///
     /// The isometries that keep the gauge change the signs of coordinates. The second reference
     /// point's first coordinate and the third's second one tell which signs they must change;
-    /// that of the last coordinate is free.
+    /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
+    /// constraints fix the figure in its frame no isometry is left, and different solutions are not congruent.
     fn is_congruent(&self, one: &SolutionBox, other: &SolutionBox) -> (Same, bool) {
         let gauge = &self.homotopy.gauge;
+        if gauge.reference.is_empty() {
+            return (Same::No, false);
+        }
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * D + axis];
@@ -334,22 +361,23 @@ impl<const D: usize> Ledger<'_, D> {
                 _ => return (Same::Unknown, false),
             }
         }
-        for last in [false, true] {
+        // A motion first: a flat figure in space is its own mirror image.
+        let odd = turned.iter().filter(|&&turned| turned).count() % 2 == 1;
+        for last in [odd, !odd] {
+            turned[D - 1] = last;
             // Without any change of sign they are known to differ.
-            if !last && turned == [false; 3] {
+            let reversed = turned.iter().filter(|&&turned| turned).count();
+            if reversed == 0 || reversed % 2 == 1 && !self.homotopy.tail.mirrors {
                 continue;
             }
-            let signs = |i: usize| match gauge.place[i] % D {
-                axis if axis == D - 1 => last,
-                axis => turned[axis],
+            let signs = |i: usize| {
+                let flips = (0..D).filter(|&axis| turned[axis] && self.homotopy.flips(i, axis));
+                flips.count() % 2 == 1
             };
             match one.is_same(other, signs) {
                 Same::No => {}
-                decided => {
-                    // The determinant of the diagonal matrix of signs.
-                    let changes = turned.iter().filter(|&&turned| turned).count();
-                    return (decided, (changes + usize::from(last)) % 2 == 1);
-                }
+                // The determinant of the diagonal matrix of signs tells motions from reflections.
+                decided => return (decided, reversed % 2 == 1),
             }
         }
         (Same::No, false)

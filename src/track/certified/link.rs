@@ -205,14 +205,22 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
 
     /// t along the tube if `proof` were what is proved.
     pub fn time_if(&self, proof: &Proof) -> TimeAlong<N> {
-        let t = self.weights.len() - 2;
+        self.entry_if(proof, self.weights.len() - 2)
+    }
+
+    /// An unknown along the tube, in the place of t.
+    pub fn entry_along(&self, unknown: usize) -> TimeAlong<N> {
+        self.entry_if(&self.proof, unknown)
+    }
+
+    fn entry_if(&self, proof: &Proof, i: usize) -> TimeAlong<N> {
         // One rounding each, within what `TimeAlong` adds for its own.
         TimeAlong::with_low(
-            std::array::from_fn(|k| self.local.z[k][t]),
-            self.local.low[t],
+            std::array::from_fn(|k| self.local.z[k][i]),
+            self.local.low[i],
             proof.h,
-            round_up(proof.distance * self.weights[t], 1),
-            round_up(proof.slope_distance * self.weights[t], 1),
+            round_up(proof.distance * self.weights[i], 1),
+            round_up(proof.slope_distance * self.weights[i], 1),
         )
     }
 

@@ -6,6 +6,7 @@
 use super::link::{Ball, Frame, Tube};
 use super::shortfall::Shortfall;
 use crate::interval::rounding::largest;
+use crate::system::Homotopy;
 use crate::track::events::Undecided;
 use crate::track::full::{Equations, LARGEST_TANGENT, Local, Preconditioner, RefineError};
 
@@ -45,6 +46,8 @@ pub enum Doubt {
     Newton(f64),
     /// Nor can it begin: the smallest pivot of the Jacobian is so many times the largest.
     Singular(f64),
+    /// Whether an auxiliary unknown, of this number, is positive.
+    Sign(usize),
     /// Whether there is exactly one: |I − Y J| at its middle is this.
     Contraction(f64),
     /// Nor here: it may be `radius` away, and is alone within `alone`.
@@ -190,13 +193,18 @@ pub fn unlinked<const D: usize, const N: usize, Y: Frame<D>>(
 }
 
 /// What could not be told of a tube.
-pub fn undecided(doubt: Doubt, is_extended: bool, unit: f64) -> String {
+pub fn undecided(doubt: Doubt, is_extended: bool, homotopy: &Homotopy) -> String {
+    let unit = homotopy.unit;
     const WHETHER: &str = "it could not be decided whether the path meets t = 1";
     match doubt {
         Doubt::Time(Undecided { value, slope }) => format!(
             "{WHETHER}: a fold is too near, or two solutions are (t − 1 is between {:.1e} and {:.1e}, dt/ds \
              between {:.1e} and {:.1e})",
             value.0, value.1, slope.0, slope.1
+        ),
+        Doubt::Sign(unknown) => format!(
+            "{} could not be proved to stay positive; the figure degenerates there, or nearly so",
+            homotopy.tail.unknowns[unknown].name
         ),
         Doubt::Singular(pivots) => format!(
             "{WHETHER}: the Jacobian of a figure there is singular in 53 bits (its smallest pivot is {pivots:.1e} \
@@ -288,7 +296,7 @@ mod tests {
             .prove(&equations, &mut inverter, &guess, (true, false))
             .unwrap_err();
         assert_eq!(doubt, Doubt::Singular(0.0));
-        let reason = undecided(doubt, false, 1.0);
+        let reason = undecided(doubt, false, &homotopy);
         assert!(
             reason.contains("its smallest pivot is 0.0e0 times"),
             "{reason}"

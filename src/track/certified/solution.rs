@@ -5,7 +5,7 @@ use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::full::{Equations, InverseMaker, Local};
+use crate::track::full::{Equations, InverseMaker, Local, Tail};
 
 /// A box around a figure that meets the dimensions, proved to hold exactly one.
 #[derive(Debug, Clone)]
@@ -43,7 +43,8 @@ pub struct SolutionProver<const D: usize> {
     width: Vector,
     f: Vector,
     v: Vector,
-    half_squares: Vec<Interval>,
+    /// E(1) of every equation.
+    targets: Vec<Interval>,
     /// The box proved last.
     found: SolutionBox,
 }
@@ -60,11 +61,7 @@ impl<const D: usize> SolutionProver<D> {
             width: equations.vector(),
             f: equations.vector(),
             v: equations.vector(),
-            half_squares: homotopy
-                .lengths
-                .iter()
-                .map(|l| l.target_half_square())
-                .collect(),
+            targets: homotopy.rights.iter().map(|e| e.at_target()).collect(),
             found: SolutionBox {
                 centre: equations.vector(),
                 low: equations.vector(),
@@ -152,19 +149,26 @@ impl<const D: usize> SolutionProver<D> {
         let (m, n) = (equations.m, equations.n());
         let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
-        let per_entry = gamma(m + 12);
+        let per_entry = gamma(m + 12 + 2 * equations.tail.longest);
+        let is_free = |end: usize| (end < n) as usize as f64;
         let (rounding, width) = (&mut self.rounding, &mut self.width);
         for e in 0..m {
             let slope = local.lengths.terms[1][e].abs();
             let (mut size, mut change) = (slope, 0.0);
             for axis in 0..D {
-                let free = equations.ends[axis][e]
-                    .iter()
-                    .filter(|&&end| (end as usize) < n)
-                    .count() as f64;
+                let free = equations.ends[axis][e].map(|end| is_free(end as usize));
+                let free = free[0] + free[1];
                 size += local.d[0][axis][e].abs() * free;
                 // |w_i − w_j| times the row sum of the entry's two columns.
                 change += free * free;
+            }
+            for (half, forms) in equations.tail.products(e) {
+                // The same for a product of two factors.
+                let free = forms.map(|form| equations.tail.ends(form).map(is_free));
+                let [left, right] = free.map(|ends| ends[0] + ends[1]);
+                let value = |form: usize| local.d[0].forms[form].abs();
+                size += half.abs() * (value(forms[0]) * right + value(forms[1]) * left);
+                change += 2.0 * half.abs() * left * right;
             }
             rounding[e] = per_entry * size;
             width[e] = change;
@@ -207,7 +211,19 @@ impl<const D: usize> SolutionProver<D> {
                     let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
                     sum + (i - j).sqr()
                 });
-                self.f[e] = (squared * point(0.5) - self.half_squares[e]).mag();
+                let form = |form: usize| match form {
+                    Tail::ONE => point(1.0),
+                    _ => {
+                        let ends = equations.tail.ends(form);
+                        let [i, j] = ends.map(|end| point(local.z[0][end]));
+                        i - j
+                    }
+                };
+                let products = equations.tail.products(e);
+                let sum = products.fold(squared * point(0.5), |sum, (half, [left, right])| {
+                    sum + point(half) * form(left) * form(right)
+                });
+                self.f[e] = (sum - self.targets[e]).mag();
             }
         }
     }

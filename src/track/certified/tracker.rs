@@ -196,8 +196,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let equations = Equations::<D>::new(homotopy);
         let vector = || equations.vector();
         let mut sketch = Ball::new(&equations);
-        for (i, &place) in homotopy.gauge.place.iter().enumerate() {
-            let x = homotopy.sketch_box[place];
+        for (i, x) in homotopy.sketch_of_unknowns().enumerate() {
             sketch.centre[i] = x.mid();
             sketch.radius[i] = x.rad();
         }
@@ -574,7 +573,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     unlinked("that one's end", &before.exit, direction, tube, unit)
                 }
             },
-            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), unit),
+            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), self.homotopy),
         }
     }
 

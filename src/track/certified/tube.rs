@@ -26,7 +26,7 @@ use crate::interval::rounding::{gamma, in_range, largest, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{
-    DEGREE, Equations, InverseMaker, Lengths, Local, MAX_DEGREE, ORDER, RefineError,
+    DEGREE, Differences, Equations, InverseMaker, Lengths, Local, MAX_DEGREE, ORDER, RefineError,
 };
 use crate::track::{Driving, Options, Space};
 
@@ -48,9 +48,9 @@ pub struct KrawczykTest<const D: usize> {
     j0: Vec<f64>,
     pub(super) bounds: [Vector; 5],
     /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
-    pub(super) near: [Vector; D],
-    pub(super) far: [Vector; D],
-    pub(super) sums: [Vector; D],
+    pub(super) near: Differences<D>,
+    pub(super) far: Differences<D>,
+    pub(super) sums: Differences<D>,
     pub(super) coefficient: Vector,
     pub(super) lengths: Lengths,
     pub(super) v: Vector,
@@ -71,7 +71,6 @@ impl<const D: usize> KrawczykTest<D> {
     /// Room for the tubes of a problem.
     pub fn new(equations: &Equations<D>) -> Self {
         let n = equations.n();
-        let per_axis = || std::array::from_fn(|_| equations.per_edge());
         let entries = equations.pattern().entries();
         let mut ones = equations.vector();
         ones[..n].fill(1.0);
@@ -82,11 +81,11 @@ impl<const D: usize> KrawczykTest<D> {
             j2: vec![0.0; entries],
             j0: vec![0.0; equations.bordered_pattern().entries()],
             bounds: std::array::from_fn(|_| equations.vector()),
-            near: per_axis(),
-            far: per_axis(),
-            sums: per_axis(),
+            near: equations.room(),
+            far: equations.room(),
+            sums: equations.room(),
             coefficient: equations.per_edge(),
-            lengths: Lengths::new(equations.m),
+            lengths: Lengths::new(equations),
             v: equations.vector(),
             f: equations.vector(),
             u: equations.vector(),
@@ -145,8 +144,9 @@ impl<const D: usize> KrawczykTest<D> {
     ) -> Option<Norms> {
         let (m, n) = (equations.m, equations.n());
         self.u.copy_from_slice(weights);
-        // Differences, sums over a column, and the powers of t(s): fewer roundings than this.
-        let per_entry = gamma(m + 120);
+        // Differences, sums over a column, and the powers of t(s): fewer roundings than this. An entry of the
+        // tail's is a sum of at most twice as many terms as there are products.
+        let per_entry = gamma(m + 120 + 2 * equations.tail.longest);
         let [a, a2, square, r0] = self.products(equations, local);
         self.staleness = r0;
         let a = round_up(a, n + 2);
@@ -240,7 +240,7 @@ impl<const D: usize> KrawczykTest<D> {
             let (mut j_near, mut j_far) = ([0.0; LANE], [0.0; LANE]);
             let (mut j_width, mut size) = ([0.0; LANE], [0.0; LANE]);
             for axis in 0..D {
-                let of = |vectors: &[Vector; D]| vectors[axis].lanes()[l];
+                let of = |vectors: &Differences<D>| vectors[axis].lanes()[l];
                 let (sum, near, far) = (of(&self.sums), of(&self.near), of(&self.far));
                 for i in 0..LANE {
                     j_near[i] += near[i] * sum[i];
@@ -265,7 +265,12 @@ impl<const D: usize> KrawczykTest<D> {
                 gamma(200) * (size[i] + length_size) + length_radius
             });
         }
-        self.bound_bend(local, equations, t, ut, hs, per_entry);
+        for b in 0..equations.bends.len() {
+            self.bound_bend(b, local, equations, (t, ut), hs, per_entry);
+        }
+        if !equations.tail.is_empty() {
+            self.bound_tail(equations, local, hs, per_entry);
+        }
 
         // The coefficients of F along the tube.
         let [_, _, _, low, high] = &mut self.bounds;
@@ -288,12 +293,16 @@ impl<const D: usize> KrawczykTest<D> {
                 }
             }
         }
-        let beyond = 2 * ORDER + 1..=DEGREE;
-        high[equations.bend.edge] += beyond
-            .map(|k| {
-                local.bend_excess(equations, k).abs() * hs[k] * (k as f64 / (ORDER + 2) as f64)
-            })
-            .sum::<f64>();
+        for (b, bend) in equations.bends.iter().enumerate() {
+            let beyond = 2 * ORDER + 1..=DEGREE;
+            high[bend.edge] += beyond
+                .map(|k| {
+                    local.bend_excess(equations, b, k).abs()
+                        * hs[k]
+                        * (k as f64 / (ORDER + 2) as f64)
+                })
+                .sum::<f64>();
+        }
         // Rounding in Y f_{ORDER + 1}, a fused sum of m products; relative to its terms.
         for (low, f) in low[..m].iter_mut().zip(self.f.iter()) {
             *low += gamma(n + 2) * f.abs() * hs[ORDER + 1];
@@ -307,18 +316,52 @@ impl<const D: usize> KrawczykTest<D> {
         rounding[m] = per_entry * normal;
     }
 
-    /// Adds to the bounds of the distance that bends what its terms of degree > 2 in t bring.
+    /// Adds to the bounds what the tail's products bring: as for distances, whose two factors are alike.
+    fn bound_tail(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        hs: &[f64; DEGREE + 1],
+        per_entry: f64,
+    ) {
+        let tail = &equations.tail;
+        // A coefficient of F is a sum of at most six products of orders for each product of the equation.
+        let per_term = gamma(equations.roundings(200) + 6 * tail.longest);
+        let [rounding, higher, width, low, _] = &mut self.bounds;
+        let (near, far) = (&mut self.near.forms, &mut self.far.forms);
+        for form in 0..tail.forms() {
+            let size = |k: usize| local.d[k].forms[form].abs() * hs[k];
+            near[form] = size(0) + size(1) + size(2);
+            far[form] = (3..=ORDER).map(size).sum();
+        }
+        let sums = &self.sums.forms;
+        // |J_k| u and |J'(w)| u: either factor changes while the other is there.
+        for e in equations.m - tail.equations()..equations.m {
+            let both = |x, y| tail.half_products_abs(e, x, y) + tail.half_products_abs(e, y, x);
+            rounding[e] += per_entry * both(near, sums);
+            higher[e] += both(far, sums);
+            width[e] += both(sums, sums);
+        }
+        for (near, far) in near.iter_mut().zip(far.iter()) {
+            *near += far;
+        }
+        for e in equations.m - tail.equations()..equations.m {
+            low[e] += per_term * (2.0 * tail.half_products_abs(e, near, near));
+        }
+    }
+
+    /// Adds to the bounds of an equation of degree 4 in t what its terms of degree > 2 in t bring.
     fn bound_bend(
         &mut self,
+        b: usize,
         local: &Local<D>,
         equations: &Equations<D>,
-        t: f64,
-        ut: f64,
+        (t, ut): (f64, f64),
         hs: &[f64; DEGREE + 1],
         per_entry: f64,
     ) {
         let [rounding, higher, width, low, _] = &mut self.bounds;
-        let bend = &equations.bend;
+        let bend = &equations.bends[b];
         let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
         let cube = t * t * t;
         low[at] += gamma(200) * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
@@ -330,7 +373,7 @@ impl<const D: usize> KrawczykTest<D> {
         width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
         // All of the bend's terms, though the ones of e₂ are counted already.
         let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER)
-            .map(|k| local.bend_slope(k).abs() * hs[k])
+            .map(|k| local.bend_slope(b, k).abs() * hs[k])
             .sum();
         higher[at] += terms * ut;
     }
@@ -351,7 +394,9 @@ impl<const D: usize> KrawczykTest<D> {
         for (time, e2) in self.f[..m].iter_mut().zip(equations.e[2].iter()) {
             *time = e2 * slope;
         }
-        self.f[equations.bend.edge] = local.bend_slope(k);
+        for (b, bend) in equations.bends.iter().enumerate() {
+            self.f[bend.edge] = local.bend_slope(b, k);
+        }
         let values = if k == 1 { &mut self.j1 } else { &mut self.j2 };
         equations.pattern_values(&local.d[k], &self.f[..m], values);
     }

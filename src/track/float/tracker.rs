@@ -59,8 +59,8 @@ fn run<const D: usize>(
     let mut inverter = equations.inverter();
     let (mut now, mut next) = (Local::new(equations), Local::new(equations));
     let mut sketch = equations.vector();
-    for (x, &place) in sketch.iter_mut().zip(&homotopy.gauge.place) {
-        *x = homotopy.sketch[place];
+    for (x, exact) in sketch.iter_mut().zip(homotopy.sketch_of_unknowns()) {
+        *x = exact.mid();
     }
     now.z[0].copy_from_slice(&sketch);
     first_normal(equations, &mut inverter, &mut now, options.reverse)

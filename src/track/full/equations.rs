@@ -1,18 +1,24 @@
-//! H(X, t) laid out for the inner loops: one vector over all distances for each quantity.
+//! H(X, t) laid out for the inner loops: one vector over all equations for each quantity.
+//!
+//! Distances are the *head*: their differences stand in lanes, one vector for each axis. All other
+//! equations are the *tail*, a list of products of differences (`tail.rs`). Equations of the tail have a place
+//! in the head's vectors too, where their differences are zero, so that one loop serves the right-hand sides
+//! of all; what the tail adds costs one branch where there is none.
 
 use super::extended::Extended;
 use super::preconditioner::InverseMaker;
+use super::tail::Tail;
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::{Inverter, LANE, Sparse, Vector};
 use crate::system::Homotopy;
+use std::ops::{Deref, DerefMut};
 
-/// The degree of F in t: 4 for the bend, otherwise 2. In X it is 2.
-pub const MAX_DEGREE: usize = 4;
+pub use crate::constraint::MAX_DEGREE;
 
-/// E(t) = ½ a(t)² of the one distance that bends, a polynomial of degree 4.
+/// E(t) of an equation in which it is of degree 4, as for a distance that bends.
 #[derive(Debug, Clone, Copy)]
 pub struct Bend {
-    /// Which distance.
+    /// Which equation.
     pub edge: usize,
     /// The coefficients of E.
     pub e: [f64; 5],
@@ -27,14 +33,17 @@ pub struct Bend {
 pub struct Equations<const D: usize> {
     /// The number m of equations.
     pub m: usize,
-    /// The entries of z for either point's coordinates, per axis and distance.
+    /// The entries of z for either point's coordinates, per axis and distance; for other equations the spare
+    /// one.
     pub ends: [Vec<[u32; 2]>; D],
-    /// The coefficients of E up to t², per distance (the bend's too), and their radii.
+    /// The equations that are no distances.
+    pub tail: Tail,
+    /// The coefficients of E up to t², per equation (those of degree 4 too), and their radii.
     pub e: [Vector; 3],
     /// See `e`.
     pub e_radius: [Vector; 3],
-    /// The distance that bends.
-    pub bend: Bend,
+    /// The equations with an E of degree 4: the distance that bends, if there is one, and more in the tail.
+    pub bends: Vec<Bend>,
     /// The lengths in extended precision, once that was asked for.
     extended: Option<Box<Extended>>,
     /// The pattern of a derivative of the Jacobian.
@@ -70,13 +79,23 @@ impl<const D: usize> Equations<D> {
                 .map(|edge| edge.points.map(|p| entry(p, axis) as u32))
                 .collect()
         });
-        let lengths = &homotopy.lengths;
+        let ends = ends.map(|mut ends| {
+            ends.resize(m, [m as u32 + 1; 2]);
+            ends
+        });
+        let rights = &homotopy.rights;
         let coefficient = |pick: &dyn Fn(usize) -> f64| {
             let mut out = Vector::zeros(m);
             (0..m).for_each(|e| out[e] = pick(e));
             out
         };
-        let bend = homotopy.bend;
+        let bends = rights.iter().enumerate().filter(|(_, e)| e.degree > 2);
+        let bends = bends.map(|(edge, right)| Bend {
+            edge,
+            e: right.e,
+            e_radius: right.e_radius,
+        });
+        let mut tail = Tail::new(homotopy);
         // The edges of each column's entries, with axes and signs.
         let mut columns = vec![Vec::new(); m];
         for axis in 0..D {
@@ -101,9 +120,13 @@ impl<const D: usize> Equations<D> {
                 });
                 plain += 1;
             }
+            plain += tail.place_column(column, plain);
         }
-        let rows = |column: &Vec<(usize, usize, f64)>| column.iter().map(|c| c.0).collect();
-        let mut plain: Vec<Vec<usize>> = columns.iter().map(rows).collect();
+        let rows = |(column, entries): (usize, &Vec<(usize, usize, f64)>)| {
+            let head = entries.iter().map(|entry| entry.0);
+            head.chain(tail.rows_of_column(column)).collect()
+        };
+        let mut plain: Vec<Vec<usize>> = columns.iter().enumerate().map(rows).collect();
         plain.push((0..m).collect());
         let bordered: Vec<Vec<usize>> = plain
             .iter()
@@ -112,13 +135,10 @@ impl<const D: usize> Equations<D> {
         Equations {
             m,
             ends,
-            e: std::array::from_fn(|k| coefficient(&|e| lengths[e].e[k])),
-            e_radius: std::array::from_fn(|k| coefficient(&|e| lengths[e].e_radius[k])),
-            bend: Bend {
-                edge: bend,
-                e: lengths[bend].e,
-                e_radius: lengths[bend].e_radius,
-            },
+            e: std::array::from_fn(|k| coefficient(&|e| rights[e].e[k])),
+            e_radius: std::array::from_fn(|k| coefficient(&|e| rights[e].e_radius[k])),
+            bends: bends.collect(),
+            tail,
             extended: None,
             pattern: Sparse::new(&plain),
             bordered: Sparse::new(&bordered),
@@ -162,22 +182,52 @@ impl<const D: usize> Equations<D> {
         Vector::zeros(self.m)
     }
 
-    /// p_i − p_j for the vector `z`, per axis and distance.
-    #[inline(always)]
-    pub fn differences(&self, z: &[f64], out: &mut [Vector; D]) {
-        for (ends, out) in self.ends.iter().zip(out) {
-            for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
-                *d = z[i as usize] - z[j as usize];
-            }
+    /// Room for the differences of a vector of unknowns.
+    pub fn room(&self) -> Differences<D> {
+        Differences {
+            axes: std::array::from_fn(|_| self.per_edge()),
+            forms: Vector::zeros(self.tail.forms()),
         }
     }
 
-    /// z_i + z_j likewise.
-    pub fn sums(&self, z: &[f64], out: &mut [Vector; D]) {
-        for (ends, out) in self.ends.iter().zip(out) {
+    /// How many roundings any one term passes through, `base` being enough for distances. The one
+    /// place where the length of the longest equation enters error bounds: a sum of distances' squares
+    /// has up to three products, and each product more is one addition more.
+    pub fn roundings(&self, base: usize) -> usize {
+        base + self.tail.longest.saturating_sub(3)
+    }
+
+    /// p_i − p_j for the point `z`, per axis and distance, and the tail's forms.
+    #[inline(always)]
+    pub fn differences(&self, z: &[f64], out: &mut Differences<D>) {
+        self.directions(z, out);
+        if !self.tail.is_empty() {
+            out.forms[Tail::ONE] = 1.0;
+        }
+    }
+
+    /// The same for a direction `v`: the tail's number 1 does not change along it.
+    #[inline(always)]
+    pub fn directions(&self, v: &[f64], out: &mut Differences<D>) {
+        for (ends, out) in self.ends.iter().zip(&mut out.axes) {
+            for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
+                *d = v[i as usize] - v[j as usize];
+            }
+        }
+        if !self.tail.is_empty() {
+            self.tail.directions(v, &mut out.forms);
+        }
+    }
+
+    /// z_i + z_j likewise, for sizes of directions.
+    pub fn sums(&self, z: &[f64], out: &mut Differences<D>) {
+        for (ends, out) in self.ends.iter().zip(&mut out.axes) {
             for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
                 *d = z[i as usize] + z[j as usize];
             }
+        }
+        if !self.tail.is_empty() {
+            self.tail.sums(z, &mut out.forms);
         }
     }
 
@@ -194,57 +244,76 @@ impl<const D: usize> Equations<D> {
                 t1[l][k] = 2.0f64.mul_add(slope, e1[l][k]);
             }
         }
-        let e = &self.bend.e;
-        let e4t = e[4] * t;
-        out.bend = [
-            e[0] + t * (e[1] + t * (e[2] + t * (e[3] + e4t))),
-            e[1] + t * (2.0 * e[2] + t * (3.0 * e[3] + 4.0 * e4t)),
-            e[2] + t * (3.0 * e[3] + 6.0 * e4t),
-            e[3] + 4.0 * e4t,
-            e[4],
-        ];
-        out.terms[0][self.bend.edge] = out.bend[0];
-        out.terms[1][self.bend.edge] = out.bend[1];
+        for (bend, out_of_bend) in self.bends.iter().zip(&mut out.bends) {
+            let e = &bend.e;
+            let e4t = e[4] * t;
+            *out_of_bend = [
+                e[0] + t * (e[1] + t * (e[2] + t * (e[3] + e4t))),
+                e[1] + t * (2.0 * e[2] + t * (3.0 * e[3] + 4.0 * e4t)),
+                e[2] + t * (3.0 * e[3] + 6.0 * e4t),
+                e[3] + 4.0 * e4t,
+                e[4],
+            ];
+            out.terms[0][bend.edge] = out_of_bend[0];
+            out.terms[1][bend.edge] = out_of_bend[1];
+        }
     }
 
     /// F from differences and lengths.
     #[inline(always)]
-    pub fn residual(&self, d: &[Vector; D], lengths: &Lengths, out: &mut Vector) {
-        let d = d.each_ref().map(|d| d.lanes());
+    pub fn residual(&self, differences: &Differences<D>, lengths: &Lengths, out: &mut Vector) {
+        let d = differences.each_ref().map(|d| d.lanes());
         let t0 = lengths.terms[0].lanes();
-        let out = out.lanes_mut();
+        let lanes = out.lanes_mut();
         for l in 0..t0.len() {
             for k in 0..LANE {
                 let squared: f64 = (0..D).map(|axis| d[axis][l][k] * d[axis][l][k]).sum();
-                out[l][k] = 0.5f64.mul_add(squared, -t0[l][k]);
+                lanes[l][k] = 0.5f64.mul_add(squared, -t0[l][k]);
             }
+        }
+        if !self.tail.is_empty() {
+            let forms = &differences.forms;
+            self.tail.add_half_products(1.0, forms, forms, out);
         }
     }
 
     /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
-    /// radii of the coefficients. No term goes through more than 20 roundings.
-    pub fn residual_error(&self, d: &[Vector; D], t: f64, out: &mut Vector) {
+    /// radii of the coefficients. No term of a distance goes through more than 20 roundings.
+    pub fn residual_error(&self, d: &Differences<D>, t: f64, out: &mut Vector) {
         let t = t.abs();
-        for (e, out) in out[..self.m].iter_mut().enumerate() {
-            let squared: f64 = (0..D).map(|axis| d[axis][e].powi(2)).sum();
-            let value = |c: &[Vector; 3]| c[0][e].abs() + t * (c[1][e].abs() + t * c[2][e].abs());
-            let (mut size, mut radius) = (value(&self.e), value(&self.e_radius));
-            if e == self.bend.edge {
-                let (c, r) = (&self.bend.e, &self.bend.e_radius);
-                let cube = t * t * t;
-                size += cube * (c[3].abs() + t * c[4].abs());
-                radius += cube * (r[3] + t * r[4]);
+        let (per_term, roundings) = (gamma(self.roundings(20)), self.roundings(24));
+        let axes = d.each_ref().map(|d| d.lanes());
+        let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
+        let [r0, r1, r2] = self.e_radius.each_ref().map(|r| r.lanes());
+        let lanes = out.lanes_mut().iter_mut().take(e0.len());
+        for (l, out) in lanes.enumerate() {
+            for k in 0..LANE {
+                let squared: f64 = (0..D).map(|axis| axes[axis][l][k] * axes[axis][l][k]).sum();
+                let size = e0[l][k].abs() + t * (e1[l][k].abs() + t * e2[l][k].abs());
+                let radius = r0[l][k] + t * (r1[l][k] + t * r2[l][k]);
+                out[k] = round_up(per_term * (0.5 * squared + size) + radius, roundings);
             }
-            *out = round_up(gamma(20) * (0.5 * squared + size) + radius, 24);
+        }
+        let cube = t * t * t;
+        for bend in &self.bends {
+            let (c, r) = (&bend.e, &bend.e_radius);
+            let size = cube * (c[3].abs() + t * c[4].abs());
+            let radius = cube * (r[3] + t * r[4]);
+            let more = per_term * size + radius;
+            out[bend.edge] = round_up(out[bend.edge] + more, roundings);
+        }
+        for e in self.m - self.tail.equations()..self.m {
+            let size = self.tail.half_products_abs(e, &d.forms, &d.forms);
+            out[e] = round_up(out[e] + per_term * size, roundings);
         }
     }
 
     /// J v at the given differences and lengths, `dv` being the differences of v and `vt` its t.
     pub fn jacobian_times(
         &self,
-        d: &[Vector; D],
+        d: &Differences<D>,
         lengths: &Lengths,
-        dv: &[Vector; D],
+        dv: &Differences<D>,
         vt: f64,
         out: &mut [f64],
     ) {
@@ -252,33 +321,46 @@ impl<const D: usize> Equations<D> {
             let product: f64 = (0..D).map(|axis| d[axis][e] * dv[axis][e]).sum();
             *out = product - lengths.terms[1][e] * vt;
         }
+        if !self.tail.is_empty() {
+            self.tail.add_half_products(1.0, &d.forms, &dv.forms, out);
+            self.tail.add_half_products(1.0, &dv.forms, &d.forms, out);
+        }
     }
 
     /// How far J v may be from what [`Equations::jacobian_times`] computes, J being taken anywhere
-    /// within the given radii (as differences' sums, and of t) of the point: no term goes through
-    /// more than 20 roundings.
+    /// within the given radii (as differences' sums, and of t) of the point: no term of a distance goes
+    /// through more than 20 roundings.
     pub fn jacobian_times_error(
         &self,
-        (d, t): (&[Vector; D], f64),
-        (spread, t_radius): (&[Vector; D], f64),
-        (dv, vt): (&[Vector; D], f64),
+        (d, t): (&Differences<D>, f64),
+        (spread, t_radius): (&Differences<D>, f64),
+        (dv, vt): (&Differences<D>, f64),
         out: &mut [f64],
     ) {
         let (t, vt) = (t.abs() + t_radius, vt.abs());
+        // Either factor of a product passes through one sum more than a distance's difference does.
+        let per_term = gamma(self.roundings(20) + self.tail.longest);
         for (e, out) in out[..self.m].iter_mut().enumerate() {
             let (mut size, mut moved) = (0.0, 0.0);
             for axis in 0..D {
                 size += (d[axis][e] * dv[axis][e]).abs();
                 moved += spread[axis][e] * dv[axis][e].abs();
             }
+            if !self.tail.is_empty() {
+                let both = |a, b| self.tail.half_products_abs(e, a, b);
+                let of_v = &dv.forms;
+                size += both(&d.forms, of_v) + both(of_v, &d.forms);
+                moved += both(&spread.forms, of_v) + both(of_v, &spread.forms);
+            }
             let (slope_size, slope_radius) = self.slope_of_length(e, t);
             let mut curvature = 2.0 * (self.e[2][e].abs() + self.e_radius[2][e]);
-            if e == self.bend.edge {
-                let (c, r) = (self.bend.e.map(f64::abs), &self.bend.e_radius);
+            if let Some(bend) = self.bend_of(e) {
+                let (c, r) = (bend.e.map(f64::abs), &bend.e_radius);
                 curvature += t * (6.0 * (c[3] + r[3]) + 12.0 * t * (c[4] + r[4]));
             }
             let time = slope_radius + curvature * t_radius;
-            *out = round_up(gamma(20) * (size + slope_size * vt) + moved + time * vt, 40);
+            let bound = per_term * (size + slope_size * vt) + moved + time * vt;
+            *out = round_up(bound, self.roundings(40) + self.tail.longest);
         }
     }
 
@@ -289,12 +371,18 @@ impl<const D: usize> Equations<D> {
             let [_, e1, e2, e3, e4] = e.map(f64::abs);
             e1 + t * (2.0 * e2 + t * (3.0 * e3 + t * (4.0 * e4)))
         };
-        if edge == self.bend.edge {
-            (slope(self.bend.e), slope(self.bend.e_radius))
+        if let Some(bend) = self.bend_of(edge) {
+            (slope(bend.e), slope(bend.e_radius))
         } else {
             let of = |c: &[Vector; 3]| [c[0][edge], c[1][edge], c[2][edge], 0.0, 0.0];
             (slope(of(&self.e)), slope(of(&self.e_radius)))
         }
+    }
+
+    /// What an equation has beyond degree 2 in t.
+    #[inline(always)]
+    fn bend_of(&self, equation: usize) -> Option<&Bend> {
+        self.bends.iter().find(|bend| bend.edge == equation)
     }
 
     /// An inverter for the Jacobian with its last row, and room for that matrix's values.
@@ -317,11 +405,14 @@ impl<const D: usize> Equations<D> {
 
     /// Values for [`Equations::pattern`]: the differences, and minus `time` in the column of t.
     #[inline(always)]
-    pub fn pattern_values(&self, d: &[Vector; D], time: &[f64], out: &mut [f64]) {
-        for (sources, d) in self.sources.iter().zip(d) {
+    pub fn pattern_values(&self, d: &Differences<D>, time: &[f64], out: &mut [f64]) {
+        for (sources, d) in self.sources.iter().zip(&d.axes) {
             for source in sources {
                 out[source.plain as usize] = source.sign * d[source.edge as usize];
             }
+        }
+        if !self.tail.is_empty() {
+            self.tail.values(&d.forms, |at| at.plain as usize, out);
         }
         let last = self.pattern.entries() - self.m;
         for (out, time) in out[last..].iter_mut().zip(time) {
@@ -332,15 +423,18 @@ impl<const D: usize> Equations<D> {
     /// Values for [`Equations::bordered_pattern`].
     pub fn bordered_values(
         &self,
-        d: &[Vector; D],
+        d: &Differences<D>,
         lengths: &Lengths,
         normal: &[f64],
         out: &mut [f64],
     ) {
-        for (sources, d) in self.sources.iter().zip(d) {
+        for (sources, d) in self.sources.iter().zip(&d.axes) {
             for source in sources {
                 out[source.bordered as usize] = source.sign * d[source.edge as usize];
             }
+        }
+        if !self.tail.is_empty() {
+            self.tail.values(&d.forms, |at| at.bordered as usize, out);
         }
         let mut last = 0;
         for (column, normal) in normal[..self.m].iter().enumerate() {
@@ -354,21 +448,44 @@ impl<const D: usize> Equations<D> {
     }
 }
 
-/// Taylor coefficients of the lengths' half squares at some t.
+/// Differences of a vector of unknowns.
+#[derive(Debug, Clone)]
+pub struct Differences<const D: usize> {
+    /// p_i − p_j, per axis and distance.
+    pub axes: [Vector; D],
+    /// The factors of the tail's products.
+    pub forms: Vector,
+}
+
+impl<const D: usize> Deref for Differences<D> {
+    type Target = [Vector; D];
+
+    fn deref(&self) -> &[Vector; D] {
+        &self.axes
+    }
+}
+
+impl<const D: usize> DerefMut for Differences<D> {
+    fn deref_mut(&mut self) -> &mut [Vector; D] {
+        &mut self.axes
+    }
+}
+
+/// Taylor coefficients of the right-hand sides E at some t.
 #[derive(Debug, Clone)]
 pub struct Lengths {
-    /// E and E' of all distances.
+    /// E and E' of all equations.
     pub terms: [Vector; 2],
-    /// All five coefficients of the bend.
-    pub bend: [f64; 5],
+    /// All five coefficients of those of degree 4.
+    pub bends: Vec<[f64; 5]>,
 }
 
 impl Lengths {
-    /// Room for `m` distances.
-    pub fn new(m: usize) -> Self {
+    /// Room for the right-hand sides of a problem.
+    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
         Lengths {
-            terms: [Vector::zeros(m), Vector::zeros(m)],
-            bend: [0.0; 5],
+            terms: [equations.per_edge(), equations.per_edge()],
+            bends: vec![[0.0; 5]; equations.bends.len()],
         }
     }
 }

@@ -3,9 +3,10 @@
 //! Points are pairs of vectors, z = high + low, each pair of entries a double-double. Only F itself
 //! is evaluated so: everything else in a proof tolerates relative errors of 2⁻⁵³.
 
-use super::equations::Equations;
+use super::equations::{Differences, Equations};
 use super::local::{Local, RefineError};
 use super::preconditioner::Preconditioner;
+use super::tail::Tail;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
 use crate::linalg::Vector;
@@ -14,10 +15,10 @@ use crate::system::Homotopy;
 /// A coefficient and how far the exact one may be from it.
 type Approximate = (DoubleDouble, f64);
 
-/// The lengths in double-doubles.
+/// The right-hand sides in double-doubles.
 #[derive(Debug, Clone)]
 pub struct Extended {
-    /// E(t) of every distance.
+    /// E(t) of every equation.
     half_squares: Vec<[Approximate; 5]>,
     /// E(1), from the target itself.
     targets: Vec<Approximate>,
@@ -26,10 +27,10 @@ pub struct Extended {
 impl Extended {
     /// From a problem's exact numbers.
     pub fn new(homotopy: &Homotopy) -> Self {
-        let lengths = homotopy.exact_lengths.iter();
+        let rights = homotopy.rights.iter();
         Extended {
-            half_squares: lengths.clone().map(|l| l.half_square()).collect(),
-            targets: lengths.map(|l| l.target_half_square()).collect(),
+            half_squares: rights.clone().map(|e| e.doubles()).collect(),
+            targets: rights.map(|e| e.double_at_target()).collect(),
         }
     }
 
@@ -38,13 +39,16 @@ impl Extended {
         &self,
         equations: &Equations<D>,
         (z, low): (&[f64], &[f64]),
-        out: &mut [Vector; D],
+        out: &mut Differences<D>,
     ) {
         for (axis, out) in out.iter_mut().enumerate() {
             for (e, out) in out[..equations.m].iter_mut().enumerate() {
                 // The float nearest to it.
-                *out = difference(equations, (z, low), axis, e).hi;
+                *out = difference((z, low), equations.ends[axis][e].map(|end| end as usize)).hi;
             }
+        }
+        for (form, out) in out.forms.iter_mut().enumerate() {
+            *out = form_value(equations, (z, low), form).hi;
         }
     }
 
@@ -115,24 +119,31 @@ fn refuse_overlap((z, low): (&[f64], &[f64]), error: &mut Vector) {
     }
 }
 
-fn difference<const D: usize>(
-    equations: &Equations<D>,
-    (z, low): (&[f64], &[f64]),
-    axis: usize,
-    e: usize,
-) -> DoubleDouble {
-    let [i, j] = equations.ends[axis][e].map(|end| DoubleDouble {
-        hi: z[end as usize],
-        lo: low[end as usize],
+fn difference((z, low): (&[f64], &[f64]), ends: [usize; 2]) -> DoubleDouble {
+    let [i, j] = ends.map(|end| DoubleDouble {
+        hi: z[end],
+        lo: low[end],
     });
     i - j
 }
 
-/// ½ |p_i − p_j|² − E, as a float, and how far the exact value may be away: E has been computed
+fn form_value<const D: usize>(
+    equations: &Equations<D>,
+    z: (&[f64], &[f64]),
+    form: usize,
+) -> DoubleDouble {
+    match form {
+        Tail::ONE => DoubleDouble::from(1.0),
+        _ => difference(z, equations.tail.ends(form)),
+    }
+}
+
+/// q_e(z) − E, as a float, and how far the exact value may be away: E has been computed
 /// from terms of that `size` in sum, whose coefficients are known up to what adds up to `radius`.
 ///
-/// No term passes through more than 20 operations: a difference is relatively exact, twice in a
-/// square; D sums; ten in Horner's rule; the last subtraction.
+/// No term of a distance passes through more than 20 operations: a difference is relatively exact, twice in
+/// a square; D sums; ten in Horner's rule; the last subtraction. A product of the tail passes through one
+/// multiplication more, by half a small whole number.
 fn equation<const D: usize>(
     equations: &Equations<D>,
     z: (&[f64], &[f64]),
@@ -142,14 +153,33 @@ fn equation<const D: usize>(
     radius: f64,
 ) -> (f64, f64) {
     let squared = (0..D).fold(DoubleDouble::default(), |sum, axis| {
-        let d = difference(equations, z, axis, e);
+        let d = difference(z, equations.ends[axis][e].map(|end| end as usize));
         sum + d * d
     });
     let half = squared.half();
+    let (half, products) = add_tail(equations, z, e, half);
     let f = half - length;
-    let rounding = gamma_double(20) * (half.size() + size) + f.lo.abs();
+    let size = squared.half().size() + products + size;
+    let rounding = gamma_double(equations.roundings(20)) * size + f.lo.abs();
     // The bound's own roundings: two for every step of Horner's rule, and sizes rounded to floats.
-    (f.hi, round_up(rounding + radius, 40))
+    (f.hi, round_up(rounding + radius, equations.roundings(40)))
+}
+
+/// Adds what the tail has to the left-hand side of an equation, and tells the size of that.
+fn add_tail<const D: usize>(
+    equations: &Equations<D>,
+    z: (&[f64], &[f64]),
+    e: usize,
+    mut sum: DoubleDouble,
+) -> (DoubleDouble, f64) {
+    let mut size = 0.0;
+    for (half, forms) in equations.tail.products(e) {
+        let [left, right] = forms.map(|form| form_value(equations, z, form));
+        let product = DoubleDouble::from(half) * left * right;
+        sum = sum + product;
+        size += product.size();
+    }
+    (sum, size)
 }
 
 /// `z += change`, entry by entry, z being a pair of vectors.

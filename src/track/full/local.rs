@@ -1,6 +1,6 @@
 //! A point of the path with its preconditioner and the path's Taylor expansion there.
 
-use super::equations::{Equations, Lengths, MAX_DEGREE};
+use super::equations::{Differences, Equations, Lengths, MAX_DEGREE};
 use super::preconditioner::Preconditioner;
 use crate::interval::rounding::largest;
 use crate::linalg::{LANE, Matrix, Vector};
@@ -34,8 +34,8 @@ pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     pub low: Vector,
     /// Whether F(z₀) is taken in extended precision (`extended.rs`).
     pub is_extended: bool,
-    /// Their differences p_i − p_j, per axis and distance.
-    pub d: [[Vector; D]; N],
+    /// Their differences p_i − p_j, and the factors of the tail's products.
+    pub d: [Differences<D>; N],
     /// Taylor coefficients of the lengths at t₀.
     pub lengths: Lengths,
     /// The normal c.
@@ -64,14 +64,13 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// Room for one point.
     pub fn new(equations: &Equations<D>) -> Self {
         const { assert!(N > 1 && N - 1 <= MAX_ORDER, "room for the powers of t(s)") };
-        let m = equations.m;
         let vector = || equations.vector();
         Local {
             z: std::array::from_fn(|_| vector()),
             low: vector(),
             is_extended: false,
-            d: std::array::from_fn(|_| std::array::from_fn(|_| equations.per_edge())),
-            lengths: Lengths::new(m),
+            d: std::array::from_fn(|_| equations.room()),
+            lengths: Lengths::new(equations),
             normal: vector(),
             y: Y::new(equations),
             powers: [[0.0; POWERS]; MAX_DEGREE],
@@ -244,10 +243,10 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
             f[m] = if k == 1 { 1.0 } else { 0.0 };
             self.y.solve(equations, &f[..n], &mut self.delta);
             self.z[k].copy_from_slice(&self.delta);
-            equations.differences(&self.z[k], &mut self.d[k]);
+            equations.directions(&self.z[k], &mut self.d[k]);
             if !Y::FRESH {
                 // One step of iterative refinement, as Y was made at the prediction.
-                self.subtract_jacobian_times(k, m, &mut f);
+                self.subtract_jacobian_times(equations, k, &mut f);
                 f[m] -= dot(&self.normal[..n], &self.z[k][..n]);
                 self.y.solve(equations, &f[..n], &mut self.delta);
                 for (z, delta) in self.z[k].lanes_mut().iter_mut().zip(self.delta.lanes()) {
@@ -255,7 +254,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
                         z[i] += delta[i];
                     }
                 }
-                equations.differences(&self.z[k], &mut self.d[k]);
+                equations.directions(&self.z[k], &mut self.d[k]);
             }
             self.set_power(k, self.z[k][m]);
             self.f = f;
@@ -267,8 +266,8 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// `f −= J z_k` in the first m rows.
     #[inline(always)]
-    fn subtract_jacobian_times(&self, k: usize, m: usize, f: &mut Vector) {
-        let t = self.z[k][m];
+    fn subtract_jacobian_times(&self, equations: &Equations<D>, k: usize, f: &mut Vector) {
+        let t = self.z[k][equations.m];
         let slope = self.lengths.terms[1].lanes();
         let (d0, dk) = (
             self.d[0].each_ref().map(|d| d.lanes()),
@@ -279,6 +278,11 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
                 let product: f64 = (0..D).map(|axis| d0[axis][l][i] * dk[axis][l][i]).sum();
                 f[i] -= product - slope[l][i] * t;
             }
+        }
+        if !equations.tail.is_empty() {
+            let (d0, dk) = (&self.d[0].forms, &self.d[k].forms);
+            equations.tail.add_half_products(-1.0, d0, dk, f);
+            equations.tail.add_half_products(-1.0, dk, d0, f);
         }
     }
 
@@ -337,21 +341,37 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
                 }
             }
         } else {
-            out[equations.bend.edge] -= self.bend_excess(equations, k);
+            for (b, bend) in equations.bends.iter().enumerate() {
+                out[bend.edge] -= self.bend_excess(equations, b, k);
+            }
+        }
+        if !equations.tail.is_empty() {
+            for a in least..=k / 2 {
+                let b = k - a;
+                if b > Self::ORDER {
+                    continue;
+                }
+                let (x, y) = (&self.d[a].forms, &self.d[b].forms);
+                equations.tail.add_half_products(1.0, x, y, out);
+                if a != b {
+                    equations.tail.add_half_products(1.0, y, x, out);
+                }
+            }
         }
     }
 
-    /// What the bend's E(t(s)) has at sᵏ beyond E' t_k and e₂ (t(s) − t₀)².
-    pub fn bend_excess(&self, equations: &Equations<D>, k: usize) -> f64 {
-        let c = &self.lengths.bend;
-        (c[2] - equations.bend.e[2]) * self.powers[1][k]
+    /// What E(t(s)) of the `bend`-th equation of degree 4 in t has at sᵏ beyond E' t_k and
+    /// e₂ (t(s) − t₀)².
+    pub fn bend_excess(&self, equations: &Equations<D>, bend: usize, k: usize) -> f64 {
+        let c = &self.lengths.bends[bend];
+        (c[2] - equations.bends[bend].e[2]) * self.powers[1][k]
             + c[3] * self.powers[2][k]
             + c[4] * self.powers[3][k]
     }
 
-    /// The coefficient of sᵏ, k ≥ 1, in the bend's E'(t(s)).
-    pub fn bend_slope(&self, k: usize) -> f64 {
-        let c = &self.lengths.bend;
+    /// The coefficient of sᵏ, k ≥ 1, in E'(t(s)) of the `bend`-th equation of degree 4 in t.
+    pub fn bend_slope(&self, bend: usize, k: usize) -> f64 {
+        let c = &self.lengths.bends[bend];
         2.0 * c[2] * self.powers[0][k]
             + 3.0 * c[3] * self.powers[1][k]
             + 4.0 * c[4] * self.powers[2][k]
@@ -482,7 +502,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Work space of [`Local::meet`].
 #[derive(Debug)]
 pub struct Meeting<const D: usize> {
-    d: [Vector; D],
+    d: Differences<D>,
     lengths: Lengths,
     f: Vector,
     delta: Vector,
@@ -493,8 +513,8 @@ impl<const D: usize> Meeting<D> {
     /// For one problem.
     pub fn new(equations: &Equations<D>) -> Self {
         Meeting {
-            d: std::array::from_fn(|_| equations.per_edge()),
-            lengths: Lengths::new(equations.m),
+            d: equations.room(),
+            lengths: Lengths::new(equations),
             f: equations.vector(),
             delta: equations.vector(),
             slope: equations.vector(),

@@ -10,9 +10,11 @@ mod preconditioner;
 mod singular;
 mod singularity;
 mod start;
+mod tail;
 
-pub use equations::{Equations, Lengths, MAX_DEGREE};
+pub use equations::{Differences, Equations, Lengths, MAX_DEGREE};
 pub use extended::{Extended, shift};
 pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, condition, dot};
 pub use preconditioner::{InverseMaker, Preconditioner};
 pub use start::{LARGEST_TANGENT, first_normal, path_length};
+pub use tail::Tail;

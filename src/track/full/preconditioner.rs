@@ -1,6 +1,6 @@
 //! What brings points onto the path: an approximate inverse of [J; c].
 
-use super::equations::{Equations, Lengths};
+use super::equations::{Differences, Equations, Lengths};
 use crate::linalg::{Inverter, Matrix, Singular, Vector};
 
 /// An approximate inverse Y of the Jacobian bordered by the normal, in whatever form.
@@ -19,7 +19,7 @@ pub trait Preconditioner<const D: usize> {
         &mut self,
         maker: &mut Self::Maker,
         equations: &Equations<D>,
-        at: (&[Vector; D], &Lengths, &Vector),
+        at: (&Differences<D>, &Lengths, &Vector),
     ) -> Result<bool, Singular>;
 
     /// Why none could be made last, where that is not because the matrix is singular.
@@ -47,7 +47,7 @@ impl<const D: usize> Preconditioner<D> for Matrix {
         &mut self,
         (inverter, values): &mut Self::Maker,
         equations: &Equations<D>,
-        (d, lengths, normal): (&[Vector; D], &Lengths, &Vector),
+        (d, lengths, normal): (&Differences<D>, &Lengths, &Vector),
     ) -> Result<bool, Singular> {
         equations.bordered_values(d, lengths, normal, values);
         inverter.invert(values, self)?;

@@ -43,7 +43,7 @@ pub struct Along<const D: usize> {
     pub slope_radius: Vector,
     pub curvature: Vector,
     /// What the bend's E' adds above s^SIGNED.
-    bend_tail: f64,
+    bend_tails: Vec<f64>,
     coefficient: Vector,
 }
 
@@ -67,7 +67,7 @@ impl<const D: usize> Along<D> {
             slope_size: equations.per_edge(),
             slope_radius: equations.per_edge(),
             curvature: equations.per_edge(),
-            bend_tail: 0.0,
+            bend_tails: vec![0.0; equations.bends.len()],
             coefficient: equations.per_edge(),
         }
     }
@@ -140,8 +140,10 @@ impl<const D: usize> Along<D> {
             }
         }
         for k in 2 * ORDER + 1..=DEGREE {
-            let excess = local.bend_excess(equations, k).abs();
-            self.high[equations.bend.edge] += excess * hs[k] * (k as f64 / COEFFICIENTS as f64);
+            for (b, bend) in equations.bends.iter().enumerate() {
+                let excess = local.bend_excess(equations, b, k).abs();
+                self.high[bend.edge] += excess * hs[k] * (k as f64 / COEFFICIENTS as f64);
+            }
         }
         let (t, at_point, rounding) = (self.time.t, gamma(POINT), gamma(COEFFICIENT));
         let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
@@ -178,19 +180,22 @@ impl<const D: usize> Along<D> {
             }
         }
         // Up to t² the bend's coefficients are among the others.
-        let bend = &equations.bend;
         let beyond = |c: [f64; 5], t: f64| t * t * t * (c[3] + t * c[4]);
-        self.low[bend.edge] +=
-            at_point * beyond(bend.e.map(f64::abs), t0) + beyond(bend.e_radius, t);
+        for bend in &equations.bends {
+            self.low[bend.edge] +=
+                at_point * beyond(bend.e.map(f64::abs), t0) + beyond(bend.e_radius, t);
+        }
     }
 
     /// Measures t, E' and E''.
     fn measure_time(&mut self, equations: &Equations<D>, local: &Locals<D>) {
         let hs = &self.powers;
         self.time = Time::new(std::array::from_fn(|k| local.z[k][equations.m]), hs);
-        self.bend_tail = (SIGNED + 1..=(MAX_DEGREE - 1) * ORDER)
-            .map(|k| local.bend_slope(k).abs() * hs[k])
-            .sum();
+        for (b, tail) in self.bend_tails.iter_mut().enumerate() {
+            *tail = (SIGNED + 1..=(MAX_DEGREE - 1) * ORDER)
+                .map(|k| local.bend_slope(b, k).abs() * hs[k])
+                .sum();
+        }
         let t = self.time.t;
         let [_, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
         let [_, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
@@ -204,21 +209,21 @@ impl<const D: usize> Along<D> {
                 curvature[i] = 2.0 * (e2[l][i].abs() + r2[l][i]);
             }
         }
-        let bend = &equations.bend;
         let beyond = t + 1.0;
         let second = |c: [f64; 5]| 2.0 * c[2] + beyond * (6.0 * c[3] + 12.0 * beyond * c[4]);
-        let (size, radius) = equations.slope_of_length(bend.edge, t);
-        self.slope_size[bend.edge] = size;
-        self.slope_radius[bend.edge] = radius;
-        self.curvature[bend.edge] = second(bend.e.map(f64::abs)) + second(bend.e_radius);
+        for bend in &equations.bends {
+            let (size, radius) = equations.slope_of_length(bend.edge, t);
+            self.slope_size[bend.edge] = size;
+            self.slope_radius[bend.edge] = radius;
+            self.curvature[bend.edge] = second(bend.e.map(f64::abs)) + second(bend.e_radius);
+        }
     }
 
     /// What orders above s^SIGNED add to the slope of a length's half square.
     pub fn slope_tail(&self, equations: &Equations<D>, e: usize) -> f64 {
-        if e == equations.bend.edge {
-            self.bend_tail
-        } else {
-            2.0 * equations.e[2][e].abs() * self.time.tail
+        match equations.bends.iter().position(|bend| bend.edge == e) {
+            Some(b) => self.bend_tails[b],
+            None => 2.0 * equations.e[2][e].abs() * self.time.tail,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::layout::{Layout, Order};
 use super::passes::{Derivative, Inverse, Lane, Row, add, invert, slices, width_for, with_width};
 use crate::linalg::{LANE, Singular, Vector};
-use crate::track::full::{Equations, Lengths, dot};
+use crate::track::full::{Differences, Equations, Lengths, dot};
 use std::sync::Arc;
 
 /// What is kept from one point to the next.
@@ -73,7 +73,7 @@ impl<const D: usize> Elimination<D> {
         &mut self,
         maker: &mut Maker<D>,
         equations: &Equations<D>,
-        at: (&[Vector; D], &Lengths, &Vector),
+        at: (&Differences<D>, &Lengths, &Vector),
     ) -> Result<(), Singular> {
         if !maker.chooses {
             let layout = self.layout.clone();
@@ -91,7 +91,7 @@ impl<const D: usize> Elimination<D> {
         &mut self,
         layout: &Arc<Layout>,
         equations: &Equations<D>,
-        (d, lengths, normal): (&[Vector; D], &Lengths, &Vector),
+        (d, lengths, normal): (&Differences<D>, &Lengths, &Vector),
     ) -> Result<(), Singular> {
         self.layout = layout.clone();
         let entries = slices(d);
@@ -100,7 +100,7 @@ impl<const D: usize> Elimination<D> {
         self.inverses.extend(inverses);
         let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
         self.width = width.ok_or(Singular)?;
-        for (kept, d) in self.d.iter_mut().zip(d) {
+        for (kept, d) in self.d.iter_mut().zip(&d.axes) {
             kept.copy_from_slice(d);
         }
         self.slope.copy_from_slice(&lengths.terms[1]);

@@ -8,7 +8,7 @@ use crate::interval::rounding::{largest, round_up};
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::norms::Proof;
-use crate::track::full::{Equations, Lengths, Local, Preconditioner};
+use crate::track::full::{Differences, Equations, Lengths, Local, Preconditioner};
 use std::cell::RefCell;
 
 /// The degree of K(s), Z(s) in s.
@@ -63,7 +63,7 @@ impl<const D: usize> Preconditioner<D> for Reduction<D> {
         &mut self,
         maker: &mut Maker<D>,
         equations: &Equations<D>,
-        at: (&[Vector; D], &Lengths, &Vector),
+        at: (&Differences<D>, &Lengths, &Vector),
     ) -> Result<bool, Singular> {
         self.elimination.make(maker, equations, at)?;
         Ok(false)

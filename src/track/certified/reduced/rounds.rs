@@ -289,7 +289,7 @@ fn bound_inverse<const D: usize>(
             *spread = from2 + per_entry * all;
         }
     }
-    let d = [&local.d[0], &local.d[1]];
+    let d = [&local.d[0].axes, &local.d[1].axes];
     resolvent.make(equations, &elimination.layout, &elimination.inverses, d, h)
 }
 

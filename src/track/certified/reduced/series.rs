@@ -149,7 +149,9 @@ impl<const D: usize> Series<D> {
             for (slope, e2) in self.slopes[q].iter_mut().zip(equations.e[2].iter()) {
                 *slope = e2 * twice;
             }
-            self.slopes[q][equations.bend.edge] = local.bend_slope(q);
+            for (b, bend) in equations.bends.iter().enumerate() {
+                self.slopes[q][bend.edge] = local.bend_slope(b, q);
+            }
         }
     }
 }

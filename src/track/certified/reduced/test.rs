@@ -45,7 +45,7 @@ use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
 use crate::track::certified::shortfall::Shortfall;
 use crate::track::certified::tracker::Test;
-use crate::track::full::{Equations, Lengths, RefineError};
+use crate::track::full::{Differences, Equations, Lengths, RefineError};
 use crate::track::{Driving, Options, Space};
 use std::sync::Arc;
 #[cfg(test)]
@@ -80,7 +80,7 @@ pub struct ReducedTest<const D: usize> {
     pub(super) radius: f64,
     /// Work space for correcting points.
     pub(super) there: Elimination<D>,
-    pub(super) d: [Vector; D],
+    pub(super) d: Differences<D>,
     pub(super) lengths: Lengths,
     pub(super) f: Vector,
     pub(super) hidden: Vector,
@@ -113,8 +113,8 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
             reach: 1.0,
             radius: options.radius(homotopy.unit),
             there: Elimination::new(equations),
-            d: std::array::from_fn(|_| equations.per_edge()),
-            lengths: Lengths::new(m),
+            d: equations.room(),
+            lengths: Lengths::new(equations),
             f: equations.vector(),
             hidden: equations.vector(),
             step: equations.vector(),

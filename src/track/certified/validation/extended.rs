@@ -227,7 +227,7 @@ fn residuals<const D: usize>(problem: &Problem, random: &mut Random, cancelled: 
     let equations = &workshop.equations;
     let (m, n) = (equations.m, equations.n());
     let (mut f, mut error) = (equations.vector(), equations.vector());
-    let mut differences: [Vector; D] = std::array::from_fn(|_| equations.per_edge());
+    let mut differences = equations.room();
     for _ in 0..8 {
         // From a residual of 1e-32 to one of 1.
         let off = 10f64.powf(random.between(-34.0, 0.0));
@@ -246,7 +246,7 @@ fn residuals<const D: usize>(problem: &Problem, random: &mut Random, cancelled: 
                 f[e],
                 error[e]
             );
-            let size = homotopy.lengths[e].e[0] + off;
+            let size = homotopy.rights[e].e[0] + off;
             assert!(
                 error[e] <= 1e-15 * f[e].abs() + 1e-28 * (size + 1.0),
                 "{:e}",

@@ -6,6 +6,7 @@
 mod along;
 mod components;
 mod crossings;
+mod disguise;
 mod extended;
 mod faults;
 mod known_paths;
@@ -201,26 +202,25 @@ impl<'a> Exact<'a> {
         }
     }
 
-    /// The unknown behind a coordinate, if it is free.
-    fn unknown(&self, p: usize, axis: usize) -> Option<usize> {
-        let v = self.homotopy.gauge.variable[p * self.homotopy.dimension + axis];
-        (v < self.m).then_some(v)
-    }
-
-    fn difference(&self, z: &[Interval], edge: usize, axis: usize) -> Interval {
-        let [i, j] = self.homotopy.edges[edge]
-            .points
-            .map(|p| self.unknown(p, axis).map_or(point(0.0), |v| z[v]));
-        i - j
+    /// A factor of a term: a difference of unknowns, or 1.
+    fn factor(&self, z: &[Interval], ends: Option<[usize; 2]>) -> Interval {
+        let value = |i: usize| if i > self.m { point(0.0) } else { z[i] };
+        ends.map_or(point(1.0), |[i, j]| value(i) - value(j))
     }
 
     pub fn residual(&self, z: &[Interval]) -> Vec<Interval> {
         (0..self.m)
             .map(|e| {
-                let squared = (0..self.homotopy.dimension).fold(point(0.0), |sum, axis| {
-                    sum + self.difference(z, e, axis).sqr()
+                let twice = self.homotopy.terms(e).iter().fold(point(0.0), |sum, term| {
+                    let (x, y) = (self.factor(z, term.left), self.factor(z, term.right));
+                    let product = if term.left == term.right {
+                        x.sqr()
+                    } else {
+                        x * y
+                    };
+                    sum + point(term.factor.into()) * product
                 });
-                squared * point(0.5) - self.homotopy.lengths[e].enclose_half_square(z[self.m])
+                twice * point(0.5) - self.homotopy.rights[e].enclose(z[self.m])
             })
             .collect()
     }
@@ -230,18 +230,20 @@ impl<'a> Exact<'a> {
         let t = z[self.m];
         let mut rows: Rows = (0..self.m)
             .map(|e| {
-                let mut row = vec![point(0.0); self.n];
-                for axis in 0..self.homotopy.dimension {
-                    let d = self.difference(z, e, axis);
-                    let [i, j] = self.homotopy.edges[e].points.map(|p| self.unknown(p, axis));
-                    if let Some(i) = i {
-                        row[i] += d;
-                    }
-                    if let Some(j) = j {
-                        row[j] -= d;
+                // One entry more, for what is always zero.
+                let mut row = vec![point(0.0); self.n + 1];
+                for term in self.homotopy.terms(e) {
+                    let half = point(f64::from(term.factor)) * point(0.5);
+                    for (of, other) in [(term.left, term.right), (term.right, term.left)] {
+                        if let Some([i, j]) = of {
+                            let d = half * self.factor(z, other);
+                            row[i] += d;
+                            row[j] -= d;
+                        }
                     }
                 }
-                let e = self.homotopy.lengths[e].half_square();
+                row.truncate(self.n);
+                let e = self.homotopy.rights[e].enclosures();
                 let [two, three, four] = [2.0, 3.0, 4.0].map(point);
                 row[self.m] = -(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4])));
                 row

@@ -2,16 +2,15 @@
 
 use super::big::{Big, Rows, dot, exact, solve};
 use crate::problem::{Problem, Target};
-use crate::system::Homotopy;
+use crate::system::{Homotopy, Term};
 use num_rational::BigRational;
 
 pub struct Figure {
-    pub dimension: usize,
     pub m: usize,
     pub n: usize,
-    /// The unknowns behind either end of a distance, by axis.
-    ends: Vec<Vec<[Option<usize>; 2]>>,
-    /// The coefficients of E(t) = ½ a(t)², by distance.
+    /// What 2 q is the sum of, by equation.
+    terms: Vec<Vec<Term>>,
+    /// The coefficients of E(t), by equation.
     pub e: Vec<[Big; 5]>,
 }
 
@@ -46,51 +45,51 @@ impl Figure {
                 &half * &(&a2 * &a2),
             ]
         });
-        Figure::with(homotopy, lengths.collect())
+        let constraints = homotopy.tail.equations.iter().map(|equation| {
+            let unit = Big::of(homotopy.unit.powi(equation.power));
+            std::array::from_fn(|k| match equation.right.get(k) {
+                Some(coefficient) => Big::ratio(&coefficient.ball().middle) / &unit,
+                None => Big::of(0.0),
+            })
+        });
+        Figure::with(homotopy, lengths.chain(constraints).collect())
     }
 
     /// The same with other coefficients of E.
     pub fn with(homotopy: &Homotopy, e: Vec<[Big; 5]>) -> Self {
-        let (d, m) = (homotopy.dimension, homotopy.equations);
-        let unknown = |p: usize, axis: usize| {
-            let v = homotopy.gauge.variable[p * d + axis];
-            (v < m).then_some(v)
-        };
-        let ends = homotopy.edges.iter().map(|edge| {
-            let of_axis = |axis: usize| edge.points.map(|p| unknown(p, axis));
-            (0..d).map(of_axis).collect()
-        });
+        let m = homotopy.equations;
         Figure {
-            dimension: d,
             m,
             n: m + 1,
-            ends: ends.collect(),
+            terms: (0..m).map(|e| homotopy.terms(e)).collect(),
             e,
         }
     }
 
-    fn difference(&self, z: &[Big], e: usize, axis: usize) -> Big {
-        match self.ends[e][axis] {
-            [Some(i), Some(j)] => &z[i] - &z[j],
-            [Some(i), None] => z[i].clone(),
-            [None, Some(j)] => -z[j].clone(),
-            [None, None] => Big::of(0.0),
-        }
+    /// A factor of a term: a difference of unknowns, or 1.
+    fn factor(&self, z: &[Big], ends: Option<[usize; 2]>) -> Big {
+        let value = |i: usize| {
+            if i > self.m {
+                Big::of(0.0)
+            } else {
+                z[i].clone()
+            }
+        };
+        ends.map_or(Big::of(1.0), |[i, j]| value(i) - value(j))
     }
 
     /// F.
     pub fn residual(&self, z: &[Big]) -> Vec<Big> {
         let (t, half) = (&z[self.m], Big::of(0.5));
         let row = |e: usize| {
-            let squared: Big = (0..self.dimension)
-                .map(|axis| {
-                    let d = self.difference(z, e, axis);
-                    &d * &d
-                })
-                .sum();
+            let product = |term: &Term| {
+                let (x, y) = (self.factor(z, term.left), self.factor(z, term.right));
+                Big::of(term.factor.into()) * (&x * &y)
+            };
+            let twice: Big = self.terms[e].iter().map(product).sum();
             let c = &self.e[e];
-            let length = (0..4).rev().fold(c[4].clone(), |sum, k| &sum * t + &c[k]);
-            &half * &squared - length
+            let right = (0..4).rev().fold(c[4].clone(), |sum, k| &sum * t + &c[k]);
+            &half * &twice - right
         };
         (0..self.m).map(row).collect()
     }
@@ -99,17 +98,19 @@ impl Figure {
     pub fn jacobian(&self, z: &[Big]) -> Rows {
         let t = &z[self.m];
         let row = |e: usize| {
-            let mut row = vec![Big::of(0.0); self.n];
-            for axis in 0..self.dimension {
-                let d = self.difference(z, e, axis);
-                let [i, j] = self.ends[e][axis];
-                if let Some(i) = i {
-                    row[i] += d.clone();
-                }
-                if let Some(j) = j {
-                    row[j] -= d;
+            // One entry more, for what is always zero.
+            let mut row = vec![Big::of(0.0); self.n + 1];
+            for term in &self.terms[e] {
+                let half = Big::of(0.5 * f64::from(term.factor));
+                for (of, other) in [(term.left, term.right), (term.right, term.left)] {
+                    if let Some([i, j]) = of {
+                        let d = &half * &self.factor(z, other);
+                        row[i] += d.clone();
+                        row[j] -= d;
+                    }
                 }
             }
+            row.truncate(self.n);
             let slope = (1..5).rev().fold(Big::of(0.0), |sum, k| {
                 &sum * t + Big::of(k as f64) * &self.e[e][k]
             });

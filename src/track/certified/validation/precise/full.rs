@@ -1,5 +1,6 @@
 //! Bounds of the full space: along certified runs, and with numbers changed on purpose.
 
+use super::super::disguise::{Disguised, run};
 use super::big::exact;
 use super::moved::lengthen;
 use super::reduced::{check_time, within};
@@ -7,6 +8,7 @@ use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
+use crate::track::Status;
 use crate::track::certified::link::Ball;
 use crate::track::certified::norms::Norms;
 
@@ -244,15 +246,14 @@ fn changed<const D: usize>(
 }
 
 fn check_problem<const D: usize>(
-    problem: &Problem,
+    (problem, homotopy): (&Problem, &Homotopy),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut [Ratios; 5],
 ) {
-    let homotopy = Homotopy::new(problem).expect("a gauge");
-    let true_figure = Figure::new(problem, &homotopy);
-    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
-    let chain = workshop.chain(&homotopy, 400);
+    let true_figure = Figure::new(problem, homotopy);
+    let mut workshop = Workshop::<D>::new(homotopy, f64::INFINITY);
+    let chain = workshop.chain(homotopy, 400);
     assert!(!chain.is_empty(), "{}", problem.name);
     let stride = (chain.len() / tubes).max(1);
     for k in (0..chain.len()).step_by(stride) {
@@ -267,7 +268,7 @@ fn check_problem<const D: usize>(
             let kept = workshop.equations.clone();
             let other = (kind == 4).then(|| {
                 let size = 10f64.powf(random.between(-12.0, -4.0));
-                lengthen(&mut workshop.equations, &homotopy, size, random)
+                lengthen(&mut workshop.equations, homotopy, size, random)
             });
             let figure = other.as_ref().unwrap_or(&true_figure);
             let h = sample.tube.proof.h * [1.0, 0.1, 1e-3, 1e-5][random.below(4)];
@@ -294,12 +295,26 @@ fn check_problem<const D: usize>(
 }
 
 fn check_all(names: &[&str], generated: &[Problem], counts: (usize, usize), seed: u64) {
+    let list = problems(names).into_iter().chain(generated.iter().cloned());
+    let list = list.map(|problem| {
+        let homotopy = Homotopy::new(&problem).expect("a gauge");
+        (problem, homotopy)
+    });
+    check_homotopies(list, counts, seed);
+}
+
+fn check_homotopies(
+    list: impl Iterator<Item = (Problem, Homotopy)>,
+    counts: (usize, usize),
+    seed: u64,
+) {
     let (mut ratios, mut random) = (<[Ratios; 5]>::default(), Random::new(seed));
-    for problem in problems(names).iter().chain(generated) {
+    for (problem, homotopy) in list {
         let counts = (effort(counts.0), counts.1);
+        let pair = (&problem, &homotopy);
         match problem.dimension {
-            2 => check_problem::<2>(problem, counts, &mut random, &mut ratios),
-            _ => check_problem::<3>(problem, counts, &mut random, &mut ratios),
+            2 => check_problem::<2>(pair, counts, &mut random, &mut ratios),
+            _ => check_problem::<3>(pair, counts, &mut random, &mut ratios),
         }
     }
     let kinds = ["as they are", "path", "one coefficient", "Y", "lengths"];
@@ -321,6 +336,25 @@ fn full_bounds_dominate_exact_values_of_small_problems() {
         })
         .collect();
     check_all(&[], &list, (4, 2), 45);
+}
+
+/// Distances written as other equations, with products of all kinds, several of degree 4 in t.
+#[test]
+fn full_bounds_dominate_exact_values_of_tails() {
+    let mut random = Random::new(48);
+    let list: Vec<(Problem, Homotopy)> = (0..24)
+        .filter_map(|round| {
+            let dimension = 2 + round % 2;
+            let points = dimension + 1 + random.below(4);
+            let plain = random_problem(&mut random, dimension, points, 0.3);
+            let disguised = Disguised::new(&plain, 0.8, &mut random);
+            let homotopy = disguised.homotopy()?;
+            let closes = run(&homotopy, false).status == Status::Closed;
+            closes.then_some((disguised.rest, homotopy))
+        })
+        .collect();
+    assert!(list.len() > 15);
+    check_homotopies(list.into_iter(), (4, 2), 49);
 }
 
 /// See the test of the same name in the reduced space: t moves alone, with the highest order that ẑ

@@ -1,5 +1,6 @@
 //! What a run is given: lengths and sketches in floats, against those of the problem in 256 bits.
 
+use super::super::disguise::Disguised;
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
@@ -46,34 +47,36 @@ fn sketch(problem: &Problem, homotopy: &Homotopy) -> Vec<Big> {
         .collect()
 }
 
-fn check(problem: &Problem, random: &mut Random, ratios: &mut Ratios) {
-    let Ok(homotopy) = Homotopy::new(problem) else {
-        return;
-    };
-    let figure = Figure::new(problem, &homotopy);
-    for (length, e) in homotopy.lengths.iter().zip(&figure.e) {
+fn check((problem, homotopy): (&Problem, &Homotopy), random: &mut Random, ratios: &mut Ratios) {
+    let figure = Figure::new(problem, homotopy);
+    for (right, e) in homotopy.rights.iter().zip(&figure.e) {
         for k in 0..5 {
             assert!(
-                e[k].is_in(length.half_square()[k]),
-                "coefficient {k} of a length's half square"
+                e[k].is_in(right.enclosures()[k]),
+                "coefficient {k} of a right-hand side"
             );
-            let away = (&e[k] - &Big::of(length.e[k])).abs();
-            ratios.check("coefficients of E", &away, length.e_radius[k]);
+            let away = (&e[k] - &Big::of(right.e[k])).abs();
+            ratios.check("coefficients of E", &away, right.e_radius[k]);
         }
         let all = |t: &Big| e.iter().rev().fold(Big::of(0.0), |sum, c| &sum * t + c);
-        assert!(all(&Big::of(1.0)).is_in(length.target_half_square()));
+        assert!(all(&Big::of(1.0)).is_in(right.at_target()));
         let (a, b) = (random.between(-3.0, 3.0), random.between(-3.0, 3.0));
         let (lo, hi) = (a.min(b), a.max(b));
         let t = Big::of(random.between(lo, hi));
-        let half_square = all(&t);
-        assert!(half_square.is_in(length.enclose_half_square(hull(lo, hi))));
+        assert!(all(&t).is_in(right.enclose(hull(lo, hi))));
+    }
+    for (length, e) in homotopy.lengths.iter().zip(&figure.e) {
+        let all = |t: &Big| e.iter().rev().fold(Big::of(0.0), |sum, c| &sum * t + c);
+        let (a, b) = (random.between(-3.0, 3.0), random.between(-3.0, 3.0));
+        let (lo, hi) = (a.min(b), a.max(b));
+        let half_square = all(&Big::of(random.between(lo, hi)));
         // |a| where E ≥ 0: both signs are looked at.
         let root = (Big::of(2.0) * half_square.max(Big::of(0.0))).sqrt();
         let range = length.enclose(hull(lo, hi));
         assert!(root.is_in(range) || (-root.clone()).is_in(range));
     }
     let m = homotopy.equations;
-    for (place, x) in sketch(problem, &homotopy).iter().enumerate() {
+    for (place, x) in sketch(problem, homotopy).iter().enumerate() {
         if homotopy.gauge.variable[place] < m {
             let box_ = homotopy.sketch_box[place];
             assert!(x.is_in(box_), "place {place} of the sketch");
@@ -89,8 +92,8 @@ fn check(problem: &Problem, random: &mut Random, ratios: &mut Ratios) {
 
     // F and J in floats, at points and with directions of any size.
     match problem.dimension {
-        2 => check_residual::<2>(&homotopy, &figure, random, ratios),
-        _ => check_residual::<3>(&homotopy, &figure, random, ratios),
+        2 => check_residual::<2>(homotopy, &figure, random, ratios),
+        _ => check_residual::<3>(homotopy, &figure, random, ratios),
     }
 }
 
@@ -112,13 +115,11 @@ fn check_residual<const D: usize>(
     };
     for size in [1e-3, 1.0, 30.0] {
         let (z, v, away) = (vector(size), vector(1.0), vector(1e-9 * size));
-        let per_axis = || std::array::from_fn(|_| equations.per_edge());
-        let (mut d, mut dv, mut sums): ([Vector; D], [Vector; D], [Vector; D]) =
-            (per_axis(), per_axis(), per_axis());
-        let mut lengths = crate::track::full::Lengths::new(m);
+        let [mut d, mut dv, mut sums] = std::array::from_fn(|_| equations.room());
+        let mut lengths = crate::track::full::Lengths::new(&equations);
         let [mut f, mut error] = std::array::from_fn(|_| equations.vector());
         equations.differences(&z, &mut d);
-        equations.differences(&v, &mut dv);
+        equations.directions(&v, &mut dv);
         equations.expand_lengths(z[m], &mut lengths);
         equations.residual(&d, &lengths, &mut f);
         equations.residual_error(&d, z[m], &mut error);
@@ -167,7 +168,13 @@ fn lengths_sketches_and_residuals_are_enclosed() {
         list.push(random_problem(&mut random, dimension, points, 0.5));
     }
     for problem in &list {
-        check(problem, &mut random, &mut ratios);
+        if let Ok(homotopy) = Homotopy::new(problem) {
+            check((problem, &homotopy), &mut random, &mut ratios);
+        }
+        let disguised = Disguised::new(problem, 0.7, &mut random);
+        if let Some(homotopy) = disguised.homotopy() {
+            check((&disguised.rest, &homotopy), &mut random, &mut ratios);
+        }
     }
     ratios.come_near(&[
         ("coefficients of E", 0.9),

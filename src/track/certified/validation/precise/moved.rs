@@ -104,20 +104,20 @@ pub fn lengthen<const D: usize>(
     size: f64,
     random: &mut Random,
 ) -> Figure {
-    let bend = equations.bend.edge;
     let mut e = Vec::new();
     for edge in 0..equations.m {
+        let bend = equations.bends.iter().position(|bend| bend.edge == edge);
         let coefficients: [Big; 5] = std::array::from_fn(|k| {
-            if edge != bend && k > 2 {
+            if bend.is_none() && k > 2 {
                 return Big::of(0.0);
             }
-            let (middle, radius) = if edge == bend {
+            let (middle, radius) = if let Some(bend) = bend {
                 let radius = size * random.unit();
-                equations.bend.e_radius[k] = radius;
+                equations.bends[bend].e_radius[k] = radius;
                 if k < 3 {
                     equations.e_radius[k][edge] = radius;
                 }
-                (equations.bend.e[k], radius)
+                (equations.bends[bend].e[k], radius)
             } else {
                 let radius = size * random.unit();
                 equations.e_radius[k][edge] = radius;

@@ -181,7 +181,7 @@ fn the_bend_counts_to_its_last_order() {
     let weights = shop.test.weights_mut();
     weights[..n].fill(1e-3);
     weights[m] = 1.0;
-    let bend = &mut shop.equations.bend;
+    let bend = &mut shop.equations.bends[0];
     bend.e_radius[4] = 1e3;
     let mut e = figure.e;
     e[bend.edge][4] += Big::of(1e3);
