@@ -2,7 +2,7 @@
 
 use super::{BAD_INPUT, CLOSED, input, output};
 use krawl::plan::Plan;
-use krawl::problem::{Problem, Target};
+use krawl::problem::{Object, Problem, Shape, Target};
 use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -38,6 +38,14 @@ pub fn run(arguments: &Arguments) -> u8 {
         }
     };
     let mut text = describe(&problem);
+    if !problem.is_distances_only() {
+        text += "construction plan\n  none: plans are for distances between points alone\n";
+        return if output::print(&text) {
+            CLOSED
+        } else {
+            BAD_INPUT
+        };
+    }
     match construction_plan(&problem, arguments.pattern) {
         Ok(plan) => text += &plan,
         Err(error) => {
@@ -114,14 +122,72 @@ fn describe(problem: &Problem) -> String {
             _ => format!("{distances}, {squared} of them given by their squares"),
         },
     ));
+    for object in &problem.objects {
+        rows.push(("object", object_line(problem, object)));
+    }
+    for (index, constraint) in problem.constraints.iter().enumerate() {
+        let kind = krawl::constraint::kind(&constraint.kind).expect("the problem was checked");
+        let name = problem.constraint_name(index);
+        rows.push(("constraint", format!("{name} ({})", kind.meaning())));
+    }
     let free = problem.free_coordinates();
     rows.push(("free coordinates", free.to_string()));
-    rows.push((
-        "degrees of freedom",
-        format!("0 ({free} free coordinates, {distances} independent distances)"),
-    ));
+    if problem.is_distances_only() {
+        rows.push((
+            "degrees of freedom",
+            format!("0 ({free} free coordinates, {distances} independent distances)"),
+        ));
+    } else {
+        let (unknowns, equations) = krawl::constraint::size(problem);
+        rows.push((
+            "equations",
+            format!(
+                "{equations}, for {free} coordinates and {} auxiliary unknowns",
+                unknowns - free
+            ),
+        ));
+    }
+    let (label, frame) = frame(problem);
+    rows.push((label, frame));
     let homotopy = &problem.homotopy;
-    let reference = &homotopy.reference;
+    if let Some(bend) = problem.bend() {
+        let c = &homotopy.bend_coefficient;
+        let remark = if c.is_positive() {
+            ""
+        } else {
+            " (not greater than zero: nothing makes the path turn back)"
+        };
+        let bend = problem.distance_name(bend);
+        rows.push(("bend", format!("{bend}, c = {c}{remark}")));
+    }
+
+    let mut text = format!("{}: the input is in order\n", problem.name);
+    for (label, value) in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {label:<20}{value}");
+    }
+    if let Some(message) = problem.impossible_triangle() {
+        let _ = writeln!(text, "  {:<20}{message}", "but");
+    }
+    text
+}
+
+/// Where coordinates are counted from.
+fn frame(problem: &Problem) -> (&'static str, String) {
+    let reference = &problem.homotopy.reference;
+    if problem.is_absolute() {
+        let axes = krawl::constraint::pinned_axes(problem);
+        let axes: Vec<&str> = axes.into_iter().map(|k| ["x", "y", "z"][k]).collect();
+        let held = match axes.as_slice() {
+            [] => String::new(),
+            axes => format!(
+                "; as nothing says where it is along {}, {} is held where the sketch has it",
+                axes.join(" and "),
+                problem.points[0].name
+            ),
+        };
+        return ("frame", format!("the sketch's own coordinates{held}"));
+    }
     let names: Vec<&str> = reference
         .iter()
         .map(|&p| problem.points[p].name.as_str())
@@ -135,23 +201,40 @@ fn describe(problem: &Problem) -> String {
     } else {
         "not mutually constrained: the coordinates may become singular where the figure is not"
     };
-    rows.push(("reference", format!("{} ({mutually})", names.join(", "))));
-    let bend = problem.distance_name(homotopy.bend);
-    let c = &homotopy.bend_coefficient;
-    let remark = if c.is_positive() {
-        ""
-    } else {
-        " (not greater than zero: nothing makes the path turn back)"
-    };
-    rows.push(("bend", format!("{bend}, c = {c}{remark}")));
+    ("reference", format!("{} ({mutually})", names.join(", ")))
+}
 
-    let mut text = format!("{}: the input is in order\n", problem.name);
-    for (label, value) in rows {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "  {label:<20}{value}");
+/// What is said of an object.
+fn object_line(problem: &Problem, object: &Object) -> String {
+    let names = |points: &[usize]| {
+        let names = points.iter().map(|&p| problem.points[p].name.as_str());
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let name = &object.name;
+    match &object.shape {
+        Shape::Line(points) => format!("{name}, the line through {}", names(points)),
+        Shape::FreeLine { .. } => format!("{name}, a line of its own"),
+        Shape::Plane(points) => format!("{name}, the plane through {}", names(points)),
+        Shape::FreePlane { .. } => format!("{name}, a plane of its own"),
+        Shape::Round { center, radius } => {
+            let what = if problem.dimension == 2 {
+                "circle"
+            } else {
+                "sphere"
+            };
+            format!(
+                "{name}, a {what} about {} (in the sketch {radius})",
+                names(&[*center])
+            )
+        }
+        Shape::Arc { center, start, end } => format!(
+            "{name}, an arc about {} from {} to {}",
+            names(&[*center]),
+            names(&[*start]),
+            names(&[*end])
+        ),
+        Shape::Body { points, .. } => {
+            format!("{name}, the rigid body of {} (not mirrored)", names(points))
+        }
     }
-    if let Some(message) = problem.impossible_triangle() {
-        let _ = writeln!(text, "  {:<20}{message}", "but");
-    }
-    text
 }

@@ -1,7 +1,9 @@
 //! The command line: one file per verb.
 
+mod all;
 mod check;
 mod compare;
+mod edit;
 mod generate;
 mod input;
 mod interrupt;
@@ -23,6 +25,10 @@ pub const CLOSED: u8 = 0;
 pub const STOPPED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
 pub const BAD_INPUT: u8 = 2;
+/// Exit code of an edit that comes to a limit before the new dimensions.
+pub const LIMIT: u8 = 3;
+/// Exit code of an edit that comes to where branches of figures seem to meet.
+pub const PASSES: u8 = 4;
 
 /// Finds figures that meet given dimensions, with proof, from a rough sketch: it leads the sketch's
 /// dimensions to the wanted ones and follows the figure as it moves.
@@ -35,12 +41,14 @@ Examples:
   krawl check sketch.toml                   is the input in order, and what was understood?
   krawl solve sketch.toml                   the figures that meet the dimensions
   krawl solve sketch.toml --html page.html  a page to look at
+  krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
+  krawl all sketch.toml                     every figure that there is
   krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
 
-`krawl VERB --help` has examples of each verb. The README has the format of problem files.
+`krawl VERB --help` has more of each verb. The README has the format of problem files.
 
-Exit codes: 0 closed or verified, 1 stopped, refuted or incomplete, 2 bad input or results that could
-not be written."
+Exit codes: 0 closed, complete, verified or reached, 1 stopped, refuted or incomplete, 2 bad input or
+results that could not be written, 3 an edit's limit, 4 where an edit's branches meet."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -49,8 +57,10 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    All(all::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Edit(edit::Arguments),
     Generate(generate::Arguments),
     Show(show::Arguments),
     Solve(solve::Arguments),
@@ -66,8 +76,10 @@ pub fn run() -> ExitCode {
         return ExitCode::from(BAD_INPUT);
     }
     let code = match Arguments::parse().verb {
+        Verb::All(arguments) => all::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
+        Verb::Edit(arguments) => edit::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Show(arguments) => show::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),

@@ -1,21 +1,174 @@
 //! Constraints: what each kind means, and the equations that it becomes.
+//!
+//! A [`Problem`] holds constraints as plain data: the key of a kind, what it names, and a number. What
+//! that means is said here, one file for each kind in `kinds/`, and one list of them, [`KINDS`]. Whoever
+//! adds a kind writes its file and names it in the list; reading, writing, checking and describing
+//! problems go by what it says of itself ([`Kind`]).
+//!
+//! # Which way a constraint is led from the sketch to its target
+//!
+//! A number (a distance, the cosine of an angle, a radius, a coordinate) goes linearly from what it is in
+//! the sketch to its target. Sides and senses that a number does not tell are read off the sketch: on
+//! which side of a line a point is, which of the two angles of lines is meant, on which side of a line a
+//! tangent circle is.
+//!
+//! What holds or does not (parallel, coplanar, on, ...) is a value that is zero where it holds. Where the
+//! sketch does not meet it, the value goes linearly to zero, and is not zero in between (Imbach, Mathis,
+//! Schreck on tracking with coplanarities, 5.2). Where the sketch meets it exactly, it is kept: the
+//! equation has zero on its right-hand side all along the path, because who draws a right angle and
+//! changes a length expects a right angle all the way. Some figures that a path through such
+//! constraints meets are singular where each constraint by itself is not: faces of a polyhedron that fall into
+//! one plane. `detour` in a problem's `[homotopy]` takes the path round them:
+//! the values are then `δ t (1 − t)`.
 
+mod arguments;
+#[cfg(test)]
+mod floats;
+mod frame;
+mod kind;
+mod kinds;
+mod lowering;
+mod objects;
+mod polynomial;
 mod quadratic;
+mod structure;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
 
+pub use kind::{Fixes, Kind, Measure};
+pub use kinds::KINDS;
 pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, coordinate, difference,
     product, value,
 };
+pub(crate) use structure::check_structure;
+pub use structure::size;
 
 use crate::interval::Interval;
 use crate::problem::Problem;
+use arguments::Arguments;
+use kind::Given;
+use lowering::{Fault, Lowered, Lowering};
+
+/// The kind that has this key in problem files.
+pub fn kind(key: &str) -> Option<&'static dyn Kind> {
+    KINDS.iter().copied().find(|kind| kind.key() == key)
+}
 
 /// The auxiliary unknowns and the equations of all constraints of a problem that are not distances
 /// between points.
 ///
 /// `sketch`: the coordinates of every point of the sketch as the reference sees them, in the
 /// problem's unit.
+///
+/// # Panics
+/// If the problem has not been checked ([`Problem::check`]).
 pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
     debug_assert_eq!(problem.points.len(), sketch.len());
-    Tail::default()
+    match try_lower(problem) {
+        Ok(lowered) => lowered.tail,
+        Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
+    }
+}
+
+/// What an object or constraint that cannot be put to work is, by index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Owner {
+    /// An object.
+    Object(usize),
+    /// A constraint.
+    Constraint(usize),
+}
+
+/// The equations of a problem with a reference and known names, or the first object or constraint at fault.
+pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
+    let mut low = Lowering::new(problem);
+    let objects = problem.objects.len();
+    for object in 0..objects {
+        low.begin(object);
+        let done = low.object(object);
+        done.map_err(|fault| (Owner::Object(object), fault))?;
+    }
+    for (index, constraint) in problem.constraints.iter().enumerate() {
+        low.begin(objects + index);
+        let fail = |fault| (Owner::Constraint(index), fault);
+        let kind = kind(&constraint.kind)
+            .ok_or_else(|| fail(format!("there is no kind `{}`", constraint.kind)))?;
+        check_value(kind, problem, index).map_err(fail)?;
+        let given = Given {
+            name: &problem.constraint_name(index),
+            items: Arguments::new(problem, &constraint.items),
+            value: constraint.value.as_ref(),
+        };
+        kind.lower(given, &mut low).map_err(fail)?;
+    }
+    low.begin(objects + problem.constraints.len());
+    pin(problem, &mut low);
+    Ok(low.finish())
+}
+
+/// Holds the first point where nothing says where the figure is along an axis of the user's frame.
+fn pin(problem: &Problem, low: &mut Lowering) {
+    for axis in pinned_axes(problem) {
+        let name = format!("{} held where the sketch has it", low.name(0));
+        low.hold(&name, 0, axis);
+    }
+}
+
+/// The axes along which krawl holds the first point: those of a problem in the user's own frame in
+/// which no constraint fixes a place.
+pub fn pinned_axes(problem: &Problem) -> Vec<usize> {
+    if !problem.is_absolute() {
+        return Vec::new();
+    }
+    let fixes = frame_of(problem);
+    (0..problem.dimension).filter(|&k| !fixes.axes[k]).collect()
+}
+
+/// What of the frame the constraints fix together.
+pub(crate) fn frame_of(problem: &Problem) -> Fixes {
+    let kinds = problem.constraints.iter();
+    kinds
+        .filter_map(|c| Some(kind(&c.kind)?.fixes(problem, &c.items)))
+        .fold(Fixes::default(), |all, one| Fixes {
+            frame: all.frame || one.frame,
+            axes: std::array::from_fn(|k| all.axes[k] || one.axes[k]),
+        })
+}
+
+/// Whether a constraint has a number where its kind has, in the kind's range.
+fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), Fault> {
+    let value = &problem.constraints[index].value;
+    let wanted = match kind.measure() {
+        Measure::Nothing => None,
+        Measure::Length => Some("a number greater than zero"),
+        Measure::Signed => Some("a number"),
+        Measure::Degrees => Some("an angle between 0 and 180 degrees"),
+    };
+    match (value, wanted) {
+        (None, None) => Ok(()),
+        (Some(value), None) => Err(format!(
+            "there is a number, {value}, but nothing to measure"
+        )),
+        (None, Some(wanted)) => Err(format!("there is no number at its end: give {wanted}")),
+        (Some(value), Some(wanted)) => {
+            let number = value.value();
+            let straight = num_rational::BigRational::from_integer(180.into());
+            let in_range = match kind.measure() {
+                Measure::Length => value.is_positive(),
+                Measure::Degrees => value.is_positive() && *number < straight,
+                _ => true,
+            };
+            if in_range {
+                return Ok(());
+            }
+            let hint = match kind.measure() {
+                Measure::Degrees => ": for 0 and 180 degrees say `parallel` or `collinear`",
+                _ => "",
+            };
+            Err(format!("the number is {value}, but must be {wanted}{hint}"))
+        }
+    }
 }

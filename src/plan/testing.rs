@@ -87,6 +87,8 @@ pub(crate) fn rigid(
                         sketch: place(k).map(decimal),
                     })
                     .collect(),
+                objects: Vec::new(),
+                constraints: Vec::new(),
                 distances: edges
                     .iter()
                     .zip(changes.iter().cycle())
@@ -99,6 +101,7 @@ pub(crate) fn rigid(
                     reference: (0..dimension).collect(),
                     bend: edges.len() - 1,
                     bend_coefficient: 2.into(),
+                    detour: 0.into(),
                 },
             })
         })

@@ -1,12 +1,14 @@
 //! Problems made in code, checked as those from files are.
 
 use super::check::{check_structure, coincide, collinear};
+use super::draft::{DraftConstraint, DraftObject, check_names, what};
 use super::error::{MAX_NAME, MAX_POINTS, Place};
 use super::names::nearest;
 use super::{
     Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target,
     reference,
 };
+use crate::constraint::{self, Owner};
 use std::collections::HashMap;
 
 /// Collects the parts of a problem; [`ProblemBuilder::finish`] checks them together.
@@ -31,18 +33,21 @@ use std::collections::HashMap;
 #[derive(Debug, Clone)]
 pub struct ProblemBuilder {
     name: String,
-    dimension: usize,
+    pub(super) dimension: usize,
     source: String,
     points: Vec<DraftPoint>,
+    pub(super) objects: Vec<DraftObject>,
     lengths: Vec<DraftDistance>,
     squared_lengths: Vec<DraftDistance>,
+    pub(super) constraints: Vec<DraftConstraint>,
     reference: Option<Vec<String>>,
     bend: Option<Vec<String>>,
     bend_coefficient: Option<Number>,
+    detour: Option<Number>,
 }
 
 /// A number, or what is wrong with it.
-type Number = Result<Decimal, DecimalError>;
+pub(super) type Number = Result<Decimal, DecimalError>;
 
 #[derive(Debug, Clone)]
 struct DraftPoint {
@@ -56,7 +61,7 @@ struct DraftDistance {
     target: Number,
 }
 
-fn number<N>(value: N) -> Number
+pub(super) fn number<N>(value: N) -> Number
 where
     N: TryInto<Decimal>,
     DecimalError: From<N::Error>,
@@ -72,11 +77,14 @@ impl Problem {
             dimension,
             source: String::new(),
             points: Vec::new(),
+            objects: Vec::new(),
             lengths: Vec::new(),
             squared_lengths: Vec::new(),
+            constraints: Vec::new(),
             reference: None,
             bend: None,
             bend_coefficient: None,
+            detour: None,
         }
     }
 
@@ -92,7 +100,7 @@ impl Problem {
     /// assert!(problem.check().is_err());
     /// ```
     pub fn check(&self) -> Result<(), ProblemError> {
-        check_frame(&self.name, self.dimension, self.points.len())?;
+        check_size(&self.name, self.dimension, self.points.len())?;
         let mut seen = HashMap::new();
         for (index, point) in self.points.iter().enumerate() {
             check_name(Place::Point(index), &point.name)?;
@@ -116,6 +124,7 @@ impl Problem {
             }
             Err(ProblemError::UnknownPoint {
                 place,
+                objects: false,
                 what: what.to_owned(),
                 name: format!("no. {index}"),
                 nearest: None,
@@ -127,16 +136,61 @@ impl Problem {
             }
         }
         check_distances(&self.points, &self.distances)?;
-        check_structure(self.dimension, &self.points, &self.distances)?;
-        check_sketch(&self.points, &self.distances)?;
+        check_names(self)?;
         for &point in &self.homotopy.reference {
             in_range(Place::Reference, "the reference", point)?;
         }
-        if self.homotopy.bend >= self.distances.len() {
+        if self.is_distances_only() && self.homotopy.bend >= self.distances.len() {
             let name = format!("no. {}", self.homotopy.bend);
             return Err(ProblemError::BendNotADistance(name));
         }
-        check_reference(self.dimension, &self.points, &self.homotopy.reference)
+        check_sketch(&self.points, &self.distances)?;
+        let own = constraint::frame_of(self).frame;
+        if own != self.is_absolute() {
+            return Err(ProblemError::ReferenceCount {
+                given: self.homotopy.reference.len(),
+                wanted: if own { 0 } else { self.dimension },
+            });
+        }
+        if !own {
+            check_enough_points(self.dimension, self.points.len())?;
+            check_reference(self.dimension, &self.points, &self.homotopy.reference)?;
+        }
+        self.check_together()
+    }
+
+    /// Checks that constraints can be put to work, and that there are as many as needed where they are
+    /// needed.
+    fn check_together(&self) -> Result<(), ProblemError> {
+        if self.is_distances_only() {
+            return check_structure(self.dimension, &self.points, &self.distances);
+        }
+        constraint::check_structure(self).map_err(|(owner, fault)| match owner {
+            Some((Owner::Object(index), true)) => ProblemError::Object {
+                index,
+                what: what(self.dimension, &self.objects[index].shape),
+                name: self.objects[index].name.clone(),
+                fault,
+            },
+            Some((Owner::Constraint(index), true)) => ProblemError::Constraint {
+                index,
+                name: self.constraint_name(index),
+                fault,
+                takes: constraint::kind(&self.constraints[index].kind).map_or("", |k| k.takes()),
+            },
+            Some((Owner::Object(index), false)) => ProblemError::System {
+                place: Place::Object(index),
+                fault,
+            },
+            Some((Owner::Constraint(index), false)) => ProblemError::System {
+                place: Place::Constraint(index),
+                fault,
+            },
+            None => ProblemError::System {
+                place: Place::Distances,
+                fault,
+            },
+        })
     }
 }
 
@@ -209,9 +263,20 @@ impl ProblemBuilder {
         self
     }
 
+    /// Sets how far constraints that the sketch meets are led off on the way
+    /// ([`HomotopyChoices::detour`]). Left out, it is 0: they hold all along.
+    pub fn detour<N>(mut self, by: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.detour = Some(number(by));
+        self
+    }
+
     /// Checks everything and makes the problem.
     pub fn finish(self) -> Result<Problem, ProblemError> {
-        check_frame(&self.name, self.dimension, self.points.len())?;
+        check_size(&self.name, self.dimension, self.points.len())?;
         let points = self.finished_points()?;
         let index_of: HashMap<&str, usize> = points
             .iter()
@@ -223,6 +288,7 @@ impl ProblemBuilder {
                 .get(name)
                 .copied()
                 .ok_or_else(|| ProblemError::UnknownPoint {
+                    objects: false,
                     place,
                     what: what.to_owned(),
                     name: name.chars().take(MAX_NAME).collect(),
@@ -232,6 +298,8 @@ impl ProblemBuilder {
 
         let distances = self.finished_distances(find)?;
         check_distances(&points, &distances)?;
+        let objects = self.finished_objects(&index_of)?;
+        let constraints = self.finished_constraints(&points, &objects)?;
         let reference = match &self.reference {
             None => None,
             Some(names) => {
@@ -244,7 +312,8 @@ impl ProblemBuilder {
             }
         };
         let bend = match &self.bend {
-            None => distances.len().checked_sub(1),
+            // Where there are no distances, nothing bends.
+            None => distances.len().saturating_sub(1),
             Some(names) => {
                 let [a, b] = names.as_slice() else {
                     return Err(ProblemError::BendCount(names.len()));
@@ -257,37 +326,72 @@ impl ProblemBuilder {
                     .iter()
                     .position(|d| d.points == [i, j] || d.points == [j, i]);
                 let unknown = || ProblemError::BendNotADistance(format!("{a}-{b}"));
-                Some(at.ok_or_else(unknown)?)
+                at.ok_or_else(unknown)?
             }
         };
-        let bend_coefficient = match self.bend_coefficient {
-            None => Decimal::from(2),
-            Some(c) => c.map_err(|source| ProblemError::Number {
-                place: Place::BendCoefficient,
-                what: "the bend's coefficient".to_owned(),
+        let choice = |number: Option<Number>, place, what: &str, otherwise: i32| match number {
+            None => Ok(Decimal::from(otherwise)),
+            Some(number) => number.map_err(|source| ProblemError::Number {
+                place,
+                what: what.to_owned(),
                 source,
-            })?,
+            }),
         };
-        check_structure(self.dimension, &points, &distances)?;
-        check_sketch(&points, &distances)?;
-        let bend = bend.ok_or(ProblemError::NoDistances)?;
-        let reference = match reference {
-            Some(reference) => reference,
-            None => reference::choose(self.dimension, &points, &distances, bend)
-                .ok_or(ProblemError::CollinearSketch)?,
-        };
-        Ok(Problem {
+        let c = self.bend_coefficient.clone();
+        let bend_coefficient = choice(c, Place::BendCoefficient, "the bend's coefficient", 2)?;
+        let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
+        let mut problem = Problem {
             name: self.name,
             dimension: self.dimension,
             source: self.source,
+            points,
+            objects,
+            distances,
+            constraints,
             homotopy: HomotopyChoices {
-                reference,
+                reference: Vec::new(),
                 bend,
                 bend_coefficient,
+                detour,
             },
-            points,
-            distances,
-        })
+        };
+        let own_frame = constraint::frame_of(&problem).frame;
+        let count = problem.points.len();
+        if !own_frame {
+            check_enough_points(problem.dimension, count)?;
+        }
+        check_names(&problem)?;
+        if problem.is_distances_only() {
+            problem.check_together()?;
+        }
+        check_sketch(&problem.points, &problem.distances)?;
+        if problem.is_distances_only() && problem.distances.is_empty() {
+            return Err(ProblemError::NoDistances);
+        }
+        problem.homotopy.reference = match (reference, own_frame) {
+            (Some(_), true) => {
+                let all = 0..problem.constraints.len();
+                let fixing =
+                    all.map(|index| (index, &problem.constraints[index]))
+                        .find(|(_, c)| {
+                            let kind = constraint::kind(&c.kind);
+                            kind.is_some_and(|kind| kind.fixes(&problem, &c.items).frame)
+                        });
+                let name = fixing.map(|(index, _)| problem.constraint_name(index));
+                let name = format!("`{}`", name.unwrap_or_default());
+                return Err(ProblemError::ReferenceInOwnFrame(name));
+            }
+            (None, true) => Vec::new(),
+            (Some(reference), false) => reference,
+            (None, false) => {
+                reference::choose(problem.dimension, &problem.points, &problem.distances, bend)
+                    .ok_or(ProblemError::CollinearSketch)?
+            }
+        };
+        if !problem.is_distances_only() {
+            problem.check_together()?;
+        }
+        Ok(problem)
     }
 
     fn finished_points(&self) -> Result<Vec<Point>, ProblemError> {
@@ -355,7 +459,7 @@ impl ProblemBuilder {
     }
 }
 
-fn check_frame(name: &str, dimension: usize, points: usize) -> Result<(), ProblemError> {
+fn check_size(name: &str, dimension: usize, points: usize) -> Result<(), ProblemError> {
     check_name(Place::Name, name)?;
     if !matches!(dimension, 2 | 3) {
         return Err(ProblemError::Dimension(dimension.to_string()));
@@ -363,6 +467,11 @@ fn check_frame(name: &str, dimension: usize, points: usize) -> Result<(), Proble
     if points > MAX_POINTS {
         return Err(ProblemError::TooManyPoints(points));
     }
+    Ok(())
+}
+
+/// As many points as a reference needs.
+fn check_enough_points(dimension: usize, points: usize) -> Result<(), ProblemError> {
     if points < dimension {
         return Err(ProblemError::TooFewPoints {
             given: points,
@@ -372,7 +481,7 @@ fn check_frame(name: &str, dimension: usize, points: usize) -> Result<(), Proble
     Ok(())
 }
 
-fn check_name(place: Place, name: &str) -> Result<(), ProblemError> {
+pub(super) fn check_name(place: Place, name: &str) -> Result<(), ProblemError> {
     let length = name.chars().count();
     if name.trim().is_empty() || length > MAX_NAME || name.chars().any(char::is_control) {
         let name = name.chars().take(MAX_NAME).collect();

@@ -6,7 +6,7 @@ use super::DecimalError;
 ///
 /// Every message names the point or the constraint and says what to do; [`ProblemError::place`]
 /// says which part of the input is meant, for whoever knows lines or widgets.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     /// Neither plane nor space.
     #[error("the dimension is {0}, but must be 2 (plane) or 3 (space)")]
@@ -65,9 +65,11 @@ pub enum ProblemError {
         /// What is wrong with it.
         source: DecimalError,
     },
-    /// A name that no point has.
-    #[error("{what}: there is no point `{name}`{}", did_you_mean(.nearest))]
+    /// A name that no point has, or, in constraints of other kinds than distances, no object either.
+    #[error("{what}: there is no point{} `{name}`{}", if *.objects { " or object" } else { "" }, did_you_mean(.nearest))]
     UnknownPoint {
+        /// Whether objects could be named too.
+        objects: bool,
         /// Where the name is used.
         place: Place,
         /// What uses it.
@@ -169,10 +171,87 @@ pub enum ProblemError {
     /// The bend is not among the distances.
     #[error("the bend {0} is not one of the distances: name the two points of one")]
     BendNotADistance(String),
-    /// Nothing to bend.
+    /// Nothing to meet.
     #[error("there are no distances")]
     NoDistances,
+    /// A name that a point or another object has already, or an axis.
+    #[error("the name `{name}` is taken: rename the {what}")]
+    RepeatedName {
+        /// Where it is given again.
+        place: Place,
+        /// What it is given to: `line`, `plane`.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A kind of object that there is not in the plane, or not in space.
+    #[error("the {what} `{name}`: there are {what}s in {space} only")]
+    WrongSpace {
+        /// Which object.
+        index: usize,
+        /// What it is.
+        what: &'static str,
+        /// Its name.
+        name: String,
+        /// Where there are some.
+        space: &'static str,
+    },
+    /// A kind of constraints that there is not.
+    #[error("there is no kind of constraints `{kind}`{}", did_you_mean(.nearest))]
+    UnknownKind {
+        /// The kind.
+        kind: String,
+        /// The most similar one that there is.
+        nearest: Option<String>,
+    },
+    /// A constraint given twice.
+    #[error("`{name}` is given twice: remove one of them")]
+    RepeatedConstraint {
+        /// The second of them.
+        index: usize,
+        /// The constraint.
+        name: String,
+    },
+    /// An object that cannot be put to work.
+    #[error("the {what} `{name}`: {fault}")]
+    Object {
+        /// Which object.
+        index: usize,
+        /// What it is.
+        what: &'static str,
+        /// Its name.
+        name: String,
+        /// What is wrong, and what to do.
+        fault: String,
+    },
+    /// A constraint that cannot be put to work.
+    #[error("`{name}`: {fault} (it takes {takes})")]
+    Constraint {
+        /// Which constraint.
+        index: usize,
+        /// The constraint.
+        name: String,
+        /// What is wrong, and what to do.
+        fault: String,
+        /// What its kind takes.
+        takes: &'static str,
+    },
+    /// Not as many equations as unknowns, or not where they are needed.
+    #[error("{fault}")]
+    System {
+        /// The part to point at.
+        place: Place,
+        /// What is too much or missing.
+        fault: String,
+    },
+    /// A reference where the frame is the user's own.
+    #[error(
+        "there is a reference, but {0} says where figures are or which way they lie: results are in the          coordinates of the sketch, so leave the reference out"
+    )]
+    ReferenceInOwnFrame(String),
 }
+
+crate::debug_in_words!(ProblemError);
 
 /// Most points that are read.
 ///
@@ -204,6 +283,12 @@ pub enum Place {
     Bend,
     /// The bend's coefficient.
     BendCoefficient,
+    /// The detour.
+    Detour,
+    /// An object, by index.
+    Object(usize),
+    /// A constraint that is no distance between points, by index.
+    Constraint(usize),
 }
 
 impl ProblemError {
@@ -231,6 +316,13 @@ impl ProblemError {
             | Self::ReferenceCoincident(..)
             | Self::ReferenceCollinear(..) => Place::Reference,
             Self::BendCount(_) | Self::BendNotADistance(_) => Place::Bend,
+            Self::RepeatedName { place, .. } | Self::System { place, .. } => *place,
+            Self::WrongSpace { index, .. } | Self::Object { index, .. } => Place::Object(*index),
+            Self::UnknownKind { .. } => Place::Distances,
+            Self::RepeatedConstraint { index, .. } | Self::Constraint { index, .. } => {
+                Place::Constraint(*index)
+            }
+            Self::ReferenceInOwnFrame(_) => Place::Reference,
         }
     }
 }

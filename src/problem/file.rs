@@ -7,6 +7,8 @@ use super::builder::ProblemBuilder;
 use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
 use super::names::nearest;
 use super::{Decimal, DecimalError, Problem, ProblemError, Published};
+use crate::constraint::KINDS;
+use std::collections::HashSet;
 use std::fmt;
 use std::io::Read;
 use std::ops::Range;
@@ -18,7 +20,6 @@ pub const MAX_FILE_SIZE: u64 = 1 << 20;
 
 /// Why a file is no problem that krawl takes. Its text names file, line, key, and point or
 /// constraint.
-#[derive(Debug)]
 pub struct FileError {
     /// The file, as it was named.
     pub file: String,
@@ -27,6 +28,8 @@ pub struct FileError {
     /// What is wrong.
     pub fault: Box<FileFault>,
 }
+
+crate::debug_in_words!(FileError);
 
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]
@@ -191,7 +194,7 @@ fn read(path: &Path) -> Result<(Problem, Vec<Published>), FileError> {
 }
 
 /// A text and its name.
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     text: &'a str,
     file: &'a str,
     /// Where the lines end.
@@ -200,20 +203,25 @@ struct Reader<'a> {
 
 /// Where the parts of a problem stand in the file.
 #[derive(Default)]
-struct Places {
+pub(super) struct Places {
     name: Option<usize>,
     dimension: Option<usize>,
     points: Vec<Option<usize>>,
     points_table: Option<usize>,
     constraints: Option<usize>,
     /// Lengths first, then squares.
-    distances: Vec<(&'static str, Option<usize>)>,
+    pub(super) distances: Vec<(&'static str, Option<usize>)>,
+    /// Tables of objects and where each object stands.
+    pub(super) objects: Vec<(&'static str, Option<usize>)>,
+    /// Kinds of constraints and where each constraint stands.
+    pub(super) constraints_of_kinds: Vec<(&'static str, Option<usize>)>,
+    detour: Option<usize>,
     reference: Option<usize>,
     bend: Option<usize>,
     bend_coefficient: Option<usize>,
 }
 
-type Line = Option<usize>;
+pub(super) type Line = Option<usize>;
 
 impl<'a> Reader<'a> {
     fn new(text: &'a str, file: &'a str) -> Self {
@@ -237,6 +245,12 @@ impl<'a> Reader<'a> {
                 "dimension",
                 "source",
                 "points",
+                "lines",
+                "planes",
+                "circles",
+                "spheres",
+                "arcs",
+                "bodies",
                 "constraints",
                 "homotopy",
                 "published",
@@ -274,7 +288,8 @@ impl<'a> Reader<'a> {
             builder = builder.source(&self.string(line, "source", item)?);
         }
         builder = self.points(root, dimension, builder, &mut places)?;
-        builder = self.constraints(root, builder, &mut places)?;
+        let (with_objects, objects) = self.objects(root, builder, &mut places)?;
+        builder = self.constraints(root, &objects, with_objects, &mut places)?;
         builder = self.homotopy(root, builder, &mut places)?;
         let published = self.published(root)?;
         let problem = builder.finish();
@@ -386,6 +401,7 @@ impl<'a> Reader<'a> {
     fn constraints(
         &self,
         root: &dyn TableLike,
+        objects: &HashSet<String>,
         mut builder: ProblemBuilder,
         places: &mut Places,
     ) -> Result<ProblemBuilder, FileError> {
@@ -396,45 +412,49 @@ impl<'a> Reader<'a> {
         };
         places.constraints = line;
         let table = self.table(line, "constraints", item)?;
-        self.known_keys(table, "constraints.", &["distances", "squared_distances"])?;
-        for (name, key) in [
-            ("distances", "constraints.distances"),
-            ("squared_distances", "constraints.squared_distances"),
-        ] {
-            let Some((line, item)) = self.get(table, name) else {
-                continue;
+        self.known_keys(table, "constraints.", &Self::constraint_keys())?;
+        for &kind in KINDS {
+            builder = self.kind(kind, table, objects, builder, places)?;
+        }
+        self.squared_distances(table, builder, places)
+    }
+
+    fn squared_distances(
+        &self,
+        table: &dyn TableLike,
+        mut builder: ProblemBuilder,
+        places: &mut Places,
+    ) -> Result<ProblemBuilder, FileError> {
+        let key = "constraints.squared_distances";
+        let Some((line, item)) = self.get(table, "squared_distances") else {
+            return Ok(builder);
+        };
+        let wanted = "a list of [\"point\", \"point\", number] in brackets";
+        let Some(array) = item.as_array() else {
+            return Err(self.wrong_kind(line, key, wanted, item));
+        };
+        for value in array {
+            let line = self.line(value.span());
+            let wanted = "[\"point\", \"point\", number]";
+            let Some(array) = value.as_array() else {
+                return Err(self.wrong_value(line, key, wanted, value));
             };
-            let wanted = "a list of [\"point\", \"point\", number] in brackets";
-            let Some(array) = item.as_array() else {
-                return Err(self.wrong_kind(line, key, wanted, item));
+            let parts: Vec<&Value> = array.iter().collect();
+            let [a, b, number] = parts.as_slice() else {
+                let found = format!("a list of {}", parts.len());
+                return Err(self.wrong(line, key, wanted, found));
             };
-            for value in array {
-                let line = self.line(value.span());
-                let wanted = "[\"point\", \"point\", number]";
-                let Some(array) = value.as_array() else {
-                    return Err(self.wrong_value(line, key, wanted, value));
-                };
-                let parts: Vec<&Value> = array.iter().collect();
-                let [a, b, number] = parts.as_slice() else {
-                    let found = format!("a list of {}", parts.len());
-                    return Err(self.wrong(line, key, wanted, found));
-                };
-                let ends = [a, b].map(|end| {
-                    let name = end.as_str();
-                    name.ok_or_else(|| self.wrong_value(line, key, "a point's name in quotes", end))
-                });
-                let [a, b] = ends;
-                let (a, b) = (a?, b?);
-                let shown = |name: &str| name.chars().take(40).collect::<String>();
-                let here = format!("{key}: {}-{}", shown(a), shown(b));
-                let number = self.number(line, &here, number)?;
-                builder = if name == "distances" {
-                    builder.distance(a, b, number)
-                } else {
-                    builder.squared_distance(a, b, number)
-                };
-                places.distances.push((key, line));
-            }
+            let ends = [a, b].map(|end| {
+                let name = end.as_str();
+                name.ok_or_else(|| self.wrong_value(line, key, "a point's name in quotes", end))
+            });
+            let [a, b] = ends;
+            let (a, b) = (a?, b?);
+            let shown = |name: &str| name.chars().take(40).collect::<String>();
+            let here = format!("{key}: {}-{}", shown(a), shown(b));
+            let number = self.number(line, &here, number)?;
+            builder = builder.squared_distance(a, b, number);
+            places.distances.push((key, line));
         }
         Ok(builder)
     }
@@ -452,7 +472,7 @@ impl<'a> Reader<'a> {
         self.known_keys(
             table,
             "homotopy.",
-            &["reference", "bend", "bend_coefficient"],
+            &["reference", "bend", "bend_coefficient", "detour"],
         )?;
         if let Some((line, item)) = self.get(table, "reference") {
             places.reference = line;
@@ -470,11 +490,24 @@ impl<'a> Reader<'a> {
             };
             builder = builder.bend_coefficient(self.number(line, key, value)?);
         }
+        if let Some((line, item)) = self.get(table, "detour") {
+            places.detour = line;
+            let key = "homotopy.detour";
+            let Some(value) = item.as_value() else {
+                return Err(self.wrong_kind(line, key, "a number", item));
+            };
+            builder = builder.detour(self.number(line, key, value)?);
+        }
         Ok(builder)
     }
 
     /// The exact number that the text of `value` says.
-    fn number(&self, line: Line, key: &str, value: &Value) -> Result<Decimal, FileError> {
+    pub(super) fn number(
+        &self,
+        line: Line,
+        key: &str,
+        value: &Value,
+    ) -> Result<Decimal, FileError> {
         let line = self.line(value.span()).or(line);
         let text = match value {
             Value::Integer(_) | Value::Float(_) => value.span().and_then(|s| self.text.get(s)),
@@ -502,7 +535,12 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn point_names(&self, line: Line, key: &str, item: &Item) -> Result<Vec<String>, FileError> {
+    pub(super) fn point_names(
+        &self,
+        line: Line,
+        key: &str,
+        item: &Item,
+    ) -> Result<Vec<String>, FileError> {
         let wanted = "names of points in brackets, each in quotes";
         let Some(array) = item.as_array() else {
             return Err(self.wrong_kind(line, key, wanted, item));
@@ -516,14 +554,14 @@ impl<'a> Reader<'a> {
             .collect()
     }
 
-    fn string(&self, line: Line, key: &str, item: &Item) -> Result<String, FileError> {
+    pub(super) fn string(&self, line: Line, key: &str, item: &Item) -> Result<String, FileError> {
         match item.as_str() {
             Some(text) => Ok(text.to_owned()),
             None => Err(self.wrong_kind(line, key, "a text in quotes", item)),
         }
     }
 
-    fn table<'i>(
+    pub(super) fn table<'i>(
         &self,
         line: Line,
         key: &str,
@@ -533,12 +571,12 @@ impl<'a> Reader<'a> {
         item.as_table_like().ok_or_else(wrong)
     }
 
-    fn get<'t>(&self, table: &'t dyn TableLike, name: &str) -> Option<(Line, &'t Item)> {
+    pub(super) fn get<'t>(&self, table: &'t dyn TableLike, name: &str) -> Option<(Line, &'t Item)> {
         let (key, item) = table.get_key_value(name)?;
         Some((self.line(key.span()), item))
     }
 
-    fn known_keys(
+    pub(super) fn known_keys(
         &self,
         table: &dyn TableLike,
         prefix: &str,
@@ -560,7 +598,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The line on which a span begins.
-    fn line(&self, span: Option<Range<usize>>) -> Line {
+    pub(super) fn line(&self, span: Option<Range<usize>>) -> Line {
         let start = span?.start;
         Some(1 + self.line_ends.partition_point(|&end| end < start))
     }
@@ -605,14 +643,26 @@ impl<'a> Reader<'a> {
         self.fail(None, fault)
     }
 
-    fn wrong_kind(&self, line: Line, key: &str, wanted: &str, found: &Item) -> FileError {
+    pub(super) fn wrong_kind(
+        &self,
+        line: Line,
+        key: &str,
+        wanted: &str,
+        found: &Item,
+    ) -> FileError {
         match found.as_value() {
             Some(value) => self.wrong_value(line, key, wanted, value),
             None => self.wrong(line, key, wanted, format!("a {}", found.type_name())),
         }
     }
 
-    fn wrong_value(&self, line: Line, key: &str, wanted: &str, found: &Value) -> FileError {
+    pub(super) fn wrong_value(
+        &self,
+        line: Line,
+        key: &str,
+        wanted: &str,
+        found: &Value,
+    ) -> FileError {
         let text = found.span().and_then(|span| self.text.get(span));
         let text: String = text.unwrap_or("").chars().take(41).collect();
         let found = match text.as_str() {
@@ -622,7 +672,7 @@ impl<'a> Reader<'a> {
         self.wrong(line, key, wanted, found)
     }
 
-    fn wrong(&self, line: Line, key: &str, wanted: &str, found: String) -> FileError {
+    pub(super) fn wrong(&self, line: Line, key: &str, wanted: &str, found: String) -> FileError {
         self.fail(
             line,
             FileFault::WrongKind {
@@ -635,7 +685,20 @@ impl<'a> Reader<'a> {
 
     fn in_problem(&self, places: &Places, error: ProblemError) -> FileError {
         let point = |i: usize| places.points.get(i).copied().flatten();
+        let named = |places: &[(&str, Line)], index: usize, within: &str| {
+            let (key, line) = places.get(index).copied().unwrap_or(("constraints", None));
+            (format!("{within}{key}: "), line)
+        };
         let (key, line) = match error.place() {
+            Place::Object(i) => {
+                let (key, line) = named(&places.objects, i, "");
+                return self.fail(line, FileFault::Problem { key, error });
+            }
+            Place::Constraint(i) => {
+                let (key, line) = named(&places.constraints_of_kinds, i, "constraints.");
+                return self.fail(line, FileFault::Problem { key, error });
+            }
+            Place::Detour => ("homotopy.detour: ", places.detour),
             Place::Whole => ("", places.points_table),
             Place::Name => ("name: ", places.name),
             Place::Dimension => ("dimension: ", places.dimension),

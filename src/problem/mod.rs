@@ -7,22 +7,29 @@
 mod builder;
 mod check;
 mod decimal;
+mod draft;
 mod error;
 mod file;
 mod names;
+mod object;
 mod published;
 mod reference;
+mod vocabulary;
 mod write;
 
 pub use builder::ProblemBuilder;
+pub(crate) use check::field;
 pub use check::{Rigidity, rigidity};
 pub use decimal::{Decimal, DecimalError};
 pub(crate) use error::counted;
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};
+pub(crate) use names::list;
+pub use object::{AXES, Constraint, Item, Object, Shape};
 pub use published::Published;
 
-/// A Point Distance Satisfaction Problem with its sketch (RR 8705, section 2.1).
+/// A geometric problem with its sketch: points, distances between them (RR 8705, section 2.1), and
+/// what else there may be: lines, planes, circles, bodies, and constraints on them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// A short name, used in results.
@@ -33,8 +40,13 @@ pub struct Problem {
     pub source: String,
     /// The points, with their places in the sketch.
     pub points: Vec<Point>,
-    /// The distances to meet. There are as many as free coordinates.
+    /// Lines, planes, circles, spheres, arcs and rigid bodies.
+    pub objects: Vec<Object>,
+    /// The distances between points to meet. Where there are no other constraints, there are as many
+    /// as free coordinates.
     pub distances: Vec<Distance>,
+    /// All other constraints, in the order of [`crate::constraint::KINDS`].
+    pub constraints: Vec<Constraint>,
     /// How the sketch is led to the target dimensions.
     pub homotopy: HomotopyChoices,
 }
@@ -70,17 +82,28 @@ pub enum Target {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HomotopyChoices {
     /// Indices of the reference points, two in the plane and three in space: the first at the
-    /// origin, the second on the positive x axis, the third in the upper half of the xy plane.
+    /// origin, the second on the positive x axis, the third in the upper half of the xy plane. Empty
+    /// where the problem is in the user's own frame ([`Problem::is_absolute`]).
     pub reference: Vec<usize>,
-    /// Index of the distance whose length is interpolated by `-c t² + (a_so - a_sk + c) t + a_sk`.
+    /// Index of the distance whose length is interpolated by `-c t² + (a_so - a_sk + c) t + a_sk`;
+    /// the number of distances where none is ([`Problem::bend`]).
     pub bend: usize,
     /// The coefficient c.
     pub bend_coefficient: Decimal,
+    /// Constraints without a value that the sketch meets exactly (coplanar, parallel, ...) hold all
+    /// along the path where this is zero. Otherwise they are led off and back, by `δ t (1 - t)` with this
+    /// δ: Imbach, Mathis, Schreck, section 5.2 of the article on tracking with coplanarities, do so to
+    /// stay clear of figures that are flat as a whole.
+    pub detour: Decimal,
 }
 
 impl Problem {
-    /// The number m of free coordinates, and of distances: `2n - 3` in the plane, `3n - 6` in space.
+    /// The number m of free coordinates of points: `2n - 3` in the plane, `3n - 6` in space, or all of
+    /// them where the problem is in the user's own frame.
     pub fn free_coordinates(&self) -> usize {
+        if self.is_absolute() {
+            return self.dimension * self.points.len();
+        }
         free_coordinates(self.dimension, self.points.len())
     }
 

@@ -1,7 +1,7 @@
 //! Names in messages: lists that stay short, and guesses at what was meant.
 
 /// `a, b, c and 5 more`: at most `most` of the names.
-pub(super) fn list<S: AsRef<str>>(names: &[S], most: usize) -> String {
+pub(crate) fn list<S: AsRef<str>>(names: &[S], most: usize) -> String {
     let join = |names: &[S]| {
         let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
         names.join(", ")

@@ -11,7 +11,8 @@ use super::{Distance, Point};
 ///    bend in it, it could shrink;
 /// 2. the same with the bend;
 /// 3. in space, two joined points and a third joined to one of them;
-/// 4. in space, two joined points and any third.
+/// 4. in space, two joined points and any third;
+/// 5. where no distance joins points, the two that are farthest apart, with any third in space.
 ///
 /// `None` if all points of the sketch lie on one line.
 pub(super) fn choose(
@@ -48,7 +49,21 @@ pub(super) fn choose(
         }
     };
 
-    if dimension == 2 {
+    if distances.is_empty() {
+        let pairs = (0..n).flat_map(|a| (0..a).map(move |b| [b, a]));
+        let apart = |&[a, b]: &[usize; 2]| squared_length(place[a], place[b]);
+        let [a, b] = pairs.max_by(|one, other| apart(one).total_cmp(&apart(other)))?;
+        if points[a].sketch == points[b].sketch {
+            return None;
+        }
+        if dimension == 2 {
+            offer(5, apart(&[a, b]), &[a, b]);
+        } else {
+            for c in (0..n).filter(|&c| c != a && c != b) {
+                offer(5, roundness(place[a], place[b], place[c]), &[a, b, c]);
+            }
+        }
+    } else if dimension == 2 {
         for (index, distance) in distances.iter().enumerate() {
             let [a, b] = distance.points;
             let preference = if index == bend { 2 } else { 1 };

@@ -1,6 +1,7 @@
 //! Writing problem files.
 
-use super::{Decimal, Distance, Problem, Target};
+use super::{Decimal, Distance, Item, Problem, Shape, Target};
+use crate::constraint::KINDS;
 use std::fmt::Write;
 
 impl Problem {
@@ -38,33 +39,36 @@ impl Problem {
             let key = toml_edit::Key::new(&point.name);
             writeln!(out, "{key} = [{coordinates}]")?;
         }
+        self.write_objects(out)?;
         writeln!(out, "\n[constraints]")?;
         let is_length = |d: &&Distance| matches!(d.target, Target::Length(_));
-        for (key, lengths) in [("distances", true), ("squared_distances", false)] {
-            let mut distances = self
-                .distances
-                .iter()
-                .filter(|d| is_length(d) == lengths)
-                .peekable();
-            if distances.peek().is_none() {
-                continue;
-            }
-            writeln!(out, "{key} = [")?;
-            for distance in distances {
-                let [a, b] = distance.points.map(name);
-                let (Target::Length(target) | Target::SquaredLength(target)) = &distance.target;
-                writeln!(out, "    [{a}, {b}, {}],", number(target))?;
-            }
-            writeln!(out, "]")?;
+        let line = |distance: &Distance| {
+            let [a, b] = distance.points.map(name);
+            let (Target::Length(target) | Target::SquaredLength(target)) = &distance.target;
+            format!("[{a}, {b}, {}]", number(target))
+        };
+        let distances = self.distances.iter();
+        let lengths: Vec<String> = distances.clone().filter(is_length).map(line).collect();
+        let squares = distances.filter(|d| !is_length(d)).map(line).collect();
+        write_list(
+            out,
+            "distances",
+            [lengths, self.entries("distances")].concat(),
+        )?;
+        write_list(out, "squared_distances", squares)?;
+        for kind in KINDS.iter().filter(|kind| kind.key() != "distances") {
+            write_list(out, kind.key(), self.entries(kind.key()))?;
         }
         let homotopy = &self.homotopy;
         let reference = homotopy.reference.iter().map(|&p| name(p));
         writeln!(out, "\n[homotopy]")?;
-        writeln!(
-            out,
-            "reference = [{}]",
-            reference.collect::<Vec<_>>().join(", ")
-        )?;
+        if !self.is_absolute() {
+            writeln!(
+                out,
+                "reference = [{}]",
+                reference.collect::<Vec<_>>().join(", ")
+            )?;
+        }
         if let Some(bend) = self.distances.get(homotopy.bend) {
             let [a, b] = bend.points.map(name);
             writeln!(out, "bend = [{a}, {b}]")?;
@@ -73,8 +77,95 @@ impl Problem {
             out,
             "bend_coefficient = {}",
             number(&homotopy.bend_coefficient)
-        )
+        )?;
+        if homotopy.detour != Decimal::from(0) {
+            writeln!(out, "detour = {}", number(&homotopy.detour))?;
+        }
+        Ok(())
     }
+
+    /// The entries of one kind of constraints.
+    fn entries(&self, kind: &str) -> Vec<String> {
+        let constraints = self.constraints.iter().filter(|c| c.kind == kind);
+        constraints
+            .map(|constraint| {
+                let items = constraint.items.iter();
+                let mut parts: Vec<String> = items
+                    .map(|&item: &Item| quoted(self.item_name(item)))
+                    .collect();
+                parts.extend(constraint.value.as_ref().map(number));
+                format!("[{}]", parts.join(", "))
+            })
+            .collect()
+    }
+
+    /// The tables of objects. In each they stand in the problem's order; the tables themselves go by
+    /// [`super::vocabulary::TABLES`].
+    fn write_objects(&self, out: &mut String) -> std::fmt::Result {
+        let name = |p: &usize| quoted(&self.points[*p].name);
+        let names = |points: &[usize]| points.iter().map(name).collect::<Vec<_>>().join(", ");
+        let numbers = |of: &[Decimal; 3]| {
+            let numbers = of.iter().take(self.dimension).map(number);
+            format!("[{}]", numbers.collect::<Vec<_>>().join(", "))
+        };
+        for table in super::vocabulary::TABLES {
+            let objects = self.objects.iter().filter(|object| {
+                let what = super::draft::what(self.dimension, &object.shape);
+                table.strip_suffix('s') == Some(what) || (table, what) == ("bodies", "body")
+            });
+            for (index, object) in objects.enumerate() {
+                if index == 0 {
+                    writeln!(out, "\n[{table}]")?;
+                }
+                let text = match &object.shape {
+                    Shape::Line(points) => format!("[{}]", names(points)),
+                    Shape::Plane(points) => format!("[{}]", names(points)),
+                    Shape::FreeLine { point, direction } => {
+                        let (point, direction) = (numbers(point), numbers(direction));
+                        format!("{{ point = {point}, direction = {direction} }}")
+                    }
+                    Shape::FreePlane { point, normal } => {
+                        let (point, normal) = (numbers(point), numbers(normal));
+                        format!("{{ point = {point}, normal = {normal} }}")
+                    }
+                    Shape::Round { center, radius } => {
+                        format!(
+                            "{{ center = {}, radius = {} }}",
+                            name(center),
+                            number(radius)
+                        )
+                    }
+                    Shape::Arc { center, start, end } => format!(
+                        "{{ center = {}, start = {}, end = {} }}",
+                        name(center),
+                        name(start),
+                        name(end)
+                    ),
+                    Shape::Body { points, local } => {
+                        let members = points.iter().zip(local).map(|(&p, local)| {
+                            let key = toml_edit::Key::new(&self.points[p].name);
+                            format!("{key} = {}", numbers(local))
+                        });
+                        format!("{{ {} }}", members.collect::<Vec<_>>().join(", "))
+                    }
+                };
+                writeln!(out, "{} = {text}", toml_edit::Key::new(&object.name))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A key and its entries, one a line, unless there are none.
+fn write_list(out: &mut String, key: &str, entries: Vec<String>) -> std::fmt::Result {
+    if entries.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "{key} = [")?;
+    for entry in entries {
+        writeln!(out, "    {entry},")?;
+    }
+    writeln!(out, "]")
 }
 
 fn quoted(text: &str) -> String {

@@ -2,7 +2,7 @@
 
 use super::table::verdict;
 use crate::interval::Interval;
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Problem, Shape, Target};
 use crate::system::{Homotopy, Placement};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
@@ -60,6 +60,8 @@ struct Document<'a> {
     frame: Option<WrittenFrame>,
     sketch: Points<'a, [f64; 3]>,
     constraints: Vec<Constraint<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    objects: Vec<WrittenObject<'a>>,
     status: &'static str,
     reason: Option<&'a str>,
     verdict: String,
@@ -81,7 +83,7 @@ struct Document<'a> {
 struct WrittenOptions<'a> {
     preset: &'static str,
     reverse: bool,
-    bend: [&'a str; 2],
+    bend: Option<[&'a str; 2]>,
     bend_coefficient: Exact<'a>,
     max_step: Option<f64>,
     tube_radius: Option<f64>,
@@ -99,9 +101,17 @@ struct WrittenFrame {
 
 #[derive(Serialize)]
 struct Constraint<'a> {
+    kind: &'a str,
+    items: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<Exact<'a>>,
+}
+
+#[derive(Serialize)]
+struct WrittenObject<'a> {
+    name: &'a str,
     kind: &'static str,
-    points: [&'a str; 2],
-    value: Exact<'a>,
+    points: Vec<&'a str>,
 }
 
 /// A decimal as a text, so that it stays exact.
@@ -140,7 +150,7 @@ struct WrittenSample {
 }
 
 /// A map from names to coordinates, in the problem's order.
-struct Points<'a, T>(&'a Problem, Vec<T>);
+pub(super) struct Points<'a, T>(pub &'a Problem, pub Vec<T>);
 
 impl<'a> Document<'a> {
     fn new(run: &Run<'a>) -> Self {
@@ -180,6 +190,7 @@ impl<'a> Document<'a> {
             frame: placement.map(|placement| WrittenFrame::new(&placement, d)),
             sketch: Points(problem, sketch_of(problem)),
             constraints: constraints_of(problem),
+            objects: objects_of(problem),
             status,
             reason,
             verdict: verdict(outcome),
@@ -247,25 +258,62 @@ fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
             };
             Constraint {
                 kind,
-                points: distance.points.map(|p| problem.points[p].name.as_str()),
-                value: Exact(value),
+                items: names(problem, &distance.points),
+                value: Some(Exact(value)),
+            }
+        })
+        .chain(problem.constraints.iter().map(|constraint| {
+            let items = constraint.items.iter();
+            Constraint {
+                kind: &constraint.kind,
+                items: items.map(|&item| problem.item_name(item)).collect(),
+                value: constraint.value.as_ref().map(Exact),
+            }
+        }))
+        .collect()
+}
+
+fn objects_of(problem: &Problem) -> Vec<WrittenObject<'_>> {
+    let flat = problem.dimension == 2;
+    let objects = problem.objects.iter();
+    objects
+        .map(|object| {
+            let (kind, points): (_, &[usize]) = match &object.shape {
+                Shape::Line(points) => ("line", points),
+                Shape::FreeLine { .. } => ("line", &[]),
+                Shape::Plane(points) => ("plane", points),
+                Shape::FreePlane { .. } => ("plane", &[]),
+                Shape::Round { center, .. } if flat => ("circle", std::slice::from_ref(center)),
+                Shape::Round { center, .. } => ("sphere", std::slice::from_ref(center)),
+                Shape::Arc { center, start, end } => ("arc", &[*center, *start, *end]),
+                Shape::Body { points, .. } => ("body", points),
+            };
+            WrittenObject {
+                name: &object.name,
+                kind,
+                points: names(problem, points),
             }
         })
         .collect()
 }
 
+fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
+    points
+        .iter()
+        .map(|&p| problem.points[p].name.as_str())
+        .collect()
+}
+
 impl<'a> WrittenOptions<'a> {
     fn new(problem: &'a Problem, options: &Options) -> Self {
-        let bend = problem.distances.get(problem.homotopy.bend);
+        let bend = problem.bend().map(|bend| &problem.distances[bend]);
         WrittenOptions {
             preset: match options.preset {
                 Preset::Default => "default",
                 Preset::Paper => "paper",
             },
             reverse: options.reverse,
-            bend: bend.map_or(["", ""], |bend| {
-                bend.points.map(|p| problem.points[p].name.as_str())
-            }),
+            bend: bend.map(|bend| bend.points.map(|p| problem.points[p].name.as_str())),
             bend_coefficient: Exact(&problem.homotopy.bend_coefficient),
             max_step: options.max_step,
             tube_radius: options.tube_radius,

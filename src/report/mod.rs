@@ -1,17 +1,26 @@
 //! What people and programs get to see of a run.
 
 mod comparison;
+mod complete;
 mod digits;
+mod edit;
 mod json;
 pub mod page;
+#[cfg(feature = "cli")]
 pub mod picture;
+#[cfg(feature = "cli")]
 mod progress;
 mod table;
 mod theorem;
 
-pub use comparison::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
+#[cfg(feature = "cli")]
+pub use comparison::comparisons_to_csv;
+pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
+pub use complete::{complete_to_json, complete_to_table};
 pub use digits::certain_digits;
+pub use edit::{edit_in_words, edit_to_json, edit_to_table, edit_to_value, limit_in_words};
 pub use json::{JSON_VERSION, Run};
+#[cfg(feature = "cli")]
 pub use progress::ProgressLine;
 pub use table::{to_short_table, to_summary, to_table};
 pub use theorem::theorem;

@@ -54,6 +54,17 @@ impl ProgressLine {
         }
     }
 
+    /// Shows where the search for all solutions is: what is left is guessed from what is done.
+    pub fn show_search(&mut self, share: f64, boxes: u64, seconds: f64) {
+        if let Some(line) = &self.line {
+            let left = seconds * (1.0 - share) / share.max(1e-9);
+            line.set_message(format!(
+                "{:.4} % of the parameter space   boxes {boxes}   perhaps {left:.0} s left",
+                100.0 * share
+            ));
+        }
+    }
+
     /// Takes the line away.
     pub fn clear(self) {
         if let Some(line) = &self.line {

@@ -21,7 +21,7 @@ pub struct Gauge {
 }
 
 /// Why the sketch cannot be seen from the reference.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum GaugeError {
     /// The first two reference points cannot be told apart.
     #[error(
@@ -35,7 +35,12 @@ pub enum GaugeError {
              them in 53 bits; choose others"
     )]
     Collinear(String, String, String),
+    /// There are constraints that no tracker takes.
+    #[error("{0}")]
+    Constraints(String),
 }
+
+crate::debug_in_words!(GaugeError);
 
 impl Gauge {
     /// The gauge of a problem.
@@ -82,11 +87,11 @@ impl Gauge {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
         let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
         if self.reference.is_empty() {
+            // The problem's own frame.
+            let (zero, one) = (point(0.0), point(1.0));
             return Ok(Placement {
-                origin: [point(0.0); 3],
-                axes: std::array::from_fn(|k| {
-                    std::array::from_fn(|axis| point(if axis == k { 1.0 } else { 0.0 }))
-                }),
+                origin: [zero; 3],
+                axes: [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
             });
         }
         let origin = coordinates(self.reference[0]);
@@ -114,10 +119,6 @@ impl Gauge {
     /// With a reference the sketch is moved, not mirrored: p ↦ Rᵀ(p − p₁) with R's columns the unit vectors from
     /// p₁ to p₂, perpendicular to it towards p₃, and their cross product.
     pub fn sketch(&self, problem: &Problem) -> Result<Vec<[Interval; 3]>, GaugeError> {
-        if self.reference.is_empty() {
-            let points = problem.points.iter();
-            return Ok(points.map(|p| p.sketch.each_ref().map(enclose)).collect());
-        }
         let Placement { origin, axes } = self.placement(problem)?;
         Ok((0..problem.points.len())
             .map(|p| {

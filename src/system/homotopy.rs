@@ -1,7 +1,7 @@
 //! H(X, t), as the trackers see it.
 
 use super::{ExactLength, Gauge, GaugeError, Length, Right};
-use crate::constraint::{self, Entry, Form, Tail};
+use crate::constraint::{self, Entry, Form, Role, Tail};
 use crate::interval::{Interval, enclose, enclose_rational, point};
 use crate::problem::{Problem, Target};
 
@@ -255,6 +255,19 @@ impl Homotopy {
     pub fn sketch_of_unknowns(&self) -> impl Iterator<Item = Interval> + '_ {
         let coordinates = self.gauge.place.iter().map(|&p| self.sketch_box[p]);
         coordinates.chain(self.auxiliary.iter().copied())
+    }
+
+    /// The auxiliary unknowns that have to be proved positive: lengths and radii.
+    pub fn positive_unknowns(&self) -> Vec<usize> {
+        let first = self.gauge.place.len();
+        let unknowns = self.tail.unknowns.iter().enumerate();
+        let positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
+        positive.map(|(k, _)| first + k).collect()
+    }
+
+    /// What people call an auxiliary unknown, of this number among all unknowns.
+    pub fn name_of_auxiliary(&self, unknown: usize) -> &str {
+        &self.tail.unknowns[unknown - self.gauge.place.len()].name
     }
 
     /// Whether an unknown changes its sign where an axis is reversed.

@@ -52,6 +52,17 @@ impl Length {
         if self.bends { 4 } else { 2 }
     }
 
+    /// A length that stays what it is.
+    pub fn constant(length: Interval) -> Self {
+        let zero = crate::interval::point(0.0);
+        Length {
+            coefficients: [length, zero, zero],
+            target: length,
+            a: [length.mid(), 0.0, 0.0],
+            bends: false,
+        }
+    }
+
     /// An enclosure of the values that a takes on a set of t.
     ///
     /// Evaluated around the middle of the set, so that narrow sets give narrow values.

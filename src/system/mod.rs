@@ -4,6 +4,7 @@
 //! no square roots, and second derivatives in X that do not depend on X. All other constraints are
 //! quadratic equations too ([`crate::constraint`]).
 
+mod edit;
 mod exact;
 mod gauge;
 mod homotopy;

@@ -45,6 +45,13 @@ impl Right {
         )
     }
 
+    /// Half the square of a length that stays what it is, with an enclosure of it.
+    pub fn constant_half_square(half_square: Interval, exact: ExactLength) -> Self {
+        let mut enclosures = [point(0.0); MAX_DEGREE + 1];
+        enclosures[0] = half_square;
+        Self::new(enclosures, half_square, Exact::HalfSquare(exact), 2)
+    }
+
     /// The polynomial with these coefficients, t⁰ first, divided by `unit`, a power of two.
     ///
     /// # Panics
@@ -91,6 +98,12 @@ impl Right {
     pub fn enclose(&self, t: Interval) -> Interval {
         let e = &self.enclosures;
         e[0] + t * (e[1] + t * (e[2] + t * (e[3] + t * e[4])))
+    }
+
+    /// An enclosure of E'' on a set of t.
+    pub fn enclose_curvature(&self, t: Interval) -> Interval {
+        let [_, _, e2, e3, e4] = self.enclosures;
+        point(2.0) * e2 + t * (point(6.0) * e3 + t * (point(12.0) * e4))
     }
 
     /// An enclosure of E(1), straight from the target.

@@ -38,6 +38,17 @@ pub struct Undecided {
     pub slope: (f64, f64),
 }
 
+/// How t goes along a stretch of path that was proved to have dt/ds > 0 from its start on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rise {
+    /// dt/ds > 0 all along.
+    Throughout,
+    /// dt/ds > 0 up to this parameter, where t > 1.
+    Beyond(f64),
+    /// dt/ds > 0 could be proved up to this parameter only, and t < 1 was not excluded there.
+    Until(f64),
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Piece {
     Below,
@@ -149,7 +160,60 @@ impl<const N: usize> TimeAlong<N> {
             .ok_or_else(|| self.undecided(from, to))
     }
 
-    fn undecided(&self, a: f64, b: f64) -> Undecided {
+    /// How far dt/ds > 0 can be proved from the parameter `from` on, up to `to` or to where t > 1.
+    ///
+    /// Pieces are split down to 2⁻`DEPTH` of the stretch, so that what is left out before a fold is short.
+    pub fn rise(&self, from: f64, to: f64) -> Rise {
+        const DEPTH: usize = 12;
+        self.rise_between(from, to, DEPTH)
+    }
+
+    fn rise_between(&self, a: f64, b: f64, depth: usize) -> Rise {
+        let ((low, _), (slope_low, _)) = self.bounds(a, b);
+        if low > 0.0 {
+            return Rise::Beyond(a);
+        }
+        if slope_low > 0.0 {
+            return Rise::Throughout;
+        }
+        let middle = 0.5 * (a + b);
+        if depth == 0 || !(a < middle && middle < b) {
+            return Rise::Until(a);
+        }
+        match self.rise_between(a, middle, depth - 1) {
+            Rise::Throughout => self.rise_between(middle, b, depth - 1),
+            other => other,
+        }
+    }
+
+    /// A parameter from `from` to h where dt/ds is about zero, having been positive: a guess.
+    pub fn turning_point(&self, from: f64) -> Option<f64> {
+        let slope = |s: f64| {
+            let terms = self.coefficients.iter().enumerate().skip(1).rev();
+            terms.fold(0.0, |sum: f64, (k, c)| sum.mul_add(s, k as f64 * c))
+        };
+        const PIECES: usize = 32;
+        let at = |k: usize| from + (self.h - from) * (k as f64 / PIECES as f64);
+        let k = (1..=PIECES).find(|&k| slope(at(k)) <= 0.0)?;
+        let (mut a, mut b) = (at(k - 1), at(k));
+        for _ in 0..60 {
+            let middle = 0.5 * (a + b);
+            if slope(middle) > 0.0 {
+                a = middle;
+            } else {
+                b = middle;
+            }
+        }
+        Some(0.5 * (a + b))
+    }
+
+    /// Bounds of t over the parameters from `a` to `b`.
+    pub fn range(&self, a: f64, b: f64) -> (f64, f64) {
+        let (low, high) = self.bounds(a, b).0;
+        ((low + 1.0).next_down(), (high + 1.0).next_up())
+    }
+
+    pub(super) fn undecided(&self, a: f64, b: f64) -> Undecided {
         let (value, slope) = self.bounds(a, b);
         Undecided { value, slope }
     }

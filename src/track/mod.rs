@@ -1,5 +1,6 @@
 //! Following the path: predictor, corrector, step control, events.
 
+pub mod arc;
 pub mod certified;
 mod choice;
 mod congruence;
@@ -25,7 +26,7 @@ use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};
 
 /// Why a run could not even start.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum StartError {
     /// The reference is degenerate.
     #[error(transparent)]
@@ -34,6 +35,8 @@ pub enum StartError {
     #[error("{0}")]
     Unsupported(String),
 }
+
+crate::debug_in_words!(StartError);
 
 /// Follows the path through the sketch of `problem`.
 ///

@@ -7,7 +7,7 @@ use super::events::TimeAlong;
 /// A change counts once dt/ds is proved to have one sign before and the other after it. Where the sign is
 /// not certain for a stretch, there may be two more changes than are counted, or four, and so on; no
 /// changes are claimed only where the sign was certain all along.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Turns {
     /// The sign that was certain first: whether t rises.
     first: Option<bool>,

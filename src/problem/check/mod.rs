@@ -1,6 +1,6 @@
 //! Whether the distances are as many as needed, and where they are needed.
 
-mod field;
+pub(crate) mod field;
 mod rigidity;
 mod sketch;
 mod triangle;

@@ -213,7 +213,7 @@ function drawChart() {
   }
   pen.textAlign = "left"; pen.fillStyle = css("--soft"); pen.fillText(path.along, left, height - 7);
   pen.save(); pen.beginPath(); pen.rect(left - 7, 0, width - left - right + 14, height); pen.clip();
-  pen.strokeStyle = css("--ink"); pen.lineWidth = samples.length > 1600 && !state.span ? 1 : 1.6; pen.lineJoin = "round"; pen.beginPath();
+  pen.strokeStyle = css("--ink"); pen.lineWidth = data.figures.length > 60 && !state.span ? 1 : 1.6; pen.lineJoin = "round"; pen.beginPath();
   samples.forEach((s, k) => k ? pen.lineTo(x(s.at), y(s.t)) : pen.moveTo(x(s.at), y(s.t)));
   pen.stroke();
   const marks = path.marks.filter((m) => visible(m.at));

@@ -6,8 +6,10 @@ use super::Page;
 pub(super) struct Projection {
     middle: [f64; 3],
     rows: [[f64; 3]; 3],
-    /// The distance of the furthest point from the middle.
+    /// Half of what all of it is wide or high, on paper.
     size: f64,
+    /// The middle of it on paper.
+    centre: [f64; 2],
 }
 
 impl Projection {
@@ -25,12 +27,6 @@ impl Projection {
             true => 0.5 * (low[k] + high[k]),
             false => 0.0,
         });
-        let distance = |p: &[f64]| {
-            let squares = (0..3).map(|k| (p[k] - middle[k]).powi(2));
-            squares.sum::<f64>().sqrt()
-        };
-        let all = figures.flat_map(|f| f.chunks_exact(3));
-        let size = all.map(distance).fold(0.0, f64::max);
         // The third axis upwards, from the front, a little from the right and from above.
         let (s, c) = (-0.5f64).sin_cos();
         let (tilt, level) = (-1.22f64).sin_cos();
@@ -42,21 +38,49 @@ impl Projection {
                 [tilt * s, tilt * c, level],
             ],
         };
-        Projection {
+        let mut projection = Projection {
             middle,
             rows,
-            size: if size > 0.0 { size } else { 1.0 },
+            size: 1.0,
+            centre: [0.0; 2],
+        };
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for place in figures.flat_map(|figure| projection.places(figure)) {
+            for k in 0..2 {
+                low[k] = low[k].min(place[k]);
+                high[k] = high[k].max(place[k]);
+            }
+        }
+        let size = (0..2).map(|k| 0.5 * (high[k] - low[k])).fold(0.0, f64::max);
+        if size > 0.0 && size.is_finite() {
+            projection.size = size;
+            projection.centre = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+        }
+        projection
+    }
+
+    /// Half of what all of it is wide or high.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The same for one of the figures alone: as large, but in the middle.
+    pub fn centred(&self, page: &Page, figure: &[f64]) -> Self {
+        Projection {
+            size: self.size,
+            ..Projection::of(page, std::iter::once(figure))
         }
     }
 
-    /// The places of a figure's points, as if all were in a circle of radius 1.
+    /// The places of a figure's points, all of them between -1 and 1.
     pub fn places(&self, figure: &[f64]) -> Vec<[f64; 3]> {
         let place = |p: &[f64]| {
             let [x, y, z] = self.rows.map(|row| {
                 let along = (0..3).map(|k| row[k] * (p[k] - self.middle[k]));
-                along.sum::<f64>() / self.size
+                along.sum::<f64>()
             });
-            [x, -y, z]
+            let [a, b] = self.centre;
+            [(x - a) / self.size, (-y - b) / self.size, z / self.size]
         };
         figure.chunks_exact(3).map(place).collect()
     }

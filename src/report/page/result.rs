@@ -6,7 +6,7 @@ use crate::report::certain_digits;
 use serde_json::{Map, Value};
 
 /// Why a document is no result that can be shown.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum ShowError {
     /// It is not JSON.
     #[error("is not JSON: {0}")]
@@ -18,6 +18,8 @@ pub enum ShowError {
     #[error("is of version {0} of the format, and this program reads version {1}")]
     Version(u64, u32),
 }
+
+crate::debug_in_words!(ShowError);
 
 impl Page {
     /// The page of a result of `solve`. With samples in it (`--samples`) there is a path to travel.
@@ -145,9 +147,7 @@ impl<'a> Reader<'a> {
     fn bars(&self) -> Result<Vec<Bar>, ShowError> {
         let mut bars = Vec::new();
         for constraint in list(self.result, "constraints")? {
-            let points = list(constraint, "points")?;
-            let ends: Option<Vec<usize>> = points.iter().map(|name| self.number(name)).collect();
-            let ends = ends.ok_or(wrong("constraints"))?;
+            let items = list(constraint, "items").map_err(|_| wrong("constraints"))?;
             let value = constraint["value"].as_str();
             let target = value.and_then(|value| value.parse::<f64>().ok());
             let (label, target) = match (constraint["kind"].as_str(), value) {
@@ -158,12 +158,38 @@ impl<'a> Reader<'a> {
                 // Other kinds are no lines.
                 _ => continue,
             };
+            let ends: Option<Vec<usize>> = items.iter().map(|name| self.number(name)).collect();
+            let ends = ends.ok_or(wrong("constraints"))?;
             if let [a, b] = ends[..] {
                 bars.push(Bar {
                     ends: [a, b],
                     label,
                     target,
                 });
+            }
+        }
+        // Lines through points and rigid bodies hold points together too.
+        for object in self.result["objects"].as_array().into_iter().flatten() {
+            let points = object["points"].as_array().into_iter().flatten();
+            let points: Vec<usize> = points.filter_map(|name| self.number(name)).collect();
+            let pairs: Vec<[usize; 2]> = match object["kind"].as_str() {
+                Some("line") => points.windows(2).map(|w| [w[0], w[1]]).collect(),
+                Some("body") => points
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(k, &a)| points[..k].iter().map(move |&b| [a, b]))
+                    .collect(),
+                _ => Vec::new(),
+            };
+            for ends in pairs {
+                let known = |bar: &Bar| bar.ends == ends || bar.ends == [ends[1], ends[0]];
+                if !bars.iter().any(known) {
+                    bars.push(Bar {
+                        ends,
+                        label: String::new(),
+                        target: None,
+                    });
+                }
             }
         }
         Ok(bars)
@@ -306,11 +332,11 @@ impl<'a> Reader<'a> {
         );
         row("seconds", rounded(&result["seconds"]));
         let options = &result["options"];
-        let bend = [0, 1].map(|k| plain(&options["bend"][k])).join("-");
-        row(
-            "bend",
-            format!("{bend}, c = {}", plain(&options["bend_coefficient"])),
-        );
+        if !options["bend"].is_null() {
+            let bend = [0, 1].map(|k| plain(&options["bend"][k])).join("-");
+            let c = plain(&options["bend_coefficient"]);
+            row("bend", format!("{bend}, c = {c}"));
+        }
         for text in result["switched_on"].as_array().into_iter().flatten() {
             row("switched on", plain(text));
         }
@@ -334,7 +360,7 @@ impl<'a> Reader<'a> {
             [a, b, c] => {
                 format!("{a} at the origin, {b} on the x axis and {c} in the xy plane.")
             }
-            _ => "the reference points fixed.".to_owned(),
+            _ => "the sketch's own axes.".to_owned(),
         }
     }
 }

@@ -28,8 +28,10 @@ impl Page {
             SIDE * columns as f64,
             40.0 + (SIDE + WORDS) * rows as f64 + 10.0,
         );
-        let all = figures.iter().map(|figure| figure.points.as_slice());
-        let projection = Projection::of(self, all);
+        // As large as the largest of them may be.
+        let alone = |figure: &&Figure| Projection::of(self, std::iter::once(&figure.points[..]));
+        let largest = figures.iter().map(alone);
+        let largest = largest.max_by(|a, b| a.size().total_cmp(&b.size()));
         begin(out, width, height, &self.title)?;
         let left = self.figures.len() - figures.len();
         let more = if left > 0 {
@@ -46,7 +48,9 @@ impl Page {
             let x = SIDE * (k % columns) as f64;
             let y = 40.0 + (SIDE + WORDS) * (k / columns) as f64;
             writeln!(out, "<g transform=\"translate({x},{y})\">")?;
-            self.draw(out, &projection, figure)?;
+            if let Some(largest) = &largest {
+                self.draw(out, &largest.centred(self, &figure.points), figure)?;
+            }
             let middle = SIDE / 2.0;
             writeln!(
                 out,

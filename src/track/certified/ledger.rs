@@ -3,7 +3,6 @@
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
 use super::solution::{Same, SolutionBox, SolutionProver};
-use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
@@ -15,9 +14,12 @@ use crate::track::{Place, Solution};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
-pub struct Ledger<'a, const D: usize> {
-    homotopy: &'a Homotopy,
+pub struct Ledger<const D: usize> {
+    /// The homotopy's.
+    unit: f64,
     prover: SolutionProver<D>,
+    /// The auxiliary unknowns that have to be positive.
+    positive: Vec<usize>,
     found: Vec<SolutionBox>,
     /// Where on the path each of them is.
     places: Vec<Place>,
@@ -26,6 +28,8 @@ pub struct Ledger<'a, const D: usize> {
     pub last_stretch: (f64, f64, f64),
     /// Work space.
     crossings: Vec<Crossing>,
+    /// See the method of that name.
+    last_crossing: f64,
     scratch: Vector,
     ball: Ball,
     /// The length of the path, in floats.
@@ -34,22 +38,77 @@ pub struct Ledger<'a, const D: usize> {
     pub t_range: (f64, f64),
 }
 
-impl<'a, const D: usize> Ledger<'a, D> {
+/// Where a [`Ledger`] stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Mark {
+    found: usize,
+    turns: Turns,
+    length: f64,
+    t_range: (f64, f64),
+}
+
+impl<const D: usize> Ledger<D> {
     /// An empty account.
-    pub fn new(homotopy: &'a Homotopy, equations: &Equations<D>) -> Self {
+    pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
         Ledger {
-            homotopy,
+            unit: homotopy.unit,
             prover: SolutionProver::new(homotopy, equations),
+            positive: homotopy.positive_unknowns(),
             found: Vec::new(),
             places: Vec::new(),
             turns: Turns::default(),
             last_stretch: (0.0, 0.0, 0.0),
             crossings: Vec::new(),
+            last_crossing: f64::NAN,
             scratch: equations.vector(),
             ball: Ball::new(equations),
             length: 0.0,
             t_range: (f64::INFINITY, f64::NEG_INFINITY),
         }
+    }
+
+    /// Empties the account, for another path of the same equations with the lengths of `homotopy`.
+    pub fn begin(&mut self, homotopy: &Homotopy) {
+        self.prover.set_targets(homotopy);
+        self.found.clear();
+        self.places.clear();
+        self.turns = Turns::default();
+        self.length = 0.0;
+        self.t_range = (f64::INFINITY, f64::NEG_INFINITY);
+    }
+
+    /// Where the account stands.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            found: self.found.len(),
+            turns: self.turns,
+            length: self.length,
+            t_range: self.t_range,
+        }
+    }
+
+    /// Forgets what was entered since.
+    pub fn return_to(&mut self, mark: Mark) {
+        self.found.truncate(mark.found);
+        self.places.truncate(mark.found);
+        self.turns = mark.turns;
+        (self.length, self.t_range) = (mark.length, mark.t_range);
+    }
+
+    /// The parameter before which the solution found last is, in the tube entered last.
+    pub fn last_crossing(&self) -> f64 {
+        self.last_crossing
+    }
+
+    /// Enters a linked tube between two parameters, where there is no solution.
+    pub fn pass<const N: usize, Y: Frame<D>>(
+        &mut self,
+        tube: &Tube<D, N, Y>,
+        (from, to): (f64, f64),
+    ) {
+        self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
+        self.turns.follow(&tube.time(), (from, to), |_| {});
+        self.widen_t_range(&tube.time(), from, to);
     }
 
     /// The solutions so far, in the order of the path.
@@ -62,22 +121,20 @@ impl<'a, const D: usize> Ledger<'a, D> {
         self.found.len()
     }
 
-    /// Finds all solutions in a linked tube, from its entry to its exit, or to the sketch where
-    /// the loop is closed at the parameters `closing`; `extended` is whether their boxes are proved in
-    /// extended precision. If it fails nothing is changed.
+    /// Finds all solutions in a linked tube, from its entry to the parameter `to`, the path being followed to
+    /// the parameter `until`; `extended` is whether their boxes are proved in extended precision. If it fails
+    /// nothing is changed.
     pub fn enter<const N: usize, Y: Frame<D>>(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         tube: &Tube<D, N, Y>,
-        closing: Option<(f64, f64)>,
+        (to, until): (f64, f64),
         extended: bool,
     ) -> Result<(), Doubt> {
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
-        let to = closing
-            .map_or(tube.exit_at, |at| at.1.max(tube.exit_at))
-            .min(tube.proof.h);
+        let to = to.min(tube.proof.h);
         if let Some(unknown) = self.not_positive(tube, (from, to)) {
             return Err(Doubt::Sign(unknown));
         }
@@ -102,16 +159,9 @@ impl<'a, const D: usize> Ledger<'a, D> {
             self.places.truncate(known);
             return all;
         }
-        let until = closing.map_or(tube.exit_at, |at| at.1);
         self.place(tube, &time, (from, to), known);
         self.last_stretch = (from, until, self.length);
-        self.length += path_length(
-            &tube.local,
-            from,
-            until,
-            self.homotopy.unit,
-            &mut self.scratch,
-        );
+        self.length += path_length(&tube.local, from, until, self.unit, &mut self.scratch);
         self.widen_t_range(&time, from, to);
         Ok(())
     }
@@ -123,16 +173,13 @@ impl<'a, const D: usize> Ledger<'a, D> {
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
     ) -> Option<usize> {
-        let coordinates = self.homotopy.gauge.place.len();
-        let unknowns = self.homotopy.tail.unknowns.iter().enumerate();
-        let mut positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
-        let fails = |&(k, _): &(usize, _)| {
-            let along = tube.entry_along(coordinates + k);
+        let fails = |&&unknown: &&usize| {
+            let along = tube.entry_along(unknown);
             let ((low, _), _) = along.bounds(from, to);
             // Bounds are of the unknown minus 1.
             (low + 1.0).next_down() <= 0.0 || low.is_nan()
         };
-        positive.find(fails).map(|(k, _)| k)
+        self.positive.iter().find(fails).copied()
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
@@ -181,6 +228,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
             rising: crossing.rising,
             folds: None,
         });
+        self.last_crossing = at.1;
         Ok(())
     }
 
@@ -218,13 +266,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
             folds += usize::from(first.is_some_and(|first| (place.rising != first) != odd));
             place.folds = (folds > 0 || is_certain).then_some(folds);
             place.arc = self.length
-                + path_length(
-                    &tube.local,
-                    from,
-                    place.arc,
-                    self.homotopy.unit,
-                    &mut self.scratch,
-                );
+                + path_length(&tube.local, from, place.arc, self.unit, &mut self.scratch);
         }
     }
 
@@ -247,7 +289,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
     }
 
     /// What remains to be proved of a closed loop.
-    pub fn check_closed(&self) -> Result<(), String> {
+    pub fn check_closed(&self, homotopy: &Homotopy) -> Result<(), String> {
         // Not needed for the proof: a loop crosses t = 1 as often upwards as downwards.
         let rising = self.found.iter().filter(|s| s.rising).count();
         if 2 * rising != self.found.len() {
@@ -257,13 +299,13 @@ impl<'a, const D: usize> Ledger<'a, D> {
                 self.found.len()
             ));
         }
-        self.lengths_are_positive()
+        self.lengths_are_positive(homotopy)
     }
 
     /// Claim 3: a_i(t) > 0 on the whole range of t.
-    fn lengths_are_positive(&self) -> Result<(), String> {
+    fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), String> {
         let range = hull(self.t_range.0, self.t_range.1);
-        for (index, length) in self.homotopy.lengths.iter().enumerate() {
+        for (index, length) in homotopy.lengths.iter().enumerate() {
             if length.enclose(range).inf() > 0.0 {
                 continue;
             }
@@ -273,10 +315,10 @@ impl<'a, const D: usize> Ledger<'a, D> {
                 return Err(format!(
                     "the length of {} could not be proved positive for t from {:.6} to {:.6}: no more than \
                      that it is above {:.1e}",
-                    self.homotopy.names[index],
+                    homotopy.names[index],
                     self.t_range.0,
                     self.t_range.1,
-                    least * self.homotopy.unit
+                    least * homotopy.unit
                 ));
             }
         }
@@ -284,14 +326,14 @@ impl<'a, const D: usize> Ledger<'a, D> {
     }
 
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
-    pub fn solutions(&self) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
+    pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
         let mut reason = None;
         let mut classes: Vec<usize> = Vec::new();
         let mut mirrors: Vec<Option<usize>> = Vec::new();
         for (k, found) in self.found.iter().enumerate() {
             let (mut class, mut mirror) = (None, None);
             for (j, other) in self.found[..k].iter().enumerate() {
-                match self.is_congruent(found, other) {
+                match self.is_congruent(homotopy, found, other) {
                     (Same::Yes, mirrored) => {
                         class = Some(classes[j]);
                         mirror = mirror.or(mirrored.then_some(j));
@@ -304,7 +346,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
                             j + 1,
                             k + 1,
                             found.greatest_radius().max(other.greatest_radius())
-                                * self.homotopy.unit
+                                * homotopy.unit
                         ));
                     }
                 }
@@ -318,7 +360,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
             .zip(&self.places)
             .zip(classes.into_iter().zip(mirrors))
             .map(|((found, &place), (class, mirror_of))| {
-                let points = found.points(self.homotopy);
+                let points = found.points(homotopy);
                 let width = relative_width(&points);
                 Solution {
                     points,
@@ -336,7 +378,7 @@ impl<'a, const D: usize> Ledger<'a, D> {
     }
 }
 
-impl<const D: usize> Ledger<'_, D> {
+impl<const D: usize> Ledger<D> {
     /// Whether two different solutions are congruent up to reflection, and if so, whether one is the
     /// mirror image of the other (otherwise it is the other one moved).
     ///
@@ -344,8 +386,13 @@ impl<const D: usize> Ledger<'_, D> {
     /// point's first coordinate and the third's second one tell which signs they must change;
     /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
     /// constraints fix the figure in its frame no isometry is left, and different solutions are not congruent.
-    fn is_congruent(&self, one: &SolutionBox, other: &SolutionBox) -> (Same, bool) {
-        let gauge = &self.homotopy.gauge;
+    fn is_congruent(
+        &self,
+        homotopy: &Homotopy,
+        one: &SolutionBox,
+        other: &SolutionBox,
+    ) -> (Same, bool) {
+        let gauge = &homotopy.gauge;
         if gauge.reference.is_empty() {
             return (Same::No, false);
         }
@@ -367,11 +414,11 @@ impl<const D: usize> Ledger<'_, D> {
             turned[D - 1] = last;
             // Without any change of sign they are known to differ.
             let reversed = turned.iter().filter(|&&turned| turned).count();
-            if reversed == 0 || reversed % 2 == 1 && !self.homotopy.tail.mirrors {
+            if reversed == 0 || reversed % 2 == 1 && !homotopy.tail.mirrors {
                 continue;
             }
             let signs = |i: usize| {
-                let flips = (0..D).filter(|&axis| turned[axis] && self.homotopy.flips(i, axis));
+                let flips = (0..D).filter(|&axis| turned[axis] && homotopy.flips(i, axis));
                 flips.count() % 2 == 1
             };
             match one.is_same(other, signs) {

@@ -8,10 +8,12 @@
 
 mod exit;
 mod extended;
+mod fold;
 mod ledger;
 mod link;
 mod low_orders;
 mod norms;
+mod orientation;
 mod precision;
 mod reasons;
 mod reduced;
@@ -26,8 +28,60 @@ mod validation;
 pub use trace::{Fold, Sample, Trace};
 
 use crate::system::Homotopy;
+use crate::track::arc::{ArcRun, Figure};
 use crate::track::full::ORDER;
 use crate::track::{Control, Options, Outcome, Space};
+
+/// A follower of arcs from t = 0 to t = 1 in one space, for problems in 2 or 3 dimensions.
+pub trait FollowArcs: std::fmt::Debug + Send {
+    /// The homotopy.
+    fn homotopy(&self) -> &Homotopy;
+
+    /// The same, whose lengths may be changed between two arcs.
+    fn homotopy_mut(&mut self) -> &mut Homotopy;
+
+    /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the
+    /// lengths at t = 0, proving every step and that t rises.
+    fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun;
+}
+
+impl<const D: usize, const N: usize, T: tracker::Test<D, N>> FollowArcs for tracker::Arcs<D, N, T>
+where
+    Self: Send,
+{
+    fn homotopy(&self) -> &Homotopy {
+        self.homotopy()
+    }
+
+    fn homotopy_mut(&mut self) -> &mut Homotopy {
+        self.homotopy_mut()
+    }
+
+    fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
+        self.follow(start, control)
+    }
+}
+
+/// What follows arcs of a homotopy's equations in the space that `options` say.
+pub fn arcs(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
+    match homotopy.dimension {
+        2 => arcs_in::<2>(homotopy, options),
+        _ => arcs_in::<3>(homotopy, options),
+    }
+}
+
+fn arcs_in<const D: usize>(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
+    match options.space {
+        Space::Full => Box::new(
+            tracker::Arcs::<D, { ORDER + 1 }, tube::KrawczykTest<D>>::new(homotopy, options),
+        ),
+        Space::Reduced => Box::new(tracker::Arcs::<
+            D,
+            { reduced::COEFFICIENTS },
+            reduced::ReducedTest<D>,
+        >::new(homotopy, options)),
+    }
+}
 
 /// Follows the path and proves every step.
 pub fn track<const D: usize>(

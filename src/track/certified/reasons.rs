@@ -42,6 +42,8 @@ impl Rejection {
 pub enum Doubt {
     /// Whether t is 1 somewhere.
     Time(Undecided),
+    /// Whether t goes on rising.
+    Turn(Undecided),
     /// Where the solution is: Newton's method does not converge after a correction so large.
     Newton(f64),
     /// Nor can it begin: the smallest pivot of the Jacobian is so many times the largest.
@@ -204,7 +206,12 @@ pub fn undecided(doubt: Doubt, is_extended: bool, homotopy: &Homotopy) -> String
         ),
         Doubt::Sign(unknown) => format!(
             "{} could not be proved to stay positive; the figure degenerates there, or nearly so",
-            homotopy.tail.unknowns[unknown].name
+            homotopy.name_of_auxiliary(unknown)
+        ),
+        Doubt::Turn(Undecided { value, slope }) => format!(
+            "it could not be decided whether the path turns back (t − 1 is between {:.1e} and {:.1e}, dt/ds \
+             between {:.1e} and {:.1e})",
+            value.0, value.1, slope.0, slope.1
         ),
         Doubt::Singular(pivots) => format!(
             "{WHETHER}: the Jacobian of a figure there is singular in 53 bits (its smallest pivot is {pivots:.1e} \

@@ -72,6 +72,13 @@ impl<const D: usize> SolutionProver<D> {
         }
     }
 
+    /// Takes other target lengths.
+    pub fn set_targets(&mut self, homotopy: &Homotopy) {
+        self.targets.clear();
+        let targets = homotopy.rights.iter().map(|e| e.at_target());
+        self.targets.extend(targets);
+    }
+
     /// Proves a box around the solution near `guess`, the equations being F(X, a(1)) = 0.
     ///
     /// Krawczyk's test with the norm max |w_i|: with Y the inverse at the middle x,

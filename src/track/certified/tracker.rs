@@ -1,5 +1,6 @@
 //! The chain of tubes from the sketch back to the sketch.
 
+mod arc;
 mod extension;
 mod stride;
 
@@ -10,13 +11,19 @@ use super::reasons::{
     Doubt, Rejection, no_direction, precision, undecided, unlinked, unproved, unrefined,
 };
 use super::shortfall::Shortfall;
+use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
+use crate::track::arc::Figure;
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
+use arc::{Arc, Joining};
 use extension::Extension;
+use std::borrow::Cow;
 use std::time::Instant;
 use stride::Stride;
+
+pub use arc::Arcs;
 
 /// The path leaves a tube at this fraction of its half length, so that there is room behind the
 /// exit for a crossing of t = 1 that falls on it.
@@ -24,11 +31,14 @@ const EXIT: f64 = 0.97;
 /// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
+/// Where the Jacobian with the normal has a larger condition, in floats, a run that is stuck is near a place
+/// where it loses rank: where branches meet.
+const SINGULAR: f64 = 1e7;
 
 /// A way of proving tubes: with polynomials of N coefficients, in frames of its own.
-pub trait Test<const D: usize, const N: usize>: Sized {
+pub trait Test<const D: usize, const N: usize>: Sized + std::fmt::Debug {
     /// The preconditioner of a tube, which also describes its box.
-    type Frame: Frame<D>;
+    type Frame: Frame<D> + std::fmt::Debug;
     /// The space in which it works.
     const SPACE: Space;
     /// Whether the last coefficient of the expansion tells how long the tube will be.
@@ -121,7 +131,7 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     control: &mut Control,
 ) -> Outcome {
     let clock = Instant::now();
-    let mut tracker = Tracker::<D, N, T>::new(homotopy, options);
+    let mut tracker = Tracker::<D, N, T>::new(Cow::Borrowed(homotopy), options);
     if let Some(witness) = &mut control.witness {
         witness.begin(homotopy.unit);
     }
@@ -133,11 +143,11 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
         Err(reason) => Status::Stopped(reason),
     };
     if status == Status::Closed
-        && let Err(reason) = tracker.ledger.check_closed()
+        && let Err(reason) = tracker.ledger.check_closed(homotopy)
     {
         status = Status::Stopped(format!("{reason} (on a loop of {} tubes)", tracker.steps));
     }
-    let solutions = match tracker.ledger.solutions() {
+    let solutions = match tracker.ledger.solutions(homotopy) {
         Ok(solutions) => solutions,
         Err((reason, solutions)) => {
             if status == Status::Closed {
@@ -168,17 +178,19 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     }
 }
 
+#[derive(Debug)]
 struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
-    homotopy: &'a Homotopy,
+    homotopy: Cow<'a, Homotopy>,
     equations: Equations<D>,
     /// For the direction at the sketch and for boxes around solutions.
     inverter: InverseMaker,
     test: T,
-    ledger: Ledger<'a, D>,
+    ledger: Ledger<D>,
     now: Tube<D, N, T::Frame>,
     next: Tube<D, N, T::Frame>,
     /// The point of the tube before, if there is one.
-    previous: Option<Vector>,
+    previous: Vector,
+    has_previous: bool,
     sketch: Ball,
     /// The direction of travel at the sketch.
     first_normal: Vector,
@@ -186,14 +198,20 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     rejected: usize,
     shortened: usize,
     extension: Extension,
+    /// What a run keeps whose end is t = 1; those whose end is the sketch again have none.
+    arc: Option<Arc<D>>,
+    /// Whether the tube around the sketch was proved.
+    has_set_out: bool,
+    /// Whether the run is stuck near a place where the Jacobian loses rank.
+    is_singular: bool,
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
     /// short, where the test does not foresee it, and after the first attempt: what is foreseen may be wrong.
     typical: f64,
 }
 
 impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
-    fn new(homotopy: &'a Homotopy, options: &Options) -> Self {
-        let equations = Equations::<D>::new(homotopy);
+    fn new(homotopy: Cow<'a, Homotopy>, options: &Options) -> Self {
+        let equations = Equations::<D>::new(&homotopy);
         let vector = || equations.vector();
         let mut sketch = Ball::new(&equations);
         for (i, x) in homotopy.sketch_of_unknowns().enumerate() {
@@ -201,19 +219,23 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             sketch.radius[i] = x.rad();
         }
         Tracker {
-            homotopy,
             inverter: equations.inverter(),
-            test: T::new(homotopy, &equations, options),
-            ledger: Ledger::new(homotopy, &equations),
+            test: T::new(&homotopy, &equations, options),
+            ledger: Ledger::new(&homotopy, &equations),
+            homotopy,
             now: Tube::new(&equations),
             next: Tube::new(&equations),
-            previous: None,
+            previous: vector(),
+            has_previous: false,
             sketch,
             first_normal: vector(),
             steps: 0,
             rejected: 0,
             shortened: 0,
             extension: Extension::default(),
+            arc: None,
+            has_set_out: false,
+            is_singular: false,
             typical: f64::NAN,
             equations,
         }
@@ -223,8 +245,15 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let max_h = options
             .step_in(self.homotopy.unit)
             .map_or(f64::INFINITY, |step| 0.5 * step);
-        self.start(options, max_h)?;
+        let max_h = match self.arc {
+            Some(_) => max_h.min(arc::LONGEST),
+            None => max_h,
+        };
+        let is_done = self.start(options, max_h)?;
         self.show_tube(control, 0);
+        if is_done {
+            return Ok(());
+        }
         let mut stride = Stride::new(&self.equations);
         // What could not be told of this tube when it was longer.
         let mut doubt = None;
@@ -240,10 +269,10 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             };
             let known = self.ledger.solutions_so_far();
             match self.step(self.now.exit_at + reach, limit) {
-                Ok(closed) => {
+                Ok(is_done) => {
                     self.steps += 1;
                     self.show_tube(control, known);
-                    if closed {
+                    if is_done {
                         return Ok(());
                     }
                     doubt = None;
@@ -319,20 +348,24 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         }
     }
 
-    /// Proves the tube around the sketch.
-    fn start(&mut self, options: &Options, max_h: f64) -> Result<(), String> {
+    /// Proves the tube around the sketch. Tells whether the path ends in it.
+    fn start(&mut self, options: &Options, max_h: f64) -> Result<bool, String> {
         let equations = &self.equations;
         let mut at_sketch = Local::<D>::new(equations);
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
         let reverse = options.reverse;
-        first_normal(equations, &mut self.inverter, &mut at_sketch, reverse)
-            .map_err(|_| no_direction(at_sketch.pivot_ratio_of_jacobian(equations)))?;
+        if first_normal(equations, &mut self.inverter, &mut at_sketch, reverse).is_err() {
+            self.is_singular = true;
+            let pivots = at_sketch.pivot_ratio_of_jacobian(equations);
+            return Err(no_direction(pivots));
+        }
         self.first_normal.copy_from_slice(&at_sketch.normal);
         loop {
             match self.tube_at_sketch(max_h) {
-                Ok(()) => {
+                Ok(is_done) => {
+                    self.has_set_out = true;
                     self.account_for_precision();
-                    return Ok(());
+                    return Ok(is_done);
                 }
                 Err((rejection, _)) if options.extended && self.extend(rejection) => {}
                 Err((rejection, limit)) => return Err(self.stuck_at_sketch(rejection, limit)),
@@ -342,7 +375,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
 
     /// Proves the tube around the sketch, as short as it takes.
     /// Otherwise tells how long it could have been at last.
-    fn tube_at_sketch(&mut self, max_h: f64) -> Result<(), (Rejection, f64)> {
+    fn tube_at_sketch(&mut self, max_h: f64) -> Result<bool, (Rejection, f64)> {
         let equations = &self.equations;
         let local = &mut self.now.local;
         local.z[0].copy_from_slice(&self.sketch.centre);
@@ -366,7 +399,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     }
 
     /// Proves the tube around the sketch, at most `limit` to either side, and that the sketch is in it.
-    fn first_tube(&mut self, limit: f64) -> Result<(), Rejection> {
+    fn first_tube(&mut self, limit: f64) -> Result<bool, Rejection> {
         let equations = &self.equations;
         if !self.test.prove(equations, &mut self.now, limit) {
             return Err(Rejection::Unproved);
@@ -381,25 +414,71 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             .locate(&self.sketch)
             .filter(|entry| entry.1 < self.now.exit_at)
             .ok_or(Rejection::Unlinked)?;
-        let extended = self.extension.is_on();
-        self.ledger
-            .enter(
-                &self.equations,
-                &mut self.inverter,
-                &self.now,
-                None,
-                extended,
-            )
-            .map_err(Rejection::Undecided)?;
+        let is_done = self.enter(true)?;
         self.test.accept(&self.now);
-        Ok(())
+        Ok(is_done)
     }
 
-    /// Adds the tube that is `advance` further on. Tells whether it closes the loop.
+    /// Takes the linked tube into account, the `first` one or the next. Tells whether the path ends in it.
+    fn enter(&mut self, first: bool) -> Result<bool, Rejection> {
+        let extended = self.extension.is_on();
+        let tube = if first { &self.now } else { &self.next };
+        if let Some(arc) = &mut self.arc {
+            let joining = Joining {
+                equations: &self.equations,
+                homotopy: &self.homotopy,
+                tube,
+                is_first: first,
+                extended,
+            };
+            return arc.enter(&joining, &mut self.inverter, &mut self.ledger);
+        }
+        let closing = if first { None } else { self.closes(tube)? };
+        let between = closing.map_or((tube.exit_at, tube.exit_at), |at| {
+            (at.1.max(tube.exit_at), at.1)
+        });
+        self.ledger
+            .enter(&self.equations, &mut self.inverter, tube, between, extended)
+            .map_err(Rejection::Undecided)?;
+        Ok(closing.is_some())
+    }
+
+    /// Begins anew: from another figure, or with other lengths in the homotopy.
+    fn begin(&mut self, start: &Figure) {
+        let m = self.equations.m;
+        self.equations.set_lengths(&self.homotopy);
+        self.ledger.begin(&self.homotopy);
+        if self.extension.is_on() {
+            self.test.set_extended(false);
+        }
+        self.extension = Extension::default();
+        self.sketch.centre[..m].copy_from_slice(&start.centre);
+        self.sketch.low[..m].copy_from_slice(&start.low);
+        self.sketch.radius[..m].copy_from_slice(&start.radius);
+        if let Some(arc) = &mut self.arc {
+            arc.begin(start);
+        }
+        (self.steps, self.rejected, self.shortened) = (0, 0, 0);
+        (self.has_previous, self.has_set_out, self.is_singular) = (false, false, false);
+        self.typical = f64::NAN;
+    }
+
+    /// Bounds on t where the last tube ends, all up to there being proved.
+    fn reached(&self) -> (f64, f64) {
+        if !self.has_set_out {
+            return (0.0, 0.0);
+        }
+        let (m, exit) = (self.equations.m, &self.now.exit);
+        let radius = round_up(exit.radius[m] + exit.low[m].abs(), 2);
+        let t = exit.centre[m];
+        ((t - radius).next_down(), (t + radius).next_up())
+    }
+
+    /// Adds the tube that is `advance` further on. Tells whether the path ends in it.
     fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
         let equations = &self.equations;
         let next = &mut self.next;
-        let previous = self.previous.as_deref();
+        let previous = self.has_previous.then_some(&self.previous[..]);
         let previous = previous.filter(|z| self.extension.trusts(z, &self.now.local, advance));
         self.now.local.predict(
             advance,
@@ -453,25 +532,13 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         if next.entry.1 >= next.exit_at {
             return Err(Rejection::Unlinked);
         }
-        let closing = self.closes(&self.next)?;
-        let extended = self.extension.is_on();
-        self.ledger
-            .enter(
-                &self.equations,
-                &mut self.inverter,
-                &self.next,
-                closing,
-                extended,
-            )
-            .map_err(Rejection::Undecided)?;
+        let is_done = self.enter(false)?;
         self.test.accept(&self.next);
-        match &mut self.previous {
-            Some(previous) => previous.copy_from_slice(&self.now.local.z[0]),
-            None => self.previous = Some(self.now.local.z[0].clone()),
-        }
+        self.previous.copy_from_slice(&self.now.local.z[0]);
+        self.has_previous = true;
         self.extension.before_last = self.now.local.is_extended;
         std::mem::swap(&mut self.now, &mut self.next);
-        Ok(closing.is_some())
+        Ok(is_done)
     }
 
     /// Whether the sketch lies ahead of the entry in a tube, travelled in the same direction as
@@ -530,6 +597,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
 
     /// Why the run ends here, a tube of about the half length `reach` being the last that was tried.
     fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> String {
+        let now = &self.now.local;
+        let condition = condition(&self.equations, &now.z[0], &now.normal);
+        self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
         format!(
@@ -573,7 +643,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     unlinked("that one's end", &before.exit, direction, tube, unit)
                 }
             },
-            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), self.homotopy),
+            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), &self.homotopy),
         }
     }
 

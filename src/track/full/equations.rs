@@ -146,6 +146,21 @@ impl<const D: usize> Equations<D> {
         }
     }
 
+    /// Takes the lengths of another homotopy between the same points.
+    pub fn set_lengths(&mut self, homotopy: &Homotopy) {
+        for k in 0..3 {
+            for (e, right) in homotopy.rights.iter().enumerate() {
+                self.e[k][e] = right.e[k];
+                self.e_radius[k][e] = right.e_radius[k];
+            }
+        }
+        for bend in &mut self.bends {
+            let right = &homotopy.rights[bend.edge];
+            (bend.e, bend.e_radius) = (right.e, right.e_radius);
+        }
+        self.extended = None;
+    }
+
     /// Makes room for extended precision.
     pub fn extend(&mut self, homotopy: &Homotopy) {
         if self.extended.is_none() {

@@ -123,7 +123,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         if self.extension.on || !rounding || !self.test.set_extended(true) {
             return false;
         }
-        self.equations.extend(self.homotopy);
+        self.equations.extend(&self.homotopy);
         self.extension.switch_on(rejection.in_short());
         // It can be enclosed more tightly now.
         self.now.exit_is_tight = false;

@@ -1,0 +1,100 @@
+//! `krawl all`: searches all figures that have the distances wanted.
+
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use krawl::complete::{Options, Progress, Status, all};
+use krawl::problem::Problem;
+use krawl::report::{ProgressLine, complete_to_json, complete_to_table};
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Find all real solutions, with a proof that there is no other
+///
+/// The sketch plays no part: every figure that has the distances is listed, up to rigid motions and
+/// reflections. "Complete" claims that these are all; "partial" and "flexible" say what is undecided.
+///
+/// Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Threads to use [default: one per processor]; the answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Stop after so many seconds, and say what is undecided
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    time: Option<f64>,
+    /// Print no table and no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 1e9 => Ok(x),
+        _ => Err("must be a number of seconds greater than 0".to_owned()),
+    }
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let json = arguments
+        .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
+    if let Some(results) = &arguments.json
+        && output::is_same_file(results, &arguments.file)
+    {
+        return Err(format!(
+            "{}: is the problem itself; name another file for the results",
+            results.display()
+        ));
+    }
+    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let begin = Instant::now();
+    let tell = |now: Progress| {
+        if let Ok(mut line) = line.lock() {
+            line.show_search(now.share, now.boxes, begin.elapsed().as_secs_f64());
+        }
+    };
+    let options = Options {
+        cancel: Some(interrupt::flag()),
+        time: arguments.time.map(Duration::from_secs_f64),
+        threads: arguments.threads.unwrap_or(0).into(),
+        progress: Some(&tell),
+        ..Options::default()
+    };
+    let result = all(&problem, &options);
+    if let Ok(line) = line.into_inner() {
+        line.clear();
+    }
+    let result = match result {
+        Ok(result) => result,
+        Err(unserved) => {
+            output::complain(&format!("{}: {unserved}", arguments.file.display()));
+            return Ok(STOPPED);
+        }
+    };
+    let mut written = true;
+    if let Some(json) = &json {
+        written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
+    }
+    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+        written &= output::print(&complete_to_table(&problem, &result));
+    }
+    Ok(match result.status {
+        _ if !written => BAD_INPUT,
+        Status::Complete => CLOSED,
+        Status::Partial | Status::Flexible => STOPPED,
+    })
+}

@@ -1,0 +1,126 @@
+//! `krawl edit`: changes dimensions and takes the figure along.
+
+use super::output::{self, Beside, Destination};
+use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, interrupt};
+use krawl::edit::{Edited, Ending, OpenError, Session, Setting, rewrite};
+use krawl::problem::Problem;
+use krawl::report::{edit_to_json, edit_to_table};
+use krawl::track::{Control, Options};
+use std::path::PathBuf;
+
+/// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
+///
+/// The figure is the sketch in FILE, which should meet its dimensions, at least nearly. Only the dimensions named
+/// move, in proportion; all others stay.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the \
+                  dimensions can go so far and no further; 4 passes: branches of figures seem to meet; 1 stopped: \
+                  nothing could be proved from some point on; 2 bad input, or results that could not be written.\n\n\
+                  Example: krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml"
+)]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+    /// The distance between two points and its new value, such as a-b=5.2; more than one move together
+    #[arg(long, value_name = "NAME=VALUE", required = true)]
+    set: Vec<String>,
+    /// Write the edited problem, in the format and coordinates of FILE, if the new dimensions were reached
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Keep to 53 bits, and stop where they do not suffice
+    #[arg(long)]
+    no_extended: bool,
+    /// Print nothing
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let shown = arguments.file.display();
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
+    let settings = arguments
+        .set
+        .iter()
+        .map(|text| Setting::parse(&problem, text));
+    let settings = settings
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|e| in_file(&e))?;
+    Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+    let json = arguments
+        .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
+    if let Some(json) = &arguments.json
+        && output::is_same_file(json, &arguments.file)
+    {
+        return Err(format!(
+            "{}: is the problem itself; name another file for the results",
+            json.display()
+        ));
+    }
+    // Before any file is begun, so that an interrupt leaves none behind.
+    let cancel = interrupt::flag();
+    let mut control = Control {
+        cancel: Some(cancel),
+        ..Control::default()
+    };
+    let options = Options {
+        extended: !arguments.no_extended,
+        ..Options::certified()
+    };
+    let mut session = match Session::open_with(&problem, &options, &mut control) {
+        Ok(session) => session,
+        Err(error @ OpenError::Correction { .. }) => {
+            output::complain(&in_file(&error));
+            return Ok(STOPPED);
+        }
+        Err(error) => return Err(in_file(&error)),
+    };
+    let edited = session.edit_with(&settings, &mut control);
+    let moved = session.moved();
+
+    let mut written = true;
+    if let Some(json) = &json {
+        written &= json.write(&(edit_to_json(&problem, &edited, moved) + "\n"));
+    }
+    if let Some(out) = &arguments.out
+        && edited.ending == Ending::Reached
+    {
+        let text = std::fs::read_to_string(&arguments.file).map_err(|e| in_file(&e))?;
+        let text = rewrite(&text, session.problem(), &session.figure()).map_err(|e| in_file(&e))?;
+        let beside = Beside::new(out)?;
+        written &= beside.commit(std::io::Write::write_all(
+            &mut beside.file(),
+            text.as_bytes(),
+        ));
+    }
+    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+        written &= output::print(&edit_to_table(&problem, &edited, moved));
+    }
+    Ok(if written {
+        exit_code(&edited)
+    } else {
+        BAD_INPUT
+    })
+}
+
+/// The exit code that tells how an edit ended.
+pub(super) fn exit_code(edited: &Edited) -> u8 {
+    match edited.ending {
+        Ending::Reached => CLOSED,
+        Ending::Limit(_) => LIMIT,
+        Ending::Passes(_) => PASSES,
+        Ending::Stopped(_) => STOPPED,
+    }
+}

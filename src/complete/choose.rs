@@ -1,0 +1,351 @@
+//! Which construction plan drives the search.
+//!
+//! Plans with as few driving parameters as possible come first: the work grows exponentially with their
+//! number. Among those it still differs by orders of magnitude (the deeper points hang on one another,
+//! and the later distances close, the more), so that samples decide.
+
+use super::plan::{Drive, HingeNumbers, Kind, Plan, Radius, Step, base_coordinates};
+use super::targets::Targets;
+
+/// More driving parameters than this are hopeless.
+pub const MOST_PARAMETERS: usize = 4;
+/// Plans to consider at most, and choices to follow in their search.
+const MOST_PLANS: usize = 4000;
+const MOST_CHOICES: usize = 60_000;
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoPlan {
+    /// No two joined points, or no three mutually joined points in space that are surely not in line.
+    NoBase,
+    /// All plans need more parameters than can be searched.
+    TooManyParameters,
+}
+
+/// Plans with the fewest parameters, the most promising ones first.
+pub fn plans(targets: &Targets) -> Result<Vec<Plan>, NoPlan> {
+    let bases = bases(targets);
+    if bases.is_empty() {
+        return Err(NoPlan::NoBase);
+    }
+    let limits = pair_bounds(targets);
+    for parameters in 0..=MOST_PARAMETERS {
+        let mut draft = Draft::new(targets, &limits);
+        for base in &bases {
+            draft.begin(base);
+            draft.complete(parameters);
+        }
+        if !draft.plans.is_empty() {
+            let mut plans = draft.plans;
+            plans.sort_by(|a, b| a.0.total_cmp(&b.0));
+            return Ok(plans.into_iter().map(|(_, plan)| plan).collect());
+        }
+    }
+    Err(NoPlan::TooManyParameters)
+}
+
+fn bases(targets: &Targets) -> Vec<Vec<usize>> {
+    let mut out = Vec::new();
+    for &[a, b] in &targets.edges {
+        if targets.dimension == 2 {
+            out.push(vec![a, b]);
+            continue;
+        }
+        for c in 0..targets.points {
+            // Each triangle once; any of its corners may lie at the origin.
+            if a < b && b < c || b < a && a < c {
+                out.push(vec![a, b, c]);
+            }
+        }
+    }
+    out.retain(|base| base_coordinates(targets, base).is_some());
+    out
+}
+
+/// Bounds of all distances by shortest paths, for parameters that are distances: roughly, rounded outwards.
+fn pair_bounds(targets: &Targets) -> Vec<f64> {
+    let n = targets.points;
+    let mut most = vec![f64::INFINITY; n * n];
+    for (edge, length) in targets.edges.iter().zip(&targets.lengths) {
+        let [a, b] = *edge;
+        most[a * n + b] = length.sup();
+        most[b * n + a] = length.sup();
+    }
+    for k in 0..n {
+        for a in 0..n {
+            for b in 0..n {
+                let way = (most[a * n + k] + most[k * n + b]).next_up();
+                if way < most[a * n + b] {
+                    most[a * n + b] = way;
+                }
+            }
+        }
+    }
+    most
+}
+
+struct Draft<'a> {
+    targets: &'a Targets,
+    most: &'a [f64],
+    neighbours: Vec<Vec<usize>>,
+    base: Vec<usize>,
+    placed: Vec<bool>,
+    depth: Vec<u32>,
+    steps: Vec<Step>,
+    drives: Vec<Drive>,
+    plans: Vec<(f64, Plan)>,
+    choices: usize,
+}
+
+impl<'a> Draft<'a> {
+    fn new(targets: &'a Targets, most: &'a [f64]) -> Self {
+        let mut neighbours = vec![Vec::new(); targets.points];
+        for &[a, b] in &targets.edges {
+            neighbours[a].push(b);
+            neighbours[b].push(a);
+        }
+        Draft {
+            targets,
+            most,
+            neighbours,
+            base: Vec::new(),
+            placed: Vec::new(),
+            depth: vec![0; targets.points],
+            steps: Vec::new(),
+            drives: Vec::new(),
+            plans: Vec::new(),
+            choices: 0,
+        }
+    }
+
+    fn begin(&mut self, base: &[usize]) {
+        self.base = base.to_vec();
+        self.placed = vec![false; self.targets.points];
+        for &p in base {
+            self.placed[p] = true;
+            self.depth[p] = 0;
+        }
+        self.steps.clear();
+        self.drives.clear();
+    }
+
+    /// The neighbours of a point that are placed, the least deep first.
+    fn standing(&self, p: usize) -> Vec<usize> {
+        let mut out: Vec<usize> = self.neighbours[p]
+            .iter()
+            .copied()
+            .filter(|&q| self.placed[q])
+            .collect();
+        out.sort_by_key(|&q| (self.depth[q], q));
+        out
+    }
+
+    /// Places all that can be placed with `left` more parameters, in all ways of choosing these.
+    fn complete(&mut self, left: usize) {
+        self.choices += 1;
+        if self.choices > MOST_CHOICES || self.plans.len() >= MOST_PLANS {
+            return;
+        }
+        let d = self.targets.dimension;
+        let begin = self.steps.len();
+        // What needs no parameter, that which closes most first.
+        loop {
+            let next = (0..self.targets.points)
+                .filter(|&p| !self.placed[p])
+                .map(|p| (self.standing(p), p))
+                .filter(|(standing, _)| standing.len() >= d)
+                .max_by_key(|(standing, p)| {
+                    let deep: u32 = standing.iter().take(d).map(|&q| self.depth[q]).sum();
+                    (standing.len(), std::cmp::Reverse((deep, *p)))
+                });
+            let Some((standing, p)) = next else { break };
+            let centres = self.centres(&standing);
+            let radii = centres
+                .iter()
+                .map(|&q| Radius::Edge(self.targets.edge(p, q).expect("a neighbour")))
+                .collect();
+            self.push(p, Kind::Meet { centres, radii });
+        }
+        if self.steps.len() + d == self.targets.points {
+            let plan = Plan {
+                base: self.base.clone(),
+                steps: self.steps.clone(),
+                drives: self.drives.clone(),
+            };
+            self.plans.push((self.promise(), plan));
+        } else if left > 0 {
+            for p in 0..self.targets.points {
+                if self.placed[p] {
+                    continue;
+                }
+                let standing = self.standing(p);
+                if standing.len() + 1 != d && !(d == 3 && standing.len() == 1 && left > 1) {
+                    continue;
+                }
+                let Some((kind, drives)) = self.driven(p, &standing) else {
+                    continue;
+                };
+                if drives.len() > left {
+                    continue;
+                }
+                let used = drives.len();
+                self.drives.extend(drives);
+                self.push(p, kind);
+                self.complete(left - used);
+                self.pop();
+                self.drives.truncate(self.drives.len() - used);
+            }
+        }
+        while self.steps.len() > begin {
+            self.pop();
+        }
+    }
+
+    fn push(&mut self, p: usize, kind: Kind) {
+        let from: Vec<usize> = match &kind {
+            Kind::Arm { centre, .. } => vec![*centre],
+            Kind::Hinge { frame, .. } => frame.to_vec(),
+            Kind::Meet { centres, .. } => centres.clone(),
+        };
+        let used = |q: usize| match &kind {
+            Kind::Hinge { frame, .. } => frame[..2].contains(&q),
+            Kind::Meet { centres, radii } => centres
+                .iter()
+                .zip(radii)
+                .any(|(&c, r)| c == q && matches!(r, Radius::Edge(_))),
+            Kind::Arm { centre, .. } => *centre == q,
+        };
+        let closing = self.neighbours[p]
+            .iter()
+            .filter(|&&q| self.placed[q] && !used(q))
+            .map(|&q| self.targets.edge(p, q).expect("a neighbour"))
+            .collect();
+        self.depth[p] = 1 + from.iter().map(|&q| self.depth[q]).max().unwrap_or(0);
+        self.placed[p] = true;
+        self.steps.push(Step {
+            point: p,
+            kind,
+            closing,
+        });
+    }
+
+    fn pop(&mut self) {
+        if let Some(step) = self.steps.pop() {
+            self.placed[step.point] = false;
+        }
+    }
+
+    /// Which of the placed neighbours a point is placed from: mutually joined ones, not deep ones.
+    fn centres(&self, standing: &[usize]) -> Vec<usize> {
+        let joined = |a: usize, b: usize| self.targets.edge(a, b).is_some() as u32;
+        if self.targets.dimension == 2 {
+            let mut best = (0, Vec::new());
+            for (i, &a) in standing.iter().enumerate() {
+                for &b in &standing[..i] {
+                    let cost = 1 + self.depth[a] + self.depth[b] + 2 * (1 - joined(a, b));
+                    if best.1.is_empty() || cost < best.0 {
+                        best = (cost, vec![b, a]);
+                    }
+                }
+            }
+            return best.1;
+        }
+        let mut best = (0, Vec::new());
+        for (i, &a) in standing.iter().enumerate() {
+            for (j, &b) in standing[..i].iter().enumerate() {
+                for &c in &standing[..j] {
+                    let pairs = [joined(a, b), joined(b, c), joined(c, a)];
+                    let cost = self.depth[a]
+                        + self.depth[b]
+                        + self.depth[c]
+                        + 2 * (3 - pairs.iter().sum::<u32>());
+                    if best.1.is_empty() || cost < best.0 {
+                        // The one that the others are joined to comes first.
+                        let order = match pairs {
+                            [1, 1, _] => vec![b, a, c],
+                            [_, 1, 1] => vec![c, a, b],
+                            [1, _, 1] => vec![a, b, c],
+                            [1, _, _] => vec![a, b, c],
+                            [_, 1, _] => vec![b, c, a],
+                            _ => vec![c, a, b],
+                        };
+                        best = (cost, order);
+                    }
+                }
+            }
+        }
+        best.1
+    }
+
+    /// How a point is placed with driving parameters of its own.
+    fn driven(&self, p: usize, standing: &[usize]) -> Option<(Kind, Vec<Drive>)> {
+        let parameter = self.drives.len();
+        if self.targets.dimension == 2 {
+            let kind = Kind::Arm {
+                centre: standing[0],
+                parameter,
+            };
+            return Some((kind, vec![Drive::Angle]));
+        }
+        if let [c1, c2] = standing[..]
+            && self.targets.edge(c1, c2).is_some()
+        {
+            let third = (0..self.targets.points)
+                .filter(|&q| {
+                    self.placed[q]
+                        && self.targets.edge(c1, q).is_some()
+                        && self.targets.edge(c2, q).is_some()
+                        && matches!(HingeNumbers::new(self.targets, p, [c1, c2, q]), Some(Ok(_)))
+                })
+                .min_by_key(|&q| (self.depth[q], q));
+            if let Some(q) = third {
+                let frame = [c1, c2, q];
+                return Some((Kind::Hinge { frame, parameter }, vec![Drive::Angle]));
+            }
+        }
+        // Distances that are not given take the place of those that are missing.
+        let mut centres = standing.to_vec();
+        let mut others: Vec<usize> = (0..self.targets.points)
+            .filter(|&q| self.placed[q] && q != p && !standing.contains(&q))
+            .collect();
+        others.sort_by_key(|&q| (self.depth[q], q));
+        let mut radii: Vec<Radius> = standing
+            .iter()
+            .map(|&q| Radius::Edge(self.targets.edge(p, q).expect("a neighbour")))
+            .collect();
+        let mut drives = Vec::new();
+        for q in others.into_iter().take(3 - standing.len()) {
+            let most = self.most[p * self.targets.points + q];
+            radii.push(Radius::Parameter(parameter + drives.len()));
+            drives.push(Drive::Square([0.0, (most * most).next_up()]));
+            centres.push(q);
+        }
+        (centres.len() == 3).then_some((Kind::Meet { centres, radii }, drives))
+    }
+
+    /// A guess at how much work the plan is; the samples know more.
+    fn promise(&self) -> f64 {
+        let mut out = 0.0;
+        let mut open = 0.0;
+        for step in &self.steps {
+            let deep = f64::from(self.depth[step.point]);
+            let moving = match &step.kind {
+                Kind::Meet { centres, .. } => {
+                    let pair =
+                        |a: usize, b: usize| self.targets.edge(centres[a], centres[b]).is_none();
+                    let pairs = match centres.len() {
+                        2 => [pair(0, 1), false, false],
+                        _ => [pair(0, 1), pair(1, 2), pair(2, 0)],
+                    };
+                    pairs.iter().filter(|&&moves| moves).count() as f64
+                }
+                _ => 0.0,
+            };
+            // While parameters are open, every step costs.
+            open += if step.is_signed() { 0.0 } else { 1.0 };
+            out += deep * (0.5 + moving) * (0.2f64 + open).max(0.2);
+            open = (open - step.closing.len() as f64).max(0.0);
+        }
+        out
+    }
+}

@@ -1,0 +1,151 @@
+//! Cutting away from a box of symbols what the equations exclude.
+
+use super::model::{Model, Range};
+use crate::interval::rounding::{UNDERFLOW, UNIT_ROUNDOFF, gamma};
+
+/// No point of the box meets the equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Empty;
+
+/// Margin, in parts of [−1, 1], by which something is cut off or called empty.
+const MARGIN: f64 = 1e-9;
+
+/// Narrows the ranges `u` of the symbols, parts of [−1, 1], to where all equations e(u) = 0 can hold: each
+/// equation is solved for each symbol, and then each of the combinations that Gauss–Jordan
+/// elimination makes of their linear parts.
+pub fn contract<const S: usize, const M: usize>(
+    equations: &[Model<S, M>],
+    rows: &mut Vec<Model<S, M>>,
+    u: &mut [Range; S],
+) -> Result<(), Empty> {
+    for equation in equations {
+        solve(equation, u)?;
+    }
+    if S == 0 || equations.len() < 2 {
+        return Ok(());
+    }
+    rows.clear();
+    rows.extend(equations.iter().filter(|e| e.r < 1e3).copied());
+    let count = rows.len().min(S);
+    let mut used = [false; S];
+    for step in 0..count {
+        let mut best = (0.0, step, 0);
+        for (r, row) in rows.iter().enumerate().skip(step) {
+            // A row's constant, quadratic part and remainder are what limits its use.
+            let blur = row.c[0].abs() + row.linear() + row.quadratic() + row.r + UNDERFLOW;
+            for i in (0..S).filter(|&i| !used[i]) {
+                let weight = row.c[1 + i].abs() / blur;
+                if weight > best.0 {
+                    best = (weight, r, i);
+                }
+            }
+        }
+        let (weight, r, i) = best;
+        if !(weight > 1e-9) {
+            rows.truncate(step);
+            break;
+        }
+        used[i] = true;
+        rows.swap(step, r);
+        let pivot = rows[step];
+        for (other, row) in rows.iter_mut().enumerate() {
+            let factor = row.c[1 + i] / pivot.c[1 + i];
+            if other != step && factor.is_finite() && factor.abs() > 1e-12 {
+                *row = row.minus(&pivot.scaled(factor));
+            }
+        }
+    }
+    for row in rows.iter() {
+        solve(row, u)?;
+    }
+    Ok(())
+}
+
+/// Narrows each symbol's range by one equation.
+fn solve<const S: usize, const M: usize>(e: &Model<S, M>, u: &mut [Range; S]) -> Result<(), Empty> {
+    if !(e.r < 1e100) {
+        return Ok(());
+    }
+    let mut squares = [Range { lo: 0.0, hi: 0.0 }; S];
+    let (mut lo, mut hi, mut size) = (e.c[0] - e.r, e.c[0] + e.r, e.size());
+    let mut q = 1 + S;
+    for i in 0..S {
+        let (g, h) = (e.c[1 + i], e.c[q]);
+        let linear = times(g, u[i]);
+        squares[i] = square(h, u[i]);
+        lo += linear.lo + squares[i].lo;
+        hi += linear.hi + squares[i].hi;
+        q += 1;
+        for j in i + 1..S {
+            let cross = e.c[q].abs() * largest(u[i]) * largest(u[j]);
+            lo -= cross;
+            hi += cross;
+            q += 1;
+        }
+    }
+    // Every term and sum above is at most this in size.
+    size = gamma(400) * size + UNDERFLOW;
+    (lo, hi) = (lo - size, hi + size);
+    let whole = Range { lo, hi };
+    if whole.misses_zero(e.c[0].abs()) {
+        return Err(Empty);
+    }
+    for i in 0..S {
+        let g = e.c[1 + i];
+        let linear = times(g, u[i]);
+        // −g u_i is the rest, which has the roundings of the whole.
+        let (rest_lo, rest_hi) = (lo - linear.lo - size, hi - linear.hi + size);
+        if !(g.abs() > 1e-12 * (rest_hi - rest_lo)) {
+            continue;
+        }
+        let (a, b) = (-rest_hi / g, -rest_lo / g);
+        let out = |x: f64| 4.0 * UNIT_ROUNDOFF * x.abs() + MARGIN;
+        let (low, high) = if g > 0.0 { (a, b) } else { (b, a) };
+        let (low, high) = (low - out(low), high + out(high));
+        if low > u[i].hi || high < u[i].lo {
+            return Err(Empty);
+        }
+        if low > u[i].lo {
+            u[i].lo = low;
+        }
+        if high < u[i].hi {
+            u[i].hi = high;
+        }
+    }
+    Ok(())
+}
+
+fn largest(u: Range) -> f64 {
+    u.lo.abs().max(u.hi.abs())
+}
+
+fn times(g: f64, u: Range) -> Range {
+    if g >= 0.0 {
+        Range {
+            lo: g * u.lo,
+            hi: g * u.hi,
+        }
+    } else {
+        Range {
+            lo: g * u.hi,
+            hi: g * u.lo,
+        }
+    }
+}
+
+/// h u².
+fn square(h: f64, u: Range) -> Range {
+    let greatest = largest(u) * largest(u);
+    let least = if u.lo > 0.0 || u.hi < 0.0 {
+        u.lo.abs().min(u.hi.abs()).powi(2)
+    } else {
+        0.0
+    };
+    times(
+        h,
+        Range {
+            lo: least,
+            hi: greatest,
+        },
+    )
+}

@@ -1,0 +1,309 @@
+//! Krawczyk's test in all free coordinates: a box that holds exactly one figure, and how far around its middle
+//! there is no other.
+
+use super::plan::Plan;
+use super::targets::Targets;
+use crate::interval::rounding::{gamma, largest, round_up};
+use crate::interval::{Interval, point};
+
+/// A figure with the distances wanted, in the base of a plan, proved to exist.
+#[derive(Debug, Clone)]
+pub struct Figure {
+    /// The middle of its box, three coordinates a point, in the search's unit.
+    pub centre: Vec<[f64; 3]>,
+    /// How far the exact figure may be from it, in each free coordinate.
+    pub radius: f64,
+    /// No other figure in the same base is within this of the middle, in every free coordinate.
+    pub alone: f64,
+}
+
+/// Proves figures of one problem.
+#[derive(Debug, Clone)]
+pub struct Prover {
+    dimension: usize,
+    edges: Vec<[usize; 2]>,
+    squares: Vec<Interval>,
+    /// The unknown that a coordinate is, at `3 point + axis`, or [`FIXED`].
+    unknown: Vec<usize>,
+    /// The number of unknowns and of equations.
+    pub m: usize,
+    /// The last points of the base lie on the positive side of this coordinate's zero.
+    upper: Vec<usize>,
+}
+
+const FIXED: usize = usize::MAX;
+
+/// Why no figure was proved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Doubt {
+    /// Newton's method leads away.
+    Away,
+    /// The matrix is singular, or nearly.
+    Singular,
+}
+
+impl Prover {
+    /// For the base of a plan.
+    pub fn new(targets: &Targets, plan: &Plan) -> Self {
+        let d = targets.dimension;
+        let mut unknown = vec![FIXED; 3 * targets.points];
+        let mut m = 0;
+        for p in 0..targets.points {
+            let place = plan.base.iter().position(|&b| b == p).unwrap_or(d);
+            for axis in 0..place {
+                unknown[3 * p + axis] = m;
+                m += 1;
+            }
+        }
+        let upper = plan.base.iter().enumerate().skip(1);
+        Prover {
+            dimension: d,
+            edges: targets.edges.clone(),
+            squares: targets.squares.clone(),
+            m,
+            upper: upper
+                .map(|(place, &p)| unknown[3 * p + place - 1])
+                .collect(),
+            unknown,
+        }
+    }
+
+    fn free<'a>(&'a self, figure: &'a [[f64; 3]]) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let all = figure.iter().flatten().zip(&self.unknown);
+        all.filter(|(_, i)| **i != FIXED).map(|(x, i)| (*i, *x))
+    }
+
+    /// F_e = ½(|p_a − p_b|² − s_e).
+    pub fn residual(&self, figure: &[[f64; 3]], f: &mut [f64]) {
+        for ((&[a, b], s), f) in self.edges.iter().zip(&self.squares).zip(f) {
+            let squared: f64 = (0..self.dimension)
+                .map(|k| (figure[a][k] - figure[b][k]).powi(2))
+                .sum();
+            *f = 0.5 * (squared - s.mid());
+        }
+    }
+
+    /// The entries of the Jacobian's row of an equation.
+    pub fn row(&self, figure: &[[f64; 3]], e: usize, mut entry: impl FnMut(usize, f64)) {
+        let [a, b] = self.edges[e];
+        for k in 0..self.dimension {
+            let d = figure[a][k] - figure[b][k];
+            for (p, d) in [(a, d), (b, -d)] {
+                let i = self.unknown[3 * p + k];
+                if i != FIXED {
+                    entry(i, d);
+                }
+            }
+        }
+    }
+
+    /// The figure moved by a step in the unknowns.
+    pub fn moved(&self, figure: &mut [[f64; 3]], step: &[f64], factor: f64) {
+        for (p, x) in figure.iter_mut().enumerate() {
+            for k in 0..self.dimension {
+                let i = self.unknown[3 * p + k];
+                if i != FIXED {
+                    x[k] += factor * step[i];
+                }
+            }
+        }
+    }
+
+    /// The full Jacobian, row by row.
+    pub fn jacobian(&self, figure: &[[f64; 3]], out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.m * self.edges.len(), 0.0);
+        for e in 0..self.edges.len() {
+            let row = &mut out[e * self.m..(e + 1) * self.m];
+            self.row(figure, e, |i, x| row[i] += x);
+        }
+    }
+
+    /// Newton's method from a guess, then the test with the norm max |w_i|: with Y ≈ J(x)⁻¹,
+    /// |I − Y J(x + w)| ≤ q₀ + κ|w|; so there is at most one figure for |w| < (1 − q₀)/κ, F being
+    /// quadratic, and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
+    pub fn prove(&self, guess: &[[f64; 3]]) -> Result<Figure, Doubt> {
+        let m = self.m;
+        let mut x = guess.to_vec();
+        let (mut f, mut step) = (vec![0.0; m], vec![0.0; m]);
+        let (mut jacobian, mut y) = (Vec::new(), Vec::new());
+        let mut last = f64::INFINITY;
+        for round in 0..12 {
+            // The last inverses differ by nothing that matters.
+            if round < 5 {
+                self.jacobian(&x, &mut jacobian);
+                if !invert(&jacobian, m, &mut y) {
+                    return Err(Doubt::Singular);
+                }
+            }
+            self.residual(&x, &mut f);
+            for (i, s) in step.iter_mut().enumerate() {
+                *s = y[i * m..(i + 1) * m]
+                    .iter()
+                    .zip(&f)
+                    .map(|(a, b)| a * b)
+                    .sum();
+            }
+            let size = step.iter().fold(0.0, |a, x| largest(a, x.abs()));
+            if !(size < 1.0) {
+                return Err(Doubt::Away);
+            }
+            self.moved(&mut x, &step, -1.0);
+            let done = size < 1e-15 || (size >= 0.5 * last && size < 1e-11);
+            last = size;
+            if done {
+                break;
+            }
+        }
+        if !(last < 1e-7) && m > 0 {
+            return Err(Doubt::Away);
+        }
+        self.jacobian(&x, &mut jacobian);
+        if !invert(&jacobian, m, &mut y) {
+            return Err(Doubt::Singular);
+        }
+        self.test(x, &y).ok_or(Doubt::Singular)
+    }
+
+    fn test(&self, x: Vec<[f64; 3]>, y: &[f64]) -> Option<Figure> {
+        let m = self.m;
+        let (mut q0, mut kappa, mut step) = (0.0, 0.0, 0.0);
+        let residual: Vec<f64> = (0..m)
+            .map(|e| {
+                let [a, b] = self.edges[e];
+                let squared = (0..self.dimension).fold(point(0.0), |sum, k| {
+                    sum + (point(x[a][k]) - point(x[b][k])).sqr()
+                });
+                ((squared - self.squares[e]) * point(0.5)).mag()
+            })
+            .collect();
+        // Per row of J: the sizes of its entries, and how much |w| = 1 changes their sum.
+        let mut sizes = vec![0.0; m];
+        let mut changes = vec![0.0; m];
+        for e in 0..m {
+            let mut free = [0.0f64; 3];
+            let [a, b] = self.edges[e];
+            for k in 0..self.dimension {
+                let count = [a, b]
+                    .iter()
+                    .filter(|&&p| self.unknown[3 * p + k] != FIXED)
+                    .count();
+                free[k] = count as f64;
+            }
+            self.row(&x, e, |_, d| sizes[e] += d.abs());
+            changes[e] = free.iter().map(|f| f * f).sum();
+        }
+        let mut row = vec![0.0; m];
+        for i in 0..m {
+            row.fill(0.0);
+            row[i] = -1.0;
+            let (mut size, mut change, mut off) = (1.0, 0.0, 0.0);
+            for e in 0..m {
+                let y = y[i * m + e];
+                self.row(&x, e, |k, d| row[k] += y * d);
+                size += y.abs() * sizes[e];
+                change += y.abs() * changes[e];
+                off += y.abs() * residual[e];
+            }
+            let defect: f64 = row.iter().map(|x| x.abs()).sum();
+            // An entry of J is rounded once, and passes through m products and sums.
+            q0 = largest(q0, round_up(defect + gamma(m + 6) * size, 2 * m + 12));
+            kappa = largest(kappa, round_up(change, m + 6));
+            step = largest(step, round_up(off, m + 6));
+        }
+        if !(q0 < 0.5 && kappa < 1e30) {
+            return None;
+        }
+        let alone = if kappa > 0.0 {
+            (0.9 * (0.9 - q0) / kappa).min(1.0)
+        } else {
+            1.0
+        };
+        let q = round_up(q0 + kappa * alone, 4);
+        let radius = round_up(step / (1.0 - q), 8);
+        if !(q < 1.0 && radius < 0.1 * alone) {
+            return None;
+        }
+        // A figure in the base, not one reflected in an axis of it.
+        let mut upper = true;
+        for (i, value) in self.free(&x) {
+            upper &= !self.upper.contains(&i) || value > radius;
+        }
+        upper.then_some(Figure {
+            centre: x,
+            radius,
+            alone,
+        })
+    }
+}
+
+impl Figure {
+    /// The mirror image in the base: the last coordinate with the other sign.
+    pub fn mirrored(&self, dimension: usize) -> Figure {
+        let mut image = self.clone();
+        for p in &mut image.centre {
+            p[dimension - 1] = -p[dimension - 1];
+        }
+        image
+    }
+
+    /// The greatest difference of coordinates of the middles.
+    pub fn distance(&self, other: &Figure) -> f64 {
+        let pairs = self
+            .centre
+            .iter()
+            .flatten()
+            .zip(other.centre.iter().flatten());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, largest)
+    }
+
+    /// Whether both are the same figure: the box of this one lies where the other is alone.
+    pub fn is_same(&self, other: &Figure) -> bool {
+        round_up(self.distance(other) + self.radius, 4) < other.alone
+    }
+}
+
+/// Inverts a square matrix by Gauss–Jordan elimination with pivots of largest size in their columns. Whether there
+/// were pivots; nothing is claimed about the rounding.
+pub fn invert(a: &[f64], m: usize, y: &mut Vec<f64>) -> bool {
+    let mut a = a.to_vec();
+    y.clear();
+    y.resize(m * m, 0.0);
+    for i in 0..m {
+        y[i * m + i] = 1.0;
+    }
+    for k in 0..m {
+        let (mut best, mut at) = (0.0, k);
+        for r in k..m {
+            if a[r * m + k].abs() > best {
+                (best, at) = (a[r * m + k].abs(), r);
+            }
+        }
+        if !(best > 1e-200) {
+            return false;
+        }
+        if at != k {
+            for c in 0..m {
+                a.swap(at * m + c, k * m + c);
+                y.swap(at * m + c, k * m + c);
+            }
+        }
+        let over = 1.0 / a[k * m + k];
+        for c in 0..m {
+            a[k * m + c] *= over;
+            y[k * m + c] *= over;
+        }
+        for r in 0..m {
+            let factor = a[r * m + k];
+            if r != k && factor != 0.0 {
+                for c in k..m {
+                    a[r * m + c] -= factor * a[k * m + c];
+                }
+                for c in 0..m {
+                    y[r * m + c] -= factor * y[k * m + c];
+                }
+            }
+        }
+    }
+    true
+}

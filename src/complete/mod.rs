@@ -1,0 +1,135 @@
+//! All real solutions of a problem, proved complete.
+//!
+//! The figures that have the distances wanted are searched over the driving parameters of a construction
+//! plan, by branch and bound with Taylor models ([`model`]) that are rounded outwards: a part of the
+//! parameter space is given up only where a bound proves that it holds no figure, or where all its figures lie
+//! where Krawczyk's test in all coordinates has proved exactly one ([`krawczyk`]). What is proved, how, and
+//! how fast it is: `docs/complete.md`.
+//!
+//! ```
+//! use krawl::complete::{Options, Status, all};
+//! use krawl::problem::Problem;
+//!
+//! // A triangle, and a point on each side of its longest edge: four bars and a diagonal.
+//! let kite = Problem::build("kite", 2)
+//!     .point("a", ["0", "0"]).point("b", ["3", "0"]).point("c", ["1", "1"]).point("d", ["1", "-1"])
+//!     .distance("a", "b", "3").distance("a", "c", "2").distance("c", "b", "2")
+//!     .distance("a", "d", "2.2").distance("d", "b", "2.1")
+//!     .finish().unwrap();
+//! let result = all(&kite, &Options::default()).unwrap();
+//! assert_eq!(result.status, Status::Complete);
+//! // d on the side of c, and on the other. Mirror images are counted once.
+//! assert_eq!(result.solutions.len(), 2);
+//! ```
+
+// A bound that is not a number decides nothing: tests say what they need, and `!(a < b)` is not `a >= b`.
+#![allow(clippy::neg_cmp_op_on_partial_ord)]
+
+mod choose;
+mod contract;
+mod cover;
+mod emptiness;
+mod krawczyk;
+mod model;
+mod node;
+mod outcome;
+mod place;
+mod plan;
+mod search;
+mod targets;
+mod visit;
+
+pub use outcome::{Complete, Options, Part, Progress, Status, Unserved};
+pub use visit::Why;
+
+use crate::problem::Problem;
+use plan::Plan;
+use search::{Run, Search, Unfit};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+use targets::Targets;
+use visit::Found;
+
+/// Searches for all figures that have the distances of a problem, up to rigid motions and reflections.
+///
+/// The sketch and the homotopy play no part.
+pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
+    let begin = Instant::now();
+    if !problem.is_distances_only() {
+        return Err(Unserved::Constraints);
+    }
+    let targets = Targets::new(problem);
+    if let Some((edge, way)) = emptiness::too_long(&targets) {
+        let reason = outcome::too_long(problem, edge, &way);
+        return Ok(Complete::empty(problem, reason, begin));
+    }
+    let plans = choose::plans(&targets).map_err(Unserved::from)?;
+    let stop = AtomicBool::new(false);
+    let run = Run {
+        stop: &stop,
+        boxes: AtomicU64::new(0),
+        most_boxes: options.most_boxes,
+        done: AtomicU64::new(0),
+        cover: false,
+    };
+    let result = options.watched(&run, begin, || searched(&targets, plans, &run));
+    match result {
+        Ok((search, found)) => Ok(Complete::new(problem, &search, found, begin)),
+        Err(Unfit::Empty(point)) => {
+            let name = &problem.points[point].name;
+            let reason = format!("no figure has these distances: there is no place for {name}");
+            Ok(Complete::empty(problem, reason, begin))
+        }
+        Err(Unfit::Large) => Err(Unserved::Large),
+        Err(Unfit::Base | Unfit::Hinge) => Err(Unserved::NoBase),
+    }
+}
+
+/// Runs the search by the best plan.
+fn searched(targets: &Targets, plans: Vec<Plan>, run: &Run) -> Result<(Search, Found), Unfit> {
+    let mut searches = Vec::new();
+    let mut unfit = Unfit::Large;
+    for plan in plans.into_iter().take(CANDIDATES) {
+        match Search::new(targets, plan) {
+            Ok(search) => searches.push(search),
+            Err(Unfit::Empty(point)) => return Err(Unfit::Empty(point)),
+            Err(other) => unfit = other,
+        }
+    }
+    if searches.is_empty() {
+        return Err(unfit);
+    }
+    let best = best_of(&searches);
+    let search = searches.swap_remove(best);
+    let found = search.run(run);
+    run.stop.store(true, Ordering::Relaxed);
+    Ok((search, found))
+}
+
+/// Plans that are sampled at most.
+const CANDIDATES: usize = 48;
+
+/// The plan that samples say is least work.
+fn best_of(searches: &[Search]) -> usize {
+    let k = searches[0].plan.parameters();
+    if searches.len() == 1 || k == 0 {
+        return 0;
+    }
+    let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0);
+    let sampled = |searches: &[Search], from: &[usize], ways: usize| -> Vec<(f64, usize)> {
+        let mut out: Vec<(f64, usize)> = from
+            .iter()
+            .map(|&i| (searches[i].sample(ways, 3000), i))
+            .collect();
+        out.sort_by(order);
+        out
+    };
+    let everyone: Vec<usize> =
+        (0..searches.len().min(if k == 1 { 8 } else { CANDIDATES })).collect();
+    let first = sampled(searches, &everyone, if k == 1 { 2 } else { 8 });
+    if k == 1 {
+        return first[0].1;
+    }
+    let best: Vec<usize> = first.iter().take(8).map(|x| x.1).collect();
+    sampled(searches, &best, 60)[0].1
+}

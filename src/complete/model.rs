@@ -1,0 +1,478 @@
+//! Taylor models of the second order, rounded outwards.
+//!
+//! A model stands for a function f of S symbols u ∈ [−1, 1]^S: a polynomial of degree 2 with float
+//! coefficients, and a remainder r such that |f(u) − polynomial(u)| ≤ r for every such u. What an
+//! operation rounds away, and the terms of degree 3 and 4 that it drops, go into r (Makino, Berz,
+//! *Taylor models and other validated functional inclusion methods*, Int. J. Pure Appl. Math. 4,
+//! 2003). S is known at compile time, and so is the number M = (S + 1)(S + 2)/2 of coefficients.
+
+use crate::interval::Interval;
+use crate::interval::rounding::{UNDERFLOW, UNIT_ROUNDOFF, gamma};
+
+/// A function of S symbols, enclosed.
+#[derive(Debug, Clone, Copy)]
+pub struct Model<const S: usize, const M: usize> {
+    /// The constant, the S linear coefficients, and those of u_i u_j for i ≤ j, row by row.
+    pub c: [f64; M],
+    /// How far the function may be from the polynomial.
+    pub r: f64,
+}
+
+/// A real number, enclosed: a middle and a radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    /// The middle.
+    pub mid: f64,
+    /// How far the number may be from it.
+    pub rad: f64,
+}
+
+/// Bounds of a function, not finite or NaN where nothing is known. Every test against them is
+/// written so that a NaN decides nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Not above any value.
+    pub lo: f64,
+    /// Not below any value.
+    pub hi: f64,
+}
+
+/// Covers the roundings of a sum of up to 90 non-negative terms and of the products in it, three
+/// factors deep.
+const UP: f64 = 1.0 + 100.0 * 1.01 * UNIT_ROUNDOFF;
+
+impl Number {
+    /// From an interval.
+    pub fn new(x: Interval) -> Self {
+        let (mid, rad) = (x.mid(), x.rad());
+        Number { mid, rad }
+    }
+}
+
+impl Range {
+    /// Whether no value is zero, by more than a billionth of `size`: a margin, so that whoever
+    /// evaluates the same function with other roundings comes to the same end.
+    pub fn misses_zero(&self, size: f64) -> bool {
+        self.lo > 1e-9 * size || self.hi < -1e-9 * size
+    }
+}
+
+impl<const S: usize, const M: usize> Model<S, M> {
+    /// The function that is 0.
+    pub const ZERO: Self = Model {
+        c: [0.0; M],
+        r: 0.0,
+    };
+
+    const SHAPE: () = assert!(M == (S + 1) * (S + 2) / 2);
+
+    /// A constant.
+    pub fn constant(x: Number) -> Self {
+        let () = Self::SHAPE;
+        let mut out = Self::ZERO;
+        (out.c[0], out.r) = (x.mid, x.rad);
+        out
+    }
+
+    /// `middle + radius u_i`, exactly.
+    pub fn symbol(i: usize, middle: f64, radius: f64) -> Self {
+        let mut out = Self::ZERO;
+        (out.c[0], out.c[1 + i]) = (middle, radius);
+        out
+    }
+
+    /// A bound on the linear part.
+    pub fn linear(&self) -> f64 {
+        self.c[1..1 + S].iter().map(|x| x.abs()).sum()
+    }
+
+    /// A bound on the quadratic part.
+    pub fn quadratic(&self) -> f64 {
+        self.c[1 + S..].iter().map(|x| x.abs()).sum()
+    }
+
+    /// A bound on how far the function is from its constant coefficient.
+    pub fn reach(&self) -> f64 {
+        (self.linear() + self.quadratic() + self.r) * UP
+    }
+
+    /// A bound on the function's size.
+    pub fn size(&self) -> f64 {
+        (self.c[0].abs() + self.reach()) * UP
+    }
+
+    /// f + g.
+    pub fn plus(&self, other: &Self) -> Self {
+        let mut c = self.c;
+        let mut size = 0.0;
+        for q in 0..M {
+            c[q] += other.c[q];
+            size += c[q].abs();
+        }
+        // The error of a sum is at most u times the computed one, and none where it is subnormal.
+        let r = (self.r + other.r + UNIT_ROUNDOFF * size) * UP;
+        Model { c, r }
+    }
+
+    /// f − g.
+    pub fn minus(&self, other: &Self) -> Self {
+        let mut c = self.c;
+        let mut size = 0.0;
+        for q in 0..M {
+            c[q] -= other.c[q];
+            size += c[q].abs();
+        }
+        let r = (self.r + other.r + UNIT_ROUNDOFF * size) * UP;
+        Model { c, r }
+    }
+
+    /// f times a float.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut c = self.c;
+        let mut size = 0.0;
+        for x in &mut c {
+            *x *= factor;
+            size += x.abs();
+        }
+        let r = (self.r * factor.abs() + UNIT_ROUNDOFF * size) * UP + UNDERFLOW;
+        Model { c, r }
+    }
+
+    /// f times a number.
+    pub fn by(&self, factor: Number) -> Self {
+        let mut out = self.scaled(factor.mid);
+        out.r = (out.r + self.size() * factor.rad) * UP;
+        out
+    }
+
+    /// f plus a number.
+    pub fn shifted(&self, by: Number) -> Self {
+        let mut out = *self;
+        out.c[0] += by.mid;
+        out.r = (out.r + by.rad + UNIT_ROUNDOFF * out.c[0].abs()) * UP;
+        out
+    }
+
+    /// f g.
+    pub fn times(&self, other: &Self) -> Self {
+        let (a, b) = (&self.c, &other.c);
+        let mut c = [0.0; M];
+        c[0] = a[0] * b[0];
+        for i in 1..1 + S {
+            c[i] = a[0] * b[i] + a[i] * b[0];
+        }
+        let mut q = 1 + S;
+        for i in 1..1 + S {
+            c[q] = a[0] * b[q] + a[q] * b[0] + a[i] * b[i];
+            q += 1;
+            for j in i + 1..1 + S {
+                c[q] = a[0] * b[q] + a[q] * b[0] + (a[i] * b[j] + a[j] * b[i]);
+                q += 1;
+            }
+        }
+        let (la, qa) = (self.linear(), self.quadratic());
+        let (lb, qb) = (other.linear(), other.quadratic());
+        let (all_a, all_b) = (a[0].abs() + la + qa, b[0].abs() + lb + qb);
+        // No coefficient's terms pass through more than four roundings.
+        let r = (la * qb + qa * (lb + qb))
+            + all_a * other.r
+            + self.r * (all_b + other.r)
+            + gamma(5) * (all_a * all_b);
+        Model {
+            c,
+            r: r * UP + UNDERFLOW,
+        }
+    }
+
+    /// f².
+    pub fn squared(&self) -> Self {
+        self.times(self)
+    }
+
+    /// Bounds of the function: the terms g u + h u² of one symbol exactly, the others by size.
+    pub fn range(&self) -> Range {
+        let (mut below, mut above, mut size) = (0.0, 0.0, self.c[0].abs() + self.r);
+        let mut q = 1 + S;
+        for i in 0..S {
+            let (g, h) = (self.c[1 + i].abs(), self.c[q]);
+            size += g + h.abs();
+            // The least and the greatest value of g u + h u² on [−1, 1].
+            let turn = if g < 2.0 * h.abs() {
+                g * g / (4.0 * h.abs())
+            } else {
+                g - h.abs()
+            };
+            if h >= 0.0 {
+                below += turn;
+                above += g + h;
+            } else {
+                below += g - h;
+                above += turn;
+            }
+            q += 1;
+            for _ in i + 1..S {
+                let cross = self.c[q].abs();
+                size += cross;
+                below += cross;
+                above += cross;
+                q += 1;
+            }
+        }
+        let slack = gamma(100) * size + UNDERFLOW;
+        Range {
+            lo: self.c[0] - (below + self.r + slack),
+            hi: self.c[0] + (above + self.r + slack),
+        }
+    }
+
+    /// √f, where the range of f is `range` and f > 0.
+    ///
+    /// With f = c(1 + e): √(1 + e) = 1 + e/2 − e²/8 + R(e), and R increases with e, its derivative
+    /// being ½((1 + e)^(−½) − 1 + e/2) ≥ 0 by convexity.
+    pub fn square_root(&self, range: Range) -> Self {
+        let c = self.c[0];
+        if !(range.lo > 0.0 && c > 0.0) {
+            return Self::unknown();
+        }
+        let root = c.sqrt();
+        let rest = |e: f64| (1.0 + e).max(0.0).sqrt() - 1.0 - 0.5 * e + 0.125 * e * e;
+        self.composed(range, rest, [root, 0.5, -0.125])
+    }
+
+    /// 1/f, where the range of f is `range` and f > 0.
+    ///
+    /// With f = c(1 + e): 1/(1 + e) = 1 − e + e² + R(e), and R(e) = −e³/(1 + e) decreases with e.
+    pub fn reciprocal(&self, range: Range) -> Self {
+        let c = self.c[0];
+        if !(range.lo > 0.0 && c > 0.0) {
+            return Self::unknown();
+        }
+        let rest = |e: f64| -e * e * e / (1.0 + e);
+        self.composed(range, rest, [1.0 / c, -1.0, 1.0])
+    }
+
+    /// k (1 + k₁ e + k₂ e² + R(e)) with e = f/c − 1, R monotone on the range of e.
+    fn composed(&self, range: Range, rest: impl Fn(f64) -> f64, k: [f64; 3]) -> Self {
+        let c = self.c[0];
+        // e within ulps of 1 + |e|; the ends are moved out by that.
+        let end = |x: f64, out: f64| {
+            let e = x / c - 1.0;
+            e + out * 4.0 * UNIT_ROUNDOFF * (1.0 + e.abs())
+        };
+        let (low, high) = (end(range.lo, -1.0), end(range.hi, 1.0));
+        if !(low > -1.0 && high < 1e6) {
+            return Self::unknown();
+        }
+        let at = [rest(low), rest(high)];
+        // Each is a sum of four terms that are at most (1 + |e|)² in size, or the quotient of such
+        // whose denominator 1 + e has a relative error of u/(1 + e).
+        let widest = 1.0 + low.abs().max(high);
+        let error =
+            16.0 * UNIT_ROUNDOFF * (widest * widest + at[0].abs() / (1.0 + low) + at[1].abs());
+        let (middle, half) = (0.5 * (at[0] + at[1]), 0.5 * (at[0] - at[1]).abs() + error);
+
+        let (k1, k2) = (k[1] / c, k[2] / (c * c));
+        let mut out = Self::ZERO;
+        out.c[0] = k[0] * (1.0 + middle);
+        let mut q = 1 + S;
+        for i in 1..1 + S {
+            out.c[i] = k[0] * (k1 * self.c[i]);
+        }
+        for i in 1..1 + S {
+            for j in i..1 + S {
+                let both = if i == j { 1.0 } else { 2.0 };
+                let square = both * self.c[i] * self.c[j];
+                out.c[q] = k[0] * (k1 * self.c[q] + k2 * square);
+                q += 1;
+            }
+        }
+        let (l, h, r) = (self.linear(), self.quadratic(), self.r);
+        let all = l + h + r;
+        let dropped = k1.abs() * r + k2.abs() * (h * (2.0 * l + h) + r * (2.0 * (l + h) + r));
+        let rounded = gamma(16) * (1.0 + middle.abs() + k1.abs() * all + k2.abs() * (all * all));
+        out.r = k[0].abs() * (dropped + half + rounded) * UP + UNDERFLOW;
+        out
+    }
+
+    /// A function of which nothing is known.
+    pub fn unknown() -> Self {
+        Model {
+            c: [0.0; M],
+            r: f64::INFINITY,
+        }
+    }
+}
+
+/// cos θ and sin θ for θ = quarter + 2 atan τ, τ = middle + radius u_i: every point of half a circle is
+/// met for one τ ∈ [−1, 1], the ends by τ = ±1, and the other half is its negative. Rational in τ:
+/// e^(2 i atan τ) = (1 + iτ)/(1 − iτ) = z, and with `turned` it is i z.
+///
+/// z' = 2i/(1 − iτ)², z'' = −4/(1 − iτ)³, |z'''| = 12/(1 + τ²)².
+pub fn rotation<const S: usize, const M: usize>(
+    i: usize,
+    middle: f64,
+    radius: f64,
+    turned: bool,
+) -> [Model<S, M>; 2] {
+    let t = middle;
+    let w = 1.0 / (1.0 + t * t);
+    // 1/(1 − iτ) = (1 + iτ) w, and its powers.
+    let (a, b) = (w, t * w);
+    let (a2, b2) = (a * a - b * b, 2.0 * a * b);
+    let (a3, b3) = (a2 * a - b2 * b, a2 * b + b2 * a);
+    let z = [2.0 * a - 1.0, 2.0 * b];
+    let slope = [-2.0 * b2, 2.0 * a2];
+    let bend = [-2.0 * a3, -2.0 * b3];
+    // |1/(1 − iτ)| ≤ 1, so all numbers above have absolute errors of a few u. The third derivative's bound
+    // is divided by 3!; the nearest τ to 0 is at least |middle| − radius away.
+    let nearest = (t.abs() - radius).max(0.0);
+    let third = 2.0 / (1.0 + nearest * nearest).powi(2);
+    let r = (third * radius.powi(3) + 64.0 * UNIT_ROUNDOFF * (1.0 + radius + radius * radius)) * UP
+        + UNDERFLOW;
+    let quadratic = {
+        // The place of u_i².
+        let mut q = 1 + S;
+        for k in 0..i {
+            q += S - k;
+        }
+        q
+    };
+    let part = |k: usize, sign: f64| {
+        let mut out = Model::<S, M>::ZERO;
+        out.c[0] = sign * z[k];
+        out.c[1 + i] = sign * (slope[k] * radius);
+        out.c[quadratic] = sign * (bend[k] * radius * radius);
+        out.r = r;
+        out
+    };
+    if turned {
+        [part(1, -1.0), part(0, 1.0)]
+    } else {
+        [part(0, 1.0), part(1, 1.0)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use num_traits::{One, Signed, Zero};
+    use proptest::prelude::*;
+
+    type Two = Model<2, 6>;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    /// The polynomial at a point, exactly.
+    fn polynomial<const S: usize, const M: usize>(f: &Model<S, M>, u: &[f64]) -> BigRational {
+        let mut sum = exact(f.c[0]);
+        let mut q = 1 + S;
+        for i in 0..S {
+            sum += exact(f.c[1 + i]) * exact(u[i]);
+            for j in i..S {
+                sum += exact(f.c[q]) * exact(u[i]) * exact(u[j]);
+                q += 1;
+            }
+        }
+        sum
+    }
+
+    fn encloses<const S: usize, const M: usize>(
+        f: &Model<S, M>,
+        u: &[f64],
+        value: &BigRational,
+    ) -> bool {
+        (polynomial(f, u) - value).abs() <= exact(f.r)
+    }
+
+    fn model() -> impl Strategy<Value = Two> {
+        let number = || (-1.0f64..1.0, -12i32..3).prop_map(|(x, e)| x * 2f64.powi(e));
+        (prop::array::uniform6(number()), 0.0f64..1.0, -40i32..-1).prop_map(|(c, r, e)| Model {
+            c,
+            r: r * 2f64.powi(e),
+        })
+    }
+
+    /// A value that the model may stand for at u: the polynomial and part of the remainder.
+    fn value(f: &Two, u: &[f64], part: f64) -> BigRational {
+        polynomial(f, u) + exact(f.r) * exact(part)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3000))]
+        #[test]
+        fn operations_enclose(
+            (f, g) in (model(), model()),
+            u in prop::array::uniform2(prop_oneof![Just(1.0), Just(-1.0), -1.0f64..1.0]),
+            part in prop::array::uniform2(prop_oneof![Just(1.0), Just(-1.0), -1.0f64..1.0]),
+            factor in -3.0f64..3.0,
+            shift in 1.0f64..9.0,
+        ) {
+            let (x, y) = (value(&f, &u, part[0]), value(&g, &u, part[1]));
+            prop_assert!(encloses(&f.plus(&g), &u, &(&x + &y)));
+            prop_assert!(encloses(&f.minus(&g), &u, &(&x - &y)));
+            prop_assert!(encloses(&f.times(&g), &u, &(&x * &y)));
+            prop_assert!(encloses(&f.scaled(factor), &u, &(&x * exact(factor))));
+            let number = Number { mid: factor, rad: 0.01 };
+            let near = exact(factor) + exact(0.01) * exact(part[1]);
+            prop_assert!(encloses(&f.by(number), &u, &(&x * &near)));
+            prop_assert!(encloses(&f.shifted(number), &u, &(&x + &near)));
+            let range = f.range();
+            prop_assert!(exact(range.lo) <= x && x <= exact(range.hi));
+            prop_assert!((&x - exact(f.c[0])).abs() <= exact(f.reach()));
+
+            // Shifted so far that it is positive, and less than so far that 0 is near.
+            let shift = f.reach() * (1.0 + shift * shift * 0.01) - f.c[0];
+            let f = f.shifted(Number { mid: shift, rad: 0.0 });
+            let x = value(&f, &u, part[0]);
+            let range = f.range();
+            if range.lo > 0.0 {
+                let over = f.reciprocal(range);
+                if over.r.is_finite() {
+                    prop_assert!(encloses(&over, &u, &(BigRational::one() / &x)));
+                }
+                let root = f.square_root(range);
+                if root.r.is_finite() {
+                    let (p, r) = (polynomial(&root, &u), exact(root.r));
+                    let (low, high) = (&p - &r, &p + &r);
+                    prop_assert!(!high.is_negative() && &high * &high >= x);
+                    prop_assert!(low.is_negative() || &low * &low <= x);
+                }
+            }
+        }
+
+        #[test]
+        fn rotations_enclose(
+            middle in -1.0f64..1.0,
+            radius in prop_oneof![0.0f64..1.0, 0.0f64..1e-3, Just(0.0)],
+            u in prop_oneof![Just(1.0), Just(-1.0), -1.0f64..1.0],
+            turned: bool,
+        ) {
+            let pair: [Two; 2] = rotation(1, middle, radius, turned);
+            let t = exact(middle) + exact(radius) * exact(u);
+            let below = BigRational::one() + &t * &t;
+            let z = [
+                (BigRational::one() - &t * &t) / &below,
+                (&t + &t) / &below,
+            ];
+            let wanted = if turned { [-z[1].clone(), z[0].clone()] } else { z };
+            for k in 0..2 {
+                prop_assert!(encloses(&pair[k], &[0.5, u], &wanted[k]));
+            }
+            // And not by being wide.
+            prop_assert!(pair[0].r <= 2.1 * radius.powi(3) + 1e-13);
+        }
+    }
+
+    #[test]
+    fn products_are_not_wide() {
+        let f = Two {
+            c: [1.0, 0.1, 0.02, 0.01, 0.0, 0.003],
+            r: 1e-9,
+        };
+        let g = f.times(&f);
+        assert!(g.r < 0.02 && g.c[0] == 1.0 && !g.range().lo.is_zero());
+    }
+}

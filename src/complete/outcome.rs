@@ -1,0 +1,402 @@
+//! What the search for all solutions reports.
+
+use super::choose::NoPlan;
+use super::search::{Run, Search, different};
+use super::visit::{Found, Why};
+use crate::interval::{Interval, point};
+use crate::problem::Problem;
+use crate::track::Solution;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// What is proved of the solutions listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// They are all.
+    Complete,
+    /// There may be more in the parts that are undecided.
+    Partial,
+    /// There may be more in the parts that are undecided, and through some of these goes a curve of
+    /// solutions, as far as floats see.
+    Flexible,
+}
+
+impl Status {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Complete => "complete",
+            Status::Partial => "partial",
+            Status::Flexible => "flexible",
+        }
+    }
+}
+
+/// Parts of the parameter space that are undecided for one reason.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Why.
+    pub why: Why,
+    /// How many parts.
+    pub count: u64,
+    /// Their share of the parameter space, as far as parts are kept.
+    pub share: f64,
+}
+
+/// All solutions of a problem, or what is known of them.
+#[derive(Debug, Clone)]
+pub struct Complete {
+    /// What is proved.
+    pub status: Status,
+    /// The solutions in the problem's gauge and units, each box holding exactly one, the boxes disjoint, no
+    /// two solutions congruent.
+    pub solutions: Vec<Solution>,
+    /// The points that are the gauge: those of the problem, or of the plan where those may be in line.
+    pub reference: Vec<usize>,
+    /// What is undecided, by reasons.
+    pub undecided: Vec<Part>,
+    /// Why there is no solution, where that can be said in words; or what stands in the way of the claim.
+    pub reason: Option<String>,
+    /// Parts of the parameter space looked at.
+    pub boxes: u64,
+    /// Driving parameters of the plan.
+    pub driving: usize,
+    /// The order in which the plan places the points.
+    pub plan: Vec<usize>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// Why a problem cannot be searched.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Unserved {
+    /// Other constraints.
+    #[error(
+        "not served yet: the search takes distances between points alone, and there are other constraints"
+    )]
+    Constraints,
+    /// No base.
+    #[error(
+        "not served yet: the search begins with two joined points in the plane, or three mutually joined \
+         points in space that are not in line, and there are none"
+    )]
+    NoBase,
+    /// Too many parameters.
+    #[error(
+        "not served yet: every construction plan needs more than {} driving parameters, and the work grows \
+         exponentially with their number",
+        super::choose::MOST_PARAMETERS
+    )]
+    TooManyParameters,
+    /// Too large.
+    #[error(
+        "not served yet: the problem has more than 250 points, or more than 64 with two places each"
+    )]
+    Large,
+}
+
+impl From<NoPlan> for Unserved {
+    fn from(reason: NoPlan) -> Self {
+        match reason {
+            NoPlan::NoBase => Unserved::NoBase,
+            NoPlan::TooManyParameters => Unserved::TooManyParameters,
+        }
+    }
+}
+
+/// Where a search is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// The share of the parameter space that is done.
+    pub share: f64,
+    /// Parts looked at.
+    pub boxes: u64,
+}
+
+/// What a search may take, and whom it tells.
+pub struct Options<'a> {
+    /// Ends the search from outside.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Ends the search after so long.
+    pub time: Option<Duration>,
+    /// Ends the search after so many parts.
+    pub most_boxes: u64,
+    /// Threads; 0 for one per processor.
+    pub threads: usize,
+    /// Told now and then where the search is.
+    #[allow(clippy::type_complexity)]
+    pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Options {
+            cancel: None,
+            time: None,
+            most_boxes: 4_000_000_000,
+            threads: 0,
+            progress: None,
+        }
+    }
+}
+
+impl Options<'_> {
+    /// Runs a search on as many threads as wanted, beside one that looks at the clock.
+    pub(super) fn watched<T: Send>(
+        &self,
+        run: &Run,
+        begin: Instant,
+        search: impl FnOnce() -> T + Send,
+    ) -> T {
+        let pooled = || {
+            if self.threads == 0 {
+                return search();
+            }
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(self.threads)
+                .build();
+            match pool {
+                Ok(pool) => pool.install(search),
+                Err(_) => search(),
+            }
+        };
+        if self.cancel.is_none() && self.time.is_none() && self.progress.is_none() {
+            return pooled();
+        }
+        let ended = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while !ended.load(Ordering::Relaxed) {
+                    std::thread::park_timeout(Duration::from_millis(20));
+                    let cancelled = self.cancel.is_some_and(|c| c.load(Ordering::Relaxed));
+                    if cancelled || self.time.is_some_and(|most| begin.elapsed() > most) {
+                        run.stop.store(true, Ordering::Relaxed);
+                    }
+                    if let Some(tell) = self.progress {
+                        tell(Progress {
+                            share: run.share_done(),
+                            boxes: run.boxes.load(Ordering::Relaxed),
+                        });
+                    }
+                }
+            });
+            let result = pooled();
+            ended.store(true, Ordering::Relaxed);
+            result
+        })
+    }
+}
+
+impl Complete {
+    /// No solution, for a reason that needs no search.
+    pub(super) fn empty(problem: &Problem, reason: String, begin: Instant) -> Self {
+        Complete {
+            status: Status::Complete,
+            solutions: Vec::new(),
+            reference: problem.homotopy.reference.clone(),
+            undecided: Vec::new(),
+            reason: Some(reason),
+            boxes: 0,
+            driving: 0,
+            plan: Vec::new(),
+            seconds: begin.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// From what a search found.
+    pub(super) fn new(problem: &Problem, search: &Search, found: Found, begin: Instant) -> Self {
+        let dimension = problem.dimension;
+        let mut reason = None;
+        let mut undecided: Vec<Part> = Vec::new();
+        for part in &found.undecided {
+            match undecided.iter_mut().find(|known| known.why == part.why) {
+                Some(known) => {
+                    known.count += 1;
+                    known.share += part.share;
+                }
+                None => undecided.push(Part {
+                    why: part.why,
+                    count: 1,
+                    share: part.share,
+                }),
+            }
+        }
+        undecided.sort_by_key(|part| part.why);
+        if let Some(last) = undecided.last_mut() {
+            // Those that were not kept are counted with the last reason.
+            last.count += found.undecided_count - found.undecided.len() as u64;
+        }
+        let figures = different(&found.figures, dimension);
+        let apart = figures.is_err();
+        let figures = figures.unwrap_or_default();
+        let mut solutions = Vec::new();
+        let mut reference = problem.homotopy.reference.clone();
+        for reference_tried in [&problem.homotopy.reference, &search.plan.base] {
+            solutions = figures
+                .iter()
+                .map_while(|figure| in_gauge(figure, search, reference_tried))
+                .collect();
+            reference.clone_from(reference_tried);
+            if solutions.len() == figures.len() {
+                break;
+            }
+        }
+        for (class, solution) in solutions.iter_mut().enumerate() {
+            solution.class = class;
+        }
+        let mut disjoint = true;
+        for (i, one) in solutions.iter().enumerate() {
+            disjoint &= solutions[..i].iter().all(|other| are_apart(one, other));
+        }
+        let mut status = Status::Complete;
+        if apart || !disjoint {
+            status = Status::Partial;
+            reason = Some("two solutions are too close to each other to be told apart".to_owned());
+            if apart {
+                solutions.clear();
+                undecided.push(Part {
+                    why: Why::Apart,
+                    count: 1,
+                    share: 0.0,
+                });
+            }
+        }
+        if found.undecided_count > 0 {
+            status = Status::Partial;
+            if undecided.iter().any(|part| part.why == Why::Flexible) {
+                status = Status::Flexible;
+            }
+        }
+        if status == Status::Complete && solutions.is_empty() {
+            reason = Some(
+                "no figure has these distances: every part of the parameter space is excluded"
+                    .to_owned(),
+            );
+        }
+        let order = search.plan.base.iter().copied();
+        Complete {
+            status,
+            solutions,
+            reference,
+            undecided,
+            reason,
+            boxes: found.boxes,
+            driving: search.plan.parameters(),
+            plan: order
+                .chain(search.plan.steps.iter().map(|s| s.point))
+                .collect(),
+            seconds: begin.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// "No figure has these lengths: …"
+pub(super) fn too_long(problem: &Problem, edge: usize, way: &[usize]) -> String {
+    let name = |p: usize| problem.points[p].name.as_str();
+    let parts: Vec<String> = way
+        .windows(2)
+        .map(|w| format!("{}-{}", name(w[0]), name(w[1])))
+        .collect();
+    let (last, before) = parts.split_last().expect("a way has two parts at least");
+    format!(
+        "no figure has these lengths: {} is longer than {} and {last} together",
+        problem.distance_name(edge),
+        before.join(", ")
+    )
+}
+
+fn are_apart(one: &Solution, other: &Solution) -> bool {
+    let pairs = one
+        .points
+        .iter()
+        .flatten()
+        .zip(other.points.iter().flatten());
+    pairs
+        .into_iter()
+        .any(|(a, b)| a.sup() < b.inf() || b.sup() < a.inf())
+}
+
+/// A figure's box seen from reference points, in the problem's units. `None` if these may be in line.
+fn in_gauge(
+    figure: &super::krawczyk::Figure,
+    search: &Search,
+    reference: &[usize],
+) -> Option<Solution> {
+    let d = search.targets.dimension;
+    let zero = point(0.0);
+    let base = &search.plan.base;
+    let place = |p: usize| -> [Interval; 3] {
+        let order = base.iter().position(|&b| b == p).unwrap_or(d);
+        std::array::from_fn(|k| {
+            if k >= order.min(d) {
+                return zero;
+            }
+            let (x, r) = (figure.centre[p][k], figure.radius);
+            crate::interval::hull((x - r).next_down(), (x + r).next_up())
+        })
+    };
+    let unit = point(search.targets.unit);
+    let same = reference == base.as_slice();
+    let origin = place(reference[0]);
+    let from = |p: usize| sub(place(p), origin);
+    let (e1, e2, e3);
+    if same {
+        e1 = [point(1.0), zero, zero];
+        e2 = [zero, point(1.0), zero];
+        e3 = [zero, zero, point(1.0)];
+    } else {
+        e1 = direction(from(reference[1]))?;
+        if d == 2 {
+            e2 = [-e1[1], e1[0], zero];
+            e3 = [zero, zero, point(1.0)];
+        } else {
+            e3 = direction(cross(e1, from(reference[2])))?;
+            e2 = cross(e3, e1);
+        }
+    }
+    let points: Vec<[Interval; 3]> = (0..search.targets.points)
+        .map(|p| {
+            let v = from(p);
+            let order = reference.iter().position(|&r| r == p).unwrap_or(d);
+            let axes = [e1, e2, e3];
+            std::array::from_fn(|k| {
+                if k < order.min(d) {
+                    dot(axes[k], v) * unit
+                } else {
+                    zero
+                }
+            })
+        })
+        .collect();
+    let all = points.iter().flatten();
+    let size = all.clone().map(|x| x.mag()).fold(0.0, f64::max);
+    let width = all.map(|x| x.wid()).fold(0.0, f64::max) / size;
+    Some(Solution {
+        points,
+        class: 0,
+        width,
+        place: None,
+        mirror_of: None,
+    })
+}
+
+fn sub(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [Interval; 3], b: [Interval; 3]) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn direction(v: [Interval; 3]) -> Option<[Interval; 3]> {
+    let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
+    (length.inf() > 0.0).then(|| v.map(|x| x / length))
+}

@@ -1,0 +1,376 @@
+//! The search: depth first, its parts on all threads, the answer the same for any number of them.
+
+use super::krawczyk::{Figure, Prover};
+use super::model::Number;
+use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
+use super::place::Known;
+use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
+use super::targets::Targets;
+use super::visit::{Found, Why, visit};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// One plan's search.
+pub struct Search {
+    /// The problem.
+    pub targets: Targets,
+    /// The plan.
+    pub plan: Plan,
+    /// The coordinates of the base.
+    pub base: Vec<[Number; 3]>,
+    /// What is known of each step.
+    pub known: Vec<Known>,
+    /// Which of the steps with two places each step is, or `usize::MAX`.
+    pub signed: Vec<usize>,
+    /// The negatives of the squared distances wanted.
+    pub minus_squares: Vec<Number>,
+    /// For each step, bounds of squared distances to points placed before.
+    pub bounds: Vec<Vec<(usize, [f64; 2])>>,
+    /// The test in all coordinates.
+    pub prover: Prover,
+    /// Symbols' ranges narrower than this are not halved.
+    pub least_width: f64,
+    /// Most symbols, folds included.
+    pub most_symbols: usize,
+}
+
+/// Why a plan cannot be searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unfit {
+    /// The base may be degenerate.
+    Base,
+    /// More points than the search's records hold.
+    Large,
+    /// A hinge may be degenerate.
+    Hinge,
+    /// No figure exists: these points cannot have their distances.
+    Empty(usize),
+}
+
+/// What runs share.
+pub struct Run<'a> {
+    /// Set from outside to end the search.
+    pub stop: &'a AtomicBool,
+    /// Parts looked at.
+    pub boxes: AtomicU64,
+    /// No more parts than this.
+    pub most_boxes: u64,
+    /// The share that is done, in units of 2⁻⁶⁰.
+    pub done: AtomicU64,
+    /// Whether the cover is wanted.
+    pub cover: bool,
+}
+
+/// Below this depth a subtree is one task.
+const TASK_DEPTH: usize = 22;
+/// Parts between two looks at the clock.
+const PAUSE: u64 = 256;
+const SHARE_UNIT: f64 = (1u64 << 60) as f64;
+
+impl Search {
+    /// Prepares the search by a plan.
+    pub fn new(targets: &Targets, plan: Plan) -> Result<Self, Unfit> {
+        if targets.points > 250 || plan.steps.iter().filter(|s| s.is_signed()).count() > MAX_SIGNED
+        {
+            return Err(Unfit::Large);
+        }
+        let base = base_coordinates(targets, &plan.base).ok_or(Unfit::Base)?;
+        let mut known = Vec::new();
+        let mut signed = Vec::new();
+        let mut count = 0;
+        for step in &plan.steps {
+            signed.push(usize::MAX);
+            known.push(match &step.kind {
+                Kind::Arm { centre, .. } => {
+                    let edge = targets
+                        .edge(step.point, *centre)
+                        .expect("an arm is a distance");
+                    Known::Length(Number::new(targets.lengths[edge]))
+                }
+                Kind::Hinge { frame, .. } => match HingeNumbers::new(targets, step.point, *frame) {
+                    Some(Ok(numbers)) => Known::Hinge(numbers),
+                    Some(Err(())) => return Err(Unfit::Empty(step.point)),
+                    None => return Err(Unfit::Hinge),
+                },
+                Kind::Meet { centres, radii } => {
+                    *signed.last_mut().expect("just pushed") = count;
+                    count += 1;
+                    Known::Meeting(Meeting::new(targets, centres, radii), count - 1)
+                }
+            });
+        }
+        Ok(Search {
+            prover: Prover::new(targets, &plan),
+            minus_squares: targets.squares.iter().map(|&s| Number::new(-s)).collect(),
+            base: base.into_iter().map(|p| p.map(Number::new)).collect(),
+            bounds: vec![Vec::new(); plan.steps.len()],
+            known,
+            signed,
+            least_width: 2f64.powi(-38),
+            most_symbols: MAX_SYMBOLS,
+            targets: targets.clone(),
+            plan,
+        })
+    }
+
+    /// Searches everything.
+    pub fn run(&self, run: &Run) -> Found {
+        let mut found = Found::default();
+        let nodes = Node::roots(&self.plan);
+        for part in self.each(run, nodes, 0) {
+            found.append_or_take(part);
+        }
+        found
+    }
+
+    fn each(&self, run: &Run, nodes: Vec<Node>, depth: usize) -> Vec<Found> {
+        if rayon::current_num_threads() == 1 || nodes.len() < 2 {
+            nodes
+                .into_iter()
+                .map(|node| self.descend(run, node, depth))
+                .collect()
+        } else {
+            nodes
+                .into_par_iter()
+                .map(|node| self.descend(run, node, depth))
+                .collect()
+        }
+    }
+
+    fn descend(&self, run: &Run, node: Node, depth: usize) -> Found {
+        let mut found = Found::default();
+        if run.cover {
+            found.marks.bytes = Some(Vec::new());
+        }
+        if depth >= TASK_DEPTH || rayon::current_num_threads() == 1 {
+            self.subtree(run, node, &mut found);
+            return found;
+        }
+        let mut children = Vec::new();
+        self.look(run, node, &mut found, &mut children);
+        run.boxes.fetch_add(1, Ordering::Relaxed);
+        for part in self.each(run, children, depth + 1) {
+            found.append(part);
+        }
+        found
+    }
+
+    /// All below a node, one part after the other.
+    fn subtree(&self, run: &Run, node: Node, found: &mut Found) {
+        let (mut stack, mut children) = (vec![node], Vec::new());
+        let mut count = 0;
+        let mut ended = false;
+        while let Some(node) = stack.pop() {
+            count += 1;
+            if count % PAUSE == 0 || stack.is_empty() {
+                let all = run.boxes.fetch_add(count, Ordering::Relaxed) + count;
+                count = 0;
+                ended = run.stop.load(Ordering::Relaxed) || all > run.most_boxes;
+            }
+            if ended {
+                let share = node.share;
+                found.leave(share, Why::Unfinished);
+                continue;
+            }
+            self.look_at(node, run, found, &mut children);
+            stack.extend(children.drain(..).rev());
+        }
+        run.boxes.fetch_add(count, Ordering::Relaxed);
+    }
+
+    fn look(&self, run: &Run, node: Node, found: &mut Found, children: &mut Vec<Node>) {
+        if run.stop.load(Ordering::Relaxed) || run.boxes.load(Ordering::Relaxed) > run.most_boxes {
+            let share = node.share;
+            return found.leave(share, Why::Unfinished);
+        }
+        self.look_at(node, run, found, children);
+    }
+
+    fn look_at(&self, node: Node, run: &Run, found: &mut Found, children: &mut Vec<Node>) {
+        let share = node.share;
+        visit(self, node, found, children);
+        let open: f64 = children.iter().map(|c| c.share).sum();
+        let done = (share - open).max(0.0) * SHARE_UNIT;
+        run.done.fetch_add(done as u64, Ordering::Relaxed);
+    }
+
+    /// Samples of how many parts a search would look at: random ways down the tree, each part weighted
+    /// with the number of choices on the way to it (Knuth, *Estimating the efficiency of backtrack
+    /// programs*, Math. Comp. 29, 1975). The seed makes it the same each time.
+    pub fn sample(&self, ways: usize, most: u64) -> f64 {
+        let roots = Node::roots(&self.plan);
+        let mut state = 0x9e37_79b9_7f4a_7c15u64;
+        let mut choose = |count: usize| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 33) as usize % count
+        };
+        let mut found = Found::default();
+        let mut children = Vec::new();
+        let mut total = 0.0;
+        let mut looked = 0;
+        for _ in 0..ways {
+            let mut weight = roots.len() as f64;
+            let mut node = roots[choose(roots.len())].clone();
+            loop {
+                total += weight;
+                looked += 1;
+                children.clear();
+                visit(self, node, &mut found, &mut children);
+                if children.is_empty() || looked > most {
+                    break;
+                }
+                weight *= children.len() as f64;
+                node = children.swap_remove(choose(children.len()));
+            }
+        }
+        total / ways as f64
+    }
+
+    /// Whether floats see a curve of figures through (or very near) this one: a small step along the
+    /// direction in which the equations do not change, corrected, does not lead back.
+    pub fn flexes(&self, guess: &[[f64; 3]]) -> bool {
+        let m = self.prover.m;
+        let mut x = guess.to_vec();
+        if m == 0 || !self.settle(&mut x, 1e-11) {
+            return false;
+        }
+        let Some(direction) = self.weakest(&x) else {
+            return false;
+        };
+        for sign in [1.0, -1.0] {
+            let mut y = x.clone();
+            self.prover.moved(&mut y, &direction, sign * 1e-2);
+            let moved = |y: &[[f64; 3]]| {
+                let all = y.iter().flatten().zip(x.iter().flatten());
+                all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            };
+            let start = moved(&y);
+            if self.settle(&mut y, 1e-11) && moved(&y) > 0.5 * start {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Moves a figure to the nearest solution, or says that it does not get there.
+    fn settle(&self, x: &mut [[f64; 3]], wanted: f64) -> bool {
+        let m = self.prover.m;
+        let mut f = vec![0.0; m];
+        let mut j = Vec::new();
+        for _ in 0..25 {
+            self.prover.residual(x, &mut f);
+            let size = f.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+            if size < wanted {
+                return true;
+            }
+            if !(size < 1.0) {
+                return false;
+            }
+            self.prover.jacobian(x, &mut j);
+            let Some(step) = least_squares(&j, &f, m, 1e-12) else {
+                return false;
+            };
+            self.prover.moved(x, &step, -1.0);
+        }
+        false
+    }
+
+    /// A unit vector that the Jacobian nearly maps to 0, if there is one.
+    fn weakest(&self, x: &[[f64; 3]]) -> Option<Vec<f64>> {
+        let m = self.prover.m;
+        let mut j = Vec::new();
+        self.prover.jacobian(x, &mut j);
+        let mut v: Vec<f64> = (0..m)
+            .map(|i| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0)
+            .collect();
+        for _ in 0..6 {
+            // (JᵀJ + ε)⁻¹ v, by inverse iteration.
+            v = normal_solve(&j, &v, m, 1e-12)?;
+            let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            v.iter_mut().for_each(|x| *x /= norm);
+        }
+        let image: f64 = (0..m)
+            .map(|e| {
+                let row = &j[e * m..(e + 1) * m];
+                row.iter().zip(&v).map(|(a, b)| a * b).sum::<f64>().powi(2)
+            })
+            .sum();
+        (image.sqrt() < 1e-4).then_some(v)
+    }
+}
+
+/// (JᵀJ + ε)⁻¹ Jᵀ f.
+fn least_squares(j: &[f64], f: &[f64], m: usize, epsilon: f64) -> Option<Vec<f64>> {
+    let right: Vec<f64> = (0..m)
+        .map(|i| (0..m).map(|e| j[e * m + i] * f[e]).sum())
+        .collect();
+    normal_solve(j, &right, m, epsilon)
+}
+
+fn normal_solve(j: &[f64], right: &[f64], m: usize, epsilon: f64) -> Option<Vec<f64>> {
+    let mut a = vec![0.0; m * m];
+    for e in 0..m {
+        let row = &j[e * m..(e + 1) * m];
+        for i in (0..m).filter(|&i| row[i] != 0.0) {
+            for k in 0..m {
+                a[i * m + k] += row[i] * row[k];
+            }
+        }
+    }
+    for i in 0..m {
+        a[i * m + i] += epsilon;
+    }
+    let mut y = Vec::new();
+    super::krawczyk::invert(&a, m, &mut y).then(|| {
+        (0..m)
+            .map(|i| {
+                y[i * m..(i + 1) * m]
+                    .iter()
+                    .zip(right)
+                    .map(|(a, b)| a * b)
+                    .sum()
+            })
+            .collect()
+    })
+}
+
+impl Found {
+    fn append_or_take(&mut self, other: Found) {
+        if self.boxes == 0 {
+            *self = other;
+        } else {
+            self.append(other);
+        }
+    }
+}
+
+/// Figures without repetitions: mirror images in the base are one. `Err` if two of them cannot be told
+/// apart or together.
+pub fn different(figures: &[Figure], dimension: usize) -> Result<Vec<Figure>, usize> {
+    let mut out: Vec<Figure> = Vec::new();
+    'next: for figure in figures {
+        let image = figure.mirrored(dimension);
+        for known in &out {
+            for one in [figure, &image] {
+                if one.is_same(known) || known.is_same(one) {
+                    continue 'next;
+                }
+                // Boxes that are apart hold different figures.
+                if one.distance(known) <= 1.01 * (one.radius + known.radius) {
+                    return Err(out.len());
+                }
+            }
+        }
+        out.push(figure.clone());
+    }
+    Ok(out)
+}
+
+impl Run<'_> {
+    /// The share of the parameter space that is done.
+    pub fn share_done(&self) -> f64 {
+        self.done.load(Ordering::Relaxed) as f64 / SHARE_UNIT
+    }
+}

@@ -1,0 +1,82 @@
+//! What the search is about: points, and the squares of the distances wanted.
+
+use crate::interval::{Interval, enclose, hull, point};
+use crate::problem::{Problem, Target};
+
+/// The points and distances of a problem, in a unit near the typical length.
+#[derive(Debug, Clone)]
+pub struct Targets {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The number of points.
+    pub points: usize,
+    /// The length that 1 stands for in here: a power of two, so that divisions by it are exact.
+    pub unit: f64,
+    /// The distances, in the problem's order.
+    pub edges: Vec<[usize; 2]>,
+    /// The squares of their lengths.
+    pub squares: Vec<Interval>,
+    /// Their lengths.
+    pub lengths: Vec<Interval>,
+    /// The distance between two points, at `a * points + b`.
+    table: Vec<u32>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Targets {
+    /// Of a problem.
+    pub fn new(problem: &Problem) -> Self {
+        let wanted = |target: &Target| match target {
+            Target::Length(length) => enclose(length),
+            Target::SquaredLength(squared) => enclose(squared).sqrt(),
+        };
+        let count = problem.distances.len().max(1) as f64;
+        let mean = problem
+            .distances
+            .iter()
+            .map(|d| wanted(&d.target).mid())
+            .sum::<f64>()
+            / count;
+        let unit = 2f64.powi(mean.log2().round() as i32);
+        let per_unit = point(1.0 / unit);
+        let points = problem.points.len();
+        let mut table = vec![NONE; points * points];
+        for (index, distance) in problem.distances.iter().enumerate() {
+            let [a, b] = distance.points;
+            table[a * points + b] = index as u32;
+            table[b * points + a] = index as u32;
+        }
+        let squares = problem.distances.iter().map(|d| {
+            let square = match &d.target {
+                Target::Length(length) => enclose(length).sqr(),
+                Target::SquaredLength(squared) => enclose(squared),
+            };
+            square * per_unit * per_unit
+        });
+        Targets {
+            dimension: problem.dimension,
+            points,
+            unit,
+            edges: problem.distances.iter().map(|d| d.points).collect(),
+            squares: squares.collect(),
+            lengths: problem
+                .distances
+                .iter()
+                .map(|d| wanted(&d.target) * per_unit)
+                .collect(),
+            table,
+        }
+    }
+
+    /// The distance between two points, if one is wanted.
+    pub fn edge(&self, a: usize, b: usize) -> Option<usize> {
+        let index = self.table[a * self.points + b];
+        (index != NONE).then_some(index as usize)
+    }
+}
+
+/// A lower bound of an interval that is known not to be negative, with the bound no lower than 0.
+pub fn not_negative(x: Interval) -> Interval {
+    hull(x.inf().max(0.0), x.sup().max(0.0))
+}

@@ -1,0 +1,380 @@
+//! One part of the search space looked at: points are placed one after the other until an equation excludes the
+//! part, a figure is proved, or the part has to be parted.
+
+use super::contract::contract;
+use super::cover::{Mark, Marks};
+use super::krawczyk::{Doubt, Figure};
+use super::model::{Model, Range};
+use super::node::{MAX_SYMBOLS, Node, Sign};
+use super::place::{Place, Placed, place, squared_distance};
+use super::search::Search;
+
+/// Why a part stays undecided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Why {
+    /// A curve of figures goes through it, as far as floats see.
+    Flexible,
+    /// It is as small as parts may be: a figure that is singular or nearly so, or points in line.
+    Small,
+    /// The search was ended before.
+    Unfinished,
+    /// Figures in it are not told apart.
+    Apart,
+}
+
+/// A part that stays undecided.
+#[derive(Debug, Clone)]
+pub struct Undecided {
+    /// Why.
+    pub why: Why,
+    /// Its share of the search space.
+    pub share: f64,
+}
+
+/// What visits find.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    /// Figures proved, maybe several times.
+    pub figures: Vec<Figure>,
+    /// Parts undecided, not more than a few thousand.
+    pub undecided: Vec<Undecided>,
+    /// How many they are.
+    pub undecided_count: u64,
+    /// Their share.
+    pub undecided_share: f64,
+    /// Parts looked at.
+    pub boxes: u64,
+    /// The cover, if it is wanted.
+    pub marks: Marks,
+}
+
+/// Most undecided parts that are kept.
+const KEPT: usize = 4096;
+/// Coordinates must be known to this much of the unit of length before figures are looked for.
+const NEAR: f64 = 3e-3;
+/// A point whose remainder exceeds this is not known well enough to go on from it.
+const BLURRED: f64 = 0.2;
+/// A height becomes a symbol if the two places are at most this far apart.
+const FOLD: f64 = 0.35;
+/// A part is looked at anew where the equations leave less than this of it.
+const SHRUNK: f64 = 0.3;
+
+impl Found {
+    /// Notes a part that stays undecided.
+    pub fn leave(&mut self, share: f64, why: Why) {
+        self.marks.put(Mark::Undecided);
+        self.undecided_count += 1;
+        self.undecided_share += share;
+        if self.undecided.len() < KEPT {
+            self.undecided.push(Undecided { why, share });
+        }
+    }
+
+    /// Adds what was found in parts that come after.
+    pub fn append(&mut self, mut other: Found) {
+        self.figures.append(&mut other.figures);
+        let room = KEPT - self.undecided.len().min(KEPT);
+        other.undecided.truncate(room);
+        self.undecided.append(&mut other.undecided);
+        self.undecided_count += other.undecided_count;
+        self.undecided_share += other.undecided_share;
+        self.boxes += other.boxes;
+        if let (Some(mine), Some(mut more)) = (&mut self.marks.bytes, other.marks.bytes) {
+            mine.append(&mut more);
+        }
+    }
+}
+
+/// Room for visits, kept from one to the next.
+struct Visit<'a, const D: usize, const S: usize, const M: usize> {
+    search: &'a Search,
+    node: Node,
+    points: Vec<Place<D, S, M>>,
+    /// The equations so far, each with whose closing it is.
+    equations: Vec<Model<S, M>>,
+    rows: Vec<Model<S, M>>,
+    found: &'a mut Found,
+    children: &'a mut Vec<Node>,
+}
+
+/// Looks at a part and adds to `children` those that it is parted into.
+pub fn visit(search: &Search, node: Node, found: &mut Found, children: &mut Vec<Node>) {
+    found.boxes += 1;
+    match (search.targets.dimension, node.symbols) {
+        (2, 0) => Visit::<2, 0, 1>::run(search, node, found, children),
+        (2, 1) => Visit::<2, 1, 3>::run(search, node, found, children),
+        (2, 2) => Visit::<2, 2, 6>::run(search, node, found, children),
+        (2, 3) => Visit::<2, 3, 10>::run(search, node, found, children),
+        (2, 4) => Visit::<2, 4, 15>::run(search, node, found, children),
+        (2, 5) => Visit::<2, 5, 21>::run(search, node, found, children),
+        (2, _) => Visit::<2, 6, 28>::run(search, node, found, children),
+        (_, 0) => Visit::<3, 0, 1>::run(search, node, found, children),
+        (_, 1) => Visit::<3, 1, 3>::run(search, node, found, children),
+        (_, 2) => Visit::<3, 2, 6>::run(search, node, found, children),
+        (_, 3) => Visit::<3, 3, 10>::run(search, node, found, children),
+        (_, 4) => Visit::<3, 4, 15>::run(search, node, found, children),
+        (_, 5) => Visit::<3, 5, 21>::run(search, node, found, children),
+        (_, _) => Visit::<3, 6, 28>::run(search, node, found, children),
+    }
+}
+
+impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
+    fn run(search: &'a Search, node: Node, found: &'a mut Found, children: &'a mut Vec<Node>) {
+        let zero: Place<D, S, M> = [Model::ZERO; D];
+        let mut visit = Visit::<D, S, M> {
+            search,
+            points: vec![zero; search.targets.points],
+            equations: Vec::with_capacity(8),
+            rows: Vec::new(),
+            found,
+            children,
+            node,
+        };
+        for (&p, place) in search.plan.base.iter().zip(&search.base) {
+            visit.points[p] = std::array::from_fn(|k| Model::constant(place[k]));
+        }
+        visit.go(0);
+    }
+
+    /// Places the points from `step` on, the signs of the steps before being decided.
+    fn go(&mut self, step: usize) {
+        let search = self.search;
+        if step == search.plan.steps.len() {
+            return self.finish();
+        }
+        let point = search.plan.steps[step].point;
+        let known = &search.known[step];
+        let placed = place(
+            &search.targets,
+            &search.plan,
+            &self.node,
+            (step, known),
+            &self.points,
+        );
+        match placed {
+            Placed::Here(here) => {
+                self.points[point] = here;
+                self.stand(step);
+            }
+            Placed::Folded(here, equation) => {
+                self.points[point] = here;
+                self.equations.push(equation);
+                self.stand(step);
+                self.equations.pop();
+            }
+            Placed::None => self.found.marks.put(Mark::NoPlace(step as u8)),
+            Placed::Either { middle, off } => {
+                self.found.marks.put(Mark::Sides(step as u8));
+                self.node.share *= 0.5;
+                for sign in [Sign::Plus, Sign::Minus] {
+                    let before = self.equations.len();
+                    self.node.decide(sign);
+                    self.points[point] = std::array::from_fn(|k| match sign {
+                        Sign::Plus => middle[k].plus(&off[k]),
+                        _ => middle[k].minus(&off[k]),
+                    });
+                    self.stand(step);
+                    self.node.forget();
+                    self.equations.truncate(before);
+                }
+                self.node.share *= 2.0;
+            }
+            Placed::Near {
+                height,
+                far,
+                square,
+            } => {
+                let index = search.signed[step];
+                let room = (self.node.symbols as usize) < MAX_SYMBOLS.min(search.most_symbols);
+                if far < FOLD && room {
+                    let range = match self.node.sign(index) {
+                        Some(Sign::Plus) => [0.0, height],
+                        Some(Sign::Minus) => [-height, 0.0],
+                        _ => [-height, height],
+                    };
+                    self.found.marks.put(Mark::Fold(step as u8, range));
+                    let k = search.plan.parameters();
+                    self.children.push(self.node.folded(k, index, range));
+                } else {
+                    self.part(step, false, movers(&[square]));
+                }
+            }
+            Placed::Degenerate(width) => self.part(step, false, movers(&[width])),
+        }
+    }
+
+    /// Looks at what the point of `step`, which stands now, means for the equations.
+    fn stand(&mut self, step: usize) {
+        let search = self.search;
+        let now = &search.plan.steps[step];
+        let here = self.points[now.point];
+        let blur = here
+            .iter()
+            .map(|x| x.r)
+            .fold(0.0, crate::interval::rounding::largest);
+        if !(blur <= BLURRED) {
+            return self.part(step, true, movers(&here));
+        }
+        let before = self.equations.len();
+        for (place, &e) in now.closing.iter().enumerate() {
+            let [a, b] = search.targets.edges[e];
+            let equation =
+                squared_distance(&self.points[a], &self.points[b]).shifted(search.minus_squares[e]);
+            if equation.range().misses_zero(1.0) {
+                self.found
+                    .marks
+                    .put(Mark::WrongDistance(step as u8, place as u8));
+                self.equations.truncate(before);
+                return;
+            }
+            self.equations.push(equation);
+        }
+        for &(other, [lo, hi]) in &search.bounds[step] {
+            let range = squared_distance(&here, &self.points[other]).range();
+            if range.hi < lo || range.lo > hi {
+                self.found.marks.put(Mark::TooFar(step as u8, other as u8));
+                self.equations.truncate(before);
+                return;
+            }
+        }
+        let folded = self.node.sign(search.signed[step]) == Some(Sign::Fold);
+        if self.equations.len() > before || folded {
+            let mut u = [Range { lo: -1.0, hi: 1.0 }; S];
+            if contract(&self.equations, &mut self.rows, &mut u).is_err() {
+                self.found.marks.put(Mark::Excluded(step as u8));
+                self.equations.truncate(before);
+                return;
+            }
+            let last = step + 1 == search.plan.steps.len();
+            if self.shrink(step, &u, if last { 0.5 } else { SHRUNK }, last) {
+                self.equations.truncate(before);
+                return;
+            }
+        }
+        self.go(step + 1);
+        self.equations.truncate(before);
+    }
+
+    /// Goes on with a smaller part, if what the equations leave is small enough.
+    fn shrink(&mut self, step: usize, u: &[Range; S], enough: f64, last: bool) -> bool {
+        let left: f64 = u.iter().map(|x| 0.5 * (x.hi - x.lo)).product();
+        // A part this small is for the proof of a figure.
+        if !(left < enough) || last && self.reach() < NEAR {
+            return false;
+        }
+        let mut child = self.node.clone();
+        let mut ranges = [[0.0; 2]; MAX_SYMBOLS];
+        for i in 0..S {
+            let (middle, reach) = self.node.middle(i);
+            // A little more than what is left, so that who checks it comes to less.
+            let at = |x: f64, out: f64| middle + reach * (x + out * 1e-6);
+            let low = at(u[i].lo, -1.0).next_down().next_down();
+            let high = at(u[i].hi, 1.0).next_up().next_up();
+            ranges[i] = [low.max(child.lo[i]), high.min(child.hi[i])];
+            [child.lo[i], child.hi[i]] = ranges[i];
+        }
+        child.depth = child.depth.saturating_add(1);
+        self.found
+            .marks
+            .put(Mark::Within(step as u8, ranges, S as u8));
+        self.children.push(child);
+        true
+    }
+
+    /// How far any coordinate may be from the middle of the models.
+    fn reach(&self) -> f64 {
+        let all = self.points.iter().flatten().map(|x| x.reach());
+        all.fold(0.0, crate::interval::rounding::largest)
+    }
+
+    /// All points stand.
+    fn finish(&mut self) {
+        let search = self.search;
+        let step = search.plan.steps.len().wrapping_sub(1);
+        let reach = self.reach();
+        if reach < NEAR || S == 0 {
+            let guess: Vec<[f64; 3]> = self
+                .points
+                .iter()
+                .map(|p| std::array::from_fn(|k| if k < D { p[k].c[0] } else { 0.0 }))
+                .collect();
+            match search.prover.prove(&guess) {
+                Ok(figure) if self.is_alone(&figure) => {
+                    self.found.marks.put(Mark::Figure);
+                    self.found.figures.push(figure);
+                    return;
+                }
+                Err(Doubt::Singular | Doubt::Away)
+                    if self.node.depth.is_multiple_of(4) && search.flexes(&guess) =>
+                {
+                    let share = self.node.share;
+                    return self.found.leave(share, Why::Flexible);
+                }
+                _ => {}
+            }
+        }
+        let weights = movers_of(self.points.iter().flatten());
+        self.part(step, true, weights);
+    }
+
+    /// Whether all figures of this part lie where this one is alone.
+    fn is_alone(&self, figure: &Figure) -> bool {
+        let limit = figure.alone * (1.0 - 1e-6);
+        self.points
+            .iter()
+            .zip(&figure.centre)
+            .all(|(p, at)| (0..D).all(|k| (p[k].c[0] - at[k]).abs() + p[k].reach() < limit))
+    }
+
+    /// Parts this part in the symbol of the greatest weight, the signs of the steps up to this one
+    /// being kept (`with` it or without).
+    fn part(&mut self, step: usize, with: bool, weights: [f64; S]) {
+        let search = self.search;
+        let mut best: Option<(usize, f64)> = None;
+        for i in 0..S {
+            let width = self.node.hi[i] - self.node.lo[i];
+            let least = search.least_width * (1.0 + self.node.lo[i].abs());
+            let weight = if weights[i].is_finite() {
+                weights[i]
+            } else {
+                width
+            };
+            if width > least && best.is_none_or(|(_, w)| weight > w) {
+                best = Some((i, weight));
+            }
+        }
+        let Some((symbol, _)) = best else {
+            let share = self.node.share;
+            return self.found.leave(share, Why::Small);
+        };
+        self.found
+            .marks
+            .put(Mark::Halves(step as u8, with, symbol as u8));
+        self.children.extend(self.node.parted(symbol));
+    }
+}
+
+/// How much each symbol bends these functions, and a little of how much it moves them.
+fn movers<const S: usize, const M: usize>(models: &[Model<S, M>]) -> [f64; S] {
+    movers_of(models.iter())
+}
+
+fn movers_of<'m, const S: usize, const M: usize>(
+    models: impl Iterator<Item = &'m Model<S, M>>,
+) -> [f64; S] {
+    let mut weights = [0.0; S];
+    for model in models {
+        let mut q = 1 + S;
+        for i in 0..S {
+            weights[i] += model.c[q].abs() + 1e-3 * model.c[1 + i].abs();
+            q += 1;
+            for j in i + 1..S {
+                let cross = 0.5 * model.c[q].abs();
+                weights[i] += cross;
+                weights[j] += cross;
+                q += 1;
+            }
+        }
+    }
+    weights
+}

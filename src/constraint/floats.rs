@@ -1,0 +1,165 @@
+//! All equations of a problem in floats: to look at, not to prove with.
+
+use super::lowering::{Fault, Lowered};
+use super::quadratic::{Entry, Form, Product};
+use super::{Owner, frame::Frame, frame::vector, try_lower};
+use crate::interval::Real;
+use crate::problem::{Problem, Target};
+
+/// Coordinates of all points (fixed ones among them), then auxiliary unknowns.
+pub struct Floats<'a> {
+    problem: &'a Problem,
+    /// The equations beyond distances.
+    pub lowered: Lowered,
+    /// All values in the sketch.
+    pub sketch: Vec<f64>,
+    /// The columns that are free.
+    pub free: Vec<usize>,
+    /// For each distance the coefficients of a(t).
+    lengths: Vec<[f64; 3]>,
+    /// For each other equation the coefficients of its right-hand side.
+    rights: Vec<Vec<f64>>,
+}
+
+impl<'a> Floats<'a> {
+    /// The equations of a problem of which the names have been checked.
+    pub fn new(problem: &'a Problem) -> Result<Self, (Owner, Fault)> {
+        let lowered = try_lower(problem)?;
+        let (d, frame) = (problem.dimension, Frame::new(problem));
+        let float = |real: &Real| real.double().0.hi;
+        let mut sketch = Vec::new();
+        let mut free = Vec::new();
+        for (index, point) in problem.points.iter().enumerate() {
+            let reference = &problem.homotopy.reference;
+            let fixed_from = reference.iter().position(|&r| r == index).unwrap_or(d);
+            for axis in 0..d {
+                if axis < fixed_from {
+                    free.push(sketch.len());
+                }
+                sketch.push(float(&frame.coordinate(&vector(&point.sketch), axis)));
+            }
+        }
+        for value in &lowered.values {
+            free.push(sketch.len());
+            sketch.push(float(value));
+        }
+        let lengths = problem
+            .distances
+            .iter()
+            .enumerate()
+            .map(|(index, distance)| {
+                let [a, b] = distance
+                    .points
+                    .map(|p| problem.points[p].sketch.each_ref().map(|x| x.to_f64()));
+                let start = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+                let end = match &distance.target {
+                    Target::Length(x) => x.to_f64(),
+                    Target::SquaredLength(x) => x.to_f64().sqrt(),
+                };
+                let c = match problem.bend() == Some(index) {
+                    true => problem.homotopy.bend_coefficient.to_f64(),
+                    false => 0.0,
+                };
+                [start, end - start + c, -c]
+            });
+        let equations = lowered.tail.equations.iter();
+        Ok(Floats {
+            rights: equations
+                .map(|equation| equation.right.iter().map(float).collect())
+                .collect(),
+            lengths: lengths.collect(),
+            problem,
+            sketch,
+            free,
+            lowered,
+        })
+    }
+
+    /// How many equations there are.
+    pub fn equations(&self) -> usize {
+        self.problem.distances.len() + self.lowered.tail.equations.len()
+    }
+
+    /// The place of an entry among the values.
+    pub fn place(&self, entry: Entry) -> Option<usize> {
+        match entry {
+            Entry::Zero => None,
+            Entry::Coordinate { point, axis } => Some(point * self.problem.dimension + axis),
+            Entry::Unknown(u) => Some(self.problem.points.len() * self.problem.dimension + u),
+        }
+    }
+
+    fn products(&self, equation: usize) -> Vec<Product> {
+        let distances = self.problem.distances.len();
+        if equation >= distances {
+            return self.lowered.tail.equations[equation - distances]
+                .products
+                .clone();
+        }
+        let [a, b] = self.problem.distances[equation].points;
+        (0..self.problem.dimension)
+            .map(|axis| {
+                let [from, to] = [a, b].map(|point| Entry::Coordinate { point, axis });
+                let form = Form::Difference(from, to);
+                Product {
+                    factor: 1,
+                    left: form,
+                    right: form,
+                }
+            })
+            .collect()
+    }
+
+    /// E(t) of an equation.
+    pub fn right(&self, equation: usize, t: f64) -> f64 {
+        let distances = self.problem.distances.len();
+        let horner = |all: f64, x: f64| all * t + x;
+        if equation < distances {
+            let a = self.lengths[equation]
+                .iter()
+                .rev()
+                .copied()
+                .fold(0.0, horner);
+            return 0.5 * a * a;
+        }
+        let right = &self.rights[equation - distances];
+        right.iter().rev().copied().fold(0.0, horner)
+    }
+
+    fn form(&self, form: Form, x: &[f64]) -> f64 {
+        match form {
+            Form::One => 1.0,
+            Form::Difference(a, b) => {
+                self.place(a).map_or(0.0, |k| x[k]) - self.place(b).map_or(0.0, |k| x[k])
+            }
+        }
+    }
+
+    /// The left-hand side of an equation.
+    pub fn left(&self, equation: usize, x: &[f64]) -> f64 {
+        let products = self.products(equation);
+        let terms = products
+            .iter()
+            .map(|p| f64::from(p.factor) * self.form(p.left, x) * self.form(p.right, x));
+        0.5 * terms.sum::<f64>()
+    }
+
+    /// The derivatives of an equation's left-hand side by all values, those that are fixed among them.
+    pub fn row(&self, equation: usize, x: &[f64]) -> Vec<f64> {
+        let mut row = vec![0.0; x.len()];
+        for p in self.products(equation) {
+            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
+                let slope = 0.5 * f64::from(p.factor) * self.form(other, x);
+                if let Form::Difference(a, b) = this {
+                    if let Some(k) = self.place(a) {
+                        row[k] += slope;
+                    }
+                    if let Some(k) = self.place(b) {
+                        row[k] -= slope;
+                    }
+                }
+            }
+        }
+        row
+    }
+}

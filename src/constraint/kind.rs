@@ -1,0 +1,73 @@
+//! What a kind of constraint has to say of itself.
+
+use super::arguments::Arguments;
+use super::lowering::{Fault, Lowering};
+use crate::problem::{Decimal, Item, Problem};
+
+/// What the number of a constraint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// There is none: the constraint holds or does not.
+    Nothing,
+    /// A length greater than zero.
+    Length,
+    /// A length with a sign, or a coordinate.
+    Signed,
+    /// An angle between 0 and 180 degrees.
+    Degrees,
+}
+
+/// What of the frame a constraint fixes, beyond what is the same for figures that are moved as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Fixes {
+    /// A direction, or anything below.
+    pub frame: bool,
+    /// For each axis whether a place along it is fixed.
+    pub axes: [bool; 3],
+}
+
+/// A kind of constraint.
+pub trait Kind: Sync {
+    /// The key under `[constraints]` in problem files.
+    fn key(&self) -> &'static str;
+
+    /// What it says, for people, in one sentence.
+    fn meaning(&self) -> &'static str;
+
+    /// What an entry of it names, for messages: `two lines, or two planes`.
+    fn takes(&self) -> &'static str;
+
+    /// An entry as it stands in a problem file.
+    fn example(&self) -> &'static str;
+
+    /// What its number is.
+    fn measure(&self) -> Measure {
+        Measure::Nothing
+    }
+
+    /// What of the frame it fixes.
+    fn fixes(&self, _problem: &Problem, _items: &[Item]) -> Fixes {
+        Fixes::default()
+    }
+
+    /// Its unknowns and equations.
+    fn lower(&self, of: Given, low: &mut Lowering) -> Result<(), Fault>;
+}
+
+/// One constraint of a kind.
+pub struct Given<'a> {
+    /// Its name, for its equations.
+    pub name: &'a str,
+    /// What it names.
+    pub items: Arguments<'a>,
+    /// Its number; there is one exactly where the kind has a measure.
+    pub value: Option<&'a Decimal>,
+}
+
+impl Given<'_> {
+    /// The number.
+    pub fn number(&self) -> &Decimal {
+        self.value
+            .expect("checked: a number where there is a measure")
+    }
+}

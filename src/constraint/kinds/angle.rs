@@ -1,0 +1,110 @@
+//! `angles`: at a point, between lines, between a line and a plane, between planes.
+//!
+//! The cosine `u·v / (|u| |v|)` is led linearly from that of the sketch to that of the angle. Where both
+//! lengths are dimensions of the problem it needs no unknowns: `u·v` is a polynomial in t. The angle at a
+//! point is that between the two legs. Lines and planes have two angles, which add up to 180 degrees: the
+//! one meant is the one that the sketch comes nearer to.
+
+use super::prelude::*;
+
+/// See the module.
+pub struct Angles;
+
+impl Kind for Angles {
+    fn key(&self) -> &'static str {
+        "angles"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the angle in degrees at the middle one of three points, between two lines, between a line and a \
+         plane, or between two planes"
+    }
+
+    fn takes(&self) -> &'static str {
+        "three points with the vertex in the middle, two lines, a line and a plane, or two planes"
+    }
+
+    fn example(&self) -> &'static str {
+        r#"["p1", "p2", "p3", 30]"#
+    }
+
+    fn measure(&self) -> Measure {
+        Measure::Degrees
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        let degrees = of.number().value().clone();
+        if of.items.next() == Sort::Point && of.items.left() == 3 {
+            let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
+            let (u, v) = (low.span(b, a)?, low.span(b, c)?);
+            return between(
+                of.name,
+                low,
+                &u,
+                &v,
+                Real::cosine_of_degrees(degrees),
+                false,
+            );
+        }
+        let first = direction(&mut of.items, low)?;
+        let second = direction(&mut of.items, low)?;
+        of.items.end()?;
+        let target = if first.1 == second.1 {
+            Real::cosine_of_degrees(degrees)
+        } else if degrees > BigRational::from_integer(90.into()) {
+            return Err("an angle between a line and a plane is at most 90 degrees".to_owned());
+        } else {
+            Real::sine_of_degrees(degrees)
+        };
+        between(of.name, low, &first.0, &second.0, target, true)
+    }
+}
+
+/// The direction of a line or the normal of a plane, and whether it is a plane's.
+pub fn direction(items: &mut Arguments, low: &mut Lowering) -> Result<(Arrow, bool), Fault> {
+    // Four points are two lines, six are two planes.
+    let plane = match items.next() {
+        Sort::Plane => true,
+        Sort::Point => low.dimension() == 3 && matches!(items.points_ahead(), 3 | 6),
+        _ => false,
+    };
+    if plane {
+        let plane = items.plane()?;
+        return Ok((low.proper_plane(plane)?.normal, true));
+    }
+    let line = items.line()?;
+    Ok((low.line(line)?.along, false))
+}
+
+/// Leads the cosine between two vectors to `target`, or, with `either`, to that or the opposite number,
+/// whichever is nearer.
+fn between(
+    name: &str,
+    low: &mut Lowering,
+    u: &Arrow,
+    v: &Arrow,
+    target: Real,
+    either: bool,
+) -> Result<(), Fault> {
+    let now = dot(&u.at, &v.at);
+    let odd = u.axial != v.axial;
+    let products = low.dot(1, &u.forms, &v.forms);
+    if target.is_zero() {
+        low.vanish(name, products, now.into(), u.power + v.power);
+        return Ok(());
+    }
+    let opposite = either && now.is_negative() == (target.enclose().inf() > 0.0) && !now.is_zero();
+    let then = if opposite { -&target } else { target };
+    low.measure(
+        name,
+        Measured {
+            products,
+            now,
+            then,
+            power: 0,
+            odd,
+            arrows: vec![u, v],
+        },
+    );
+    Ok(())
+}

@@ -1,0 +1,40 @@
+//! `coincident`: two or more points are in one place.
+
+use super::prelude::*;
+
+/// See the module.
+pub struct Coincident;
+
+impl Kind for Coincident {
+    fn key(&self) -> &'static str {
+        "coincident"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "two or more points are in one place"
+    }
+
+    fn takes(&self) -> &'static str {
+        "two or more points"
+    }
+
+    fn example(&self) -> &'static str {
+        r#"["p1", "p2"]"#
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        let points = distinct(&mut of.items)?;
+        if points.len() < 2 {
+            return Err("name at least two points".to_owned());
+        }
+        for &other in &points[1..] {
+            let apart = low.between(&low.place(points[0]), &low.place(other));
+            for axis in 0..low.dimension() {
+                let start = low.frame.component(&apart.at, axis);
+                let products = vec![product(1, apart.forms[axis], Form::One)];
+                low.vanish_linear(of.name, products, start, 1);
+            }
+        }
+        Ok(())
+    }
+}

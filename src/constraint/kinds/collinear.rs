@@ -1,0 +1,44 @@
+//! `collinear`: three or more points on one line.
+//!
+//! For each point p beyond two: in the plane `(b − a) × (p − a)` is led to zero, in space `p − a = k (b − a)`
+//! with an unknown k.
+
+use super::prelude::*;
+
+/// See the module.
+pub struct Collinear;
+
+impl Kind for Collinear {
+    fn key(&self) -> &'static str {
+        "collinear"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "three or more points are on one line"
+    }
+
+    fn takes(&self) -> &'static str {
+        "three or more points"
+    }
+
+    fn example(&self) -> &'static str {
+        r#"["p1", "p2", "p3"]"#
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        let points = distinct(&mut of.items)?;
+        let [a, b, rest @ ..] = points.as_slice() else {
+            return Err("name at least three points".to_owned());
+        };
+        if rest.is_empty() {
+            return Err("any two points are on one line: name at least three".to_owned());
+        }
+        let along = low.span(*a, *b)?;
+        let base = low.place(*a);
+        for &point in rest {
+            let across = low.between(&base, &low.place(point));
+            low.align(of.name, &along, &across);
+        }
+        Ok(())
+    }
+}

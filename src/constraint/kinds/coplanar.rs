@@ -1,0 +1,51 @@
+//! `coplanar`: four or more points in one plane.
+//!
+//! For each point beyond three, the determinant `((b − a) × (c − a))·(p − a)`, through the cross product as
+//! an unknown vector, is led to zero.
+
+use super::prelude::*;
+
+/// See the module.
+pub struct Coplanar;
+
+impl Kind for Coplanar {
+    fn key(&self) -> &'static str {
+        "coplanar"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "four or more points are in one plane"
+    }
+
+    fn takes(&self) -> &'static str {
+        "four or more points"
+    }
+
+    fn example(&self) -> &'static str {
+        r#"["p0", "p1", "p2", "p3"]"#
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        if low.dimension() == 2 {
+            return Err("all points are in one plane in a problem of dimension 2".to_owned());
+        }
+        let mut points = distinct(&mut of.items)?;
+        if points.len() < 4 {
+            return Err("any three points are in one plane: name at least four".to_owned());
+        }
+        // The third of the plane's points is one off the line through the first two, if there is one.
+        let off = (2..points.len()).find(|&k| {
+            let at = |p: usize| low.place(points[p]).at;
+            !is_zero(&cross(&minus(&at(1), &at(0)), &minus(&at(k), &at(0))))
+        });
+        points.swap(2, off.unwrap_or(2));
+        let plane = low.plane(PlaneName::Points([points[0], points[1], points[2]]))?;
+        for &point in &points[3..] {
+            let place = low.place(point);
+            let products = plane.height(low, 1, &place);
+            let now = plane.height_in_sketch(low, &place);
+            low.vanish(of.name, products, now.into(), plane.normal.power + 1);
+        }
+        Ok(())
+    }
+}

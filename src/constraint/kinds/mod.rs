@@ -1,0 +1,83 @@
+//! The kinds of constraints, one file each.
+
+mod angle;
+mod coincident;
+mod collinear;
+mod coplanar;
+mod distance;
+mod fixed;
+mod level;
+mod on;
+mod parallel;
+mod perpendicular;
+mod position;
+mod radius;
+
+use super::kind::Kind;
+
+/// All kinds of constraints, in the order in which problem files list them.
+pub const KINDS: &[&dyn Kind] = &[
+    &distance::Distances,
+    &angle::Angles,
+    &radius::RADII,
+    &radius::DIAMETERS,
+    &position::POSITIONS[0],
+    &position::POSITIONS[1],
+    &position::POSITIONS[2],
+    &position::POSITIONS[3],
+    &position::POSITIONS[4],
+    &position::POSITIONS[5],
+    &fixed::Fixed,
+    &coincident::Coincident,
+    &level::HORIZONTAL,
+    &level::VERTICAL,
+    &on::On,
+    &collinear::Collinear,
+    &coplanar::Coplanar,
+    &parallel::Parallel,
+    &perpendicular::Perpendicular,
+];
+
+/// What all of them use.
+mod prelude {
+    pub use super::super::arguments::{Arguments, LineName, PlaneName, Sort};
+    pub use super::super::frame::{cross, cross_in_plane, dot, is_zero, length, minus};
+    pub use super::super::kind::{Fixes, Given, Kind, Measure};
+    pub use super::super::lowering::{Arrow, Fault, Lowering, Measured, Parity, Place};
+    pub use super::super::objects::{Line, Plane};
+    pub use super::super::polynomial::{multiply, ramp};
+    pub use super::super::quadratic::{Form, product, value};
+    pub use crate::interval::Real;
+    pub use crate::problem::{Item, Problem};
+    pub use num_rational::BigRational;
+    pub use num_traits::{Signed, Zero};
+
+    /// All points that are named, each once.
+    pub fn distinct(items: &mut Arguments) -> Result<Vec<usize>, Fault> {
+        let mut points = Vec::new();
+        while items.next() != Sort::End {
+            let point = items.point()?;
+            if points.contains(&point) {
+                return Err("a point is named twice: remove one".to_owned());
+            }
+            points.push(point);
+        }
+        Ok(points)
+    }
+
+    /// The number with the sign of `like`, unless that is zero.
+    pub fn with_sign(like: &BigRational, number: Real) -> Option<Real> {
+        match (like.is_zero(), like.is_negative()) {
+            (true, _) => None,
+            (_, true) => Some(-&number),
+            _ => Some(number),
+        }
+    }
+
+    /// Leads the product of two vectors to zero.
+    pub fn orthogonal(name: &str, low: &mut Lowering, u: &Arrow, v: &Arrow) {
+        let products = low.dot(1, &u.forms, &v.forms);
+        let start = Real::from(dot(&u.at, &v.at));
+        low.vanish(name, products, start, u.power + v.power);
+    }
+}

@@ -1,0 +1,365 @@
+//! Whether there are as many equations as unknowns, and none of them says what others say already.
+//!
+//! The rank of the Jacobian is taken at random values of all unknowns modulo a prime. Where it is too
+//! small there, it is too small everywhere: the determinant is the zero polynomial (but for bad luck with
+//! a probability below m / 2⁶⁰ for m equations; Schwartz, Zippel). The converse does not hold: at random values
+//! right-hand sides are random too, and a constraint may follow from others only where those are met, as the
+//! third of three parallelisms does.
+
+use super::lowering::Lowered;
+use super::quadratic::{Entry, Form};
+use super::{Owner, try_lower};
+use crate::problem::field::{PRIME, Residues, add, invert, mul, sub};
+use crate::problem::{Problem, counted, list};
+
+/// Most names in one list of a message.
+const LISTED: usize = 8;
+
+/// All equations of a problem, distances among them, as their Jacobian sees them.
+struct System<'a> {
+    problem: &'a Problem,
+    lowered: Lowered,
+    /// For each coordinate of each point its column, if it is free.
+    columns: Vec<Option<usize>>,
+    /// How many columns there are: free coordinates, then auxiliary unknowns.
+    width: usize,
+}
+
+/// A factor's derivatives: columns with +1 or −1.
+type Support = [Option<(usize, bool)>; 2];
+
+impl<'a> System<'a> {
+    fn new(problem: &'a Problem) -> Result<Self, (Owner, String)> {
+        let lowered = try_lower(problem)?;
+        let mut columns = vec![None; problem.points.len() * problem.dimension];
+        let mut width = 0;
+        for point in 0..problem.points.len() {
+            let reference = &problem.homotopy.reference;
+            let free = reference.iter().position(|&r| r == point);
+            for axis in 0..free.unwrap_or(problem.dimension) {
+                columns[point * problem.dimension + axis] = Some(width);
+                width += 1;
+            }
+        }
+        width += lowered.tail.unknowns.len();
+        Ok(System {
+            problem,
+            lowered,
+            columns,
+            width,
+        })
+    }
+
+    fn equations(&self) -> usize {
+        self.problem.distances.len() + self.lowered.tail.equations.len()
+    }
+
+    /// The column of an entry, if it is an unknown.
+    fn column(&self, entry: Entry) -> Option<usize> {
+        match entry {
+            Entry::Zero => None,
+            Entry::Coordinate { point, axis } => {
+                self.columns[point * self.problem.dimension + axis]
+            }
+            Entry::Unknown(u) => Some(self.width - self.lowered.tail.unknowns.len() + u),
+        }
+    }
+
+    fn support(&self, form: Form) -> Support {
+        match form {
+            Form::One => [None, None],
+            Form::Difference(a, b) => [
+                self.column(a).map(|c| (c, true)),
+                self.column(b).map(|c| (c, false)),
+            ],
+        }
+    }
+
+    /// The products of an equation: factor and both factors' supports; `None` stands for the number 1.
+    fn products(&self, equation: usize) -> Vec<(i32, [Option<Support>; 2])> {
+        let support = |form: Form| (form != Form::One).then(|| self.support(form));
+        let distances = self.problem.distances.len();
+        if equation < distances {
+            let [a, b] = self.problem.distances[equation].points;
+            return (0..self.problem.dimension)
+                .map(|axis| {
+                    let [from, to] = [a, b].map(|point| Entry::Coordinate { point, axis });
+                    let form = support(Form::Difference(from, to));
+                    (1, [form, form])
+                })
+                .collect();
+        }
+        let equation = &self.lowered.tail.equations[equation - distances];
+        let products = equation.products.iter();
+        products
+            .map(|p| (p.factor, [support(p.left), support(p.right)]))
+            .collect()
+    }
+
+    /// What people call the source of an equation.
+    fn name(&self, equation: usize) -> String {
+        let distances = self.problem.distances.len();
+        if equation < distances {
+            return format!("the distance {}", self.problem.distance_name(equation));
+        }
+        let (owner, objects) = (
+            self.lowered.owners[equation - distances],
+            self.problem.objects.len(),
+        );
+        if owner < objects {
+            return format!("`{}`", self.problem.objects[owner].name);
+        }
+        match owner - objects {
+            index if index < self.problem.constraints.len() => {
+                format!("`{}`", self.problem.constraint_name(index))
+            }
+            _ => self.lowered.tail.equations[equation - distances]
+                .name
+                .clone(),
+        }
+    }
+
+    /// The names of the sources of equations, each once.
+    fn names(&self, equations: impl Iterator<Item = usize>) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for equation in equations {
+            let name = self.name(equation);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// What moves where these columns do: points, then auxiliary unknowns that no equation gives.
+    fn movers(&self, moves: impl Fn(usize) -> bool) -> Vec<String> {
+        let dimension = self.problem.dimension;
+        let points = (0..self.problem.points.len()).filter(|point| {
+            let columns = &self.columns[point * dimension..(point + 1) * dimension];
+            columns.iter().flatten().any(|&column| moves(column))
+        });
+        let mut names: Vec<String> = points
+            .map(|point| format!("`{}`", self.problem.points[point].name))
+            .collect();
+        for (index, object) in self.problem.objects.iter().enumerate() {
+            let mut own = self.lowered.object_unknowns[index].iter();
+            if own.any(|&entry| self.column(entry).is_some_and(&moves)) {
+                names.push(format!("`{}`", object.name));
+            }
+        }
+        names
+    }
+}
+
+/// The number of unknowns and of equations of a checked problem, distances among them.
+pub fn size(problem: &Problem) -> (usize, usize) {
+    match System::new(problem) {
+        Ok(system) => (system.width, system.equations()),
+        Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
+    }
+}
+
+/// What to point at, and whether it is at fault by itself.
+type Blame = Option<(Owner, bool)>;
+
+/// What is wrong with a constraint, or with all of them together: what to point at, and a message.
+pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
+    let system = System::new(problem).map_err(|(owner, fault)| (Some((owner, true)), fault))?;
+    let found = system.eliminate();
+    let (equations, unknowns) = (system.equations(), system.width);
+    if equations == unknowns && found.rank == unknowns {
+        return Ok(());
+    }
+    let mut parts = Vec::new();
+    let mut place = None;
+    if let Some(circuit) = &found.circuit {
+        let names = system.names(circuit.iter().copied());
+        let to_spare = equations - found.rank;
+        parts.push(match names.as_slice() {
+            [one] => format!("over-constrained: {one} says the same twice"),
+            _ => format!(
+                "over-constrained: any of {} follows from the others, remove one of them{}",
+                list(&names, LISTED),
+                match to_spare {
+                    1 => String::new(),
+                    n => format!(" ({n} equations in all are to spare)"),
+                }
+            ),
+        });
+        let last = *circuit.last().expect("a circuit has members");
+        let objects = problem.objects.len();
+        place = last
+            .checked_sub(problem.distances.len())
+            .map(|e| system.lowered.owners[e])
+            .and_then(|owner| match owner.checked_sub(objects) {
+                None => Some(Owner::Object(owner)),
+                Some(c) if c < problem.constraints.len() => Some(Owner::Constraint(c)),
+                _ => None,
+            });
+    }
+    if found.rank < unknowns {
+        let motion = found.motion();
+        let movers = system.movers(|column| motion[column] != 0);
+        let against = if problem.is_absolute() {
+            String::new()
+        } else {
+            let names = problem.homotopy.reference.iter();
+            let names: Vec<String> = names
+                .map(|&p| format!("`{}`", problem.points[p].name))
+                .collect();
+            format!(" against {}", list(&names, LISTED))
+        };
+        parts.push(format!(
+            "under-constrained ({}): {} can still move{against}",
+            match unknowns - found.rank {
+                1 => "1 degree of freedom".to_owned(),
+                n => format!("{n} degrees of freedom"),
+            },
+            list(&movers, LISTED),
+        ));
+    }
+    let auxiliary = system.lowered.tail.unknowns.len();
+    let message = format!(
+        "there are {} ({} of points, {auxiliary} auxiliary) and {}: {}",
+        counted(unknowns, "unknown"),
+        unknowns - auxiliary,
+        counted(equations, "equation"),
+        parts.join("; ")
+    );
+    Err((place.map(|owner| (owner, false)), message))
+}
+
+/// The Jacobian at random values modulo a prime, in row echelon form.
+struct Echelon {
+    rank: usize,
+    /// For each column the row that begins there, without its zeros; its first entry is 1. Columns are
+    /// in the order of elimination, auxiliary unknowns first.
+    pivots: Vec<Option<Vec<(usize, u64)>>>,
+    /// The equations that depend on each other, the last of which is the first that adds nothing.
+    circuit: Option<Vec<usize>>,
+    /// How many auxiliary unknowns there are.
+    auxiliary: usize,
+}
+
+impl System<'_> {
+    fn eliminate(&self) -> Echelon {
+        let plain = self.eliminate_with(false);
+        if plain.circuit.is_none() {
+            return plain;
+        }
+        Echelon {
+            circuit: self.eliminate_with(true).circuit,
+            ..plain
+        }
+    }
+
+    /// With `combine`, stops at the first dependent row, having found what it depends on.
+    fn eliminate_with(&self, combine: bool) -> Echelon {
+        let mut residues = Residues::new(0x6b72_6177_6c00_0003);
+        let at: Vec<u64> = (0..self.width).map(|_| residues.next()).collect();
+        let (width, equations) = (self.width, self.equations());
+        // Auxiliary unknowns first: they have pivots of their own.
+        let auxiliary = self.lowered.tail.unknowns.len();
+        let order = |column: usize| (column + auxiliary) % width.max(1);
+        let mut pivots: Vec<Option<Vec<(usize, u64)>>> = vec![None; width];
+        let mut work = vec![0u64; width + if combine { equations } else { 0 }];
+        let (mut rank, mut circuit) = (0, None);
+        for equation in 0..equations {
+            work.fill(0);
+            for (factor, sides) in self.products(equation) {
+                let factor = match factor {
+                    f if f < 0 => PRIME - f.unsigned_abs() as u64,
+                    f => f as u64,
+                };
+                let value = |side: &Option<Support>| match side {
+                    None => 1,
+                    Some(support) => support.iter().flatten().fold(0, |sum, &(column, plus)| {
+                        if plus {
+                            add(sum, at[column])
+                        } else {
+                            sub(sum, at[column])
+                        }
+                    }),
+                };
+                for (this, other) in [(0, 1), (1, 0)] {
+                    let Some(support) = &sides[this] else {
+                        continue;
+                    };
+                    let slope = mul(factor, value(&sides[other]));
+                    for &(column, plus) in support.iter().flatten() {
+                        let entry = &mut work[order(column)];
+                        *entry = if plus {
+                            add(*entry, slope)
+                        } else {
+                            sub(*entry, slope)
+                        };
+                    }
+                }
+            }
+            if combine {
+                work[width + equation] = 1;
+            }
+            let mut lead = None;
+            for column in 0..width {
+                let factor = work[column];
+                if factor == 0 {
+                    continue;
+                }
+                match &pivots[column] {
+                    Some(pivot) => {
+                        let factor = PRIME - factor;
+                        for &(at, entry) in pivot {
+                            work[at] = add(work[at], mul(factor, entry));
+                        }
+                    }
+                    None => {
+                        lead = Some(column);
+                        break;
+                    }
+                }
+            }
+            match lead {
+                Some(lead) => {
+                    let scale = invert(work[lead]);
+                    let entries = work.iter().enumerate().filter(|&(_, &entry)| entry != 0);
+                    pivots[lead] = Some(entries.map(|(at, &x)| (at, mul(scale, x))).collect());
+                    rank += 1;
+                }
+                None if circuit.is_none() => {
+                    let members = (0..equations).filter(|&e| combine && work[width + e] != 0);
+                    circuit = Some(members.collect());
+                    if combine {
+                        break;
+                    }
+                }
+                None => {}
+            }
+        }
+        Echelon {
+            rank,
+            pivots,
+            circuit,
+            auxiliary,
+        }
+    }
+}
+
+impl Echelon {
+    /// A random element of the null space, by column.
+    fn motion(&self) -> Vec<u64> {
+        let mut residues = Residues::new(0x6b72_6177_6c00_0004);
+        let width = self.pivots.len();
+        let mut eliminated = vec![0; width];
+        for (column, pivot) in self.pivots.iter().enumerate().rev() {
+            eliminated[column] = match pivot {
+                None => residues.next(),
+                Some(row) => row[1..]
+                    .iter()
+                    .fold(0, |sum, &(at, entry)| sub(sum, mul(entry, eliminated[at]))),
+            };
+        }
+        (0..width)
+            .map(|column| eliminated[(column + self.auxiliary) % width])
+            .collect()
+    }
+}

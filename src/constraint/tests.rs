@@ -1,0 +1,275 @@
+//! What constraints mean, kind by kind.
+
+use super::testing::{Figure, angle, cross, dot, examine, near, size};
+
+/// A problem in the plane.
+fn plane(points: &str, rest: &str) -> Figure {
+    examine(&format!(
+        "name = \"test\"\ndimension = 2\n[points]\n{points}\n{rest}\n\
+         [homotopy]\nbend_coefficient = 0"
+    ))
+}
+
+/// A problem in space.
+fn space(points: &str, rest: &str) -> Figure {
+    examine(&format!(
+        "name = \"test\"\ndimension = 3\n[points]\n{points}\n{rest}\n\
+         [homotopy]\nbend_coefficient = 0"
+    ))
+}
+
+const QUADRANGLE: &str = "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2.9, 2.2]\nd = [0.2, 1.9]";
+
+#[test]
+fn angles_at_a_point_between_known_lengths() {
+    let f = plane(
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2.9, 2.2]",
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5]]\nangles = [[\"a\", \"b\", \"c\", 70]]",
+    );
+    near(angle(f.arrow("b", "a"), f.arrow("b", "c")), 70.0);
+}
+
+#[test]
+fn angles_between_unknown_lengths() {
+    let f = plane(
+        QUADRANGLE,
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.7]]\n\
+         angles = [[\"d\", \"a\", \"b\", 81], [\"b\", \"c\", \"d\", 86], [\"a\", \"b\", \"c\", 92]]",
+    );
+    near(angle(f.arrow("a", "d"), f.arrow("a", "b")), 81.0);
+    near(angle(f.arrow("c", "b"), f.arrow("c", "d")), 86.0);
+    let f = plane(
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2.9, 2.2]\nd = [0.2, 1.3]",
+        "[lines]\ng = [\"a\", \"b\"]\nh = [\"c\", \"d\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.8], [\"a\", \"d\", 1.4]]\n\
+         angles = [[\"g\", \"h\", 16], [\"d\", \"a\", \"b\", 80]]",
+    );
+    // The sketch's lines run opposite ways: 164 degrees between the directions.
+    near(angle(f.arrow("a", "b"), f.arrow("c", "d")), 164.0);
+    near(angle(f.arrow("a", "d"), f.arrow("a", "b")), 80.0);
+}
+
+#[test]
+fn distances_from_lines_in_the_plane() {
+    for known in ["[\"a\", \"b\", 3], ", ""] {
+        let more = if known.is_empty() {
+            "dx = [[\"a\", \"b\", 3]]\nhorizontal = [[\"a\", \"b\"]]"
+        } else {
+            ""
+        };
+        let f = plane(
+            "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]",
+            &format!(
+                "[constraints]\ndistances = [[\"a\", \"c\", 2.5], {known}[\"c\", \"a\", \"b\", 1.5]]\n{more}"
+            ),
+        );
+        near(f.from_line("c", "a", "b"), 1.5);
+        assert!(cross(f.arrow("a", "b"), f.arrow("a", "c"))[2] > 0.0);
+    }
+}
+
+#[test]
+fn distances_in_space() {
+    let points = "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]";
+    let f = space(
+        points,
+        "[lines]\ng = [\"a\", \"b\"]\n[planes]\ne = [\"a\", \"b\", \"c\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
+         [\"d\", \"e\", 1.7], [\"d\", \"g\", 2], [\"d\", \"c\", 2.2]]",
+    );
+    near(f.from_plane("d", "a", "b", "c"), 1.7);
+    near(f.from_line("d", "a", "b"), 2.0);
+    let f = space(
+        points,
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
+         [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4]]\n\
+         perpendicular = [[\"a\", \"b\", \"c\", \"d\"]]",
+    );
+    near(dot(f.arrow("a", "b"), f.arrow("c", "d")), 0.0);
+    let f = space(
+        points,
+        "[lines]\ng = [\"a\", \"b\"]\nh = [\"c\", \"d\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.2], [\"g\", \"h\", 1.2], \
+         [\"a\", \"c\", 2.2], [\"b\", \"d\", 2.8]]\nangles = [[\"g\", \"h\", 80]]",
+    );
+    let n = cross(f.arrow("a", "b"), f.arrow("c", "d"));
+    near(dot(n, f.arrow("a", "c")).abs() / size(n), 1.2);
+    near(angle(f.arrow("a", "b"), f.arrow("c", "d")), 80.0);
+}
+
+#[test]
+fn planes_and_angles_in_space() {
+    let points =
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 1.6]";
+    let f = space(
+        points,
+        "[planes]\nbase = [\"a\", \"b\", \"c\"]\nroof = [\"c\", \"d\", \"e\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.7], [\"a\", \"c\", 2.2], \
+         [\"d\", \"c\", 2.1], [\"d\", \"a\", 2.5], [\"c\", \"e\", 1.5], [\"d\", \"e\", 1.7]]\n\
+         angles = [[\"base\", \"roof\", 78], [\"base\", \"a\", \"d\", 48]]",
+    );
+    let n = f.normal("a", "b", "c");
+    let between = angle(n, f.normal("c", "d", "e"));
+    near(between.min(180.0 - between), 78.0);
+    near((90.0 - angle(n, f.arrow("a", "d"))).abs(), 48.0);
+    let f = space(
+        points,
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
+         [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.8], [\"c\", \"e\", 1.5]]\n\
+         coplanar = [[\"a\", \"c\", \"d\", \"e\"]]\nparallel = [[\"c\", \"e\", \"a\", \"b\", \"d\"]]",
+    );
+    near(f.from_plane("e", "a", "c", "d"), 0.0);
+    near(dot(f.normal("a", "b", "d"), f.arrow("c", "e")), 0.0);
+}
+
+#[test]
+fn parallel_planes_and_lines_on_planes() {
+    let points = "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [2.3, 2.5, 2.2]\nf = [0.3, 2.4, 2.1]";
+    let f = space(
+        points,
+        "[planes]\nbase = [\"a\", \"b\", \"c\"]\nroof = [\"d\", \"e\", \"f\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
+         [\"d\", \"base\", 1.8], [\"d\", \"e\", 2], [\"e\", \"f\", 2.1], [\"d\", \"f\", 1.8], [\"c\", \"f\", 2], [\"a\", \"d\", 2.5]]\n\
+         parallel = [[\"base\", \"roof\"]]\nperpendicular = [[\"a\", \"b\", \"b\", \"e\"]]",
+    );
+    near(
+        size(cross(f.normal("a", "b", "c"), f.normal("d", "e", "f"))),
+        0.0,
+    );
+    near(dot(f.arrow("a", "b"), f.arrow("b", "e")), 0.0);
+    let f = space(
+        points,
+        "[planes]\nbase = [\"a\", \"b\", \"c\"]\nroof = [\"d\", \"e\", \"f\"]\n[lines]\ng = [\"c\", \"f\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], [\"a\", \"d\", 2.4], \
+         [\"d\", \"e\", 2], [\"e\", \"f\", 2.1], [\"d\", \"f\", 1.8], [\"c\", \"f\", 2.1], [\"b\", \"e\", 3.2]]\n\
+         perpendicular = [[\"base\", \"g\"], [\"base\", \"d\", \"e\", \"b\"]]",
+    );
+    near(angle(f.normal("a", "b", "c"), f.arrow("c", "f")), 0.0);
+    near(dot(f.normal("a", "b", "c"), f.normal("d", "e", "b")), 0.0);
+}
+
+#[test]
+fn points_on_lines_planes_and_spheres() {
+    let f = plane(
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]\nd = [1.2, 0.3]\ne = [1, 1]",
+        "[lines]\ng = [\"a\", \"b\"]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5], [\"a\", \"c\", 2.6], [\"c\", \"d\", 2.3], \
+         [\"d\", \"e\", 0.8]]\non = [[\"d\", \"g\"]]\ncollinear = [[\"a\", \"c\", \"e\"]]",
+    );
+    near(f.from_line("d", "a", "b"), 0.0);
+    near(f.from_line("e", "a", "c"), 0.0);
+    let f = space(
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 0.6]",
+        "[lines]\ng = [\"c\", \"d\"]\n[planes]\np = [\"a\", \"b\", \"c\"]\n[spheres]\ns = { center = \"a\", radius = 2.2 }\n\
+         [constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
+         [\"d\", \"c\", 2.2], [\"d\", \"b\", 2.6], [\"b\", \"e\", 2.7]]\nradii = [[\"s\", 2.5]]\n\
+         on = [[\"d\", \"s\"], [\"e\", \"s\"], [\"e\", \"p\"]]",
+    );
+    near(f.distance("a", "d"), 2.5);
+    near(f.distance("a", "e"), 2.5);
+    near(f.from_plane("e", "a", "b", "c"), 0.0);
+    let f = space(
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.1, 1.4, 1.3]\nf = [2, 1, 0.3]",
+        "[lines]\ng = [\"c\", \"d\"]\n[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], \
+         [\"a\", \"c\", 2.1], [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.6], [\"c\", \"e\", 1], \
+         [\"f\", \"b\", 1.2]]\non = [[\"e\", \"g\"]]\ncollinear = [[\"b\", \"c\", \"f\"]]",
+    );
+    near(f.from_line("e", "c", "d"), 0.0);
+    near(f.from_line("f", "b", "c"), 0.0);
+}
+
+#[test]
+fn parallel_lines() {
+    let f = plane(
+        QUADRANGLE,
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"c\", \"d\", 2.5], [\"a\", \"d\", 2], [\"b\", \"c\", 2.1]]\n\
+         parallel = [[\"a\", \"b\", \"c\", \"d\"]]",
+    );
+    near(cross(f.arrow("a", "b"), f.arrow("c", "d"))[2], 0.0);
+    let f = space(
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [3.2, 2.1, 0.9]",
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], [\"c\", \"d\", 2.2]]\n\
+         parallel = [[\"a\", \"b\", \"c\", \"d\"]]",
+    );
+    near(size(cross(f.arrow("a", "b"), f.arrow("c", "d"))), 0.0);
+}
+
+#[test]
+fn the_users_own_frame() {
+    let f = plane(
+        QUADRANGLE,
+        "[circles]\nk = { center = \"a\", radius = 2.1 }\n[constraints]\nfixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"]]\n\
+         vertical = [[\"b\", \"c\"]]\ny = [[\"c\", 2]]\ndx = [[\"d\", \"c\", 3]]\ndiameters = [[\"k\", 4]]\n\
+         on = [[\"d\", \"k\"]]\ndistances = [[\"a\", \"b\", 3]]",
+    );
+    near(f.arrow("a", "b")[1], 0.0);
+    near(f.arrow("b", "c")[0], 0.0);
+    near(f.arrow("d", "c")[0], 3.0);
+    near(f.distance("a", "d"), 2.0);
+    near(f.arrow("a", "c")[1], 2.0);
+    // Nothing is fixed: the first point is held.
+    let f = plane(
+        "a = [0.5, 0.25]\nb = [3.1, 0.2]\nc = [2.9, 2.2]",
+        "[constraints]\nhorizontal = [[\"a\", \"b\"]]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2], [\"a\", \"c\", 3]]",
+    );
+    near(f.arrow("a", "b")[1], 0.0);
+}
+
+#[test]
+fn coincident_points() {
+    let f = plane(
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]\nd = [2.1, 2.1]",
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5], [\"a\", \"d\", 2.6]]\n\
+         coincident = [[\"c\", \"d\"]]",
+    );
+    near(f.distance("c", "d"), 0.0);
+}
+
+#[test]
+fn lines_and_planes_of_their_own() {
+    let f = plane(
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]",
+        "[lines]\ng = { point = [0, 3], direction = [3, 1] }\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.3], [\"c\", \"a\", 2.95], [\"a\", \"g\", 2.7]]\non = [[\"c\", \"g\"]]",
+    );
+    near(f.distance("a", "b"), 3.0);
+    let f = space(
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]",
+        "[lines]\ng = { point = [1, 1, 1], direction = [1, 0.3, 0.2] }\nh = { point = [0, 1, 2], direction = [0, 1, 0.2] }\n\
+         [planes]\np = { point = [0, 0, 3], normal = [0.1, 0, 1] }\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], [\"a\", \"g\", 1], [\"b\", \"g\", 1.7], \
+         [\"c\", \"g\", 1.25], [\"a\", \"h\", 1.8], [\"b\", \"h\", 3.4], [\"g\", \"h\", 1.1], [\"a\", \"p\", 2.9], [\"b\", \"p\", 2.6], [\"c\", \"p\", 2.6]]\n\
+         angles = [[\"g\", \"h\", 70], [\"h\", \"p\", 11]]\n",
+    );
+    near(f.distance("a", "b"), 3.0);
+}
+
+#[test]
+fn bodies() {
+    let f = plane(
+        "a = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]\nd = [1, 0.9]",
+        "[bodies]\np = { a = [0, 0], b = [3, 0], c = [1, 2], d = [1, 1] }\n[constraints]",
+    );
+    near(f.distance("a", "b"), 3.0);
+    near(f.distance("c", "d"), 1.0);
+    assert!(cross(f.arrow("a", "b"), f.arrow("a", "c"))[2] > 0.0);
+    let f = space(
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 0.6]",
+        "[bodies]\np = { a = [0, 0, 0], b = [3, 0, 0], c = [1, 2, 0], d = [1, 1, 2], e = [1.5, 2.5, 0] }\n[constraints]",
+    );
+    near(f.distance("a", "d"), 6f64.sqrt());
+    near(f.distance("b", "e"), 8.5f64.sqrt());
+    near(f.distance("d", "e"), (0.25f64 + 2.25 + 4.0).sqrt());
+    assert!(dot(f.normal("a", "b", "c"), f.arrow("a", "d")) > 0.0);
+}
+
+#[test]
+fn arcs() {
+    let f = plane(
+        "m = [0, 0]\na = [2, 0.1]\nb = [0.2, 2.1]",
+        "[arcs]\nk = { center = \"m\", start = \"a\", end = \"b\" }\n[constraints]\nradii = [[\"k\", 3]]\n\
+         distances = [[\"a\", \"b\", 4]]",
+    );
+    near(f.distance("m", "a"), 3.0);
+    near(f.distance("m", "b"), 3.0);
+}

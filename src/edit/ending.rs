@@ -1,0 +1,120 @@
+//! What comes of an edit.
+
+use crate::interval::Interval;
+use crate::track::arc::Orientation;
+
+/// How an edit ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ending {
+    /// All new dimensions are met, by the one and only continuation of the old figure: between the two there
+    /// is exactly one figure for every t, and none of them is singular.
+    Reached,
+    /// The path turns back before: there is no continuation beyond.
+    Limit(Limit),
+    /// Near a figure where branches seem to meet: seen in floats, not proved. The text says what the proof
+    /// met there.
+    Passes(String),
+    /// The proof ended before, and why.
+    Stopped(String),
+}
+
+/// The figure at which a path turns back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Triples of joined points that are on one line there (in the plane), quadruples that are in one plane (in
+    /// space), as far as the boxes of the points tell: the sine of the angle between them, or what stands for it,
+    /// is at most [`Limit::flat_within`].
+    pub flat: Vec<Vec<usize>>,
+    /// See `flat`; proved.
+    pub flat_within: f64,
+    /// How the figure can move there for an instant while all dimensions stand still: per point, in the
+    /// coordinates of the problem, the largest of length 1. In floats.
+    pub motion: Vec<[f64; 3]>,
+}
+
+/// One dimension in an edit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dimension {
+    /// The index in [`Problem::distances`](crate::problem::Problem::distances).
+    pub index: usize,
+    /// What it was, in the lengths of the problem.
+    pub from: Interval,
+    /// What it was to be.
+    pub to: Interval,
+    /// What it is where the edit ended.
+    pub value: Interval,
+}
+
+/// An orientation that was not proved to be kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lost {
+    /// The points, three in the plane and four in space.
+    pub points: Vec<usize>,
+    /// The first t at which its sign may be another: bounds.
+    pub t: (f64, f64),
+}
+
+/// Signs of triangles (in the plane) or tetrahedra (in space) of a point and others joined to it.
+///
+/// A sign is that of the determinant of the differences of the others from the first.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Orientations {
+    /// Proved to be the same all the way from the old figure to where the edit ended, with their signs.
+    pub kept: Vec<(Vec<usize>, i8)>,
+    /// Those with a sign in the old figure that is not proved to be kept.
+    pub lost: Vec<Lost>,
+    /// Those without a sign in the old figure: points on one line, or in one plane, or too near to tell.
+    pub flat: Vec<Vec<usize>>,
+}
+
+/// An edit and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edited {
+    /// How it ended.
+    pub ending: Ending,
+    /// Up to where it was proved: bounds on t, 1 if it was reached, that of the fold at a limit.
+    pub t: (f64, f64),
+    /// The dimensions that were edited.
+    pub dimensions: Vec<Dimension>,
+    /// The figure in the coordinates of the problem: a box that holds exactly one figure with the dimensions of
+    /// `t`, where it was reached and at a limit; otherwise the old figure.
+    pub points: Vec<[Interval; 3]>,
+    /// What is proved of the orientations.
+    pub orientations: Orientations,
+    /// Tubes that the proof took.
+    pub tubes: usize,
+    /// Tubes that were tried in vain.
+    pub rejected: usize,
+    /// The path's length, Euclidean in the free coordinates (units of the problem) and t, in floats.
+    pub length: f64,
+    /// What was switched on beyond the plain run, and why.
+    pub switched_on: Vec<String>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+impl Ending {
+    /// Its name in files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Ending::Reached => "reached",
+            Ending::Limit(_) => "limit",
+            Ending::Passes(_) => "passes",
+            Ending::Stopped(_) => "stopped",
+        }
+    }
+}
+
+impl Orientations {
+    pub(super) fn new(all: Vec<Orientation>) -> Self {
+        let mut out = Orientations::default();
+        for Orientation { points, sign, lost } in all {
+            match (sign, lost) {
+                (0, _) => out.flat.push(points),
+                (_, Some(t)) => out.lost.push(Lost { points, t }),
+                (sign, None) => out.kept.push((points, sign)),
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,126 @@
+//! How far each dimension can go alone.
+
+use super::ending::{Edited, Ending, Limit};
+use super::{Session, Setting};
+use crate::interval::Interval;
+use crate::problem::{Decimal, Problem, Target};
+use crate::track::Control;
+
+/// Towards zero a dimension is followed down to this part of what it is.
+const SMALLEST: f64 = 1.0 / 1024.0;
+
+/// Where a dimension's range ends on one side.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End {
+    /// At a limit: no continuation beyond, proved. The value there is enclosed.
+    Limit(Interval, Limit),
+    /// No limit was met down (or up) to this value, as far as was tried: proved.
+    Beyond(Interval),
+    /// Proved up to this value; there branches seem to meet, or the proof stopped, and why.
+    Unknown(Interval, String),
+}
+
+/// The values over which one dimension can move while all others stand still.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    /// The index in [`Problem::distances`].
+    pub index: usize,
+    /// What the dimension is.
+    pub value: Interval,
+    /// How far it can shrink.
+    pub low: End,
+    /// How far it can grow.
+    pub high: End,
+}
+
+impl End {
+    /// The value where the range ends, or up to where it is known.
+    pub fn value(&self) -> Interval {
+        match self {
+            End::Limit(value, _) | End::Beyond(value) | End::Unknown(value, _) => *value,
+        }
+    }
+}
+
+impl Session {
+    /// The range of one dimension. The figure stays what it is.
+    ///
+    /// # Panics
+    /// If the problem has no such distance.
+    pub fn range(&mut self, index: usize, control: &mut Control) -> Range {
+        let value = self.length(index);
+        let low = SMALLEST * value.mid();
+        let high = match detour(self.problem(), index) {
+            // No figure is that long: the other distances between its ends do not reach.
+            Some(longest) => 1.0625 * longest.max(value.sup()),
+            None => 1024.0 * value.mid(),
+        };
+        let [low, high] = [low, high].map(|goal| self.end(index, goal, control));
+        Range {
+            index,
+            value,
+            low,
+            high,
+        }
+    }
+
+    /// The ranges of all dimensions.
+    pub fn ranges(&mut self, control: &mut Control) -> Vec<Range> {
+        let count = self.problem().distances.len();
+        (0..count).map(|index| self.range(index, control)).collect()
+    }
+
+    fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> End {
+        let rounded = format!("{goal:.3e}").parse::<Decimal>();
+        let Ok(goal) = rounded else {
+            let reason = format!("{goal:e} is out of the range of lengths");
+            return End::Unknown(self.length(index), reason);
+        };
+        let setting = Setting {
+            index,
+            target: Target::Length(goal),
+        };
+        let edited = self.probe(&[setting], control);
+        let Edited {
+            ending, dimensions, ..
+        } = edited;
+        let value = dimensions[0].value;
+        match ending {
+            Ending::Reached => End::Beyond(value),
+            Ending::Limit(limit) => End::Limit(value, limit),
+            Ending::Passes(reason) => End::Unknown(
+                value,
+                format!("branches of figures seem to meet there ({reason})"),
+            ),
+            Ending::Stopped(reason) => End::Unknown(value, reason),
+        }
+    }
+}
+
+/// The length of the shortest way from one end of a distance to the other along the others.
+fn detour(problem: &Problem, index: usize) -> Option<f64> {
+    let [from, to] = problem.distances[index].points;
+    let mut way = vec![f64::INFINITY; problem.points.len()];
+    way[from] = 0.0;
+    // Bellman and Ford: there are few points, or time does not matter beside the proofs.
+    for _ in 0..problem.points.len() {
+        let mut changed = false;
+        for (k, distance) in problem.distances.iter().enumerate() {
+            if k == index {
+                continue;
+            }
+            let length = super::session::length(&distance.target).sup();
+            let [a, b] = distance.points;
+            for (a, b) in [(a, b), (b, a)] {
+                if way[a] + length < way[b] {
+                    way[b] = way[a] + length;
+                    changed = true;
+                }
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    way[to].is_finite().then_some(way[to])
+}

@@ -1,0 +1,153 @@
+//! From a sketch to a figure that meets its dimensions.
+
+use super::ending::Ending;
+use crate::interval::{Interval, hull, point};
+use crate::problem::{Problem, Target};
+use crate::system::{GaugeError, Homotopy};
+use crate::track::arc::{ArcEnd, Figure};
+use crate::track::certified::FollowArcs;
+use crate::track::{Control, StartError};
+use num_rational::BigRational;
+
+/// Why a file holds no figure to edit.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// The path cannot even be set up.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The sketch cannot be led to its own dimensions.
+    #[error(
+        "the sketch does not meet its own dimensions, and could not be led to them: {what}. An edit begins with a \
+         figure that meets its dimensions, at least nearly: take one of the figures that `krawl solve` finds"
+    )]
+    Correction {
+        /// How that ended, in words.
+        what: String,
+        /// The same as it is.
+        ending: Box<Ending>,
+    },
+}
+
+impl From<GaugeError> for OpenError {
+    fn from(error: GaugeError) -> Self {
+        OpenError::Start(error.into())
+    }
+}
+
+/// How far the sketch was from a figure that meets its dimensions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moved {
+    /// No point was moved further than this from where the sketch has it (its reference standing still).
+    pub distance: f64,
+    /// Tubes that it took; 0 where the sketch meets its dimensions exactly.
+    pub tubes: usize,
+}
+
+/// Whether the sketch meets a dimension exactly.
+fn is_met(problem: &Problem, index: usize) -> bool {
+    let distance = &problem.distances[index];
+    let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+    let mut sum = BigRational::from_integer(0.into());
+    for k in 0..3 {
+        let d = a[k].value() - b[k].value();
+        sum += &d * &d;
+    }
+    match &distance.target {
+        Target::Length(length) => sum == length.value().pow(2),
+        Target::SquaredLength(squared) => sum == *squared.value(),
+    }
+}
+
+/// The sketch as a box.
+pub(super) fn sketch(homotopy: &Homotopy) -> Figure {
+    let boxes = || homotopy.gauge.place.iter().map(|&p| homotopy.sketch_box[p]);
+    Figure {
+        centre: boxes().map(|x| x.mid()).collect(),
+        low: vec![0.0; homotopy.equations],
+        radius: boxes().map(|x| x.rad()).collect(),
+    }
+}
+
+/// Leads the sketch to its own dimensions, which then stand still in the homotopy of `arcs`. The homotopy
+/// must be that of the problem without a bend.
+pub(super) fn correct(
+    problem: &Problem,
+    arcs: &mut dyn FollowArcs,
+    control: &mut Control,
+) -> Result<(Figure, Moved), OpenError> {
+    let homotopy = arcs.homotopy_mut();
+    let start = sketch(homotopy);
+    let mut all_met = true;
+    for (index, distance) in problem.distances.iter().enumerate() {
+        if is_met(problem, index) {
+            homotopy.hold(index, &distance.target);
+        } else {
+            all_met = false;
+        }
+    }
+    let unit = homotopy.unit;
+    if all_met {
+        return Ok((start, Moved::default()));
+    }
+    let run = arcs.follow(&start, control);
+    let refuse = |ending: Ending, what: String| {
+        Err(OpenError::Correction {
+            what,
+            ending: Box::new(ending),
+        })
+    };
+    let figure = match run.end {
+        ArcEnd::Reached(figure) => figure,
+        ArcEnd::Limit(_) => {
+            let what = format!(
+                "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
+                run.t.0
+            );
+            return refuse(Ending::Stopped(what.clone()), what);
+        }
+        ArcEnd::Passes(reason) => {
+            let what = format!("on the way there branches seem to meet ({reason})");
+            return refuse(Ending::Passes(reason), what);
+        }
+        ArcEnd::Stopped(reason) => return refuse(Ending::Stopped(reason.clone()), reason),
+    };
+    let homotopy = arcs.homotopy_mut();
+    for (index, distance) in problem.distances.iter().enumerate() {
+        homotopy.hold(index, &distance.target);
+    }
+    let distance = distance(homotopy, &start, &figure) * unit;
+    Ok((
+        figure,
+        Moved {
+            distance,
+            tubes: run.steps,
+        },
+    ))
+}
+
+/// A bound on the distance of any point in one figure from the same in the other.
+fn distance(homotopy: &Homotopy, one: &Figure, other: &Figure) -> f64 {
+    let (a, b) = (coordinates(homotopy, one), coordinates(homotopy, other));
+    let squared = a.iter().zip(&b).map(|(a, b)| {
+        let sum = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
+        sum.sqrt().sup()
+    });
+    squared.fold(0.0, f64::max)
+}
+
+/// All points of a figure in the gauge, in the homotopy's unit.
+pub(super) fn coordinates(homotopy: &Homotopy, figure: &Figure) -> Vec<[Interval; 3]> {
+    let (d, m) = (homotopy.dimension, homotopy.equations);
+    let coordinate = |p: usize, axis: usize| -> Interval {
+        match homotopy.gauge.variable.get(p * d + axis) {
+            Some(&i) if axis < d && i < m => {
+                let around = hull(-figure.radius[i], figure.radius[i]);
+                point(figure.centre[i]) + point(figure.low[i]) + around
+            }
+            _ => point(0.0),
+        }
+    };
+    (0..homotopy.points)
+        .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
+        .collect()
+}

@@ -1,0 +1,130 @@
+//! Where figures stand in the coordinates of the problem.
+
+use crate::interval::{Interval, point};
+use crate::problem::Problem;
+use crate::system::Placement;
+
+/// Where figures are put: the first point of the problem stays where the sketch has it, the next one that is
+/// elsewhere stays on its ray from there, and in space the next one off that line stays on its side of their
+/// plane.
+#[derive(Debug, Clone)]
+pub(super) struct Stand {
+    /// These points.
+    points: Vec<usize>,
+    /// Their frame in the sketch.
+    there: Placement,
+    /// The gauge's frame in the sketch, for figures in which those points have no frame.
+    gauge: Placement,
+}
+
+type Vector = [Interval; 3];
+
+impl Stand {
+    /// For a problem with the placement of its gauge.
+    pub fn new(problem: &Problem, gauge: Placement) -> Self {
+        let places: Vec<Vector> = problem
+            .points
+            .iter()
+            .map(|p| p.sketch.each_ref().map(crate::interval::enclose))
+            .collect();
+        let mut points = vec![0];
+        let mut there = None;
+        for p in 1..places.len() {
+            points.push(p);
+            let frame = frame(problem.dimension, &points, &places);
+            // In space two points give no frame yet; a third on their line does not either.
+            let is_begun = points.len() == 2
+                && problem.dimension == 3
+                && unit(sub(places[p], places[0])).is_some();
+            if frame.is_some() {
+                there = frame;
+                break;
+            }
+            if !is_begun {
+                points.pop();
+            }
+        }
+        Stand {
+            points,
+            there: there.unwrap_or(gauge),
+            gauge,
+        }
+    }
+
+    /// The figure with these places in the gauge, in the coordinates of the problem.
+    pub fn put(&self, dimension: usize, places: &[Vector]) -> Vec<Vector> {
+        let frame = frame(dimension, &self.points, places);
+        let Some(Placement { origin, axes }) = frame else {
+            return places.iter().map(|p| self.gauge.to_problem(p)).collect();
+        };
+        let into = |p: &Vector| axes.map(|axis| dot(axis, sub(*p, origin)));
+        let put = |(index, p): (usize, &Vector)| {
+            let mut inside = into(p);
+            // Exactly where they are by choice.
+            for (k, &chosen) in self.points.iter().enumerate() {
+                if index == chosen {
+                    inside[k..].fill(point(0.0));
+                }
+            }
+            self.there.to_problem(&inside)
+        };
+        places.iter().enumerate().map(put).collect()
+    }
+
+    /// A vector of the gauge in the directions of the problem, where the points have these places. In floats.
+    pub fn turn(&self, dimension: usize, places: &[Vector], v: [f64; 3]) -> [f64; 3] {
+        let frame = frame(dimension, &self.points, places);
+        let turned = match frame {
+            Some(frame) => frame
+                .axes
+                .map(|axis| (0..3).map(|k| axis[k].mid() * v[k]).sum::<f64>()),
+            None => v,
+        };
+        let axes = match frame {
+            Some(_) => self.there.axes,
+            None => self.gauge.axes,
+        };
+        std::array::from_fn(|k| (0..3).map(|axis| axes[axis][k].mid() * turned[axis]).sum())
+    }
+}
+
+/// The frame of some points, two in the plane and three in space: the first is its origin, the second in the
+/// direction of its first axis, the third on the side of its second. `None`: they have none that can be
+/// enclosed.
+fn frame(dimension: usize, points: &[usize], places: &[Vector]) -> Option<Placement> {
+    let zero = point(0.0);
+    let (&first, &second) = (points.first()?, points.get(1)?);
+    let origin = places[first];
+    let e1 = unit(sub(places[second], origin))?;
+    let axes = if dimension == 2 {
+        [e1, [-e1[1], e1[0], zero], [zero, zero, point(1.0)]]
+    } else {
+        let third = sub(places[*points.get(2)?], origin);
+        let e3 = unit(cross(e1, third))?;
+        [e1, cross(e3, e1), e3]
+    };
+    // Where that is known only roughly it is of no use.
+    let is_known = axes.iter().flatten().all(|x| x.rad() < 1e-6);
+    is_known.then_some(Placement { origin, axes })
+}
+
+fn sub(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: Vector, b: Vector) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(v: Vector) -> Option<Vector> {
+    let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
+    (length.inf() > 0.0).then(|| v.map(|x| x / length))
+}

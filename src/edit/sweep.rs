@@ -1,0 +1,93 @@
+//! A dimension driven through a range: the figure as a function of it.
+
+use super::{Edited, Ending, Session, Setting};
+use crate::interval::Interval;
+use crate::problem::{Decimal, Target};
+use crate::track::Control;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+/// The figure at one value of the dimension.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// The value.
+    pub value: Interval,
+    /// The figure: a box that holds exactly one.
+    pub points: Vec<[Interval; 3]>,
+}
+
+/// What comes of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// The way from the figure's own value to where the sweep begins.
+    pub approach: Edited,
+    /// The frames that were reached, each proved to be the one continuation of the one before, and so of the
+    /// figure.
+    pub frames: Vec<Frame>,
+    /// How the sweep ended before the last frame, if it did: the edit that would have led to the next.
+    pub end: Option<Edited>,
+}
+
+impl Session {
+    /// Leads a dimension to `from` and then to `to`, with `frames` figures at equal distances, both ends
+    /// among them. The session's figure is then that of the last frame.
+    ///
+    /// # Panics
+    /// If the problem has no such distance, or there are fewer than two frames.
+    pub fn sweep(
+        &mut self,
+        index: usize,
+        (from, to): (&Decimal, &Decimal),
+        frames: usize,
+        control: &mut Control,
+    ) -> Sweep {
+        assert!(frames >= 2, "a sweep has two frames at least");
+        let set = |length: Decimal| {
+            [Setting {
+                index,
+                target: Target::Length(length),
+            }]
+        };
+        let approach = self.edit_with(&set(from.clone()), control);
+        let mut sweep = Sweep {
+            approach,
+            frames: Vec::new(),
+            end: None,
+        };
+        if sweep.approach.ending != Ending::Reached {
+            return sweep;
+        }
+        sweep.frames.push(Frame {
+            value: self.length(index),
+            points: self.points(),
+        });
+        for k in 1..frames {
+            let value = between(from, to, k, frames - 1);
+            let edited = self.edit_with(&set(value), control);
+            if edited.ending != Ending::Reached {
+                sweep.end = Some(edited);
+                break;
+            }
+            sweep.frames.push(Frame {
+                value: self.length(index),
+                points: edited.points,
+            });
+        }
+        sweep
+    }
+}
+
+/// `from + (to − from) k / n`, to seventeen digits behind the point of the larger; the ends exactly.
+fn between(from: &Decimal, to: &Decimal, k: usize, n: usize) -> Decimal {
+    if k == n {
+        return to.clone();
+    }
+    let part = BigRational::new(BigInt::from(k), BigInt::from(n));
+    let exact = from.value() + (to.value() - from.value()) * part;
+    let top = from.to_f64().abs().max(to.to_f64().abs());
+    let digits = 17 - top.log10().floor() as i32;
+    let power = BigRational::from_integer(BigInt::from(10)).pow(digits);
+    let scaled = (exact * power).round().to_integer();
+    let text = format!("{scaled}e{}", -digits);
+    text.parse().unwrap_or_else(|_| from.clone())
+}

@@ -1,0 +1,163 @@
+//! The edited figure in the user's own file: only the numbers change.
+
+use crate::problem::{Decimal, Problem, Target};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+use std::ops::Range;
+use toml_edit::{Document, Item, TableLike, Value};
+
+/// Why an edited problem cannot be written into the text of its file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WriteError {
+    /// The text is not that of the problem.
+    #[error("the file does not say what was read from it: {0}")]
+    OtherFile(String),
+    /// A square with more digits than are read.
+    #[error("{0} is given by its square, and that of the new length has too many digits")]
+    LongSquare(String),
+}
+
+/// Puts the places of points and the dimensions of `problem` into the text of the file that it was read from,
+/// which keeps its order, comments and layout.
+///
+/// Places are rounded to floats. Dimensions are put where they differ from what the text says, those given
+/// by their squares as exact squares.
+pub fn rewrite(text: &str, problem: &Problem, places: &[[f64; 3]]) -> Result<String, WriteError> {
+    let other = |what: &str| WriteError::OtherFile(what.to_owned());
+    let document = Document::parse(text).map_err(|error| other(error.message()))?;
+    let root = document.as_table();
+    let mut changes: Vec<(Range<usize>, String)> = Vec::new();
+    let mut put = |value: &Value, new: String| {
+        let span = value.span().ok_or_else(|| other("a number has no place"))?;
+        changes.push((span, new));
+        Ok(())
+    };
+
+    let points = table(root, "points").ok_or_else(|| other("no points"))?;
+    for (point, place) in problem.points.iter().zip(places) {
+        let item = points.get(&point.name).and_then(Item::as_array);
+        let array = item.ok_or_else(|| other(&point.name))?;
+        for (value, x) in array.iter().zip(place) {
+            put(value, float(*x))?;
+        }
+    }
+    let constraints = table(root, "constraints").ok_or_else(|| other("no constraints"))?;
+    let list = |key: &str| -> Vec<&Value> {
+        let array = constraints.get(key).and_then(Item::as_array);
+        array.map_or(Vec::new(), |array| array.iter().collect())
+    };
+    let lengths = list("distances").into_iter().map(|value| (value, false));
+    let squares = list("squared_distances")
+        .into_iter()
+        .map(|value| (value, true));
+    let all: Vec<(&Value, bool)> = lengths.chain(squares).collect();
+    if all.len() != problem.distances.len() {
+        return Err(other("another number of distances"));
+    }
+    for (index, (value, is_square)) in all.into_iter().enumerate() {
+        let number = value.as_array().and_then(|array| array.get(2));
+        let number = number.ok_or_else(|| other("a distance without a number"))?;
+        let name = || problem.distance_name(index);
+        let wanted = match (&problem.distances[index].target, is_square) {
+            (Target::Length(length), false) => length.clone(),
+            (Target::SquaredLength(square), true) => square.clone(),
+            (Target::Length(length), true) => {
+                squared(length).ok_or_else(|| WriteError::LongSquare(name()))?
+            }
+            (Target::SquaredLength(_), false) => return Err(other(&name())),
+        };
+        let span = number.span().and_then(|span| text.get(span));
+        let said = span.and_then(|text| text.replace('_', "").parse::<Decimal>().ok());
+        if said.as_ref() != Some(&wanted) {
+            put(number, toml_number(wanted.text()))?;
+        }
+    }
+
+    let mut out = text.to_owned();
+    changes.sort_by_key(|change| std::cmp::Reverse(change.0.start));
+    for (span, new) in changes {
+        out.replace_range(span, &new);
+    }
+    Ok(out)
+}
+
+fn table<'t>(root: &'t dyn TableLike, key: &str) -> Option<&'t dyn TableLike> {
+    root.get(key)?.as_table_like()
+}
+
+/// A float as TOML has it, zero where it is too small for a coordinate.
+fn float(x: f64) -> String {
+    if x.abs() < 1e-60 {
+        "0.0".to_owned()
+    } else {
+        format!("{x:?}")
+    }
+}
+
+/// A decimal in TOML's grammar: a digit on either side of the point, no zeros in front, no plus.
+fn toml_number(text: &str) -> String {
+    let (mantissa, exponent) = match text.find(['e', 'E']) {
+        Some(at) => (&text[..at], &text[at..]),
+        None => (text, ""),
+    };
+    let mantissa = mantissa.trim_start_matches('+');
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let whole = whole.trim_start_matches('0');
+    let whole = if whole.is_empty() { "0" } else { whole };
+    let fraction = if fraction.is_empty() { "0" } else { fraction };
+    format!("{whole}.{fraction}{exponent}")
+}
+
+/// The exact square of a decimal, unless it has too many digits.
+fn squared(length: &Decimal) -> Option<Decimal> {
+    let square = length.value().pow(2);
+    let ten = BigRational::from_integer(BigInt::from(10));
+    let mut scaled = square;
+    // A decimal's denominator divides a power of ten.
+    for shift in 0..400 {
+        if scaled.denom().is_one() {
+            return format!("{}e-{shift}", scaled.numer()).parse().ok();
+        }
+        scaled *= &ten;
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "# A triangle.\ndimension = 2\n[points]\na = [0, 0] # fixed\nb = [ 4.0, 0 ]\nc = [0, 3]\n\
+                        [constraints]\ndistances = [[\"a\", \"b\", 4], [\"b\", \"c\", 5.0]]\n\
+                        squared_distances = [[\"c\", \"a\", 9]]\n";
+
+    #[test]
+    fn only_numbers_change() {
+        let mut problem = Problem::parse(FILE, "triangle.toml").unwrap();
+        problem.distances[0].target = Target::Length("+04.50".parse().unwrap());
+        problem.distances[2].target = Target::Length("3.5".parse().unwrap());
+        let places = [[0.0, 0.0, 0.0], [4.5, 1e-70, 0.0], [0.25, 3.0, 0.0]];
+        let text = rewrite(FILE, &problem, &places).unwrap();
+        let wanted = FILE
+            .replace("[0, 0] #", "[0.0, 0.0] #")
+            .replace("[ 4.0, 0 ]", "[ 4.5, 0.0 ]")
+            .replace("c = [0, 3]", "c = [0.25, 3.0]")
+            .replace("\"b\", 4]", "\"b\", 4.50]")
+            .replace("\"a\", 9]", "\"a\", 1225.0e-2]");
+        assert_eq!(text, wanted);
+        let again = Problem::parse(&text, "again.toml").unwrap();
+        assert_eq!(again.distances[0].target, problem.distances[0].target);
+    }
+
+    #[test]
+    fn another_file_is_refused() {
+        let problem = Problem::parse(FILE, "triangle.toml").unwrap();
+        let places = [[0.0; 3]; 3];
+        let other = FILE.replace("\"a\", \"b\", 4], ", "");
+        assert!(matches!(
+            rewrite(&other, &problem, &places),
+            Err(WriteError::OtherFile(_))
+        ));
+    }
+}

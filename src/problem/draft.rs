@@ -1,0 +1,529 @@
+//! Objects and constraints of a problem in the making: names to be looked up, numbers to be checked.
+
+use super::builder::{Number, ProblemBuilder, check_name, number};
+use super::error::{MAX_NAME, Place};
+use super::names::nearest;
+use super::object::{AXES, Constraint, Item, Object, Shape};
+use super::{Decimal, DecimalError, Point, ProblemError};
+use crate::constraint::{self, KINDS};
+use std::collections::{HashMap, HashSet};
+
+#[derive(Debug, Clone)]
+pub(super) struct DraftObject {
+    name: String,
+    shape: DraftShape,
+}
+
+#[derive(Debug, Clone)]
+enum DraftShape {
+    Line([String; 2]),
+    FreeLine([Vec<Number>; 2]),
+    Plane([String; 3]),
+    FreePlane([Vec<Number>; 2]),
+    Circle(String, Number),
+    Sphere(String, Number),
+    Arc([String; 3]),
+    Body(Vec<(String, Vec<Number>)>),
+}
+
+impl DraftShape {
+    /// What it is called, and the dimension where there are such, if not both.
+    fn what(&self) -> (&'static str, Option<usize>) {
+        match self {
+            Self::Line(_) | Self::FreeLine(_) => ("line", None),
+            Self::Plane(_) | Self::FreePlane(_) => ("plane", Some(3)),
+            Self::Circle(..) => ("circle", Some(2)),
+            Self::Sphere(..) => ("sphere", Some(3)),
+            Self::Arc(_) => ("arc", Some(2)),
+            Self::Body(_) => ("body", None),
+        }
+    }
+}
+
+impl DraftShape {
+    /// The place of its table among those of a file.
+    fn order(&self) -> Option<usize> {
+        let (what, _) = self.what();
+        let mut tables = super::vocabulary::TABLES.iter();
+        tables.position(|table| table.starts_with(&what[..3]))
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct DraftConstraint {
+    kind: String,
+    items: Vec<String>,
+    value: Option<Number>,
+}
+
+impl ProblemBuilder {
+    /// Adds the line through two points.
+    pub fn line(self, name: &str, a: &str, b: &str) -> Self {
+        self.object(name, DraftShape::Line([a, b].map(str::to_owned)))
+    }
+
+    /// Adds a line of its own, with a place on it and its direction in the sketch.
+    pub fn free_line<N>(
+        self,
+        name: &str,
+        point: impl IntoIterator<Item = N>,
+        direction: impl IntoIterator<Item = N>,
+    ) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        let numbers = [numbers(point), numbers(direction)];
+        self.object(name, DraftShape::FreeLine(numbers))
+    }
+
+    /// Adds the plane through three points.
+    pub fn plane(self, name: &str, points: [&str; 3]) -> Self {
+        self.object(name, DraftShape::Plane(points.map(str::to_owned)))
+    }
+
+    /// Adds a plane of its own, with a place in it and its normal in the sketch.
+    pub fn free_plane<N>(
+        self,
+        name: &str,
+        point: impl IntoIterator<Item = N>,
+        normal: impl IntoIterator<Item = N>,
+    ) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        let numbers = [numbers(point), numbers(normal)];
+        self.object(name, DraftShape::FreePlane(numbers))
+    }
+
+    /// Adds a circle in the plane, with its radius in the sketch.
+    pub fn circle<N>(self, name: &str, center: &str, radius: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.object(name, DraftShape::Circle(center.to_owned(), number(radius)))
+    }
+
+    /// Adds a sphere in space, with its radius in the sketch.
+    pub fn sphere<N>(self, name: &str, center: &str, radius: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.object(name, DraftShape::Sphere(center.to_owned(), number(radius)))
+    }
+
+    /// Adds an arc in the plane.
+    pub fn arc(self, name: &str, center: &str, start: &str, end: &str) -> Self {
+        self.object(
+            name,
+            DraftShape::Arc([center, start, end].map(str::to_owned)),
+        )
+    }
+
+    /// Adds a rigid body: points of the problem, with their coordinates in the body's own frame.
+    ///
+    /// ```
+    /// use krawl::problem::Problem;
+    /// let problem = Problem::build("plate", 2)
+    ///     .point("a", [0, 0]).point("b", [4, 0]).point("c", [1, 2])
+    ///     .body("plate", [("a", [0, 0]), ("b", [4, 0]), ("c", [1, 3])])
+    ///     .finish().unwrap();
+    /// assert_eq!(problem.objects.len(), 1);
+    /// ```
+    pub fn body<N, P, C>(self, name: &str, points: P) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+        C: IntoIterator<Item = N>,
+        P: IntoIterator<Item = (&'static str, C)>,
+    {
+        let points = points
+            .into_iter()
+            .map(|(p, at)| (p.to_owned(), numbers(at)));
+        let points = points.collect();
+        self.object(name, DraftShape::Body(points))
+    }
+
+    /// The same with names that are made at run time.
+    pub(super) fn body_of(self, name: &str, points: Vec<(String, Vec<Decimal>)>) -> Self {
+        let points = points.into_iter().map(|(p, at)| (p, numbers(at)));
+        let points = points.collect();
+        self.object(name, DraftShape::Body(points))
+    }
+
+    fn object(mut self, name: &str, shape: DraftShape) -> Self {
+        self.objects.push(DraftObject {
+            name: name.to_owned(),
+            shape,
+        });
+        self
+    }
+
+    /// Adds a constraint without a number, of one of the kinds in [`crate::constraint::KINDS`]. `names`
+    /// are those of points and objects, or `x-axis`, `y-axis`, in the order that the kind wants.
+    ///
+    /// ```
+    /// # use krawl::problem::Problem;
+    /// let problem = Problem::build("bar", 2)
+    ///     .point("a", [1, 1]).point("b", [5, 2])
+    ///     .distance("a", "b", 3)
+    ///     .constraint("fixed", ["a"]).constraint("horizontal", ["a", "b"])
+    ///     .finish().unwrap();
+    /// assert!(problem.is_absolute());
+    /// ```
+    pub fn constraint<S: AsRef<str>>(self, kind: &str, names: impl IntoIterator<Item = S>) -> Self {
+        self.with_constraint(kind, names, None)
+    }
+
+    /// Adds a constraint with a number.
+    pub fn dimension<S: AsRef<str>, N>(
+        self,
+        kind: &str,
+        names: impl IntoIterator<Item = S>,
+        value: N,
+    ) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.with_constraint(kind, names, Some(number(value)))
+    }
+
+    fn with_constraint<S: AsRef<str>>(
+        mut self,
+        kind: &str,
+        names: impl IntoIterator<Item = S>,
+        value: Option<Number>,
+    ) -> Self {
+        self.constraints.push(DraftConstraint {
+            kind: kind.to_owned(),
+            items: names.into_iter().map(|s| s.as_ref().to_owned()).collect(),
+            value,
+        });
+        self
+    }
+
+    /// The objects, with their names looked up.
+    pub(super) fn finished_objects(
+        &self,
+        points: &HashMap<&str, usize>,
+    ) -> Result<Vec<Object>, ProblemError> {
+        // In the order of the tables of a file.
+        let mut drafts: Vec<&DraftObject> = self.objects.iter().collect();
+        drafts.sort_by_key(|draft| draft.shape.order());
+        let drafts = drafts.into_iter().enumerate();
+        drafts
+            .map(|(index, draft)| {
+                let place = Place::Object(index);
+                check_name(place, &draft.name)?;
+                let (what, only) = draft.shape.what();
+                let shown = format!("the {what} `{}`", draft.name);
+                if only.is_some_and(|dimension| dimension != self.dimension) {
+                    return Err(ProblemError::WrongSpace {
+                        index,
+                        what,
+                        name: draft.name.clone(),
+                        space: if only == Some(2) {
+                            "the plane"
+                        } else {
+                            "space"
+                        },
+                    });
+                }
+                let find = |name: &str| {
+                    points
+                        .get(name)
+                        .copied()
+                        .ok_or_else(|| unknown(place, &shown, name, points.keys().copied(), false))
+                };
+                let given = |number: &Number| {
+                    number.clone().map_err(|source| ProblemError::Number {
+                        place,
+                        what: shown.clone(),
+                        source,
+                    })
+                };
+                let coordinates = |numbers: &[Number]| self.coordinates(index, draft, numbers);
+                let shape = match &draft.shape {
+                    DraftShape::Line([a, b]) => Shape::Line([find(a)?, find(b)?]),
+                    DraftShape::Plane([a, b, c]) => Shape::Plane([find(a)?, find(b)?, find(c)?]),
+                    DraftShape::FreeLine([point, direction]) => Shape::FreeLine {
+                        point: coordinates(point)?,
+                        direction: coordinates(direction)?,
+                    },
+                    DraftShape::FreePlane([point, normal]) => Shape::FreePlane {
+                        point: coordinates(point)?,
+                        normal: coordinates(normal)?,
+                    },
+                    DraftShape::Circle(center, radius) | DraftShape::Sphere(center, radius) => {
+                        Shape::Round {
+                            center: find(center)?,
+                            radius: given(radius)?,
+                        }
+                    }
+                    DraftShape::Arc([center, start, end]) => Shape::Arc {
+                        center: find(center)?,
+                        start: find(start)?,
+                        end: find(end)?,
+                    },
+                    DraftShape::Body(members) => {
+                        let mut body = (Vec::new(), Vec::new());
+                        for (point, local) in members {
+                            body.0.push(find(point)?);
+                            body.1.push(coordinates(local)?);
+                        }
+                        Shape::Body {
+                            points: body.0,
+                            local: body.1,
+                        }
+                    }
+                };
+                Ok(Object {
+                    name: draft.name.clone(),
+                    shape,
+                })
+            })
+            .collect()
+    }
+
+    /// As many numbers as dimensions; the third is zero in the plane.
+    fn coordinates(
+        &self,
+        index: usize,
+        draft: &DraftObject,
+        numbers: &[Number],
+    ) -> Result<[Decimal; 3], ProblemError> {
+        let what = draft.shape.what().0;
+        if numbers.len() != self.dimension {
+            return Err(ProblemError::Object {
+                index,
+                what,
+                name: draft.name.clone(),
+                fault: format!(
+                    "there are {} coordinates where {} are needed",
+                    numbers.len(),
+                    self.dimension
+                ),
+            });
+        }
+        let mut out = [Decimal::from(0), Decimal::from(0), Decimal::from(0)];
+        for (out, number) in out.iter_mut().zip(numbers) {
+            *out = number.clone().map_err(|source| ProblemError::Number {
+                place: Place::Object(index),
+                what: format!("the {what} `{}`", draft.name),
+                source,
+            })?;
+        }
+        Ok(out)
+    }
+
+    /// The constraints, with their names looked up, in the order of the kinds.
+    pub(super) fn finished_constraints(
+        &self,
+        points: &[Point],
+        objects: &[Object],
+    ) -> Result<Vec<Constraint>, ProblemError> {
+        let mut items: HashMap<&str, Item> = HashMap::new();
+        items.extend(
+            points
+                .iter()
+                .enumerate()
+                .map(|(p, point)| (point.name.as_str(), Item::Point(p))),
+        );
+        items.extend(
+            objects
+                .iter()
+                .enumerate()
+                .map(|(o, object)| (object.name.as_str(), Item::Object(o))),
+        );
+        items.extend(
+            AXES.iter()
+                .enumerate()
+                .map(|(k, &name)| (name, Item::Axis(k))),
+        );
+        let mut drafts = Vec::with_capacity(self.constraints.len());
+        for draft in &self.constraints {
+            let order = KINDS.iter().position(|kind| kind.key() == draft.kind);
+            let order = order.ok_or_else(|| ProblemError::UnknownKind {
+                kind: draft.kind.chars().take(MAX_NAME).collect(),
+                nearest: nearest(&draft.kind, KINDS.iter().map(|kind| kind.key())),
+            })?;
+            drafts.push((order, draft));
+        }
+        drafts.sort_by_key(|&(order, _)| order);
+        let drafts = drafts.into_iter().enumerate();
+        drafts
+            .map(|(index, (_, draft))| {
+                let place = Place::Constraint(index);
+                let what = format!("the constraint `{}`", draft.kind);
+                let find = |name: &String| {
+                    let known = items.get(name.as_str()).copied();
+                    known.ok_or_else(|| unknown(place, &what, name, items.keys().copied(), true))
+                };
+                let value = draft.value.clone().transpose();
+                Ok(Constraint {
+                    kind: draft.kind.clone(),
+                    items: draft.items.iter().map(find).collect::<Result<_, _>>()?,
+                    value: value.map_err(|source| ProblemError::Number {
+                        place,
+                        what,
+                        source,
+                    })?,
+                })
+            })
+            .collect()
+    }
+}
+
+fn numbers<N>(of: impl IntoIterator<Item = N>) -> Vec<Number>
+where
+    N: TryInto<Decimal>,
+    DecimalError: From<N::Error>,
+{
+    of.into_iter().map(number).collect()
+}
+
+/// The name that nothing has.
+fn unknown<'a>(
+    place: Place,
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'a str>,
+    objects: bool,
+) -> ProblemError {
+    // In an order that does not change from run to run.
+    let mut known: Vec<&str> = known.collect();
+    known.sort_unstable();
+    ProblemError::UnknownPoint {
+        objects,
+        place,
+        what: what.to_owned(),
+        name: name.chars().take(MAX_NAME).collect(),
+        nearest: nearest(name, known.into_iter()),
+    }
+}
+
+/// What an object is called.
+pub(super) fn what(dimension: usize, shape: &Shape) -> &'static str {
+    match (shape, dimension) {
+        (Shape::Line(_) | Shape::FreeLine { .. }, _) => "line",
+        (Shape::Plane(_) | Shape::FreePlane { .. }, _) => "plane",
+        (Shape::Round { .. }, 2) => "circle",
+        (Shape::Round { .. }, _) => "sphere",
+        (Shape::Arc { .. }, _) => "arc",
+        (Shape::Body { .. }, _) => "body",
+    }
+}
+
+/// Names are different, points of objects are, and no constraint is there twice; indices are in range.
+pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> {
+    let mut names: HashSet<&str> = AXES.into_iter().collect();
+    for (index, point) in problem.points.iter().enumerate() {
+        if !names.insert(&point.name) && !problem.is_distances_only() {
+            return Err(ProblemError::RepeatedName {
+                place: Place::Point(index),
+                what: "point",
+                name: point.name.clone(),
+            });
+        }
+    }
+    for (index, object) in problem.objects.iter().enumerate() {
+        let what = what(problem.dimension, &object.shape);
+        check_name(Place::Object(index), &object.name)?;
+        if !names.insert(&object.name) {
+            return Err(ProblemError::RepeatedName {
+                place: Place::Object(index),
+                what,
+                name: object.name.clone(),
+            });
+        }
+        let fault = |fault: &str| ProblemError::Object {
+            index,
+            what,
+            name: object.name.clone(),
+            fault: fault.to_owned(),
+        };
+        let points: Vec<usize> = match &object.shape {
+            Shape::Line(points) => points.to_vec(),
+            Shape::Plane(points) => points.to_vec(),
+            Shape::FreeLine { .. } | Shape::FreePlane { .. } => Vec::new(),
+            Shape::Round { center, .. } => vec![*center],
+            Shape::Arc { center, start, end } => vec![*center, *start, *end],
+            Shape::Body { points, local } => {
+                if points.len() != local.len() {
+                    return Err(fault("there are not as many coordinates as points"));
+                }
+                if points.len() < problem.dimension {
+                    return Err(fault(match problem.dimension {
+                        2 => "a body has at least two points",
+                        _ => "in space a body has at least three points",
+                    }));
+                }
+                points.clone()
+            }
+        };
+        if points.iter().any(|&p| p >= problem.points.len()) {
+            return Err(fault("it has a point that there is not"));
+        }
+        let different: HashSet<usize> = points.iter().copied().collect();
+        if different.len() < points.len() {
+            return Err(fault("it has a point twice: remove or replace one"));
+        }
+        let flat = |v: &[Decimal; 3]| problem.dimension == 3 || v[2] == Decimal::from(0);
+        let all_flat = match &object.shape {
+            Shape::FreeLine { point, direction } => flat(point) && flat(direction),
+            Shape::Body { local, .. } => local.iter().all(flat),
+            _ => true,
+        };
+        if !all_flat {
+            return Err(fault("its third coordinate must be zero in the plane"));
+        }
+        let there = match &object.shape {
+            Shape::Plane(_) | Shape::FreePlane { .. } => problem.dimension == 3,
+            Shape::Arc { .. } => problem.dimension == 2,
+            _ => true,
+        };
+        if !there {
+            return Err(ProblemError::WrongSpace {
+                index,
+                what,
+                name: object.name.clone(),
+                space: if problem.dimension == 2 {
+                    "space"
+                } else {
+                    "the plane"
+                },
+            });
+        }
+    }
+    let mut seen = HashSet::new();
+    for (index, constraint) in problem.constraints.iter().enumerate() {
+        let known = |item: &Item| match *item {
+            Item::Point(p) => p < problem.points.len(),
+            Item::Object(o) => o < problem.objects.len(),
+            Item::Axis(k) => k < AXES.len(),
+        };
+        let Some(kind) = constraint::kind(&constraint.kind) else {
+            return Err(ProblemError::UnknownKind {
+                kind: constraint.kind.clone(),
+                nearest: None,
+            });
+        };
+        if !constraint.items.iter().all(known) {
+            return Err(ProblemError::Constraint {
+                index,
+                name: constraint.kind.clone(),
+                fault: "it names something that there is not".to_owned(),
+                takes: kind.takes(),
+            });
+        }
+        if !seen.insert((constraint.kind.as_str(), &constraint.items)) {
+            let name = problem.constraint_name(index);
+            return Err(ProblemError::RepeatedConstraint { index, name });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,327 @@
+//! Edits in words and tables, for people, and as JSON, for programs.
+
+use super::certain_digits;
+use crate::edit::{Edited, Ending, Limit, Moved};
+use crate::interval::Interval;
+use crate::problem::Problem;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// The names of points, as people read them: `a, b and c`.
+fn named(problem: &Problem, points: &[usize]) -> String {
+    let names: Vec<&str> = points
+        .iter()
+        .map(|&p| problem.points[p].name.as_str())
+        .collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// What came of an edit in words, one sentence or two, without the figure.
+pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
+    let changes = edited.dimensions.iter().map(|d| {
+        let name = problem.distance_name(d.index);
+        format!("{name} from {} to {}", short(d.from), short(d.to))
+    });
+    let changes = changes.collect::<Vec<_>>().join(", ");
+    match &edited.ending {
+        Ending::Reached => format!(
+            "Reached, proved: the figure is the one and only continuation of the old one, {changes}."
+        ),
+        Ending::Limit(limit) => {
+            let reached = edited.dimensions.iter().map(|d| {
+                let name = problem.distance_name(d.index);
+                let verb = if d.to.mid() >= d.from.mid() {
+                    "grow"
+                } else {
+                    "shrink"
+                };
+                let digits = certain_digits(d.value);
+                format!("{name} can {verb} to {digits} and no further")
+            });
+            let reached = reached.collect::<Vec<_>>().join(", ");
+            let together = if edited.dimensions.len() > 1 {
+                " together"
+            } else {
+                ""
+            };
+            format!(
+                "Limit, proved: {reached}{together}. {}",
+                limit_in_words(problem, limit)
+            )
+        }
+        Ending::Passes(reason) => format!(
+            "Passes: near t = {:.6} of the way ({changes}) branches of figures seem to meet, so that none of \
+                 them continues this one more than another; proved up to there ({reason}).",
+            edited.t.0
+        ),
+        Ending::Stopped(reason) => format!(
+            "Stopped: proved up to t = {:.6} of the way ({changes}), and not further: {reason}.",
+            edited.t.0
+        ),
+    }
+}
+
+/// What is special about the figure at a limit.
+pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
+    let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut moving: Vec<(usize, f64)> = limit.motion.iter().map(size).enumerate().collect();
+    moving.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let moving: Vec<usize> = moving
+        .iter()
+        .take(3)
+        .filter(|m| m.1 > 1e-3)
+        .map(|m| m.0)
+        .collect();
+    let instant = format!(
+        "for an instant it can move with all its dimensions as they are, {} most",
+        named(problem, &moving)
+    );
+    if limit.flat.is_empty() {
+        return format!("The figure there is at a dead centre: {instant}.");
+    }
+    let place = if problem.dimension == 2 {
+        "on one line"
+    } else {
+        "in one plane"
+    };
+    let shown: Vec<String> = limit
+        .flat
+        .iter()
+        .take(4)
+        .map(|f| named(problem, f))
+        .collect();
+    let more = match limit.flat.len().saturating_sub(4) {
+        0 => String::new(),
+        n => format!(", and {n} more such sets"),
+    };
+    format!(
+        "There {} are {place}{more} (up to {:.0e}), and {instant}.",
+        shown.join("; "),
+        limit.flat_within
+    )
+}
+
+/// A length in few digits, for sentences.
+fn short(x: Interval) -> String {
+    let middle = format!("{:.12e}", x.mid())
+        .parse::<f64>()
+        .unwrap_or(x.mid());
+    format!("{middle}")
+}
+
+/// An edit as a text of several lines: how it ended, the figure, what became of orientations, numbers of the
+/// run. `moved`: how far the sketch was from the old figure.
+pub fn edit_to_table(problem: &Problem, edited: &Edited, moved: Moved) -> String {
+    let mut out = format!("{}: {}\n", problem.name, edit_in_words(problem, edited));
+    // Writing to a string cannot fail.
+    let _ = write_edit(&mut out, problem, edited, moved);
+    out
+}
+
+fn write_edit(
+    out: &mut String,
+    problem: &Problem,
+    edited: &Edited,
+    moved: Moved,
+) -> std::fmt::Result {
+    if moved.tubes > 0 {
+        writeln!(
+            out,
+            "The sketch was led to its own dimensions first, proved likewise: no point moved by more than {:.1e}.",
+            moved.distance
+        )?;
+    }
+    let what = match edited.ending {
+        Ending::Reached => "Figure, in the coordinates of the file",
+        Ending::Limit(_) => "Figure at the limit, in the coordinates of the file",
+        _ => "Old figure, in the coordinates of the file",
+    };
+    writeln!(out, "\n{what}")?;
+    write_points(out, problem, &edited.points)?;
+    writeln!(
+        out,
+        "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
+    )?;
+
+    let orientations = &edited.orientations;
+    let what = if problem.dimension == 2 {
+        "triangles"
+    } else {
+        "tetrahedra"
+    };
+    let kept = orientations.kept.len();
+    let all = kept + orientations.lost.len();
+    let until = match edited.ending {
+        Ending::Reached => "all the way",
+        _ => "up to there",
+    };
+    writeln!(out)?;
+    writeln!(
+        out,
+        "orientations        {kept} of {all} {what} of joined points keep their sign {until}, proved"
+    )?;
+    for lost in orientations.lost.iter().take(LISTED) {
+        let (lo, hi) = lost.t;
+        let names = named(problem, &lost.points);
+        let end = match &edited.ending {
+            Ending::Limit(limit) if limit.flat.contains(&lost.points) => "flat at the limit",
+            _ => "flat there, or too near to it to tell",
+        };
+        writeln!(
+            out,
+            "  not kept          {names}: up to t = {lo:.6}, not from there to {hi:.6}: {end}"
+        )?;
+    }
+    if orientations.lost.len() > LISTED {
+        let more = orientations.lost.len() - LISTED;
+        writeln!(out, "                    and {more} more")?;
+    }
+    for flat in orientations.flat.iter().take(LISTED) {
+        let names = named(problem, flat);
+        writeln!(
+            out,
+            "  no sign           {names}: flat in the old figure, or too near to it to tell"
+        )?;
+    }
+    writeln!(out, "tubes               {}", edited.tubes)?;
+    writeln!(out, "rejected tubes      {}", edited.rejected)?;
+    writeln!(out, "length of the path  {:.4}", edited.length)?;
+    writeln!(out, "seconds             {:.6}", edited.seconds)?;
+    for (index, text) in edited.switched_on.iter().enumerate() {
+        let label = if index == 0 { "switched on" } else { "" };
+        writeln!(out, "{label:<20}{text}")?;
+    }
+    Ok(())
+}
+
+/// Most orientations in one list.
+const LISTED: usize = 12;
+
+/// Points in aligned columns, with their certain digits.
+pub(super) fn write_points(
+    out: &mut String,
+    problem: &Problem,
+    points: &[[Interval; 3]],
+) -> std::fmt::Result {
+    let d = problem.dimension;
+    let rows: Vec<Vec<String>> = points
+        .iter()
+        .map(|p| p.iter().take(d).map(|x| certain_digits(*x)).collect())
+        .collect();
+    let before = |text: &str| text.find('.').unwrap_or(text.len());
+    let width = |axis: usize, part: &dyn Fn(&str) -> usize| {
+        rows.iter().map(|row| part(&row[axis])).max().unwrap_or(0)
+    };
+    let columns: Vec<(usize, usize)> = (0..d)
+        .map(|axis| {
+            (
+                width(axis, &before),
+                width(axis, &|text| text.len() - before(text)),
+            )
+        })
+        .collect();
+    let names = problem.points.iter().map(|p| p.name.chars().count());
+    let names = names.max().unwrap_or(0);
+    for (point, row) in problem.points.iter().zip(&rows) {
+        let mut line = format!("  {:<names$}", point.name);
+        for (text, &(left, right)) in row.iter().zip(&columns) {
+            let at = before(text);
+            write!(line, "  {:>left$}{:<right$}", &text[..at], &text[at..])?;
+        }
+        writeln!(out, "{}", line.trim_end())?;
+    }
+    Ok(())
+}
+
+/// An edit as one line of JSON (docs/edit.md):
+///
+/// ```json
+/// {"problem": "...", "status": "reached", "words": "...", "reason": null, "t": [1.0, 1.0],
+///  "dimensions": {"a-b": [5.2, 5.2]}, "points": {"a": [[0.0, 0.0], [0.0, 0.0]]},
+///  "kept": [["a", "b", "c"]], "lost": [{"points": ["a", "b", "d"], "t": [0.31, 0.32]}],
+///  "flat": [], "limit": null, "moved": 0.0, "tubes": 3, "rejected": 0, "length": 1.0,
+///  "seconds": 0.0001, "switched_on": []}
+/// ```
+///
+/// Pairs are bounds. The points are in the coordinates of the problem. At a limit `limit` has `flat`, lists of
+/// points that are on one line or in one plane there, `flat_within`, and `motion`, a vector for each point.
+pub fn edit_to_json(problem: &Problem, edited: &Edited, moved: Moved) -> String {
+    edit_to_value(problem, edited, moved).to_string()
+}
+
+/// The same as a value in memory.
+pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value {
+    let names = |points: &[usize]| -> Vec<&str> {
+        points
+            .iter()
+            .map(|&p| problem.points[p].name.as_str())
+            .collect()
+    };
+    let dimensions = edited.dimensions.iter().map(|d| {
+        let name = problem.distance_name(d.index);
+        (name, bounds(d.value))
+    });
+    let reason = match &edited.ending {
+        Ending::Passes(reason) | Ending::Stopped(reason) => Some(reason),
+        Ending::Reached | Ending::Limit(_) => None,
+    };
+    let limit = match &edited.ending {
+        Ending::Limit(limit) => {
+            let flat: Vec<_> = limit.flat.iter().map(|f| names(f)).collect();
+            let motion = problem.points.iter().zip(&limit.motion);
+            let motion = motion.map(|(p, v)| (p.name.clone(), json!(v[..problem.dimension])));
+            json!({
+                "flat": flat,
+                "flat_within": limit.flat_within,
+                "motion": motion.collect::<Map<_, _>>(),
+            })
+        }
+        _ => Value::Null,
+    };
+    let orientations = &edited.orientations;
+    let kept = orientations.kept.iter().map(|(points, _)| names(points));
+    let lost = orientations
+        .lost
+        .iter()
+        .map(|lost| json!({"points": names(&lost.points), "t": [lost.t.0, lost.t.1]}));
+    let flat = orientations.flat.iter().map(|points| names(points));
+    json!({
+        "problem": problem.name,
+        "status": edited.ending.name(),
+        "words": edit_in_words(problem, edited),
+        "reason": reason,
+        "t": [edited.t.0, edited.t.1],
+        "dimensions": dimensions.collect::<Map<_, _>>(),
+        "points": points_to_value(problem, &edited.points),
+        "kept": kept.collect::<Vec<_>>(),
+        "lost": lost.collect::<Vec<_>>(),
+        "flat": flat.collect::<Vec<_>>(),
+        "limit": limit,
+        "moved": moved.distance,
+        "tubes": edited.tubes,
+        "rejected": edited.rejected,
+        "length": edited.length,
+        "seconds": edited.seconds,
+        "switched_on": edited.switched_on,
+    })
+}
+
+/// A map from names to pairs of bounds.
+pub(super) fn points_to_value(problem: &Problem, points: &[[Interval; 3]]) -> Value {
+    let d = problem.dimension;
+    let points = problem.points.iter().zip(points);
+    let points = points.map(|(point, place)| {
+        let place = place[..d].iter().map(|x| bounds(*x));
+        (point.name.clone(), place.collect::<Vec<_>>().into())
+    });
+    Value::Object(points.collect())
+}
+
+/// Adding zero turns -0, which intervals use as a lower bound, into 0.
+pub(super) fn bounds(x: Interval) -> Value {
+    json!([x.inf() + 0.0, x.sup() + 0.0])
+}

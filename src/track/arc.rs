@@ -1,0 +1,81 @@
+//! What follows from an arc of path that sets out from a figure at t = 0 with t rising.
+
+use crate::interval::Interval;
+
+/// A figure that is known up to a box, in which it is the only one that meets its equations.
+///
+/// One entry per free coordinate of the gauge, in the homotopy's unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// The middle of the box.
+    pub centre: Vec<f64>,
+    /// What the middle is more than that, in extended precision; otherwise zero.
+    pub low: Vec<f64>,
+    /// How far the exact figure may be from the middle, entry by entry.
+    pub radius: Vec<f64>,
+}
+
+/// A fold: the point where an arc stops rising, t' = 0 with t'' < 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fold {
+    /// The figure there.
+    pub figure: Figure,
+    /// t there.
+    pub t: Interval,
+    /// The velocity v of the figure at the fold, J v = 0 and c·v = 1, one entry per free coordinate: how
+    /// the figure moves for an instant while all dimensions stand still.
+    pub velocity: Vec<f64>,
+    /// How far the exact v may be from that, entry by entry.
+    pub velocity_radius: Vec<f64>,
+    /// The vector c by which v is scaled.
+    pub normal: Vec<f64>,
+    /// Within this distance of (figure, t, v), in every entry, there is no other zero of
+    /// (F(X, t), J(X) v, c·v − 1).
+    pub alone_within: f64,
+}
+
+/// How an arc ends.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ArcEnd {
+    /// At t = 1, with dt/ds > 0 all the way: the one and only continuation of the figure at t = 0.
+    Reached(Figure),
+    /// At a fold before t = 1, with dt/ds > 0 up to it: there is no continuation beyond.
+    Limit(Box<Fold>),
+    /// Near a point where the figure's equations lose rank by more than a fold takes away, so that
+    /// branches meet there and none continues the figure more than another: seen in floats, not proved.
+    /// Why the proof ended there.
+    Passes(String),
+    /// Why the proof ended before.
+    Stopped(String),
+}
+
+/// A triangle of joined points in the plane, or a tetrahedron in space, and what became of its sign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orientation {
+    /// The points, three or four of them.
+    pub points: Vec<usize>,
+    /// The sign at t = 0 of the determinant of the differences of the others from the first; 0 if it is
+    /// not certain there.
+    pub sign: i8,
+    /// Where along the arc it could not be proved to be the same, if anywhere: the first such range of t.
+    pub lost: Option<(f64, f64)>,
+}
+
+/// The account of an arc.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArcRun {
+    /// How it ended.
+    pub end: ArcEnd,
+    /// Up to where it is proved: bounds on t at the last point of it.
+    pub t: (f64, f64),
+    /// Orientations, in the same order each time.
+    pub orientations: Vec<Orientation>,
+    /// Tubes.
+    pub steps: usize,
+    /// Tubes that were tried in vain.
+    pub rejected: usize,
+    /// Its length, Euclidean in the free coordinates (units of the problem) and t, in floats.
+    pub length: f64,
+    /// What was switched on beyond the plain run, and why.
+    pub switched_on: Vec<String>,
+}

@@ -1,0 +1,397 @@
+//! A box around a fold of the path: t' = 0 with t'' ≠ 0.
+//!
+//! At a fold the path's tangent is (v, 0). So with the normal c of a tube's cross-sections
+//!
+//! ```text
+//! Φ(X, t, v) = ( F(X, t),  J(X) v,  c·v − 1 ) = 0,      J = ∂F/∂X,
+//! ```
+//!
+//! 2m + 1 equations in as many unknowns (Moore and Spence, SIAM J. Numer. Anal. 17, 1980). Its Jacobian is
+//!
+//! ```text
+//! [ J     −E'(t)  0  ]
+//! [ J(v)   0      J  ]        J(v): the derivative of J(X) v by X
+//! [ 0      0      cᵀ ]
+//! ```
+//!
+//! and is regular exactly at quadratic folds: where J loses rank by one, (J, −E') does not, and t'' ≠ 0.
+//! A Krawczyk test that succeeds proves it regular in the box, one zero in it, and no other within
+//! `alone_within`. In a tube with the normal c the path P(s) has c·P' = 1, so that wherever t'(s) = 0 the point
+//! (P(s), X'(s)) is a zero of Φ: if it stays within `alone_within`, the fold is the only such place.
+
+use super::link::{Ball, Frame, Tube};
+use crate::interval::rounding::{gamma, in_range, largest, round_up};
+use crate::interval::{Interval, hull, point};
+use crate::linalg::{Inverter, Matrix, Sparse, Vector};
+use crate::system::Homotopy;
+use crate::track::arc::{Figure, Fold};
+use crate::track::full::{Differences, Equations, Lengths, Tail};
+
+/// Newton's method is done where corrections are below this, or do not shrink any more.
+const ACCURACY: f64 = 1e-15;
+/// Where they are below this they shrink no more because of rounding.
+const NEAR: f64 = 1e-9;
+/// Corrections at most.
+const STEPS: usize = 30;
+/// A larger one leads nowhere.
+const LARGEST_STEP: f64 = 10.0;
+
+/// Work space for proving folds.
+#[derive(Debug)]
+pub struct FoldProver<const D: usize> {
+    /// Of the Jacobian: columns of X, of t, of v; rows of F, of J v, of c·v − 1.
+    pattern: Sparse,
+    inverter: Inverter,
+    y: Matrix,
+    values: Vec<f64>,
+    /// Values of J, and of J(v), in the equations' pattern.
+    j: Vec<f64>,
+    jv: Vec<f64>,
+    d: Differences<D>,
+    dv: Differences<D>,
+    lengths: Lengths,
+    /// X, t and a spare entry; v likewise.
+    x: Vector,
+    v: Vector,
+    f: Vector,
+    step: Vector,
+    bound: Vector,
+    ones: Vec<f64>,
+}
+
+impl<const D: usize> FoldProver<D> {
+    /// For one problem.
+    pub fn new(equations: &Equations<D>) -> Self {
+        let m = equations.m;
+        let plain = equations.pattern();
+        let columns: Vec<Vec<usize>> = (0..2 * m + 1)
+            .map(|column| match column {
+                k if k < m => plain
+                    .rows_of(k)
+                    .chain(plain.rows_of(k).map(|e| m + e))
+                    .collect(),
+                k if k == m => (0..m).collect(),
+                k => {
+                    let mut rows: Vec<usize> = plain.rows_of(k - m - 1).map(|e| m + e).collect();
+                    rows.push(2 * m);
+                    rows
+                }
+            })
+            .collect();
+        let pattern = Sparse::new(&columns);
+        let n = 2 * m + 1;
+        FoldProver {
+            inverter: Inverter::new(&pattern),
+            y: Matrix::zeros(n, n),
+            values: vec![0.0; pattern.entries()],
+            pattern,
+            j: vec![0.0; plain.entries()],
+            jv: vec![0.0; plain.entries()],
+            d: equations.room(),
+            dv: equations.room(),
+            lengths: Lengths::new(equations),
+            x: equations.vector(),
+            v: equations.vector(),
+            f: Vector::zeros(n),
+            step: Vector::zeros(n),
+            bound: Vector::zeros(n),
+            ones: vec![1.0; n],
+        }
+    }
+
+    /// Proves a box around the fold near the point `x` (X and t) with the tangent `v`, scaled by c·v = 1.
+    /// `None`: no such proof.
+    pub fn prove(
+        &mut self,
+        equations: &Equations<D>,
+        homotopy: &Homotopy,
+        (x, v): (&[f64], &[f64]),
+        normal: &[f64],
+    ) -> Option<Fold> {
+        let m = equations.m;
+        let n = 2 * m + 1;
+        let c = &normal[..m];
+        self.x.copy_from_slice(x);
+        self.v.copy_from_slice(v);
+        self.v[m] = 0.0;
+        self.look(equations, c);
+        self.invert()?;
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            self.residual(equations, c);
+            self.y.multiply(&self.f[..n], &mut self.step);
+            let size = self.greatest_step(n);
+            let is_bounded = size <= LARGEST_STEP;
+            if !is_bounded {
+                return None;
+            }
+            for k in 0..=m {
+                self.x[k] -= self.step[k];
+            }
+            for k in 0..m {
+                self.v[k] -= self.step[m + 1 + k];
+            }
+            self.look(equations, c);
+            if size <= ACCURACY || size > 0.5 * last && last <= NEAR {
+                break;
+            }
+            // A guess too far away for the matrix that was made there.
+            if size > 0.25 * last {
+                self.invert()?;
+            }
+            last = size;
+        }
+        self.invert()?;
+        self.conclude(equations, homotopy, c)
+    }
+
+    /// The Jacobian at (X, t, v).
+    fn look(&mut self, equations: &Equations<D>, c: &[f64]) {
+        let m = equations.m;
+        equations.differences(&self.x, &mut self.d);
+        equations.directions(&self.v, &mut self.dv);
+        equations.expand_lengths(self.x[m], &mut self.lengths);
+        equations.pattern_values(&self.d, &self.lengths.terms[1], &mut self.j);
+        equations.pattern_values(&self.dv, &self.lengths.terms[1], &mut self.jv);
+        let plain = equations.pattern();
+        let mut next = 0;
+        let mut put = |value: f64| {
+            self.values[next] = value;
+            next += 1;
+        };
+        let mut start = 0;
+        for column in 0..m {
+            let entries = start..start + plain.entries_of(column);
+            self.j[entries.clone()].iter().for_each(|&x| put(x));
+            self.jv[entries.clone()].iter().for_each(|&x| put(x));
+            start = entries.end;
+        }
+        self.j[start..].iter().for_each(|&x| put(x));
+        let mut start = 0;
+        for column in 0..m {
+            let entries = start..start + plain.entries_of(column);
+            self.j[entries.clone()].iter().for_each(|&x| put(x));
+            put(c[column]);
+            start = entries.end;
+        }
+    }
+
+    /// Its approximate inverse.
+    fn invert(&mut self) -> Option<()> {
+        self.inverter.invert(&self.values, &mut self.y).ok()
+    }
+
+    /// Φ in floats.
+    fn residual(&mut self, equations: &Equations<D>, c: &[f64]) {
+        let m = equations.m;
+        for e in 0..m {
+            let (mut squared, mut moved) = (0.0, 0.0);
+            for axis in 0..D {
+                squared += self.d[axis][e] * self.d[axis][e];
+                moved += self.d[axis][e] * self.dv[axis][e];
+            }
+            self.f[e] = 0.5 * squared - self.lengths.terms[0][e];
+            self.f[m + e] = moved;
+        }
+        if !equations.tail.is_empty() {
+            let (d, dv) = (&self.d.forms, &self.dv.forms);
+            let (f, jv) = self.f.split_at_mut(m);
+            equations.tail.add_half_products(1.0, d, d, f);
+            equations.tail.add_half_products(1.0, d, dv, jv);
+            equations.tail.add_half_products(1.0, dv, d, jv);
+        }
+        let along: f64 = c.iter().zip(&self.v[..m]).map(|(c, v)| c * v).sum();
+        self.f[2 * m] = along - 1.0;
+    }
+
+    /// The test at the point reached, with the norm max |w_i|: |I − Y Φ'(x + w)| ≤ q₀ + κ |w|.
+    fn conclude(
+        &mut self,
+        equations: &Equations<D>,
+        homotopy: &Homotopy,
+        c: &[f64],
+    ) -> Option<Fold> {
+        let m = equations.m;
+        let n = 2 * m + 1;
+        // |I − Y Φ'| as computed; the rounding of that product and of the Jacobian's entries, which are
+        // differences (one rounding) but for E', of at most twelve, and sums of such in the tail.
+        self.y
+            .identity_minus_sparse_abs(&self.pattern, &self.values, &self.ones, &mut self.step);
+        let defect = self.greatest_step(n);
+        let t = self.x[m].abs();
+        // All entries of a row, twice for those that come from X and from v.
+        let per_entry = gamma(n + 40 + 2 * equations.tail.longest);
+        let is_free = |end: usize| (end < m) as usize as f64;
+        let mut width = Vector::zeros(n);
+        for e in 0..m {
+            let (mut size, mut size_v, mut change) = (0.0, 0.0, 0.0);
+            for axis in 0..D {
+                let ends = equations.ends[axis][e].iter();
+                let free = ends.filter(|&&end| (end as usize) < m).count() as f64;
+                size += self.d[axis][e].abs() * free;
+                size_v += self.dv[axis][e].abs() * free;
+                change += free * free;
+            }
+            for (half, forms) in equations.tail.products(e) {
+                // The same for a product of two factors.
+                let free = forms.map(|form| equations.tail.ends(form).map(is_free));
+                let [left, right] = free.map(|ends| ends[0] + ends[1]);
+                let row = |at: &Vector| at[forms[0]].abs() * right + at[forms[1]].abs() * left;
+                size += half.abs() * row(&self.d.forms);
+                size_v += half.abs() * row(&self.dv.forms);
+                change += 2.0 * half.abs() * left * right;
+            }
+            let (slope, slope_radius) = equations.slope_of_length(e, t);
+            // |E''| for |t| below this t and 1 more: the box is no wider (`alone_within` ≤ 1).
+            let curvature = homotopy.rights[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
+            self.bound[e] = per_entry * (size + slope) + slope_radius;
+            self.bound[m + e] = per_entry * (size + size_v);
+            width[e] = round_up(change + curvature.mag(), equations.roundings(8));
+            width[m + e] = 2.0 * change;
+        }
+        let normal: f64 = c.iter().map(|c| c.abs()).sum();
+        self.bound[2 * m] = per_entry * normal;
+        self.y.multiply_abs(&self.bound[..n], &mut self.step);
+        let rounding = self.greatest_step(n);
+        // The ones of I pass through as many sums as the products that they are added to.
+        let q0 = round_up(defect + rounding + gamma(n + 4), 2 * n + 60);
+        self.y.multiply_abs(&width[..n], &mut self.step);
+        let kappa = round_up(self.greatest_step(n), n + 30);
+        if !(q0 < 0.5 && in_range(kappa)) {
+            return None;
+        }
+        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1.0);
+
+        self.bound_residual(equations, homotopy, c);
+        self.y.multiply_abs(&self.f[..n], &mut self.step);
+        let step = round_up(self.greatest_step(n), n + 2);
+        let q = round_up(q0 + kappa * alone_within, 4);
+        let all = round_up(step / (1.0 - q), 60);
+        if !(q < 1.0 && all < 0.99 * alone_within) {
+            return None;
+        }
+        // |x* − x| ≤ |Y Φ(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
+        let near = round_up((q0 + kappa * all) * all, 6);
+        let radius = |k: usize| round_up(self.step[k] + near, n + 8);
+        let t = around(self.x[m], radius(m));
+        Some(Fold {
+            figure: Figure {
+                centre: self.x[..m].to_vec(),
+                low: vec![0.0; m],
+                radius: (0..m).map(radius).collect(),
+            },
+            t,
+            velocity: self.v[..m].to_vec(),
+            velocity_radius: (0..m).map(|k| radius(m + 1 + k)).collect(),
+            normal: c.to_vec(),
+            alone_within,
+        })
+    }
+
+    fn greatest_step(&self, n: usize) -> f64 {
+        let step = self.step[..n].iter();
+        step.fold(0.0, |a, &b| largest(a, b.abs()))
+    }
+
+    /// |Φ| at the point reached, with all that is not known of it, into `f`.
+    fn bound_residual(&mut self, equations: &Equations<D>, homotopy: &Homotopy, c: &[f64]) {
+        let m = equations.m;
+        let t = point(self.x[m]);
+        for e in 0..m {
+            let (mut squared, mut moved) = (point(0.0), point(0.0));
+            for axis in 0..D {
+                let [i, j] = equations.ends[axis][e].map(|end| end as usize);
+                let d = point(self.x[i]) - point(self.x[j]);
+                squared += d.sqr();
+                moved += d * (point(self.v[i]) - point(self.v[j]));
+            }
+            let mut value = squared * point(0.5);
+            for (half, [left, right]) in equations.tail.products(e) {
+                let form = |z: &Vector, form: usize, one: f64| match form {
+                    Tail::ONE => point(one),
+                    _ => {
+                        let [i, j] = equations.tail.ends(form);
+                        point(z[i]) - point(z[j])
+                    }
+                };
+                let half = point(half);
+                let (x, y) = (form(&self.x, left, 1.0), form(&self.x, right, 1.0));
+                value += half * x * y;
+                moved += half * (x * form(&self.v, right, 0.0) + form(&self.v, left, 0.0) * y);
+            }
+            let right = homotopy.rights[e].enclose(t);
+            self.f[e] = (value - right).mag();
+            self.f[m + e] = moved.mag();
+        }
+        let terms = c.iter().zip(&self.v[..m]);
+        let along = terms.fold(point(-1.0), |sum, (&c, &v)| sum + point(c) * point(v));
+        self.f[2 * m] = along.mag();
+    }
+}
+
+/// The interval of this radius around a float.
+fn around(x: f64, radius: f64) -> Interval {
+    hull((x - radius).next_down(), (x + radius).next_up())
+}
+
+/// The point (X, t) of a fold as a box.
+pub fn ball_of<const D: usize>(fold: &Fold, equations: &Equations<D>) -> Ball {
+    let m = equations.m;
+    let mut ball = Ball::new(equations);
+    ball.centre[..m].copy_from_slice(&fold.figure.centre);
+    ball.radius[..m].copy_from_slice(&fold.figure.radius);
+    ball.centre[m] = fold.t.mid();
+    ball.radius[m] = fold.t.rad();
+    ball
+}
+
+/// Proves that between two parameters of a tube, in whose cross-sections it was sought, the fold is the
+/// only point with t' = 0 of the path, if it is there at all.
+pub fn is_alone<const D: usize, const N: usize, Y: Frame<D>>(
+    fold: &Fold,
+    tube: &Tube<D, N, Y>,
+    (a, b): (f64, f64),
+) -> bool {
+    let m = tube.weights.len() - 2;
+    let (local, proof) = (&tube.local, &tube.proof);
+    let middle = 0.5 * (a + b);
+    // From the middle to either end, rounded up.
+    let half = round_up(largest(b - middle, middle - a), 4);
+    let reach = largest(a.abs(), b.abs());
+    let ball_t = (fold.t.mid(), fold.t.rad());
+    (0..=m).all(|i| {
+        let (mut value, mut slope) = (0.0f64, 0.0f64);
+        let (mut size, mut size_of_slope, mut size_of_turn) = (0.0f64, 0.0f64, 0.0f64);
+        for k in (0..N).rev() {
+            let z = local.z[k][i];
+            slope = slope.mul_add(middle, value);
+            value = value.mul_add(middle, z);
+            size_of_turn = size_of_turn.mul_add(reach, 2.0 * size_of_slope);
+            size_of_slope = size_of_slope.mul_add(reach, size);
+            size = size.mul_add(reach, z.abs());
+        }
+        value += local.low[i];
+        let rounding = gamma(8 * N);
+        let (target, target_radius) = match i {
+            i if i == m => ball_t,
+            i => (fold.figure.centre[i], fold.figure.radius[i]),
+        };
+        let away = (value - target).abs()
+            + target_radius
+            + half * size_of_slope
+            + proof.distance * tube.weights[i]
+            + rounding * (size + target.abs() + local.low[i].abs());
+        // Where t' = 0 the velocity is X', in the entry of t it is none.
+        let turned = if i == m {
+            0.0
+        } else {
+            (slope - fold.velocity[i]).abs()
+                + fold.velocity_radius[i]
+                + half * size_of_turn
+                + proof.slope_distance * tube.weights[i]
+                + rounding * (size_of_slope + fold.velocity[i].abs())
+        };
+        // NaN is no proof.
+        round_up(away, 8 * N) < fold.alone_within && round_up(turned, 8 * N) < fold.alone_within
+    })
+}

@@ -1,0 +1,212 @@
+//! Runs that end at t = 1: from a figure at t = 0, with dt/ds > 0 proved on every tube.
+
+use super::{Test, Tracker};
+use crate::system::Homotopy;
+use crate::track::arc::{ArcEnd, ArcRun, Figure};
+use crate::track::certified::fold::{self, FoldProver};
+use crate::track::certified::ledger::Ledger;
+use crate::track::certified::link::{Frame, Tube};
+use crate::track::certified::orientation::Orientations;
+use crate::track::certified::reasons::{Doubt, Rejection};
+use crate::track::certified::solution::SolutionBox;
+use crate::track::events::Rise;
+use crate::track::full::{Equations, InverseMaker};
+use crate::track::{Control, Options};
+use std::borrow::Cow;
+
+/// No tube of an arc reaches further to either side, in the homotopy's unit: t goes from 0 to 1, and
+/// where nothing curves a tube would have no end.
+pub(super) const LONGEST: f64 = 4.0;
+/// What a run to t = 1 keeps beside what every run does.
+#[derive(Debug)]
+pub(super) struct Arc<const D: usize> {
+    orientations: Orientations,
+    prover: FoldProver<D>,
+    /// How it ended, once it has.
+    end: Option<ArcEnd>,
+}
+
+/// A linked tube as it joins the chain.
+pub(super) struct Joining<'t, const D: usize, const N: usize, Y> {
+    pub equations: &'t Equations<D>,
+    pub homotopy: &'t Homotopy,
+    pub tube: &'t Tube<D, N, Y>,
+    /// Whether it is the one around the figure at t = 0.
+    pub is_first: bool,
+    pub extended: bool,
+}
+
+impl<const D: usize> Arc<D> {
+    fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+        Arc {
+            orientations: Orientations::new(homotopy, &equations.vector()),
+            prover: FoldProver::new(equations),
+            end: None,
+        }
+    }
+
+    /// Sets out from a figure.
+    pub fn begin(&mut self, start: &Figure) {
+        self.orientations.begin(start);
+        self.end = None;
+    }
+
+    /// Takes a linked tube into account: t rises from its entry to its exit, or to t = 1, or to a fold. Tells
+    /// whether the arc ends in it. If it fails nothing is changed.
+    pub fn enter<const N: usize, Y: Frame<D>>(
+        &mut self,
+        joining: &Joining<D, N, Y>,
+        inverter: &mut InverseMaker,
+        ledger: &mut Ledger<D>,
+    ) -> Result<bool, Rejection> {
+        let Joining {
+            equations,
+            tube,
+            extended,
+            ..
+        } = *joining;
+        let time = tube.time();
+        let from = tube.entry.0.max(-tube.proof.h);
+        let to = match time.rise(from, tube.exit_at) {
+            Rise::Throughout => tube.exit_at,
+            Rise::Beyond(s) => s,
+            Rise::Until(s) => return self.turn(joining, ledger, (from, s)),
+        };
+        let before = ledger.mark();
+        ledger
+            .enter(equations, inverter, tube, (to, to), extended)
+            .map_err(Rejection::Undecided)?;
+        // The chain up to here has t < 1, or it would have ended.
+        let Some(found) = ledger.found().last() else {
+            if to < tube.exit_at {
+                ledger.return_to(before);
+                return Err(Rejection::Undecided(Doubt::Time(time.undecided(from, to))));
+            }
+            self.orientations.follow(tube, (from, tube.exit_at));
+            return Ok(false);
+        };
+        // It may be a little behind the exit.
+        let at = ledger.last_crossing();
+        if let Rise::Until(_) = time.rise(from, at) {
+            ledger.return_to(before);
+            return Err(Rejection::Undecided(Doubt::Time(time.undecided(from, at))));
+        }
+        self.end = Some(ArcEnd::Reached(figure_of(found)));
+        self.orientations.follow(tube, (from, at));
+        Ok(true)
+    }
+
+    /// The arc's end at a fold in a tube in which dt/ds > 0 from its entry, `from`, to `until`.
+    fn turn<const N: usize, Y: Frame<D>>(
+        &mut self,
+        joining: &Joining<D, N, Y>,
+        ledger: &mut Ledger<D>,
+        (from, until): (f64, f64),
+    ) -> Result<bool, Rejection> {
+        let Joining {
+            equations,
+            homotopy,
+            tube,
+            is_first,
+            ..
+        } = *joining;
+        let time = tube.time();
+        let doubt = || Rejection::Undecided(Doubt::Turn(time.undecided(until, tube.exit_at)));
+        // That dt/ds > 0 at the entry is known of all tubes but the first.
+        if is_first && until <= tube.entry.1 {
+            return Err(doubt());
+        }
+        let at = time.turning_point(from).ok_or_else(doubt)?;
+        let (mut x, mut v) = (equations.vector(), equations.vector());
+        tube.local.at(at, &mut x);
+        tube.local.slope(at, &mut v);
+        let normal = &tube.local.normal;
+        let found = self.prover.prove(equations, homotopy, (&x, &v), normal);
+        let found = found.ok_or_else(doubt)?;
+        let ball = fold::ball_of(&found, equations);
+        let (lo, hi) = tube.locate(&ball).ok_or_else(doubt)?;
+        // Where t = 1 cannot be told from the fold, that is where the arc ends.
+        // Between `until` and the fold dt/ds is not 0 if the fold is alone there.
+        let is_here = lo > from
+            && until <= hi
+            && found.t.inf() <= 1.0
+            && fold::is_alone(&found, tube, (until, hi));
+        if !is_here {
+            return Err(doubt());
+        }
+        ledger.pass(tube, (from, hi));
+        self.end = Some(ArcEnd::Limit(Box::new(found)));
+        self.orientations.follow(tube, (from, hi));
+        Ok(true)
+    }
+}
+
+fn figure_of(found: &SolutionBox) -> Figure {
+    let m = found.centre.len() - 2;
+    Figure {
+        centre: found.centre[..m].to_vec(),
+        low: found.low[..m].to_vec(),
+        radius: found.radius[..m].to_vec(),
+    }
+}
+
+/// Follows arcs of one problem's equations, one after the other, setting nothing up twice.
+#[derive(Debug)]
+pub struct Arcs<const D: usize, const N: usize, T: Test<D, N>> {
+    tracker: Tracker<'static, D, N, T>,
+    options: Options,
+}
+
+impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
+    /// For the equations of a homotopy.
+    pub fn new(homotopy: Homotopy, options: &Options) -> Self {
+        let mut tracker = Tracker::new(Cow::Owned(homotopy), options);
+        tracker.arc = Some(Arc::new(&tracker.homotopy, &tracker.equations));
+        Arcs {
+            tracker,
+            options: options.clone(),
+        }
+    }
+
+    /// The homotopy.
+    pub fn homotopy(&self) -> &Homotopy {
+        &self.tracker.homotopy
+    }
+
+    /// The same, whose lengths may be changed between two arcs.
+    pub fn homotopy_mut(&mut self) -> &mut Homotopy {
+        self.tracker.homotopy.to_mut()
+    }
+
+    /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the
+    /// lengths at t = 0.
+    pub fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
+        let tracker = &mut self.tracker;
+        tracker.begin(start);
+        let result = tracker.run(&self.options, control);
+        // What was proved last: the exit of the last tube, or where the arc ends.
+        let t = tracker.reached();
+        let steps = tracker.steps + usize::from(tracker.has_set_out);
+        let arc = tracker.arc.as_mut().expect("a run to t = 1");
+        let end = match (result, arc.end.take()) {
+            (Ok(()), Some(end)) => end,
+            (Ok(()), None) => ArcEnd::Stopped("it ended nowhere: a bug in krawl".to_owned()),
+            (Err(reason), _) if tracker.is_singular => ArcEnd::Passes(reason),
+            (Err(reason), _) => ArcEnd::Stopped(reason),
+        };
+        let t = match &end {
+            ArcEnd::Reached(_) => (1.0, 1.0),
+            ArcEnd::Limit(fold) => (fold.t.inf(), fold.t.sup()),
+            _ => t,
+        };
+        ArcRun {
+            t,
+            orientations: arc.orientations.account(),
+            end,
+            steps,
+            rejected: tracker.rejected,
+            length: tracker.ledger.length,
+            switched_on: tracker.switched_on(),
+        }
+    }
+}
