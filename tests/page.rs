@@ -248,6 +248,37 @@ fn pictures_and_figures_are_written() {
 }
 
 #[test]
+fn edits_and_complete_sets_have_pages_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (page, svg) = (path("edit.html"), path("all.svg"));
+    let plate = "docs/examples/plate.toml";
+    let (code, _, errors) = krawl(&["edit", plate, "--set", "C-D=40", "--html", &page]);
+    assert_eq!(code, Some(0), "{errors}");
+    let (code, _, errors) = krawl(&[
+        "all",
+        "docs/examples/platform.toml",
+        "--html",
+        &path("all.html"),
+        "--svg",
+        &svg,
+    ]);
+    assert_eq!(code, Some(0), "{errors}");
+    let svg = fs::read_to_string(svg).unwrap();
+    assert!(svg.contains("Solution 4") && !svg.contains("Solution 5"));
+    let Some(browser) = browser() else { return };
+    let script = "said.push($('list').children.length, $('caption').textContent, ink('view'), $('travel').hidden);";
+    for (name, figures, first) in [("edit.html", 2, "After"), ("all.html", 5, "Solution 1")] {
+        let (title, console) = driven(&browser, &folder.path().join(name), script, "1200,900");
+        assert_eq!(console, "", "{name}");
+        let said = said(&title);
+        assert_eq!(said[0], figures);
+        assert!(said[1].as_str().unwrap().starts_with(first), "{title}");
+        assert!(said[2][0].as_u64().unwrap() > 1000 && said[3] == true);
+    }
+}
+
+#[test]
 fn what_is_no_result_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.json");

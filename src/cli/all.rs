@@ -1,9 +1,11 @@
 //! `krawl all`: searches all figures that have the distances wanted.
 
 use super::output::{self, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
 use krawl::complete::{Options, Progress, Status, all};
 use krawl::problem::Problem;
+use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table};
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -13,9 +15,13 @@ use std::time::{Duration, Instant};
 ///
 /// The sketch plays no part: every figure that has the distances is listed, up to rigid motions and
 /// reflections. "Complete" claims that these are all; "partial" and "flexible" say what is undecided.
-///
-/// Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl all problems/disulfide.toml
+  krawl all problems/disulfide.toml --html all.html --xyz all.xyz
+
+Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.")]
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,
@@ -28,6 +34,8 @@ pub struct Arguments {
     /// Stop after so many seconds, and say what is undecided
     #[arg(long, value_name = "S", value_parser = seconds)]
     time: Option<f64>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print no table and no progress
     #[arg(long)]
     quiet: bool,
@@ -60,6 +68,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             results.display()
         ));
     }
+    let pictures = arguments.pictures.places()?;
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let begin = Instant::now();
     let tell = |now: Progress| {
@@ -86,6 +95,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let mut written = true;
+    if !pictures.is_empty() {
+        written &= pictures.write(&Page::of_complete(&problem, &result));
+    }
     if let Some(json) = &json {
         written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
     }

@@ -4,6 +4,7 @@
 //! is written as HTML that needs no network: `page.html` with `page.css`, `page.js` and the data in it.
 
 mod exchange;
+mod figures;
 mod moving;
 mod projection;
 mod result;
