@@ -2,13 +2,14 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, interrupt};
+use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, interrupt, serve};
 use krawl::edit::{Edited, Ending, OpenError, Session, Setting, rewrite};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{edit_to_json, edit_to_table};
 use krawl::track::{Control, Options};
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
 ///
@@ -27,8 +28,17 @@ pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,
     /// The distance between two points and its new value, such as a-b=5.2; more than one move together
-    #[arg(long, value_name = "NAME=VALUE", required = true)]
+    #[arg(
+        long,
+        value_name = "NAME=VALUE",
+        required_unless_present = "serve",
+        conflicts_with = "serve"
+    )]
     set: Vec<String>,
+    /// Read edits from standard input, one JSON object a line such as {"set": {"a-b": 5.2}}, and answer each with
+    /// one line of JSON; the figure never changes by an edit that is not reached (docs/edit.md)
+    #[arg(long, conflicts_with_all = ["out", "json"])]
+    serve: bool,
     /// Write the edited problem, in the format and coordinates of FILE, if the new dimensions were reached
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -51,48 +61,35 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let shown = arguments.file.display();
     let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
-    let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
-    let settings = arguments
-        .set
-        .iter()
-        .map(|text| Setting::parse(&problem, text));
-    let settings = settings
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|e| in_file(&e))?;
-    Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
-    let pictures = arguments.pictures.places()?;
-    let json = arguments
-        .json
-        .as_deref()
-        .map(Destination::new)
-        .transpose()?;
-    if let Some(json) = &arguments.json
-        && output::is_same_file(json, &arguments.file)
-    {
-        return Err(format!(
-            "{}: is the problem itself; name another file for the results",
-            json.display()
-        ));
+    let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
+    let extended = !arguments.no_extended;
+    if arguments.serve {
+        return Ok(
+            match open(&problem, &arguments.file, extended, &mut Control::default())? {
+                Ok(mut session) => match serve::serve(&mut session) {
+                    true => CLOSED,
+                    false => BAD_INPUT,
+                },
+                Err(code) => code,
+            },
+        );
     }
+    let settings = arguments.set.iter();
+    let settings = settings.map(|text| Setting::parse(&problem, text));
+    let settings = settings.collect::<Result<Vec<_>, _>>();
+    let settings = settings.map_err(|e| in_file(&e))?;
+    Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+    let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let pictures = arguments.pictures.places()?;
     // Before any file is begun, so that an interrupt leaves none behind.
-    let cancel = interrupt::flag();
     let mut control = Control {
-        cancel: Some(cancel),
+        cancel: Some(interrupt::flag()),
         ..Control::default()
     };
-    let options = Options {
-        extended: !arguments.no_extended,
-        ..Options::certified()
-    };
-    let mut session = match Session::open_with(&problem, &options, &mut control) {
+    let mut session = match open(&problem, &arguments.file, extended, &mut control)? {
         Ok(session) => session,
-        Err(error @ OpenError::Correction { .. }) => {
-            output::complain(&in_file(&error));
-            return Ok(STOPPED);
-        }
-        Err(error) => return Err(in_file(&error)),
+        Err(code) => return Ok(code),
     };
     let edited = session.edit_with(&settings, &mut control);
     let moved = session.moved();
@@ -110,10 +107,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let text = std::fs::read_to_string(&arguments.file).map_err(|e| in_file(&e))?;
         let text = rewrite(&text, session.problem(), &session.figure()).map_err(|e| in_file(&e))?;
         let beside = Beside::new(out)?;
-        written &= beside.commit(std::io::Write::write_all(
-            &mut beside.file(),
-            text.as_bytes(),
-        ));
+        written &= beside.commit(beside.file().write_all(text.as_bytes()));
     }
     if !arguments.quiet && json != Some(Destination::StandardOutput) {
         written &= output::print(&edit_to_table(&problem, &edited, moved));
@@ -123,6 +117,44 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     } else {
         BAD_INPUT
     })
+}
+
+fn in_file(file: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("{}: {error}", file.display())
+}
+
+/// Where results go, which must not be the problem itself.
+pub(super) fn beside(file: &Path, results: Option<&Path>) -> Result<Option<Destination>, String> {
+    if let Some(results) = results
+        && output::is_same_file(results, file)
+    {
+        return Err(format!(
+            "{}: is the problem itself; name another file for the results",
+            results.display()
+        ));
+    }
+    results.map(Destination::new).transpose()
+}
+
+/// Takes the sketch for the figure, or says why it is none: then the exit code.
+pub(super) fn open(
+    problem: &Problem,
+    file: &Path,
+    extended: bool,
+    control: &mut Control,
+) -> Result<Result<Session, u8>, String> {
+    let options = Options {
+        extended,
+        ..Options::certified()
+    };
+    match Session::open_with(problem, &options, control) {
+        Ok(session) => Ok(Ok(session)),
+        Err(error @ OpenError::Correction { .. }) => {
+            output::complain(&in_file(file, &error));
+            Ok(Err(STOPPED))
+        }
+        Err(error) => Err(in_file(file, &error)),
+    }
 }
 
 /// The exit code that tells how an edit ended.

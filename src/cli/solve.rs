@@ -2,7 +2,7 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
+use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
@@ -30,7 +30,8 @@ Examples:
   krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
-found), 2 bad input or results that could not be written.")]
+found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
+proved.")]
 pub struct Arguments {
     /// The problem files (TOML); `-` is standard input
     #[arg(required = true, value_name = "FILE")]
@@ -235,7 +236,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let silent = arguments.quiet || standard || pictures.use_standard_output();
     let mut lines = String::new();
-    let (mut written, mut closed) = (true, true);
+    let (mut written, mut worst) = (true, CLOSED);
     for (k, (problem, file)) in problems.iter().zip(&arguments.files).enumerate() {
         let which = output::which_of((k, problems.len()), file);
         let mut trace = Trace::default();
@@ -261,7 +262,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         {
             trace = finer;
         }
-        closed &= outcome.status == Status::Closed;
+        worst = match (&outcome.status, worst) {
+            (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
+            (Status::Open(_), _) => OPEN,
+            (Status::Closed, worst) => worst,
+        };
         let run = Run {
             problem,
             options: &arguments.options(),
@@ -293,11 +298,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(json) = &json {
         written &= json.write(&lines);
     }
-    Ok(match closed {
-        _ if !written => BAD_INPUT,
-        true => CLOSED,
-        false => STOPPED,
-    })
+    Ok(if written { worst } else { BAD_INPUT })
 }
 
 impl Arguments {
@@ -386,8 +387,8 @@ fn follow_finely(
     let traced = track::trace_path(problem, &arguments.options(), &mut control);
     line.clear();
     let (finer, trace) = traced.ok()?;
-    let closed = |outcome: &Outcome| outcome.status == Status::Closed;
-    if closed(&finer) != closed(outcome) || finer.solutions.len() != outcome.solutions.len() {
+    let kind = |outcome: &Outcome| std::mem::discriminant(&outcome.status);
+    if kind(&finer) != kind(outcome) || finer.solutions.len() != outcome.solutions.len() {
         return None;
     }
     outcome.length = finer.length;

@@ -18,6 +18,11 @@ pub fn vector(of: &[Decimal; 3]) -> Vector {
     of.each_ref().map(|x| x.value().clone())
 }
 
+/// a + b.
+pub fn plus(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|k| &a[k] + &b[k])
+}
+
 /// a − b.
 pub fn minus(a: &Vector, b: &Vector) -> Vector {
     std::array::from_fn(|k| &a[k] - &b[k])

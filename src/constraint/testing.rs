@@ -30,13 +30,13 @@ impl Figure {
     }
 
     /// How far a point is from the line through two others.
-    pub fn from_line(&self, p: &str, a: &str, b: &str) -> f64 {
+    pub fn off_line(&self, p: &str, a: &str, b: &str) -> f64 {
         let (u, v) = (self.arrow(a, b), self.arrow(a, p));
         size(cross(u, v)) / size(u)
     }
 
     /// How far a point is from the plane through three others.
-    pub fn from_plane(&self, p: &str, a: &str, b: &str, c: &str) -> f64 {
+    pub fn off_plane(&self, p: &str, a: &str, b: &str, c: &str) -> f64 {
         let n = self.normal(a, b, c);
         dot(n, self.arrow(a, p)).abs() / size(n)
     }

@@ -63,7 +63,7 @@ fn distances_from_lines_in_the_plane() {
                 "[constraints]\ndistances = [[\"a\", \"c\", 2.5], {known}[\"c\", \"a\", \"b\", 1.5]]\n{more}"
             ),
         );
-        near(f.from_line("c", "a", "b"), 1.5);
+        near(f.off_line("c", "a", "b"), 1.5);
         assert!(cross(f.arrow("a", "b"), f.arrow("a", "c"))[2] > 0.0);
     }
 }
@@ -77,8 +77,8 @@ fn distances_in_space() {
          distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
          [\"d\", \"e\", 1.7], [\"d\", \"g\", 2], [\"d\", \"c\", 2.2]]",
     );
-    near(f.from_plane("d", "a", "b", "c"), 1.7);
-    near(f.from_line("d", "a", "b"), 2.0);
+    near(f.off_plane("d", "a", "b", "c"), 1.7);
+    near(f.off_line("d", "a", "b"), 2.0);
     let f = space(
         points,
         "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
@@ -118,7 +118,7 @@ fn planes_and_angles_in_space() {
          [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.8], [\"c\", \"e\", 1.5]]\n\
          coplanar = [[\"a\", \"c\", \"d\", \"e\"]]\nparallel = [[\"c\", \"e\", \"a\", \"b\", \"d\"]]",
     );
-    near(f.from_plane("e", "a", "c", "d"), 0.0);
+    near(f.off_plane("e", "a", "c", "d"), 0.0);
     near(dot(f.normal("a", "b", "d"), f.arrow("c", "e")), 0.0);
 }
 
@@ -156,8 +156,8 @@ fn points_on_lines_planes_and_spheres() {
          distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5], [\"a\", \"c\", 2.6], [\"c\", \"d\", 2.3], \
          [\"d\", \"e\", 0.8]]\non = [[\"d\", \"g\"]]\ncollinear = [[\"a\", \"c\", \"e\"]]",
     );
-    near(f.from_line("d", "a", "b"), 0.0);
-    near(f.from_line("e", "a", "c"), 0.0);
+    near(f.off_line("d", "a", "b"), 0.0);
+    near(f.off_line("e", "a", "c"), 0.0);
     let f = space(
         "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.3, 2.5, 0.6]",
         "[lines]\ng = [\"c\", \"d\"]\n[planes]\np = [\"a\", \"b\", \"c\"]\n[spheres]\ns = { center = \"a\", radius = 2.2 }\n\
@@ -167,15 +167,15 @@ fn points_on_lines_planes_and_spheres() {
     );
     near(f.distance("a", "d"), 2.5);
     near(f.distance("a", "e"), 2.5);
-    near(f.from_plane("e", "a", "b", "c"), 0.0);
+    near(f.off_plane("e", "a", "b", "c"), 0.0);
     let f = space(
         "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.1, 1.4, 1.3]\nf = [2, 1, 0.3]",
         "[lines]\ng = [\"c\", \"d\"]\n[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], \
          [\"a\", \"c\", 2.1], [\"d\", \"c\", 2.2], [\"d\", \"a\", 2.4], [\"d\", \"b\", 2.6], [\"c\", \"e\", 1], \
          [\"f\", \"b\", 1.2]]\non = [[\"e\", \"g\"]]\ncollinear = [[\"b\", \"c\", \"f\"]]",
     );
-    near(f.from_line("e", "c", "d"), 0.0);
-    near(f.from_line("f", "b", "c"), 0.0);
+    near(f.off_line("e", "c", "d"), 0.0);
+    near(f.off_line("f", "b", "c"), 0.0);
 }
 
 #[test]
@@ -272,4 +272,140 @@ fn arcs() {
     );
     near(f.distance("m", "a"), 3.0);
     near(f.distance("m", "b"), 3.0);
+}
+
+#[test]
+fn the_documents_examples() {
+    let text = include_str!("../../docs/problem-files.md");
+    let blocks = text.split("```toml\n").skip(1);
+    let problems: Vec<_> = blocks
+        .map(|block| block.split("```").next().unwrap())
+        .collect();
+    assert!(problems.len() >= 4);
+    let mut kinds: Vec<String> = Vec::new();
+    for problem in &problems {
+        examine(&format!("{problem}\n[homotopy]\nbend_coefficient = 0"));
+        let problem = super::testing::read(problem);
+        kinds.extend(problem.constraints.into_iter().map(|c| c.kind));
+    }
+    for kind in super::KINDS {
+        let row = format!(
+            "| `{}` | `{}` | {} |",
+            kind.key(),
+            kind.example(),
+            kind.meaning()
+        );
+        assert!(text.contains(&row), "not in the document: {row}");
+        let tested = ["z", "dz", "dy", "dx"].contains(&kind.key())
+            || kinds.iter().any(|used| used == kind.key());
+        assert!(tested, "no example has {}", kind.key());
+    }
+    let table = text.split("<!-- kinds -->").nth(1).unwrap();
+    let rows = table.split("<!-- /kinds -->").next().unwrap().lines();
+    assert_eq!(
+        rows.filter(|line| line.starts_with("| `")).count(),
+        super::KINDS.len()
+    );
+}
+
+#[test]
+fn equal_lengths_and_distances() {
+    let f = plane(
+        "a = [0, 0]\nb = [3, 0.2]\nc = [4, 2.1]\nd = [1.2, 1.8]",
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"a\", \"d\", 2.2]]\n\
+         equal = [[\"b\", \"c\", \"a\", \"d\"]]\nangles = [[\"a\", \"b\", \"c\", 115]]\n\
+         equal_distances = [[\"c\", \"a\", \"b\", \"b\", \"c\", \"d\"]]",
+    );
+    near(f.distance("b", "c"), f.distance("a", "d"));
+    near(f.off_line("c", "a", "b"), f.off_line("b", "c", "d"));
+}
+
+#[test]
+fn tangents_of_circles_and_arcs() {
+    // From outside and from inside; a line beside both.
+    let f = plane(
+        "a = [0, 0]\nb = [3.1, 0.2]\nc = [0.3, 0.1]\np = [-1, 1.1]\nq = [3, 1]",
+        "[circles]\nk = { center = \"a\", radius = 1 }\nl = { center = \"b\", radius = 2 }\n\
+         m = { center = \"c\", radius = 0.6 }\n[constraints]\nradii = [[\"k\", 1.1], [\"l\", 2], [\"m\", 0.7]]\n\
+         tangent = [[\"k\", \"l\"], [\"k\", \"m\"], [\"p\", \"q\", \"k\"]]\n\
+         distances = [[\"c\", \"b\", 2.8], [\"p\", \"q\", 4], [\"p\", \"a\", 1.5], [\"q\", \"b\", 0.9]]",
+    );
+    near(f.distance("a", "b"), 3.1);
+    near(f.distance("a", "c"), 0.4);
+    near(f.off_line("a", "p", "q"), 1.1);
+    // At shared ends: a line into an arc into another arc.
+    let f = plane(
+        "a = [-2, 0]\nb = [0, 0.1]\nm = [0.1, 1]\nc = [1, 1.1]\nn = [1.8, 1]\nd = [1.7, 2]",
+        "[arcs]\nk = { center = \"m\", start = \"b\", end = \"c\" }\nl = { center = \"n\", start = \"c\", end = \"d\" }\n\
+         [constraints]\nradii = [[\"k\", 1], [\"l\", 0.9]]\ntangent = [[\"k\", \"a\", \"b\"], [\"k\", \"l\"]]\n\
+         distances = [[\"a\", \"b\", 2], [\"b\", \"c\", 1.4], [\"c\", \"d\", 1.2]]",
+    );
+    near(dot(f.arrow("a", "b"), f.arrow("b", "m")), 0.0);
+    near(cross(f.arrow("m", "c"), f.arrow("c", "n"))[2], 0.0);
+    near(f.distance("m", "n"), 1.9);
+}
+
+#[test]
+fn tangent_spheres_and_mirrors_in_space() {
+    let f = space(
+        "a = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [1.2, 0.9, 2]\ne = [1.4, 1, -1.7]",
+        "[planes]\nbase = [\"a\", \"b\", \"c\"]\n[spheres]\ns = { center = \"d\", radius = 1.7 }\nt = { center = \"a\", radius = 0.8 }\n\
+         [constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.7], [\"a\", \"c\", 2.2], [\"c\", \"d\", 2]]\n\
+         radii = [[\"s\", 1.7], [\"t\", 0.8]]\ntangent = [[\"s\", \"base\"], [\"s\", \"t\"]]\n\
+         symmetric = [[\"d\", \"e\", \"base\"]]",
+    );
+    near(f.off_plane("d", "a", "b", "c"), 1.7);
+    near(f.distance("a", "d"), 2.5);
+    near(f.distance("a", "e"), 2.5);
+    near(f.distance("c", "e"), f.distance("c", "d"));
+}
+
+#[test]
+fn mirrors_in_the_plane() {
+    let f = plane(
+        "a = [0.1, -2]\nb = [1.4, 0.6]\nc = [0, 1.6]\nd = [-1.5, 0.5]\nm = [0.1, 0.4]",
+        "[constraints]\nsymmetric = [[\"b\", \"d\", \"a\", \"c\"], [\"b\", \"d\", \"m\"]]\n\
+         distances = [[\"a\", \"b\", 3], [\"a\", \"c\", 3.5], [\"b\", \"c\", 1.8]]",
+    );
+    near(f.distance("a", "d"), 3.0);
+    near(f.distance("c", "d"), 1.8);
+    near(f.distance("b", "m"), f.distance("d", "m"));
+    near(f.off_line("m", "b", "d"), 0.0);
+}
+
+#[test]
+fn detours_leave_and_come_back() {
+    let text = "name = \"t\"\ndimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nc = [0, 2]\n[constraints]\n\
+                distances = [[\"a\", \"b\", 3.5], [\"a\", \"c\", 2]]\nperpendicular = [[\"a\", \"b\", \"a\", \"c\"]]\n";
+    let right = |text: &str| {
+        let problem = super::testing::read(text);
+        super::try_lower(&problem).unwrap().tail.equations[0]
+            .right
+            .len()
+    };
+    assert_eq!(right(text), 1);
+    let with = format!("{text}[homotopy]\nbend_coefficient = 0\ndetour = 0.5");
+    assert_eq!(right(&with), 3);
+    let f = examine(&with);
+    near(dot(f.arrow("a", "b"), f.arrow("a", "c")), 0.0);
+}
+
+#[test]
+fn mirror_images_are_solutions_unless_a_side_is_meant() {
+    let mirrors = |text: &str| {
+        let problem = super::testing::read(text);
+        super::try_lower(&problem).unwrap().tail.mirrors
+    };
+    let three = "dimension = 2\n[points]\na = [0.1, 0]\nb = [3.1, 0.2]\nc = [2, 2.2]\n[constraints]\n\
+                 distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.4]";
+    assert!(mirrors(&format!(
+        "{three}]\nangles = [[\"b\", \"a\", \"c\", 50]]"
+    )));
+    assert!(mirrors(&format!(
+        "{three}]\nperpendicular = [[\"b\", \"a\", \"c\", \"b\"]]"
+    )));
+    assert!(!mirrors(&format!("{three}, [\"c\", \"a\", \"b\", 2]]")));
+    assert!(!mirrors(&format!(
+        "{three}]\nhorizontal = [[\"a\", \"b\"]]\ndx = [[\"a\", \"c\", 2]]"
+    )));
 }

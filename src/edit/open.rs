@@ -60,7 +60,7 @@ fn is_met(problem: &Problem, index: usize) -> bool {
 
 /// The sketch as a box.
 pub(super) fn sketch(homotopy: &Homotopy) -> Figure {
-    let boxes = || homotopy.gauge.place.iter().map(|&p| homotopy.sketch_box[p]);
+    let boxes = || homotopy.sketch_of_unknowns();
     Figure {
         centre: boxes().map(|x| x.mid()).collect(),
         low: vec![0.0; homotopy.equations],
@@ -77,7 +77,8 @@ pub(super) fn correct(
 ) -> Result<(Figure, Moved), OpenError> {
     let homotopy = arcs.homotopy_mut();
     let start = sketch(homotopy);
-    let mut all_met = true;
+    // What other constraints say of the sketch is not looked at.
+    let mut all_met = homotopy.edges.len() == homotopy.equations;
     for (index, distance) in problem.distances.iter().enumerate() {
         if is_met(problem, index) {
             homotopy.hold(index, &distance.target);
@@ -115,6 +116,7 @@ pub(super) fn correct(
     for (index, distance) in problem.distances.iter().enumerate() {
         homotopy.hold(index, &distance.target);
     }
+    homotopy.keep_constraints(problem, &targets_of(problem));
     let distance = distance(homotopy, &start, &figure) * unit;
     Ok((
         figure,
@@ -123,6 +125,11 @@ pub(super) fn correct(
             tubes: run.steps,
         },
     ))
+}
+
+/// The lengths that a problem's distances are to have.
+pub(super) fn targets_of(problem: &Problem) -> Vec<Target> {
+    problem.distances.iter().map(|d| d.target.clone()).collect()
 }
 
 /// A bound on the distance of any point in one figure from the same in the other.

@@ -20,8 +20,15 @@ pub(super) struct Stand {
 type Vector = [Interval; 3];
 
 impl Stand {
-    /// For a problem with the placement of its gauge.
+    /// For a problem with the placement of its gauge. Where constraints say where the figure is, it stays there.
     pub fn new(problem: &Problem, gauge: Placement) -> Self {
+        if problem.homotopy.reference.is_empty() {
+            return Stand {
+                points: Vec::new(),
+                there: gauge,
+                gauge,
+            };
+        }
         let places: Vec<Vector> = problem
             .points
             .iter()

@@ -10,6 +10,7 @@ use crate::system::Homotopy;
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
 use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError};
+use std::borrow::Cow;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -50,10 +51,6 @@ impl Session {
     ) -> Result<Self, OpenError> {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
-        if !problem.is_distances_only() {
-            let what = "only distances between points can be edited as yet, and there are other constraints";
-            return Err(StartError::Unsupported(what.to_owned()).into());
-        }
         let homotopy = Homotopy::new(&problem)?;
         if homotopy.equations > LARGEST_SQUARE {
             let what = format!(
@@ -66,6 +63,8 @@ impl Session {
         let placement = homotopy.gauge.placement(&problem);
         let stand = Stand::new(&problem, placement.map_err(StartError::from)?);
         let space = match options.space {
+            // The reduced space is that of distances.
+            _ if !problem.is_distances_only() => Space::Full,
             Space::Full => Space::for_certified(problem.distances.len()),
             Space::Reduced => Space::Reduced,
         };
@@ -138,6 +137,7 @@ impl Session {
                 self.lengths[setting.index] = length(&setting.target);
                 self.problem.distances[setting.index].target = setting.target.clone();
             }
+            homotopy.keep_constraints(&self.problem, &open::targets_of(&self.problem));
         }
         edited
     }
@@ -155,12 +155,21 @@ impl Session {
             let from = &self.problem.distances[setting.index].target;
             homotopy.lead(setting.index, from, &setting.target);
         }
+        let from = open::targets_of(&self.problem);
+        let mut edited = Cow::Borrowed(&self.problem);
+        if !homotopy.tail.is_empty() {
+            for setting in settings {
+                edited.to_mut().distances[setting.index].target = setting.target.clone();
+            }
+            homotopy.keep_constraints(&edited, &from);
+        }
         let run = self.follow(control);
         let homotopy = self.arcs.homotopy_mut();
         for setting in settings {
             let now = &self.problem.distances[setting.index].target;
             homotopy.hold(setting.index, now);
         }
+        homotopy.keep_constraints(&self.problem, &from);
         let (edited, figure) = self.account(settings, run);
         let seconds = clock.elapsed().as_secs_f64();
         (Edited { seconds, ..edited }, figure)

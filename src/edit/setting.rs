@@ -85,6 +85,11 @@ impl Setting {
         Self::new(problem, index, length)
     }
 
+    /// The index of the distance of that name: `a-b`, or `b-a`.
+    pub fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
+        find(problem, name.trim())
+    }
+
     /// Checks that settings go together.
     pub fn check(problem: &Problem, settings: &[Setting]) -> Result<(), SettingError> {
         if settings.is_empty() {
@@ -102,8 +107,7 @@ impl Setting {
     }
 }
 
-/// The dimension of that name: `a-b`, or `b-a`.
-pub(super) fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
+fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
     let mut found = None;
     for (index, distance) in problem.distances.iter().enumerate() {
         let [a, b] = distance.points.map(|p| problem.points[p].name.as_str());

@@ -1,14 +1,14 @@
 //! Edits in words and tables, for people, and as JSON, for programs.
 
 use super::certain_digits;
-use crate::edit::{Edited, Ending, Limit, Moved};
+use crate::edit::{Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
 use crate::problem::Problem;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// The names of points, as people read them: `a, b and c`.
-fn named(problem: &Problem, points: &[usize]) -> String {
+pub(super) fn named(problem: &Problem, points: &[usize]) -> String {
     let names: Vec<&str> = points
         .iter()
         .map(|&p| problem.points[p].name.as_str())
@@ -106,7 +106,7 @@ pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
 }
 
 /// A length in few digits, for sentences.
-fn short(x: Interval) -> String {
+pub(super) fn short(x: Interval) -> String {
     let middle = format!("{:.12e}", x.mid())
         .parse::<f64>()
         .unwrap_or(x.mid());
@@ -307,6 +307,20 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         "length": edited.length,
         "seconds": edited.seconds,
         "switched_on": edited.switched_on,
+    })
+}
+
+/// The figure of a session and its dimensions, as a value in memory.
+pub fn figure_to_value(session: &Session) -> Value {
+    let problem = session.problem();
+    let dimensions = (0..problem.distances.len())
+        .map(|index| (problem.distance_name(index), bounds(session.length(index))));
+    json!({
+        "problem": problem.name,
+        "status": "figure",
+        "dimensions": dimensions.collect::<Map<_, _>>(),
+        "points": points_to_value(problem, &session.points()),
+        "moved": session.moved().distance,
     })
 }
 

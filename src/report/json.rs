@@ -65,6 +65,8 @@ struct Document<'a> {
     status: &'static str,
     reason: Option<&'a str>,
     verdict: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ends: Option<Vec<End<'a>>>,
     solutions: Vec<Entry<'a>>,
     folds: Vec<WrittenFold<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -163,6 +165,7 @@ impl<'a> Document<'a> {
         } = *run;
         let (status, reason) = match &outcome.status {
             Status::Closed => ("closed", None),
+            Status::Open(_) => ("open", None),
             Status::Stopped(reason) => ("stopped", Some(reason.as_str())),
         };
         let d = problem.dimension;
@@ -194,19 +197,20 @@ impl<'a> Document<'a> {
             status,
             reason,
             verdict: verdict(outcome),
+            ends: ends(&outcome.status),
             solutions: outcome
                 .solutions
                 .iter()
                 .map(|solution| Entry::new(problem, solution))
                 .collect(),
             folds: trace.map_or(Vec::new(), |trace| {
-                let folds = trace.folds().iter();
+                let folds = trace.folds().into_iter();
                 folds
                     .map(|fold| WrittenFold {
                         at: fold.at,
                         t: bounds(&fold.t),
                         rising: fold.rising,
-                        points: Points(problem, fold.points.clone()),
+                        points: Points(problem, fold.points),
                     })
                     .collect()
             }),
@@ -233,6 +237,26 @@ impl<'a> Document<'a> {
             switched_on: &outcome.switched_on,
         }
     }
+}
+
+/// An end of an open path.
+#[derive(Serialize)]
+struct End<'a> {
+    t: [f64; 2],
+    kind: &'static str,
+    reason: &'a str,
+}
+
+fn ends(status: &Status) -> Option<Vec<End<'_>>> {
+    let Status::Open(ends) = status else {
+        return None;
+    };
+    let all = ends.iter().map(|end| End {
+        t: [end.t.0, end.t.1],
+        kind: end.kind.name(),
+        reason: &end.reason,
+    });
+    Some(all.collect())
 }
 
 /// The sketch in the problem's own coordinates.

@@ -4,7 +4,7 @@ use crate::interval::Interval;
 
 /// A figure that is known up to a box, in which it is the only one that meets its equations.
 ///
-/// One entry per free coordinate of the gauge, in the homotopy's unit.
+/// One entry per unknown (the free coordinates of the gauge come first), in the homotopy's unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// The middle of the box.
@@ -22,7 +22,7 @@ pub struct Fold {
     pub figure: Figure,
     /// t there.
     pub t: Interval,
-    /// The velocity v of the figure at the fold, J v = 0 and c·v = 1, one entry per free coordinate: how
+    /// The velocity v of the figure at the fold, J v = 0 and c·v = 1, one entry per unknown: how
     /// the figure moves for an instant while all dimensions stand still.
     pub velocity: Vec<f64>,
     /// How far the exact v may be from that, entry by entry.

@@ -5,6 +5,7 @@ pub mod certified;
 mod choice;
 mod congruence;
 mod control;
+mod ends;
 mod events;
 pub mod float;
 pub mod full;
@@ -18,6 +19,7 @@ pub use certified::{Fold, Sample, Trace};
 pub use choice::{prove, solve_in_best_space, trace_path};
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};
+pub use ends::{EndKind, PathEnd};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
 pub use witness::{TubeSeen, Witness};
@@ -112,6 +114,13 @@ pub fn solve(
         }
         if let Some(wish) = wish {
             *reason += &format!(" ({wish} were asked for)");
+        }
+    }
+    if let Status::Open(ends) = &mut outcome.status {
+        for end in ends.iter_mut() {
+            for remark in ends::remarks(problem, &end.points) {
+                end.reason = format!("{remark}; {}", end.reason);
+            }
         }
     }
     Ok(outcome)

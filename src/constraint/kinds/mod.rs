@@ -5,13 +5,18 @@ mod coincident;
 mod collinear;
 mod coplanar;
 mod distance;
+mod equal;
 mod fixed;
 mod level;
+mod midpoint;
 mod on;
 mod parallel;
 mod perpendicular;
 mod position;
 mod radius;
+mod same_distance;
+mod symmetric;
+mod tangent;
 
 use super::kind::Kind;
 
@@ -32,20 +37,25 @@ pub const KINDS: &[&dyn Kind] = &[
     &level::HORIZONTAL,
     &level::VERTICAL,
     &on::On,
+    &midpoint::Midpoint,
     &collinear::Collinear,
     &coplanar::Coplanar,
     &parallel::Parallel,
     &perpendicular::Perpendicular,
+    &tangent::Tangent,
+    &equal::Equal,
+    &same_distance::EqualDistances,
+    &symmetric::Symmetric,
 ];
 
 /// What all of them use.
 mod prelude {
     pub use super::super::arguments::{Arguments, LineName, PlaneName, Sort};
-    pub use super::super::frame::{cross, cross_in_plane, dot, is_zero, length, minus};
+    pub use super::super::frame::{cross, cross_in_plane, dot, is_zero, length, minus, plus};
     pub use super::super::kind::{Fixes, Given, Kind, Measure};
     pub use super::super::lowering::{Arrow, Fault, Lowering, Measured, Parity, Place};
-    pub use super::super::objects::{Line, Plane};
-    pub use super::super::polynomial::{multiply, ramp};
+    pub use super::super::objects::{Line, Plane, Round};
+    pub use super::super::polynomial::multiply;
     pub use super::super::quadratic::{Form, product, value};
     pub use crate::interval::Real;
     pub use crate::problem::{Item, Problem};

@@ -37,7 +37,9 @@ impl Page {
         let reader = Reader::new(result)?;
         let mode = text(result, "mode")?;
         let closed = text(result, "status")? == "closed";
+        let open = text(result, "status")? == "open";
         let (badge, tone) = match (mode, closed) {
+            ("certified", false) if open => ("proved · between the ends of the path", Tone::Proved),
             ("certified", true) => ("proved · complete for this path", Tone::Proved),
             (_, true) => ("observed, not proved", Tone::Observed),
             (_, false) => ("stopped", Tone::Stopped),
@@ -51,7 +53,7 @@ impl Page {
             bars: reader.bars()?,
             figures: reader.figures()?,
             path: reader.path()?,
-            text: words(mode, closed, &reader),
+            text: words(mode, closed, open, &reader),
             digits: match mode {
                 "certified" => format!(
                     "In coordinates with {} Every coordinate differs from the exact one by at most 1 in \
@@ -374,7 +376,7 @@ fn shown(value: &str) -> String {
 }
 
 /// The answer explained.
-fn words(mode: &str, closed: bool, reader: &Reader) -> Vec<Text> {
+fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
     let paragraph = |text: &str| Text::Paragraph(text.to_owned());
     let mut out = vec![paragraph(
         "The sketch's dimensions are led to the wanted ones together: t = 0 is the sketch, and at t = 1 all \
@@ -401,6 +403,10 @@ fn words(mode: &str, closed: bool, reader: &Reader) -> Vec<Text> {
                  proved; they are pictures, the digits are the result.",
             ));
         }
+        ("certified", false) if open => out.push(paragraph(
+            "The path has two ends. What is proved is about the arc between them: it is regular, no step jumped, and \
+             the solutions listed are exactly those on it, each alone within the digits shown.",
+        )),
         ("certified", false) => out.push(paragraph(
             "The run stopped before it came back to the sketch. The solutions listed are proved, each alone \
              within the digits shown; there may be more on the rest of the path.",

@@ -44,6 +44,8 @@ pub struct Trace {
     folds: Vec<Fold>,
     /// What holds the path since the sign of dt/ds was certain last.
     open: Option<Open>,
+    /// The way from the sketch in the other direction, where the path has two ends.
+    back: Option<Box<Trace>>,
 }
 
 /// The part of a tube that is the path's.
@@ -101,6 +103,23 @@ impl Trace {
         };
     }
 
+    /// The way ahead came to an end: what follows goes the other way from the sketch.
+    pub(super) fn turn_back(&mut self) {
+        self.back = Some(Box::new(Trace {
+            gauge: self.gauge.clone(),
+            unit: self.unit,
+            width: self.width,
+            ..Trace::default()
+        }));
+    }
+
+    /// The other way came back to the sketch: it is the whole path.
+    pub(super) fn keep_other_way(&mut self) {
+        if let Some(back) = self.back.take() {
+            *self = *back;
+        }
+    }
+
     /// A tube joined the chain: the path goes through it between the parameters of `stretch`, whose third
     /// number is the length of the path before it.
     pub(super) fn add<const D: usize, const N: usize, Y: Frame<D>>(
@@ -108,6 +127,9 @@ impl Trace {
         tube: &Tube<D, N, Y>,
         stretch: (f64, f64, f64),
     ) {
+        if let Some(back) = &mut self.back {
+            return back.add(tube, stretch);
+        }
         let n = self.width;
         self.order = N;
         for z in &tube.local.z {
@@ -202,8 +224,14 @@ impl Trace {
     }
 
     /// The places where the path turns back in t, in its order.
-    pub fn folds(&self) -> &[Fold] {
-        &self.folds
+    pub fn folds(&self) -> Vec<Fold> {
+        let behind = self.back.iter().flat_map(|back| back.folds.iter().rev());
+        let behind = behind.map(|fold| Fold {
+            at: -fold.at,
+            rising: !fold.rising,
+            ..fold.clone()
+        });
+        behind.chain(self.folds.iter().cloned()).collect()
     }
 
     /// The number of tubes.
@@ -216,7 +244,13 @@ impl Trace {
         self.pieces.iter().map(|piece| piece.end).collect()
     }
 
-    /// The length of the path.
+    /// Where the path begins, as a length of the path from the sketch: zero, or less where it has an end
+    /// behind the sketch.
+    pub fn start(&self) -> f64 {
+        self.back.as_ref().map_or(0.0, |back| -back.length())
+    }
+
+    /// The length of the path from the sketch on.
     pub fn length(&self) -> f64 {
         self.pieces.last().map_or(0.0, |piece| piece.end)
     }
@@ -252,6 +286,12 @@ impl Trace {
 
     /// The free coordinates and t where the path is so long, and its direction there, a unit vector.
     pub fn at(&self, at: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+        if at < 0.0
+            && let Some(back) = &self.back
+        {
+            let (z, direction) = back.at(-at)?;
+            return Some((z, direction.into_iter().map(|x| -x).collect()));
+        }
         let k = self.pieces.partition_point(|piece| piece.at <= at);
         let k = k
             .checked_sub(1)
@@ -285,12 +325,14 @@ impl Trace {
         })
     }
 
-    /// So many figures along the path, from the sketch to where it ends, at equal lengths.
+    /// So many figures along the path, from the sketch (or the end behind it) to where it ends, at equal
+    /// lengths.
     pub fn samples(&self, count: usize) -> Vec<Sample> {
-        let length = self.length();
+        let start = self.start();
+        let length = self.length() - start;
         let steps = count.saturating_sub(1).max(1) as f64;
         (0..count)
-            .filter_map(|k| self.sample(length * (k as f64 / steps)))
+            .filter_map(|k| self.sample(start + length * (k as f64 / steps)))
             .collect()
     }
 }

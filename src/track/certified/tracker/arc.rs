@@ -134,7 +134,9 @@ impl<const D: usize> Arc<D> {
         if !is_here {
             return Err(doubt());
         }
-        ledger.pass(tube, (from, hi));
+        ledger
+            .pass(tube, (from, hi))
+            .map_err(Rejection::Undecided)?;
         self.end = Some(ArcEnd::Limit(Box::new(found)));
         self.orientations.follow(tube, (from, hi));
         Ok(true)

@@ -1,0 +1,83 @@
+//! `krawl limits`: how far each dimension can go alone.
+
+use super::edit::{beside, open};
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use krawl::edit::{End, Setting};
+use krawl::problem::Problem;
+use krawl::report::{ranges_to_json, ranges_to_table};
+use krawl::track::Control;
+use std::path::PathBuf;
+
+/// For every dimension, the values over which it can move alone, all others standing still, with proof
+///
+/// The figure is the sketch in FILE, which should meet its dimensions, at least nearly.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl limits problems/mechanisms/four-bar.toml
+
+Exit codes: 0 all ranges are known to their ends, 1 some are not, 2 bad input, or results that could not
+be written.")]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+    /// Only this dimension, such as a-b; may be given more than once
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Print nothing
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let shown = arguments.file.display();
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let only = arguments
+        .only
+        .iter()
+        .map(|name| Setting::find(&problem, name));
+    let only = only
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| format!("{shown}: {error}"))?;
+    let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        ..Control::default()
+    };
+    let mut session = match open(&problem, &arguments.file, true, &mut control)? {
+        Ok(session) => session,
+        Err(code) => return Ok(code),
+    };
+    let ranges: Vec<_> = match only.is_empty() {
+        true => session.ranges(&mut control),
+        false => only
+            .iter()
+            .map(|&index| session.range(index, &mut control))
+            .collect(),
+    };
+    let mut written = true;
+    if let Some(json) = &json {
+        written &= json.write(&(ranges_to_json(&problem, &ranges, session.moved()) + "\n"));
+    }
+    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+        written &= output::print(&ranges_to_table(&problem, &ranges, session.moved()));
+    }
+    let is_known = |end: &End| !matches!(end, End::Unknown(..));
+    let all = ranges
+        .iter()
+        .all(|range| is_known(&range.low) && is_known(&range.high));
+    Ok(match (written, all) {
+        (false, _) => BAD_INPUT,
+        (true, true) => CLOSED,
+        (true, false) => STOPPED,
+    })
+}

@@ -1,0 +1,107 @@
+//! `krawl edit --serve`: edits as lines of JSON, one answer for each.
+
+use krawl::edit::{Ending, Session, Setting};
+use krawl::report::{edit_to_value, figure_to_value};
+use krawl::track::Control;
+use serde::Deserialize;
+use serde_json::value::RawValue;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, Write};
+
+/// Longest line that is read.
+const LONGEST: u64 = 1 << 20;
+
+/// A line.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Request<'a> {
+    /// New values by name: numbers, or texts with numbers in them.
+    #[serde(borrow, default)]
+    set: BTreeMap<String, &'a RawValue>,
+    /// Whether the figure stays what it is.
+    #[serde(default)]
+    probe: bool,
+    /// Whatever it is, it comes back with the answer.
+    #[serde(default)]
+    id: Option<Value>,
+}
+
+/// Answers lines until there are no more, or nobody reads the answers. The result: whether all is well.
+pub fn serve(session: &mut Session) -> bool {
+    let mut input = io::stdin().lock();
+    let mut output = io::stdout().lock();
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let read = io::Read::take(&mut input, LONGEST).read_until(b'\n', &mut line);
+        match read {
+            Err(error) => {
+                super::output::complain(&format!("standard input cannot be read: {error}"));
+                return false;
+            }
+            Ok(0) => return true,
+            Ok(_) => {}
+        }
+        if line.len() as u64 == LONGEST && line.last() != Some(&b'\n') {
+            super::output::complain("a line is longer than 1 MiB: this is no list of edits");
+            return false;
+        }
+        if line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        let answer = answer(session, &line);
+        if writeln!(output, "{answer}")
+            .and_then(|()| output.flush())
+            .is_err()
+        {
+            return true;
+        }
+    }
+}
+
+fn answer(session: &mut Session, line: &[u8]) -> Value {
+    let request: Request = match serde_json::from_slice(line) {
+        Ok(request) => request,
+        Err(error) => {
+            let example = r#"write a line such as {"set": {"a-b": 5.2}}"#;
+            return json!({"status": "error", "reason": format!("{error}; {example}")});
+        }
+    };
+    let mut answer = match settings(session, &request) {
+        Err(reason) => json!({"status": "error", "reason": reason}),
+        Ok(settings) if settings.is_empty() => figure_to_value(session),
+        Ok(settings) => {
+            let mut control = Control::default();
+            let edited = match request.probe {
+                true => session.probe(&settings, &mut control),
+                false => session.edit_with(&settings, &mut control),
+            };
+            let mut value = edit_to_value(session.problem(), &edited, session.moved());
+            value["committed"] = json!(!request.probe && edited.ending == Ending::Reached);
+            value
+        }
+    };
+    if let Some(id) = request.id {
+        answer["id"] = id;
+    }
+    answer
+}
+
+fn settings(session: &Session, request: &Request) -> Result<Vec<Setting>, String> {
+    let problem = session.problem();
+    let settings = request.set.iter().map(|(name, value)| {
+        // The text of the number, never a float: 5.2 is 52/10.
+        let text = value.get();
+        let text = match serde_json::from_str::<String>(text) {
+            Ok(text) => text,
+            Err(_) => text.to_owned(),
+        };
+        Setting::named(problem, name, &text).map_err(|error| error.to_string())
+    });
+    let settings = settings.collect::<Result<Vec<_>, _>>()?;
+    if !settings.is_empty() {
+        Setting::check(problem, &settings).map_err(|error| error.to_string())?;
+    }
+    Ok(settings)
+}

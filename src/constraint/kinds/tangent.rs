@@ -1,0 +1,174 @@
+//! `tangent`: a line and a circle or arc, two circles or arcs, a plane and a sphere, two spheres.
+//!
+//! A line that meets an arc at an end which both share is perpendicular to the radius there; two arcs that share
+//! an end have their centres in line with it. Otherwise the centre's signed distance from the line or plane is
+//! `± r`, and two centres are `r₁ + r₂` apart (from outside) or `|r₁ − r₂|` (from inside); which of these is
+//! read off the sketch. An arc is then as good as its whole circle.
+
+use super::prelude::*;
+use crate::problem::Shape;
+
+/// See the module.
+pub struct Tangent;
+
+impl Kind for Tangent {
+    fn key(&self) -> &'static str {
+        "tangent"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "a line and a circle or arc, two circles or arcs, a plane and a sphere, or two spheres touch; at an end \
+         that both share, if there is one, and otherwise from the side where the sketch has them"
+    }
+
+    fn takes(&self) -> &'static str {
+        "a circle, arc or sphere, and another one, a line (in the plane) or a plane"
+    }
+
+    fn example(&self) -> &'static str {
+        r#"["c1", "l1"]"#
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        let (first, other) = if of.items.next() == Sort::Round {
+            (Some(of.items.round()?), flat_or_round(&mut of.items, low)?)
+        } else {
+            let flat = flat_or_round(&mut of.items, low)?;
+            (None, flat)
+        };
+        let (object, other) = match first {
+            Some(object) => (object, other),
+            None => (of.items.round()?, other),
+        };
+        of.items.end()?;
+        let round = low.round(object);
+        match other {
+            Other::Line(name) => {
+                let line = low.line(name)?;
+                if let LineName::Points(points) = name
+                    && let Some((_, end)) = shared_end(low, &points, &ends(low, object))
+                {
+                    let radius = low.between(&round.center, &low.place(end));
+                    orthogonal(of.name, low, &line.along, &radius);
+                    return Ok(());
+                }
+                let across = low.between(&line.base, &round.center);
+                let products = low.cross_in_plane(1, &line.along.forms, &across.forms);
+                let now = cross_in_plane(&line.along.at, &across.at);
+                touch(of.name, low, products, now, &line.along, &round)
+            }
+            Other::Plane(name) => {
+                let plane = low.proper_plane(name)?;
+                let products = plane.height(low, 1, &round.center);
+                let now = plane.height_in_sketch(low, &round.center);
+                touch(of.name, low, products, now, &plane.normal, &round)
+            }
+            Other::Round(second) => {
+                if second == object {
+                    return Err("name two different ones".to_owned());
+                }
+                let mine = ends(low, object);
+                let theirs = ends(low, second);
+                let another = low.round(second);
+                if let Some((a, b)) = shared_end(low, &mine, &theirs) {
+                    let u = low.between(&round.center, &low.place(a));
+                    let v = low.between(&another.center, &low.place(b));
+                    let products = low.cross_in_plane(1, &u.forms, &v.forms);
+                    let start = Real::from(cross_in_plane(&u.at, &v.at));
+                    low.vanish(of.name, products, start, 2);
+                    return Ok(());
+                }
+                both_round(of.name, low, &round, &another)
+            }
+        }
+    }
+}
+
+enum Other {
+    Line(LineName),
+    Plane(PlaneName),
+    Round(usize),
+}
+
+fn flat_or_round(items: &mut Arguments, low: &Lowering) -> Result<Other, Fault> {
+    Ok(match (items.next(), low.dimension()) {
+        (Sort::Round, _) => Other::Round(items.round()?),
+        (_, 2) => Other::Line(items.line()?),
+        (Sort::Line, _) => {
+            return Err(
+                "a line and a sphere touch where the distance of the centre from the line is the radius: \
+                 say that with `distances`"
+                    .to_owned(),
+            );
+        }
+        _ => Other::Plane(items.plane()?),
+    })
+}
+
+/// The ends of an arc; none of a circle.
+fn ends(low: &Lowering, object: usize) -> Vec<usize> {
+    match low.problem.objects[object].shape {
+        Shape::Arc { start, end, .. } => vec![start, end],
+        _ => Vec::new(),
+    }
+}
+
+/// A point of either list, if they are one and the same or a `coincident` puts them in one place.
+fn shared_end(low: &Lowering, one: &[usize], other: &[usize]) -> Option<(usize, usize)> {
+    let together = |a: usize, b: usize| {
+        a == b
+            || low.problem.constraints.iter().any(|c| {
+                c.kind == "coincident"
+                    && c.items.contains(&Item::Point(a))
+                    && c.items.contains(&Item::Point(b))
+            })
+    };
+    let mut pairs = one.iter().flat_map(|&a| other.iter().map(move |&b| (a, b)));
+    pairs.find(|&(a, b)| together(a, b))
+}
+
+/// Leads `products` ∓ r |along| to zero, where products are |along| times a signed distance.
+fn touch(
+    name: &str,
+    low: &mut Lowering,
+    mut products: Vec<crate::constraint::Product>,
+    now: BigRational,
+    along: &Arrow,
+    round: &Round,
+) -> Result<(), Fault> {
+    let apart = with_sign(&now, Real::whole(1));
+    let side = match &apart {
+        Some(one) if one.as_rational().is_some_and(Signed::is_negative) => -1,
+        Some(_) => 1,
+        None => {
+            return Err(
+                "the centre is on it in the sketch: move one of them to the side where it is wanted"
+                    .to_owned(),
+            );
+        }
+    };
+    let scale = low.length(along);
+    products.push(product(-side, value(round.radius), value(scale)));
+    let both = &Real::from(round.squared.clone()).sqrt() * &length(&along.at);
+    let start = &Real::from(now) - &(&Real::whole(side.into()) * &both);
+    low.vanish(name, products, start, along.power + 1);
+    Ok(())
+}
+
+/// Leads |c₁ − c₂|² − (r₁ ± r₂)² to zero.
+fn both_round(name: &str, low: &mut Lowering, one: &Round, other: &Round) -> Result<(), Fault> {
+    let apart = low.between(&one.center, &other.center);
+    if is_zero(&apart.at) {
+        return Err("their centres coincide in the sketch: move one of them".to_owned());
+    }
+    let off = dot(&apart.at, &apart.at) - &one.squared - &other.squared;
+    let side = if off.is_negative() { -1 } else { 1 };
+    let (r, s) = (value(one.radius), value(other.radius));
+    let mut products = low.dot(1, &apart.forms, &apart.forms);
+    products.push(product(-1, r, r));
+    products.push(product(-1, s, s));
+    products.push(product(-2 * side, r, s));
+    let twice = &Real::whole((2 * side).into()) * &Real::from(&one.squared * &other.squared).sqrt();
+    low.vanish(name, products, &Real::from(off) - &twice, 2);
+    Ok(())
+}

@@ -1,0 +1,192 @@
+//! Ranges and sweeps, for people and for programs.
+
+use super::certain_digits;
+use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
+use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
+use crate::problem::Problem;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// The ranges of dimensions as a table.
+pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> String {
+    let mut out = format!(
+        "{}: how far each dimension can go alone, all others standing still\n",
+        problem.name
+    );
+    // Writing to a string cannot fail.
+    let _ = write_ranges(&mut out, problem, ranges, moved);
+    out
+}
+
+fn write_ranges(
+    out: &mut String,
+    problem: &Problem,
+    ranges: &[Range],
+    moved: Moved,
+) -> std::fmt::Result {
+    if moved.tubes > 0 {
+        writeln!(
+            out,
+            "The sketch was led to its own dimensions first, proved likewise: no point moved by more than {:.1e}.",
+            moved.distance
+        )?;
+    }
+    writeln!(out)?;
+    let cells = |range: &Range| {
+        [
+            problem.distance_name(range.index),
+            short(range.value),
+            value_of(&range.low, "≤"),
+            value_of(&range.high, "≥"),
+        ]
+    };
+    let rows: Vec<[String; 4]> = ranges.iter().map(cells).collect();
+    let headings = ["dimension", "is", "shrinks to", "grows to"];
+    let width = |k: usize| {
+        let cells = rows.iter().map(|row| row[k].chars().count());
+        cells.chain([headings[k].len()]).max().unwrap_or(0)
+    };
+    let widths: [usize; 4] = std::array::from_fn(width);
+    let line = |cells: [&str; 4]| {
+        let padded: Vec<String> = cells
+            .iter()
+            .zip(widths)
+            .map(|(cell, width)| format!("{cell:<width$}"))
+            .collect();
+        padded.join("  ").trim_end().to_owned()
+    };
+    writeln!(out, "  {}", line(headings))?;
+    for row in &rows {
+        writeln!(out, "  {}", line(row.each_ref().map(String::as_str)))?;
+    }
+    writeln!(
+        out,
+        "\nEvery value is a limit, proved, and differs from the exact one by at most 1 in its last digit shown; but \
+         \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond."
+    )?;
+    for range in ranges {
+        for (end, verb) in [(&range.low, "shrinks to"), (&range.high, "grows to")] {
+            let name = problem.distance_name(range.index);
+            match end {
+                End::Limit(value, limit) => writeln!(
+                    out,
+                    "{name} {verb} {}: {}",
+                    certain_digits(*value),
+                    limit_in_words(problem, limit)
+                )?,
+                End::Beyond(_) => {}
+                End::Unknown(value, reason) => {
+                    writeln!(out, "{name} {verb} {} at least: {reason}", short(*value))?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn value_of(end: &End, beyond: &str) -> String {
+    match end {
+        End::Limit(value, _) => certain_digits(*value),
+        End::Beyond(value) => format!("{beyond} {}", short(*value)),
+        End::Unknown(value, _) => format!("? {}", short(*value)),
+    }
+}
+
+/// The ranges as one line of JSON (docs/edit.md).
+pub fn ranges_to_json(problem: &Problem, ranges: &[Range], moved: Moved) -> String {
+    let end = |end: &End| match end {
+        End::Limit(value, limit) => {
+            let flat: Vec<Vec<&str>> = limit.flat.iter().map(|f| names(problem, f)).collect();
+            json!({"status": "limit", "value": bounds(*value), "flat": flat,
+                   "words": limit_in_words(problem, limit)})
+        }
+        End::Beyond(value) => json!({"status": "reached", "value": bounds(*value)}),
+        End::Unknown(value, reason) => {
+            json!({"status": "stopped", "value": bounds(*value), "reason": reason})
+        }
+    };
+    let ranges = ranges.iter().map(|range| {
+        let value =
+            json!({"value": bounds(range.value), "low": end(&range.low), "high": end(&range.high)});
+        (problem.distance_name(range.index), value)
+    });
+    let ranges: Map<String, Value> = ranges.collect();
+    json!({"problem": problem.name, "moved": moved.distance, "ranges": ranges}).to_string()
+}
+
+fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
+    let names = points.iter().map(|&p| problem.points[p].name.as_str());
+    names.collect()
+}
+
+/// The edit that a sweep did not get over, if there is one.
+fn obstacle(sweep: &Sweep) -> Option<&Edited> {
+    match &sweep.approach.ending {
+        Ending::Reached => sweep.end.as_ref(),
+        _ => Some(&sweep.approach),
+    }
+}
+
+/// What came of a sweep in words.
+pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String {
+    let name = problem.distance_name(index);
+    let frames = match (sweep.frames.first(), sweep.frames.last()) {
+        (Some(first), Some(last)) => format!(
+            "{} of {name} from {} to {}, each proved to be the one and only continuation of the one before",
+            crate::problem::counted(sweep.frames.len(), "frame"),
+            short(first.value),
+            short(last.value)
+        ),
+        _ => format!("no frame of {name}"),
+    };
+    let end = obstacle(sweep).map_or(String::new(), |edited| {
+        format!(" {}", edit_in_words(problem, edited))
+    });
+    format!("{}: {frames}.{end}", problem.name)
+}
+
+/// A sweep as one line of JSON (docs/edit.md).
+pub fn sweep_to_json(problem: &Problem, index: usize, sweep: &Sweep) -> String {
+    let frames = sweep.frames.iter().map(|frame| {
+        json!({"value": bounds(frame.value), "points": points_to_value(problem, &frame.points)})
+    });
+    let end = obstacle(sweep);
+    json!({
+        "problem": problem.name,
+        "dimension": problem.distance_name(index),
+        "status": end.map_or("reached", |edited| edited.ending.name()),
+        "words": sweep_in_words(problem, index, sweep),
+        "frames": frames.collect::<Vec<_>>(),
+        "end": end.map(|edited| edit_to_value(problem, edited, Moved::default())),
+    })
+    .to_string()
+}
+
+/// A sweep as CSV: the dimension's value, then the coordinates of all points, as floats.
+pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep) -> String {
+    let axes = &["x", "y", "z"][..problem.dimension];
+    let mut out = quoted(&problem.distance_name(index));
+    for point in &problem.points {
+        for axis in axes {
+            let _ = write!(out, ",{}", quoted(&format!("{}.{axis}", point.name)));
+        }
+    }
+    out.push('\n');
+    for frame in &sweep.frames {
+        let _ = write!(out, "{}", frame.value.mid());
+        for x in frame.points.iter().flat_map(|p| &p[..problem.dimension]) {
+            let _ = write!(out, ",{}", x.mid() + 0.0);
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// A name as a field of CSV (RFC 4180).
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', ' ']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
+}
