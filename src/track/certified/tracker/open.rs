@@ -69,6 +69,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &options);
         // A certificate holds one way only.
         let witness = control.witness.take();
+        if let Some(trace) = &mut control.trace {
+            trace.turn_back();
+        }
         let result = back.run(&options, control);
         control.witness = witness;
         let other = match result {
@@ -79,6 +82,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
                 return Status::Stopped(format!("{what}{}", end.reason));
             }
             Ok(()) => {
+                if let Some(trace) = &mut control.trace {
+                    trace.keep_other_way();
+                }
                 std::mem::swap(&mut self.ledger, &mut back.ledger);
                 std::mem::swap(&mut self.steps, &mut back.steps);
                 return Status::Closed;
