@@ -44,6 +44,19 @@ fn pentahedron() {
     }
 }
 
+/// Three points and three lines, a constraint between any two.
+#[test]
+fn points_and_lines() {
+    for name in ["3p3l", "3p3l-orthogonal"] {
+        let problem = shipped(name);
+        for options in [Options::certified(), Options::float(Space::Full)] {
+            let outcome = run(&problem, &options);
+            assert_eq!(outcome.status, Status::Closed, "{name}");
+            assert_eq!(outcome.solutions.len(), 4, "{name}");
+        }
+    }
+}
+
 /// A problem with constraints is refused by what has distances only, never solved without them.
 #[test]
 fn what_has_distances_only_refuses() {
