@@ -100,7 +100,8 @@ fn the_unit_of_length_does_not_change_the_answer() {
     let mut random = Random(1);
     let mut found = 0;
     for _ in 0..20 {
-        let draft = draft(&mut random, 2 + random.below(2), 5 + random.below(3), 0.3);
+        let (dimension, points) = (2 + random.below(2), 5 + random.below(3));
+        let draft = draft(&mut random, dimension, points, 0.3);
         let mut answers = [0, -3, 3, 1].map(|power| {
             let problem = draft.problem(power, None).unwrap();
             let outcome = solve(&problem, &Options::certified(), &mut Control::default()).unwrap();
@@ -128,7 +129,7 @@ fn table() {
             "\n| c, sketches {noise} away | find a solution | solutions | closed | tubes, mean | ms, mean |"
         );
         println!("| --- | --- | --- | --- | --- | --- |");
-        let mut run = |name: String, problem: &dyn Fn(&Draft) -> Option<Problem>| {
+        let run = |name: String, problem: &dyn Fn(&Draft) -> Option<Problem>| {
             let mut random = Random(77);
             let (mut some, mut all, mut closed, mut tubes, mut seconds) = (0, 0, 0, 0, 0.0);
             for _ in 0..cases {
