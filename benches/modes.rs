@@ -74,6 +74,7 @@ fn main() {
         for (row, m) in rows.iter().zip(&measured) {
             let o = &m.outcome;
             let outcome = match &o.status {
+                Status::Open(_) => "open",
                 Status::Closed => "closed",
                 Status::Stopped(reason) => reason,
             };

@@ -285,6 +285,7 @@ fn report(mode: &Mode, m: usize, measured: &Measured) {
             o.seconds,
             o.solutions.len()
         ),
+        Status::Open(_) => "open".to_owned(),
         Status::Stopped(reason) if reason.contains("limit") => "so far".to_owned(),
         Status::Stopped(reason) => reason.clone(),
     };

@@ -303,6 +303,7 @@ fn outcome(bytes: &[u8]) -> Option<Outcome> {
 fn damage(name: &str, times: usize, kinds: &[(&'static str, Damage)], harmless: bool) {
     let good = Certificate::read(&shipped(name));
     let mut counts = BTreeMap::new();
+    let mut refuted = 0;
     let mut dice = Dice(TestRng::deterministic_rng(RngAlgorithm::ChaCha));
     for &(kind, change) in kinds {
         for round in 0..times {
@@ -316,6 +317,7 @@ fn damage(name: &str, times: usize, kinds: &[(&'static str, Damage)], harmless: 
             }
             let outcome = outcome(&changed.bytes());
             let accepted = outcome == Some(Outcome::Verified);
+            refuted += usize::from(matches!(outcome, Some(Outcome::Refuted(_)) | None));
             assert_eq!(
                 accepted, harmless,
                 "{name}, {kind}, round {round}: {outcome:?}"
@@ -325,7 +327,9 @@ fn damage(name: &str, times: usize, kinds: &[(&'static str, Damage)], harmless: 
     }
     let total: usize = counts.values().sum();
     let verb = if harmless { "accepted" } else { "refused" };
-    println!("{name}: {total} changes {verb}: {counts:?}");
+    println!("{name}: {total} changes {verb}, {refuted} of them proved false: {counts:?}");
+    // Of a few kinds it cannot be told: tubes that are too long or too wide for the test may be true.
+    assert!(harmless || 3 * refuted > 2 * total, "{refuted} of {total}");
     assert!(total + kinds.len() >= times * kinds.len() * 9 / 10);
 }
 

@@ -31,6 +31,19 @@ fn shipped_certificates_prove_what_they_claim() {
     assert_eq!(common::SHORT.len(), SHIPPED.len());
 }
 
+/// Byte for byte, in debug and release builds alike: `certs/regenerate.sh` makes them again.
+#[test]
+fn shipped_certificates_are_what_the_program_writes() {
+    let stale: Vec<&str> = SHIPPED
+        .into_iter()
+        .filter(|name| written(&common::shipped(name), &Options::certified()) != shipped(name))
+        .collect();
+    assert!(
+        stale.is_empty(),
+        "{stale:?}: run certs/regenerate.sh, look at what changed, and commit it"
+    );
+}
+
 #[test]
 fn a_tube_takes_less_than_a_kilobyte() {
     // n entries of 8, 4 and 2 bytes, and 21 bytes more.

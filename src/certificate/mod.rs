@@ -25,6 +25,7 @@
 //! ```
 
 mod checker;
+pub mod cover;
 mod format;
 mod reader;
 mod verdict;
@@ -33,5 +34,5 @@ mod writer;
 pub use checker::{Settings, Stage, verify};
 pub use format::{EndClaim, FormatError, Header, Record, SolutionClaim, TubeClaim, VERSION};
 pub use reader::Reader;
-pub use verdict::{Flaw, Outcome, Verdict};
+pub use verdict::{Fault, Flaw, Outcome, Verdict};
 pub use writer::{Writer, write_header, write_record};

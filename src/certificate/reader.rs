@@ -5,6 +5,7 @@ use super::format::{
     MAX_SOLUTIONS, MAX_TEXT, MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_END,
     TAG_MOVING_KRAWCZYK, TAG_SOLUTION, TubeClaim, VERSION,
 };
+use crate::constraint;
 use crate::problem::Problem;
 use sha2::{Digest, Sha256};
 use std::io::{ErrorKind, Read};
@@ -19,6 +20,8 @@ use std::io::{ErrorKind, Read};
 pub struct Reader<R> {
     input: R,
     header: Header,
+    /// The number m of unknowns without t.
+    unknowns: usize,
     tubes: u64,
     solutions: usize,
     ended: bool,
@@ -50,9 +53,13 @@ impl<R: Read> Reader<R> {
         let problem = Problem::parse(&source, "the problem in the certificate")
             .map_err(|error| FormatError::Malformed(error.to_string()))?;
         let free = problem.free_coordinates();
-        if free > MAX_FREE_COORDINATES {
+        let unknowns = match problem.constraints.is_empty() && problem.objects.is_empty() {
+            true => free,
+            false => constraint::size(&problem).0,
+        };
+        if free.max(unknowns) > MAX_FREE_COORDINATES {
             return Err(FormatError::Malformed(format!(
-                "the problem has {free} free coordinates, more than the {MAX_FREE_COORDINATES} that are read"
+                "the problem has {unknowns} free coordinates, more than the {MAX_FREE_COORDINATES} that are read"
             )));
         }
         let unit_exponent = i16::from_le_bytes(array(&mut input, "the unit")?);
@@ -67,6 +74,7 @@ impl<R: Read> Reader<R> {
                 hash,
                 unit_exponent,
             },
+            unknowns,
             tubes: 0,
             solutions: 0,
             ended: false,
@@ -95,7 +103,7 @@ impl<R: Read> Reader<R> {
 
     fn tube(&mut self) -> Result<TubeClaim> {
         const WHAT: &str = "a tube";
-        let n = self.header.problem.free_coordinates() + 1;
+        let n = self.unknowns + 1;
         let input = &mut self.input;
         let tube = TubeClaim {
             centre: floats(input, n, WHAT)?,
@@ -130,7 +138,7 @@ impl<R: Read> Reader<R> {
 
     fn solution(&mut self) -> Result<SolutionClaim> {
         const WHAT: &str = "a solution";
-        let m = self.header.problem.free_coordinates();
+        let m = self.unknowns;
         let solution = SolutionClaim {
             centre: floats(&mut self.input, m, WHAT)?,
             radius: f32::from_le_bytes(array(&mut self.input, WHAT)?),

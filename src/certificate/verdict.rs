@@ -2,6 +2,7 @@
 
 use crate::interval::Interval;
 use crate::problem::Problem;
+use std::fmt;
 
 /// What a certificate proves.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,62 +32,110 @@ pub enum Outcome {
     Verified,
     /// They do as far as they go: the chain ends before S is closed, for this reason.
     Partial(String),
-    /// One could not be proved.
+    /// This claim could not be proved by the checker's test. It may be true.
+    NotProved(Flaw),
+    /// This claim is false.
     Refuted(Flaw),
 }
 
-/// The first claim that could not be proved. Tubes and solutions are counted from 1.
+/// A claim that is false, or could not be proved, in words. Tubes and solutions are counted from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Flaw {
     /// The reference is degenerate in the sketch.
-    #[error("{0}")]
+    #[error("the sketch can be seen from its reference: {0}")]
     Sketch(String),
     /// A tube is no tube.
-    #[error("tube {0} is not proved: {1}")]
-    Tube(u64, &'static str),
+    #[error("tube {0} holds the path: {1}")]
+    Tube(u64, Fault),
     /// The chain does not begin at the sketch.
-    #[error("the sketch does not lie in tube 1 before its exit for certain")]
+    #[error("the sketch lies in tube 1, before its exit")]
     Start,
     /// A link is missing.
-    #[error("tube {0} is not linked to tube {prev}: the exit of tube {prev} does not lie in it for certain", prev = .0 - 1)]
+    #[error("the point where the path leaves tube {prev} lies in tube {0}", prev = .0 - 1)]
     Link(u64),
     /// The path turns round between two tubes.
-    #[error("tube {0} does not follow the path in the direction of tube {prev} for certain", prev = .0 - 1)]
+    #[error("tube {0} follows the path in the direction of tube {prev}", prev = .0 - 1)]
     Direction(u64),
     /// There is nothing to travel.
-    #[error("in tube {0} the path's exit does not lie behind its entry for certain")]
+    #[error("in tube {0} the path's exit lies behind its entry")]
     Backwards(u64),
     /// A crossing without a solution.
     #[error(
-        "tube {0} may meet t = 1 between {1} and {2} of its half length, and none of the solutions listed so far is certain to be all that lies there"
+        "where tube {0} meets t = 1, between {1} and {2} of its half length, it does so in solutions listed so far"
     )]
     Unlisted(u64, f64, f64),
     /// A box is no box.
-    #[error("solution {0} is not proved: {1}")]
-    Solution(usize, &'static str),
+    #[error("the box of solution {0} holds exactly one solution: {1}")]
+    Solution(usize, Fault),
     /// Two boxes overlap.
-    #[error("the boxes of solutions {0} and {1} are not disjoint")]
+    #[error("the boxes of solutions {0} and {1} are disjoint")]
     Overlap(usize, usize),
     /// A solution that the path does not meet.
-    #[error("solution {0} was not met by the path")]
+    #[error("the path meets solution {0}")]
     Unmet(usize),
     /// Nothing is proved about two figures.
-    #[error("it could not be decided whether solutions {0} and {1} are congruent")]
+    #[error("solutions {0} and {1} are congruent, or are not, as listed")]
     Congruence(usize, usize),
     /// A wrong class.
-    #[error("solution {0} is listed in class {1}, which is not proved")]
+    #[error("solution {0} belongs to class {1}")]
     Class(usize, u32),
     /// The loop is open.
     #[error(
-        "the loop is not closed: the sketch does not lie in the last tube, tube {0}, behind its entry and in the direction of the start, for certain"
+        "the loop is closed: the sketch lies in the last tube, tube {0}, behind its entry, and the path comes \
+         there in the direction of the start"
     )]
     Open(u64),
-    /// A length may vanish.
-    #[error("the length of {0} is not proved positive for t from {1} to {2}")]
-    Length(String, f64, f64),
     /// No tube at all.
-    #[error("there is no tube")]
+    #[error("there is a tube")]
     Empty,
+}
+
+/// Why a test does not prove what it should.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fault {
+    /// In words.
+    pub why: &'static str,
+    /// 1 − q − η/r where it was made, which would have to be positive.
+    pub margin: Option<f64>,
+    /// Whether this shows that the claim is false.
+    pub is_false: bool,
+}
+
+impl Fault {
+    /// That something cannot be told.
+    pub const fn because(why: &'static str) -> Self {
+        Fault {
+            why,
+            margin: None,
+            is_false: false,
+        }
+    }
+
+    /// That the test's margin is not positive.
+    pub const fn margin(margin: f64) -> Self {
+        Fault {
+            margin: Some(margin),
+            ..Fault::because("the Krawczyk test fails")
+        }
+    }
+
+    /// That something is not so.
+    pub const fn proof(why: &'static str) -> Self {
+        Fault {
+            is_false: true,
+            ..Fault::because(why)
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        out.write_str(self.why)?;
+        match self.margin {
+            Some(margin) => write!(out, ", with a margin of {margin:.4}"),
+            None => Ok(()),
+        }
+    }
 }
 
 impl Verdict {
@@ -98,7 +147,9 @@ impl Verdict {
         let b = Problem::parse(&b.to_toml(), "").unwrap_or_else(|_| b.clone());
         a.dimension == b.dimension
             && a.points == b.points
+            && a.objects == b.objects
             && a.distances == b.distances
+            && a.constraints == b.constraints
             && a.homotopy == b.homotopy
     }
 }

@@ -116,10 +116,14 @@ impl<W: Write> Witness for Writer<'_, W> {
                 self.tubes,
                 match status {
                     Status::Closed => "went on and closed",
-                    Status::Stopped(_) => "went on, but did not close",
+                    Status::Open(_) | Status::Stopped(_) => "went on, but did not close",
                 }
             )),
             Status::Closed => None,
+            Status::Open(_) => Some(
+                "the path is open: this is its way from the sketch in the direction of travel"
+                    .to_owned(),
+            ),
             Status::Stopped(reason) => {
                 let end = (0..=reason.len().min(MAX_TEXT)).rev();
                 let end = end.into_iter().find(|&end| reason.is_char_boundary(end));

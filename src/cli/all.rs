@@ -1,10 +1,11 @@
 //! `krawl all`: searches all figures that have the distances wanted.
 
-use super::output::{self, Destination};
+use super::output::{self, Beside, Destination};
 use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
 use krawl::complete::{Options, Progress, Status, all};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table};
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -22,6 +23,9 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write the cover of the parameter space, which `verify` can check
+    #[arg(long, value_name = "FILE")]
+    cert: Option<PathBuf>,
     /// Threads to use [default: one per processor]; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -52,14 +56,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .as_deref()
         .map(Destination::new)
         .transpose()?;
-    if let Some(results) = &arguments.json
-        && output::is_same_file(results, &arguments.file)
-    {
+    for results in [&arguments.json, &arguments.cert].into_iter().flatten() {
+        if !output::is_same_file(results, &arguments.file) {
+            continue;
+        }
         return Err(format!(
             "{}: is the problem itself; name another file for the results",
             results.display()
         ));
     }
+    // Before any file is begun, so that an interrupt leaves none behind.
+    let cancel = interrupt::flag();
+    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = Mutex::new(ProgressLine::new(!arguments.quiet));
     let begin = Instant::now();
     let tell = |now: Progress| {
@@ -68,8 +76,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let options = Options {
-        cancel: Some(interrupt::flag()),
+        cancel: Some(cancel),
         time: arguments.time.map(Duration::from_secs_f64),
+        cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
         progress: Some(&tell),
         ..Options::default()
@@ -86,6 +95,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let mut written = true;
+    match (&cert, &result.cover) {
+        (Some(beside), Some(cover)) => {
+            let whole = (&mut beside.file()).write_all(cover);
+            written &= beside.commit(whole);
+        }
+        (Some(_), None) => output::complain(
+            "no certificate is written: the reason above is proved without a search",
+        ),
+        _ => {}
+    }
     if let Some(json) = &json {
         written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
     }

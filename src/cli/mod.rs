@@ -20,10 +20,18 @@ use std::process::ExitCode;
 /// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
 /// is verified.
 pub const CLOSED: u8 = 0;
-/// Exit code of a run that stopped before, and of a certificate that is refuted or incomplete.
+/// Exit code of a run whose path has two ends: what lies between them is proved.
+pub const OPEN: u8 = 5;
+/// Exit code of a run that stopped before.
 pub const STOPPED: u8 = 1;
+/// Exit code of a certificate with a false claim, or about another problem.
+pub const REFUTED: u8 = 1;
 /// Exit code where the input is bad, or the results could not be written. Usage errors have it too.
 pub const BAD_INPUT: u8 = 2;
+/// Exit code of a certificate with a claim that may be true but could not be proved.
+pub const NOT_PROVED: u8 = 3;
+/// Exit code of a certificate whose run stopped: it is true as far as it goes.
+pub const INCOMPLETE: u8 = 4;
 /// Exit code of an edit that comes to a limit before the new dimensions.
 pub const LIMIT: u8 = 3;
 /// Exit code of an edit that comes to where branches of figures seem to meet.
@@ -34,8 +42,9 @@ pub const PASSES: u8 = 4;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 closed, verified or reached, 1 stopped, refuted or incomplete, 2 bad input or \
-                  results that could not be written, 3 an edit's limit, 4 where an edit's branches meet."
+    after_help = "Exit codes: 0 closed, verified or reached, 1 stopped or refuted, 2 bad input or results that \
+                  could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's \
+                  branches meet or an incomplete certificate, 5 open: a path with two ends, proved between them."
 )]
 struct Arguments {
     #[command(subcommand)]

@@ -1,7 +1,7 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
 use super::output::{self, Beside, Destination};
-use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, interrupt};
 use clap::ValueEnum;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
@@ -247,6 +247,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     Ok(match outcome.status {
         _ if !written => BAD_INPUT,
         Status::Closed => CLOSED,
+        Status::Open(_) => OPEN,
         Status::Stopped(_) => STOPPED,
     })
 }

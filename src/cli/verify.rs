@@ -1,20 +1,23 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
-use super::{BAD_INPUT, CLOSED, STOPPED, output};
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, output};
+use krawl::certificate::cover::{FIRST_LINE, verify_cover};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::problem::Problem;
-use krawl::report::{ProgressLine, theorem};
+use krawl::report::{ProgressLine, cover_theorem, theorem};
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// Prove all claims of a certificate again
 ///
-/// Exit codes: 0 verified, 1 refuted or incomplete, 2 not a certificate.
+/// Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another problem than FILE;
+/// 2 not a certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it;
+/// 4 incomplete, the proof of a run that stopped, true as far as it goes.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The certificate, as `solve --cert` writes it
+    /// The certificate, as `solve --cert` or `all --cert` writes it
     cert: PathBuf,
     /// A problem file (TOML) that the certificate has to be about
     file: Option<PathBuf>,
@@ -36,13 +39,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let problem = arguments.file.as_ref().map(Problem::read).transpose();
     let problem = problem.map_err(|error| error.to_string())?;
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
+    let mut file = BufReader::new(file);
+    if begins_a_cover(&mut file) {
+        return verify_the_cover(arguments, file, problem.as_ref());
+    }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
     };
     let clock = Instant::now();
     let mut line = ProgressLine::new(!arguments.quiet);
     let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
-    let verdict = verify(BufReader::new(file), &settings, &mut show);
+    let verdict = verify(file, &settings, &mut show);
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let same = problem
@@ -62,7 +69,52 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.outcome {
-        Outcome::Verified if same => CLOSED,
-        _ => STOPPED,
+        _ if !same => REFUTED,
+        Outcome::Verified => CLOSED,
+        Outcome::Refuted(_) => REFUTED,
+        Outcome::NotProved(_) => NOT_PROVED,
+        Outcome::Partial(_) => INCOMPLETE,
+    })
+}
+
+/// Whether the file is a cover, by its first line.
+fn begins_a_cover(file: &mut BufReader<File>) -> bool {
+    file.fill_buf()
+        .is_ok_and(|bytes| bytes.starts_with(format!("{FIRST_LINE}\n").as_bytes()))
+}
+
+/// Checks what a search for all solutions left.
+fn verify_the_cover(
+    arguments: &Arguments,
+    mut file: BufReader<File>,
+    problem: Option<&Problem>,
+) -> Result<u8, String> {
+    let name = arguments.cert.display();
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)
+        .map_err(|e| format!("{name}: cannot be read: {e}"))?;
+    let clock = Instant::now();
+    let verdict = verify_cover(&bytes).map_err(|error| format!("{name}: {error}"))?;
+    let mut text = cover_theorem(&verdict, clock.elapsed());
+    let same = problem.is_none_or(|problem| verdict.is_about(problem));
+    if let Some(file) = &arguments.file {
+        text += &match same {
+            true => format!(
+                "The points and distances are those in {}, exactly.\n",
+                file.display()
+            ),
+            false => format!(
+                "REFUTED: the points or distances are not those in {}.\n",
+                file.display()
+            ),
+        };
+    }
+    if !arguments.quiet && !output::print(&text) {
+        return Ok(BAD_INPUT);
+    }
+    Ok(match verdict.proves_all() {
+        _ if !same || verdict.flaw.is_some() => REFUTED,
+        true => CLOSED,
+        false => INCOMPLETE,
     })
 }

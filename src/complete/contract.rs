@@ -35,7 +35,8 @@ pub fn contract<const S: usize, const M: usize>(
             let blur = row.c[0].abs() + row.linear() + row.quadratic() + row.r + UNDERFLOW;
             for i in (0..S).filter(|&i| !used[i]) {
                 let weight = row.c[1 + i].abs() / blur;
-                if weight > best.0 {
+                // Of equal ones the first, whatever was rounded.
+                if weight > 1.001 * best.0 {
                     best = (weight, r, i);
                 }
             }

@@ -59,22 +59,32 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         return Err(Unserved::Constraints);
     }
     let targets = Targets::new(problem);
-    if let Some((edge, way)) = emptiness::too_long(&targets) {
-        let reason = outcome::too_long(problem, edge, &way);
-        return Ok(Complete::empty(problem, reason, begin));
-    }
-    let plans = choose::plans(&targets).map_err(Unserved::from)?;
+    let in_words =
+        emptiness::too_long(&targets).map(|(edge, way)| outcome::too_long(problem, edge, &way));
+    let plans = match (choose::plans(&targets), &in_words) {
+        (Ok(plans), None) => plans,
+        // A reason in words needs no search, but a cover does.
+        (Ok(plans), Some(_)) if options.cover => plans,
+        (_, Some(reason)) => return Ok(Complete::empty(problem, reason.clone(), begin)),
+        (Err(reason), None) => return Err(reason.into()),
+    };
     let stop = AtomicBool::new(false);
     let run = Run {
         stop: &stop,
         boxes: AtomicU64::new(0),
         most_boxes: options.most_boxes,
         done: AtomicU64::new(0),
-        cover: false,
+        cover: options.cover,
     };
     let result = options.watched(&run, begin, || searched(&targets, plans, &run));
     match result {
-        Ok((search, found)) => Ok(Complete::new(problem, &search, found, begin)),
+        Ok((search, found)) => {
+            let mut result = Complete::new(problem, &search, found, begin);
+            if result.status == Status::Complete && in_words.is_some() {
+                result.reason = in_words;
+            }
+            Ok(result)
+        }
         Err(Unfit::Empty(point)) => {
             let name = &problem.points[point].name;
             let reason = format!("no figure has these distances: there is no place for {name}");

@@ -65,6 +65,8 @@ pub struct Complete {
     pub plan: Vec<usize>,
     /// Wall-clock seconds.
     pub seconds: f64,
+    /// The cover of the search space, if it was wanted and there was a search.
+    pub cover: Option<Vec<u8>>,
 }
 
 /// Why a problem cannot be searched.
@@ -121,6 +123,8 @@ pub struct Options<'a> {
     pub time: Option<Duration>,
     /// Ends the search after so many parts.
     pub most_boxes: u64,
+    /// Whether the cover of the search space is kept, for whoever wants to check it.
+    pub cover: bool,
     /// Threads; 0 for one per processor.
     pub threads: usize,
     /// Told now and then where the search is.
@@ -134,6 +138,7 @@ impl Default for Options<'_> {
             cancel: None,
             time: None,
             most_boxes: 4_000_000_000,
+            cover: false,
             threads: 0,
             progress: None,
         }
@@ -200,11 +205,17 @@ impl Complete {
             driving: 0,
             plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
+            cover: None,
         }
     }
 
     /// From what a search found.
-    pub(super) fn new(problem: &Problem, search: &Search, found: Found, begin: Instant) -> Self {
+    pub(super) fn new(
+        problem: &Problem,
+        search: &Search,
+        mut found: Found,
+        begin: Instant,
+    ) -> Self {
         let dimension = problem.dimension;
         let mut reason = None;
         let mut undecided: Vec<Part> = Vec::new();
@@ -229,6 +240,8 @@ impl Complete {
         let figures = different(&found.figures, dimension);
         let apart = figures.is_err();
         let figures = figures.unwrap_or_default();
+        let marks = found.marks.bytes.take();
+        let cover = marks.map(|marks| super::cover::file(problem, search, &figures, marks));
         let mut solutions = Vec::new();
         let mut reference = problem.homotopy.reference.clone();
         for reference_tried in [&problem.homotopy.reference, &search.plan.base] {
@@ -286,6 +299,7 @@ impl Complete {
                 .chain(search.plan.steps.iter().map(|s| s.point))
                 .collect(),
             seconds: begin.elapsed().as_secs_f64(),
+            cover,
         }
     }
 }

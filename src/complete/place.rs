@@ -282,7 +282,8 @@ fn moving<const D: usize, const S: usize, const M: usize>(
         let off = times(&n_vector, &n.square_root(height));
         return sided(node, index, middle, off);
     }
-    let greatest = height.hi.max(0.0).sqrt().next_up();
+    // A little more, so that who evaluates it with other roundings comes to less.
+    let greatest = height.hi.max(0.0).sqrt() * (1.0 + 1e-9) + 1e-12;
     Placed::Near {
         height: greatest,
         far: 2.0 * greatest / width.lo.sqrt(),

@@ -24,8 +24,6 @@ pub struct Search {
     pub signed: Vec<usize>,
     /// The negatives of the squared distances wanted.
     pub minus_squares: Vec<Number>,
-    /// For each step, bounds of squared distances to points placed before.
-    pub bounds: Vec<Vec<(usize, [f64; 2])>>,
     /// The test in all coordinates.
     pub prover: Prover,
     /// Symbols' ranges narrower than this are not halved.
@@ -103,7 +101,6 @@ impl Search {
             prover: Prover::new(targets, &plan),
             minus_squares: targets.squares.iter().map(|&s| Number::new(-s)).collect(),
             base: base.into_iter().map(|p| p.map(Number::new)).collect(),
-            bounds: vec![Vec::new(); plan.steps.len()],
             known,
             signed,
             least_width: 2f64.powi(-38),

@@ -2,12 +2,13 @@
 //! part, a figure is proved, or the part has to be parted.
 
 use super::contract::contract;
-use super::cover::{Mark, Marks};
+use super::cover::Marks;
 use super::krawczyk::{Doubt, Figure};
 use super::model::{Model, Range};
 use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::place::{Place, Placed, place, squared_distance};
 use super::search::Search;
+use crate::certificate::cover::Mark;
 
 /// Why a part stays undecided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -62,7 +63,7 @@ const SHRUNK: f64 = 0.3;
 impl Found {
     /// Notes a part that stays undecided.
     pub fn leave(&mut self, share: f64, why: Why) {
-        self.marks.put(Mark::Undecided);
+        self.marks.put(Mark::Undecided, 0);
         self.undecided_count += 1;
         self.undecided_share += share;
         if self.undecided.len() < KEPT {
@@ -162,9 +163,9 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 self.stand(step);
                 self.equations.pop();
             }
-            Placed::None => self.found.marks.put(Mark::NoPlace(step as u8)),
+            Placed::None => self.found.marks.put(Mark::NoPlace(step), S),
             Placed::Either { middle, off } => {
-                self.found.marks.put(Mark::Sides(step as u8));
+                self.found.marks.put(Mark::Sides(step), S);
                 self.node.share *= 0.5;
                 for sign in [Sign::Plus, Sign::Minus] {
                     let before = self.equations.len();
@@ -192,7 +193,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                         Some(Sign::Minus) => [-height, 0.0],
                         _ => [-height, height],
                     };
-                    self.found.marks.put(Mark::Fold(step as u8, range));
+                    self.found.marks.put(Mark::Fold(step, range), S);
                     let k = search.plan.parameters();
                     self.children.push(self.node.folded(k, index, range));
                 } else {
@@ -221,27 +222,17 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             let equation =
                 squared_distance(&self.points[a], &self.points[b]).shifted(search.minus_squares[e]);
             if equation.range().misses_zero(1.0) {
-                self.found
-                    .marks
-                    .put(Mark::WrongDistance(step as u8, place as u8));
+                self.found.marks.put(Mark::WrongDistance(step, place), S);
                 self.equations.truncate(before);
                 return;
             }
             self.equations.push(equation);
         }
-        for &(other, [lo, hi]) in &search.bounds[step] {
-            let range = squared_distance(&here, &self.points[other]).range();
-            if range.hi < lo || range.lo > hi {
-                self.found.marks.put(Mark::TooFar(step as u8, other as u8));
-                self.equations.truncate(before);
-                return;
-            }
-        }
         let folded = self.node.sign(search.signed[step]) == Some(Sign::Fold);
         if self.equations.len() > before || folded {
             let mut u = [Range { lo: -1.0, hi: 1.0 }; S];
             if contract(&self.equations, &mut self.rows, &mut u).is_err() {
-                self.found.marks.put(Mark::Excluded(step as u8));
+                self.found.marks.put(Mark::Excluded(step), S);
                 self.equations.truncate(before);
                 return;
             }
@@ -274,9 +265,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             [child.lo[i], child.hi[i]] = ranges[i];
         }
         child.depth = child.depth.saturating_add(1);
-        self.found
-            .marks
-            .put(Mark::Within(step as u8, ranges, S as u8));
+        self.found.marks.put(Mark::Within(step, ranges), S);
         self.children.push(child);
         true
     }
@@ -300,7 +289,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 .collect();
             match search.prover.prove(&guess) {
                 Ok(figure) if self.is_alone(&figure) => {
-                    self.found.marks.put(Mark::Figure);
+                    self.found.marks.put(Mark::Figure, S);
                     self.found.figures.push(figure);
                     return;
                 }
@@ -347,9 +336,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             let share = self.node.share;
             return self.found.leave(share, Why::Small);
         };
-        self.found
-            .marks
-            .put(Mark::Halves(step as u8, with, symbol as u8));
+        self.found.marks.put(Mark::Halves(step, with, symbol), S);
         self.children.extend(self.node.parted(symbol));
     }
 }

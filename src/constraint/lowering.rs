@@ -82,6 +82,9 @@ pub struct Lowering<'a> {
     /// What each equation is a part of: a count of objects, then constraints.
     owners: Vec<usize>,
     owner: usize,
+    /// Where edits begin: the distances that the figure at t = 0 has, which moves from there with all other
+    /// constraints kept. Otherwise it is the sketch that moves.
+    from: Option<&'a [Target]>,
     /// Index of the distance between two points, the lower first.
     distances: HashMap<[usize; 2], usize>,
     /// Lengths that are entries of equations already.
@@ -108,11 +111,13 @@ pub struct Lowered {
 }
 
 impl<'a> Lowering<'a> {
-    /// Nothing yet.
-    pub fn new(problem: &'a Problem) -> Self {
+    /// Nothing yet. `from`: the distances at t = 0 of a figure that meets all other constraints there, if it is
+    /// not the sketch.
+    pub fn new(problem: &'a Problem, from: Option<&'a [Target]>) -> Self {
         let pairs = problem.distances.iter().enumerate();
         Lowering {
             problem,
+            from,
             frame: Frame::new(problem),
             tail: Tail::default(),
             values: Vec::new(),
@@ -268,7 +273,9 @@ impl<'a> Lowering<'a> {
     /// [`crate::problem::HomotopyChoices::detour`]).
     pub fn vanish(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
         let detour = self.problem.homotopy.detour.value();
-        let right = if !start.is_zero() {
+        let right = if self.from.is_some() {
+            vec![Real::zero()]
+        } else if !start.is_zero() {
             let back = -&start;
             vec![start, back]
         } else if detour.is_zero() {
@@ -283,13 +290,22 @@ impl<'a> Lowering<'a> {
     /// The same for linear conditions, which hold all along the path where the sketch meets them: they
     /// are never singular.
     pub fn vanish_linear(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
-        let right = if start.is_zero() {
-            vec![start]
+        let right = if start.is_zero() || self.from.is_some() {
+            vec![Real::zero()]
         } else {
             let back = -&start;
             vec![start, back]
         };
         self.push(name.to_owned(), products, right, power, true);
+    }
+
+    /// A number's way from what it is in the sketch to what it is wanted to be; edits keep it as it is wanted.
+    /// The degree is the same for both, so that the equations are.
+    pub fn lead(&self, now: Real, then: Real) -> Polynomial {
+        match self.from {
+            Some(_) => vec![then, Real::zero()],
+            None => ramp(now, then),
+        }
     }
 
     /// A new unknown that is the polynomial `of`: a coefficient that varies, or is no whole number.
@@ -366,11 +382,15 @@ impl<'a> Lowering<'a> {
         let [a, b] = distance
             .points
             .map(|p| vector(&self.problem.points[p].sketch));
-        let start = length(&minus(&b, &a));
-        let end = match &distance.target {
+        let target = |target: &Target| match target {
             Target::Length(x) => Real::from(x.value().clone()),
             Target::SquaredLength(x) => Real::from(x.value().clone()).sqrt(),
         };
+        let start = match self.from {
+            Some(from) => target(&from[index]),
+            None => length(&minus(&b, &a)),
+        };
+        let end = target(&distance.target);
         if self.problem.bend() != Some(index) {
             return ramp(start, end);
         }
@@ -457,7 +477,7 @@ impl<'a> Lowering<'a> {
             .arrows
             .iter()
             .fold(Real::whole(1), |all, arrow| &all * &length(&arrow.at));
-        let number = ramp(&Real::from(of.now) / &lengths, of.then);
+        let number = self.lead(&Real::from(of.now) / &lengths, of.then);
         // Known lengths go to the right-hand side where its degree allows, all others to the left.
         let (mut right, mut right_power, mut left) = (number, of.power, Vec::new());
         for arrow in &of.arrows {

@@ -47,7 +47,7 @@ pub(crate) use structure::check_structure;
 pub use structure::size;
 
 use crate::interval::Interval;
-use crate::problem::Problem;
+use crate::problem::{Problem, Target};
 use arguments::Arguments;
 use kind::Given;
 use lowering::{Fault, Lowered, Lowering};
@@ -67,7 +67,22 @@ pub fn kind(key: &str) -> Option<&'static dyn Kind> {
 /// If the problem has not been checked ([`Problem::check`]).
 pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
     debug_assert_eq!(problem.points.len(), sketch.len());
-    match try_lower(problem) {
+    tail(try_lower(problem))
+}
+
+/// The same for an edit: of a figure that meets all other constraints and the distances `from` at t = 0, one for
+/// each of the problem's. Distances go from there to those of the problem in proportion to t, and all other
+/// constraints hold throughout. Unknowns and left-hand sides are those of [`lower`].
+///
+/// # Panics
+/// If the problem has not been checked ([`Problem::check`]).
+pub fn lower_edit(problem: &Problem, from: &[Target]) -> Tail {
+    debug_assert_eq!(problem.distances.len(), from.len());
+    tail(try_lower_from(problem, Some(from)))
+}
+
+fn tail(lowered: Result<Lowered, (Owner, Fault)>) -> Tail {
+    match lowered {
         Ok(lowered) => lowered.tail,
         Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
     }
@@ -84,7 +99,11 @@ pub(crate) enum Owner {
 
 /// The equations of a problem with a reference and known names, or the first object or constraint at fault.
 pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
-    let mut low = Lowering::new(problem);
+    try_lower_from(problem, None)
+}
+
+fn try_lower_from(problem: &Problem, from: Option<&[Target]>) -> Result<Lowered, (Owner, Fault)> {
+    let mut low = Lowering::new(problem, from);
     let objects = problem.objects.len();
     for object in 0..objects {
         low.begin(object);

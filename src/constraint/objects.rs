@@ -6,7 +6,7 @@ use super::frame::{
     Vector, cross, cross_in_plane, dot, is_zero, length, minus, times, vector, zero,
 };
 use super::lowering::{Arrow, Fault, Lowering, Parity, Place};
-use super::polynomial::{multiply, ramp};
+use super::polynomial::multiply;
 use super::quadratic::{Entry, Form, Product, Role, product, value};
 use crate::interval::Real;
 use crate::problem::{Decimal, Shape};
@@ -291,7 +291,7 @@ impl Lowering<'_> {
         for [i, j] in ends {
             let span = self.between(&self.place(points[i]), &self.place(points[j]));
             let (now, then) = (length(&span.at), length(&minus(&local[j], &local[i])));
-            let a = ramp(now, then);
+            let a = self.lead(now, then);
             let products = self.dot(1, &span.forms, &span.forms);
             let what = format!("{name}: {}-{}", self.name(points[i]), self.name(points[j]));
             self.equate(&what, products, multiply(&a, &a), 2);
@@ -331,7 +331,7 @@ impl Lowering<'_> {
                     continue;
                 }
                 let parity = if odd { Parity::Odd } else { Parity::Even };
-                let path = ramp(now[index].clone().into(), then[index].clone().into());
+                let path = self.lead(now[index].clone().into(), then[index].clone().into());
                 let what = format!("{what}, coordinate {}", index + 1);
                 let entry = self.coefficient(&what, power, parity, path);
                 for (axis, products) in products.iter_mut().enumerate() {

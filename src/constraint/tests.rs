@@ -309,15 +309,15 @@ fn the_documents_examples() {
 }
 
 #[test]
-fn equal_lengths_radii_and_distances() {
+fn equal_lengths_and_distances() {
     let f = plane(
-        QUADRANGLE,
-        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"a\", \"d\", 2]]\n\
-         equal = [[\"b\", \"c\", \"a\", \"d\"]]\nangles = [[\"a\", \"b\", \"c\", 91]]\n\
-         equal_distances = [[\"a\", \"b\", \"c\", \"b\", \"c\", \"d\"]]",
+        "a = [0, 0]\nb = [3, 0.2]\nc = [4, 2.1]\nd = [1.2, 1.8]",
+        "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"a\", \"d\", 2.2]]\n\
+         equal = [[\"b\", \"c\", \"a\", \"d\"]]\nangles = [[\"a\", \"b\", \"c\", 115]]\n\
+         equal_distances = [[\"c\", \"a\", \"b\", \"b\", \"c\", \"d\"]]",
     );
     near(f.distance("b", "c"), f.distance("a", "d"));
-    near(f.off_line("a", "b", "c"), f.off_line("b", "c", "d"));
+    near(f.off_line("c", "a", "b"), f.off_line("b", "c", "d"));
 }
 
 #[test]

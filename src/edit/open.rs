@@ -116,7 +116,7 @@ pub(super) fn correct(
     for (index, distance) in problem.distances.iter().enumerate() {
         homotopy.hold(index, &distance.target);
     }
-    homotopy.hold_constraints();
+    homotopy.keep_constraints(problem, &targets_of(problem));
     let distance = distance(homotopy, &start, &figure) * unit;
     Ok((
         figure,
@@ -125,6 +125,11 @@ pub(super) fn correct(
             tubes: run.steps,
         },
     ))
+}
+
+/// The lengths that a problem's distances are to have.
+pub(super) fn targets_of(problem: &Problem) -> Vec<Target> {
+    problem.distances.iter().map(|d| d.target.clone()).collect()
 }
 
 /// A bound on the distance of any point in one figure from the same in the other.

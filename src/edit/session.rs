@@ -10,6 +10,7 @@ use crate::system::Homotopy;
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
 use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError};
+use std::borrow::Cow;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -137,6 +138,7 @@ impl Session {
                 self.lengths[setting.index] = length(&setting.target);
                 self.problem.distances[setting.index].target = setting.target.clone();
             }
+            homotopy.keep_constraints(&self.problem, &open::targets_of(&self.problem));
         }
         edited
     }
@@ -154,12 +156,21 @@ impl Session {
             let from = &self.problem.distances[setting.index].target;
             homotopy.lead(setting.index, from, &setting.target);
         }
+        let from = open::targets_of(&self.problem);
+        let mut edited = Cow::Borrowed(&self.problem);
+        if !homotopy.tail.is_empty() {
+            for setting in settings {
+                edited.to_mut().distances[setting.index].target = setting.target.clone();
+            }
+            homotopy.keep_constraints(&edited, &from);
+        }
         let run = self.follow(control);
         let homotopy = self.arcs.homotopy_mut();
         for setting in settings {
             let now = &self.problem.distances[setting.index].target;
             homotopy.hold(setting.index, now);
         }
+        homotopy.keep_constraints(&self.problem, &from);
         let (edited, figure) = self.account(settings, run);
         let seconds = clock.elapsed().as_secs_f64();
         (Edited { seconds, ..edited }, figure)

@@ -2,6 +2,7 @@
 
 use super::certain_digits;
 use super::json::Points;
+use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Complete, Status, Why};
 use crate::problem::{Problem, counted};
 use std::fmt::Write;
@@ -167,5 +168,25 @@ fn verdict(result: &Complete) -> String {
                  more, in the undecided parts only."
             )
         }
+    }
+}
+
+/// What a checked cover proves.
+pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> String {
+    let name = &verdict.problem.name;
+    let count = counted(verdict.solutions, "solution");
+    let seconds = took.as_secs_f64();
+    let parts = counted(verdict.parts as usize, "part");
+    match &verdict.flaw {
+        Some(flaw) => format!("REFUTED: {name}: {flaw}. Nothing is proved.\n"),
+        None if verdict.undecided == 0 => format!(
+            "VERIFIED: {name} has exactly {count} up to rigid motions and reflections. The cover has {parts}, \
+             each proved again in {seconds:.2} s.\n"
+        ),
+        None => format!(
+            "INCOMPLETE: {name} has {count} at least, no two congruent; nothing is claimed of {} of the \
+             {parts} of the cover. Any other solution lies there. Checked in {seconds:.2} s.\n",
+            verdict.undecided
+        ),
     }
 }

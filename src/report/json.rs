@@ -29,6 +29,8 @@ struct Document<'a> {
     space: &'static str,
     status: &'static str,
     reason: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ends: Option<Vec<End<'a>>>,
     solutions: Vec<Entry<'a>>,
     steps: usize,
     rejected: usize,
@@ -60,6 +62,7 @@ impl<'a> Document<'a> {
     fn new(problem: &'a Problem, outcome: &'a Outcome) -> Self {
         let (status, reason) = match &outcome.status {
             Status::Closed => ("closed", None),
+            Status::Open(_) => ("open", None),
             Status::Stopped(reason) => ("stopped", Some(reason.as_str())),
         };
         Document {
@@ -68,6 +71,7 @@ impl<'a> Document<'a> {
             space: outcome.space.name(),
             status,
             reason,
+            ends: ends(&outcome.status),
             solutions: outcome
                 .solutions
                 .iter()
@@ -90,6 +94,26 @@ impl<'a> Document<'a> {
             switched_on: &outcome.switched_on,
         }
     }
+}
+
+/// An end of an open path.
+#[derive(serde::Serialize)]
+struct End<'a> {
+    t: [f64; 2],
+    kind: &'static str,
+    reason: &'a str,
+}
+
+fn ends(status: &Status) -> Option<Vec<End<'_>>> {
+    let Status::Open(ends) = status else {
+        return None;
+    };
+    let all = ends.iter().map(|end| End {
+        t: [end.t.0, end.t.1],
+        kind: end.kind.name(),
+        reason: &end.reason,
+    });
+    Some(all.collect())
 }
 
 impl Serialize for Points<'_> {

@@ -12,7 +12,7 @@ mod table;
 mod theorem;
 
 pub use comparison::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
-pub use complete::{complete_to_json, complete_to_table};
+pub use complete::{complete_to_json, complete_to_table, cover_theorem};
 pub use digits::certain_digits;
 pub use edit::{
     edit_in_words, edit_to_json, edit_to_table, edit_to_value, figure_to_value, limit_in_words,

@@ -2,7 +2,7 @@
 
 use super::certain_digits;
 use crate::problem::Problem;
-use crate::track::{Mode, Outcome, Solution, Space, Status};
+use crate::track::{Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
 
 /// The results as a text of several lines: what was found and what that means, the solutions,
@@ -56,6 +56,26 @@ fn verdict(outcome: &Outcome) -> String {
                 ),
             };
             format!("Closed, proved: {text}.{different}")
+        }
+        (_, Status::Open(ends)) => {
+            let place = |end: &PathEnd| {
+                let t = 0.5 * (end.t.0 + end.t.1);
+                format!("at t = {t:.6}, {}", without_stop(&end.reason))
+            };
+            let text = match count {
+                0 => "between them it has no point with t = 1".to_owned(),
+                1 => "the solution listed is exactly its one point between them with t = 1"
+                    .to_owned(),
+                n => format!(
+                    "the {n} solutions listed are exactly its points between them with t = 1"
+                ),
+            };
+            format!(
+                "Open, proved: the path through the sketch has two ends, and {text}.{different}\n  One end: \
+                 {}.\n  The other: {}.",
+                place(&ends[0]),
+                place(&ends[1])
+            )
         }
         (Mode::Certified, Status::Stopped(reason)) => {
             let text = match count {

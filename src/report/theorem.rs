@@ -41,9 +41,14 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
              the curve.",
             counted(verdict.solutions.len(), "point")
         )?,
-        Outcome::Refuted(flaw) => writeln!(out, "{name}: REFUTED: {flaw}.")?,
+        Outcome::NotProved(flaw) => writeln!(
+            out,
+            "{name}: NOT PROVED. This claim may be true, but the checker's test is too coarse for it:\n\
+             {flaw}."
+        )?,
+        Outcome::Refuted(flaw) => writeln!(out, "{name}: REFUTED. This claim is false:\n{flaw}.")?,
     }
-    if !matches!(verdict.outcome, Outcome::Refuted(_)) {
+    if matches!(verdict.outcome, Outcome::Verified | Outcome::Partial(_)) {
         for (k, solution) in verdict.solutions.iter().enumerate() {
             writeln!(out, "  solution {}", k + 1)?;
             for (point, place) in verdict.problem.points.iter().zip(solution) {

@@ -1,58 +1,61 @@
 //! A homotopy in which everything stands still at its target but for the lengths that are edited.
 
 use super::{ExactLength, Homotopy, Length, Right};
+use crate::constraint;
 use crate::interval::{Interval, enclose, point};
-use crate::problem::Target;
+use crate::problem::{Problem, Target};
 use num_rational::BigRational;
 
 impl Homotopy {
     /// Makes distance `index` stay at `target` for all t.
     pub fn hold(&mut self, index: usize, target: &Target) {
-        let (length, half_square) = self.enclose_target(target);
-        let exact = self.exact(target, target);
-        self.lengths[index] = Length::constant(length);
-        self.rights[index] = Right::constant_half_square(half_square, exact);
+        let length = Length::constant(self.enclose_target(target));
+        self.set_length(index, length, target, target);
     }
 
-    /// Makes the equations of all other constraints stay what they are at t = 1.
-    pub fn hold_constraints(&mut self) {
-        for right in &mut self.rights[self.edges.len()..] {
-            *right = right.held();
+    /// Makes all constraints but the distances hold throughout, while the distances go from `from` at t = 0 to
+    /// those of `problem`: a right angle between two bars stays one while a bar grows.
+    ///
+    /// # Panics
+    /// If the problem is another one but for the numbers of its distances.
+    pub fn keep_constraints(&mut self, problem: &Problem, from: &[Target]) {
+        if self.tail.is_empty() {
+            return;
+        }
+        let edited = constraint::lower_edit(problem, from);
+        assert_eq!(edited.equations.len(), self.tail.equations.len());
+        let head = self.edges.len();
+        let pairs = self.tail.equations.iter().zip(edited.equations);
+        for ((before, after), right) in pairs.zip(&mut self.rights[head..]) {
+            assert_eq!(before.products, after.products, "{}", before.name);
+            *right = Right::polynomial(&after.right, self.unit.powi(after.power));
         }
     }
 
     /// Leads distance `index` from one length at t = 0 to another at t = 1, in proportion to t.
     pub fn lead(&mut self, index: usize, from: &Target, to: &Target) {
-        let [from_length, to_length] = [from, to].map(|target| self.enclose_target(target).0);
-        let length = Length::new(from_length, to_length, None);
-        self.rights[index] = Right::half_square(&length, self.exact(from, to));
-        self.lengths[index] = length;
+        let [start, end] = [from, to].map(|target| self.enclose_target(target));
+        self.set_length(index, Length::new(start, end, None), from, to);
     }
 
-    /// A target's length and half of its square, in the homotopy's unit.
-    fn enclose_target(&self, target: &Target) -> (Interval, Interval) {
-        let per_unit = point(1.0 / self.unit);
-        let half = point(0.5);
-        match target {
-            Target::Length(length) => {
-                let length = enclose(length) * per_unit;
-                (length, length.sqr() * half)
-            }
-            Target::SquaredLength(squared) => {
-                let squared = enclose(squared);
-                let half_square = squared * per_unit * per_unit * half;
-                (squared.sqrt() * per_unit, half_square)
-            }
-        }
+    /// A target's length in the homotopy's unit.
+    fn enclose_target(&self, target: &Target) -> Interval {
+        let length = match target {
+            Target::Length(length) => enclose(length),
+            Target::SquaredLength(squared) => enclose(squared).sqrt(),
+        };
+        length * point(1.0 / self.unit)
     }
 
-    fn exact(&self, from: &Target, to: &Target) -> ExactLength {
-        ExactLength {
+    fn set_length(&mut self, index: usize, length: Length, from: &Target, to: &Target) {
+        let exact = ExactLength {
             sketch_squared: squared(from),
             target: to.clone(),
             bend: None,
             unit: self.unit,
-        }
+        };
+        self.rights[index] = Right::half_square(&length, exact);
+        self.lengths[index] = length;
     }
 }
 

@@ -84,11 +84,10 @@ impl Gauge {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
         let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
         if self.reference.is_empty() {
-            // The problem's own frame.
-            let (zero, one) = (point(0.0), point(1.0));
+            let one = |axis: usize| std::array::from_fn(|k| point(f64::from(u8::from(k == axis))));
             return Ok(Placement {
-                origin: [zero; 3],
-                axes: [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
+                origin: [point(0.0); 3],
+                axes: std::array::from_fn(one),
             });
         }
         let origin = coordinates(self.reference[0]);

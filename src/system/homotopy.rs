@@ -257,17 +257,13 @@ impl Homotopy {
         coordinates.chain(self.auxiliary.iter().copied())
     }
 
-    /// The auxiliary unknowns that have to be proved positive: lengths and radii.
+    /// The auxiliary unknowns that have to be proved positive, lengths and radii: their numbers among all
+    /// unknowns.
     pub fn positive_unknowns(&self) -> Vec<usize> {
         let first = self.gauge.place.len();
         let unknowns = self.tail.unknowns.iter().enumerate();
         let positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
         positive.map(|(k, _)| first + k).collect()
-    }
-
-    /// What people call an auxiliary unknown, of this number among all unknowns.
-    pub fn name_of_auxiliary(&self, unknown: usize) -> &str {
-        &self.tail.unknowns[unknown - self.gauge.place.len()].name
     }
 
     /// Whether an unknown changes its sign where an axis is reversed.

@@ -47,11 +47,6 @@ impl Length {
         }
     }
 
-    /// The degree of E(t): 2, or 4 for the bend.
-    pub(super) fn degree_of_square(&self) -> usize {
-        if self.bends { 4 } else { 2 }
-    }
-
     /// A length that stays what it is.
     pub fn constant(length: Interval) -> Self {
         let zero = crate::interval::point(0.0);
@@ -61,6 +56,11 @@ impl Length {
             a: [length.mid(), 0.0, 0.0],
             bends: false,
         }
+    }
+
+    /// The degree of E(t): 2, or 4 for the bend.
+    pub(super) fn degree_of_square(&self) -> usize {
+        if self.bends { 4 } else { 2 }
     }
 
     /// An enclosure of the values that a takes on a set of t.

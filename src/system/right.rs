@@ -29,8 +29,6 @@ enum Exact {
     HalfSquare(ExactLength),
     /// A polynomial, divided by a power of two.
     Polynomial(Vec<Real>, BigRational),
-    /// A number, the same for all t.
-    Constant(Approximate),
 }
 
 /// A number and how far the exact one may be from it.
@@ -75,15 +73,6 @@ impl Right {
         Self::new(enclosures, target, exact, if high { MAX_DEGREE } else { 2 })
     }
 
-    /// What it is at t = 1, for all t.
-    pub fn held(&self) -> Self {
-        let zero = point(0.0);
-        let mut enclosures = [zero; MAX_DEGREE + 1];
-        enclosures[0] = self.target;
-        let exact = Exact::Constant(self.double_at_target());
-        Self::new(enclosures, self.target, exact, 2)
-    }
-
     fn new(
         enclosures: [Interval; MAX_DEGREE + 1],
         target: Interval,
@@ -126,12 +115,6 @@ impl Right {
     pub fn doubles(&self) -> [Approximate; MAX_DEGREE + 1] {
         match &self.exact {
             Exact::HalfSquare(length) => length.half_square(),
-            Exact::Constant(value) => {
-                let zero = (DoubleDouble::default(), 0.0);
-                let mut all = [zero; MAX_DEGREE + 1];
-                all[0] = *value;
-                all
-            }
             Exact::Polynomial(coefficients, unit) => std::array::from_fn(|k| {
                 let coefficient = coefficients.get(k).cloned().unwrap_or_else(Real::zero);
                 divided(coefficient, unit)
@@ -143,7 +126,6 @@ impl Right {
     pub fn double_at_target(&self) -> Approximate {
         match &self.exact {
             Exact::HalfSquare(length) => length.target_half_square(),
-            Exact::Constant(value) => *value,
             Exact::Polynomial(coefficients, unit) => divided(sum(coefficients), unit),
         }
     }

@@ -4,6 +4,7 @@ pub mod arc;
 pub mod certified;
 mod congruence;
 mod control;
+mod ends;
 mod events;
 pub mod float;
 pub mod full;
@@ -14,6 +15,7 @@ mod witness;
 
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};
+pub use ends::{EndKind, PathEnd};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
 pub use witness::{TubeSeen, Witness};
@@ -102,6 +104,13 @@ pub fn solve(
         }
         if let Some(wish) = wish {
             *reason += &format!(" ({wish} were asked for)");
+        }
+    }
+    if let Status::Open(ends) = &mut outcome.status {
+        for end in ends.iter_mut() {
+            for remark in ends::remarks(problem, &end.points) {
+                end.reason = format!("{remark}; {}", end.reason);
+            }
         }
     }
     Ok(outcome)

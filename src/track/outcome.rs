@@ -1,5 +1,6 @@
 //! What a run reports.
 
+use super::PathEnd;
 use crate::interval::Interval;
 
 /// Whether steps are proved.
@@ -55,6 +56,10 @@ impl Space {
 pub enum Status {
     /// The path came back to the sketch. In certified mode that is proved.
     Closed,
+    /// The path has two ends, and the run went both ways from the sketch to them: the end behind the sketch, in
+    /// the direction of travel, first. In certified mode the arc between is proved, and the solutions are
+    /// exactly those on it.
+    Open(Box<[PathEnd; 2]>),
     /// The run ended before; the text says where and why.
     Stopped(String),
 }

@@ -1,26 +1,41 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
-use super::equations::{Equations, unknown};
-use super::place::{NEAR, Place};
-use super::tube::{Stretch, Tube};
+use super::equations::{Equations, ZERO};
+use super::place::{Place, Spot, component};
+use super::refute;
+use super::tube::{Stretch, Tube, direction};
 use crate::certificate::format::{EndClaim, SolutionClaim, TubeClaim};
-use crate::certificate::verdict::{Flaw, Verdict};
+use crate::certificate::verdict::{Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
 use rayon::prelude::*;
 
 /// What is kept from one part of the chain to the next: all solutions, and two tubes.
 pub struct Chain {
     pub eq: Equations,
-    /// The normal of the first tube, in whose direction the path starts.
-    start: Vec<f64>,
+    sketch: Spot,
+    /// The path's direction at the sketch, along the normal of the first tube.
+    start: Vec<Interval>,
     last: Option<Tube>,
     pub solutions: Vec<Place>,
-    met: Vec<bool>,
+    /// Whether the path meets each of them, if that is known.
+    met: Vec<Option<bool>>,
+}
+
+/// The outcome where a claim is false, or only not proved.
+fn flaw(is_false: bool, flaw: Flaw) -> Outcome {
+    match is_false {
+        true => Outcome::Refuted(flaw),
+        false => Outcome::NotProved(flaw),
+    }
 }
 
 impl Chain {
     pub fn new(eq: Equations) -> Self {
+        let sketch: Vec<Interval> = eq.homotopy.sketch_of_unknowns().chain([ZERO]).collect();
+        let near = sketch.iter().map(|x| x.mid()).collect();
+        let rest = sketch.iter().map(|&x| x - point(x.mid())).collect();
         Chain {
+            sketch: Spot { near, rest },
             eq,
             start: Vec::new(),
             last: None,
@@ -36,10 +51,11 @@ impl Chain {
         claims: &[(TubeClaim, Vec<SolutionClaim>)],
         closes: bool,
         verdict: &mut Verdict,
-    ) -> Result<(), Flaw> {
+    ) -> Result<(), Outcome> {
         let (eq, first) = (&self.eq, verdict.tubes + 1);
         let tubes = claims.par_iter().enumerate().map(|(k, (tube, _))| {
-            Tube::prove(eq, tube).map_err(|fault| Flaw::Tube(first + k as u64, fault))
+            let number = first + k as u64;
+            Tube::prove(eq, tube).map_err(|f| flaw(f.is_false, Flaw::Tube(number, f)))
         });
         let tubes: Vec<_> = tubes.collect();
         // How many solutions are listed up to each tube.
@@ -48,25 +64,25 @@ impl Chain {
             for solution in solutions {
                 let number = self.solutions.len() + 1;
                 let solution = Place::solution(eq, solution);
-                self.solutions
-                    .push(solution.map_err(|fault| Flaw::Solution(number, fault))?);
+                let solution = solution.map_err(|f| flaw(f.is_false, Flaw::Solution(number, f)));
+                self.solutions.push(solution?);
             }
             listed.push(self.solutions.len());
         }
-        self.met.resize(self.solutions.len(), false);
-        if let (true, Some(Ok(tube))) = (self.start.is_empty(), tubes.first()) {
-            self.start.clone_from(&tube.normal);
+        self.met.resize(self.solutions.len(), Some(false));
+        if let (true, Some((claim, _))) = (self.start.is_empty(), claims.first()) {
+            self.start = direction(eq, claim, &self.sketch).unwrap_or_default();
         }
 
         let join = |k: usize| {
             let before = match k {
                 0 => self.last.as_ref(),
-                _ => Some(tubes[k - 1].as_ref().map_err(Flaw::clone)?),
+                _ => Some(tubes[k - 1].as_ref().map_err(Outcome::clone)?),
             };
-            let tube = tubes[k].as_ref().map_err(Flaw::clone)?;
+            let tube = tubes[k].as_ref().map_err(Outcome::clone)?;
             let (number, closes) = (first + k as u64, closes && k + 1 == tubes.len());
             let stretch = self.join(number, before, tube, closes, &self.solutions[..listed[k]])?;
-            Ok((tube.margin.min(tube.exit.0.margin), stretch))
+            Ok((tube.margin, stretch))
         };
         let joined: Vec<_> = (0..tubes.len()).into_par_iter().map(join).collect();
         for joined in joined {
@@ -75,7 +91,13 @@ impl Chain {
             verdict.margin = verdict.margin.min(margin);
             let (low, high) = verdict.t_range;
             verdict.t_range = (low.min(stretch.t.inf()), high.max(stretch.t.sup()));
-            stretch.met.into_iter().for_each(|k| self.met[k] = true);
+            for k in stretch.unknown {
+                self.met[k] = self.met[k].filter(|&met| met);
+            }
+            stretch
+                .met
+                .into_iter()
+                .for_each(|k| self.met[k] = Some(true));
         }
         self.last = tubes
             .into_iter()
@@ -94,80 +116,72 @@ impl Chain {
         tube: &Tube,
         closes: bool,
         listed: &[Place],
-    ) -> Result<Stretch, Flaw> {
+    ) -> Result<Stretch, Outcome> {
+        let find = |spot: &Spot, claim: Flaw| {
+            let place = tube.locate(spot);
+            place.ok_or_else(|| flaw(refute::elsewhere(tube, spot), claim))
+        };
+        // That a direction is along the tube's normal, and that one parameter is before another.
+        let along = |direction: &[Interval], claim: Flaw| match component(direction, &tube.normal) {
+            x if x.inf() > 0.0 => Ok(()),
+            x => Err(flaw(x.sup() < 0.0, claim)),
+        };
+        let order = |a: Interval, b: Interval, claim: Flaw| match a.sup() < b.inf() {
+            true => Ok(()),
+            false => Err(flaw(a.inf() >= b.sup(), claim)),
+        };
         let entry = match before {
-            None => tube.locate(&self.eq.sketch).ok_or(Flaw::Start)?,
+            None => find(&self.sketch, Flaw::Start)?,
             Some(before) => {
-                let link = &before.exit.0;
-                let entry = tube.locate(&link.figure).ok_or(Flaw::Link(number))?;
-                if !link.goes_along(&tube.normal) {
-                    return Err(Flaw::Direction(number));
-                }
+                let entry = find(&before.exit, Flaw::Link(number))?;
+                along(&before.exit_direction, Flaw::Direction(number))?;
                 entry
             }
         };
-        let mut exit = tube.exit.1;
+        let mut exit = point(tube.exit_at);
         if closes {
-            let sketch = tube.locate(&self.eq.sketch);
-            let sketch = sketch.filter(|s| s.inf() > entry.sup() && self.returns(tube));
-            exit = sketch.ok_or(Flaw::Open(number))?;
-        } else if !(entry.sup() < exit.inf()) {
-            return Err(Flaw::Backwards(number));
+            exit = find(&self.sketch, Flaw::Open(number))?;
+            if before.is_none() {
+                return Err(flaw(true, Flaw::Open(number)));
+            }
+            order(entry, exit, Flaw::Open(number))?;
+            along(&self.start, Flaw::Open(number))?;
+        } else {
+            order(entry, exit, Flaw::Backwards(number))?;
         }
         let stretch = tube.account(hull(entry.inf(), exit.sup()), listed);
-        stretch.map_err(|(a, b)| Flaw::Unlisted(number, a, b))
-    }
-
-    /// Whether the path comes to the sketch in this tube in the direction in which it started.
-    fn returns(&self, tube: &Tube) -> bool {
-        let sketch: Vec<f64> = self.eq.sketch[..=self.eq.m]
-            .iter()
-            .map(|x| x.mid())
-            .collect();
-        let place = Place::prove(&self.eq, &sketch, &tube.normal, &tube.weights, 0.0);
-        place
-            .is_ok_and(|place| place.covers(&self.eq.sketch, NEAR) && place.goes_along(&self.start))
+        stretch.map_err(|part| {
+            let claim = Flaw::Unlisted(number, part.inf(), part.sup());
+            flaw(refute::missing(tube, part, listed), claim)
+        })
     }
 
     /// What remains to be proved when all tubes are linked.
-    pub fn conclude(&self, end: &EndClaim, verdict: &mut Verdict) -> Result<(), Flaw> {
+    pub fn conclude(&self, end: &EndClaim, verdict: &mut Verdict) -> Result<(), Outcome> {
         match (&self.last, &end.stopped) {
-            (None, None) => return Err(Flaw::Empty),
+            (None, None) => return Err(flaw(true, Flaw::Empty)),
             (None, Some(_)) => return Ok(()),
             _ => {}
         }
         for (k, solution) in self.solutions.iter().enumerate() {
             verdict.margin = verdict.margin.min(solution.margin);
-            if !self.met[k] {
-                return Err(Flaw::Unmet(k + 1));
+            if self.met[k] != Some(true) {
+                return Err(flaw(self.met[k].is_some(), Flaw::Unmet(k + 1)));
             }
             let mut class = verdict.classes.iter().max().map_or(0, |c| c + 1);
             for (j, other) in self.solutions[..k].iter().enumerate() {
                 if !solution.is_apart(other) {
-                    return Err(Flaw::Overlap(j + 1, k + 1));
+                    return Err(flaw(true, Flaw::Overlap(j + 1, k + 1)));
                 }
                 let congruent = solution.is_congruent(other, &self.eq);
-                if congruent.ok_or(Flaw::Congruence(j + 1, k + 1))? {
+                if congruent.ok_or(flaw(false, Flaw::Congruence(j + 1, k + 1)))? {
                     class = verdict.classes[j];
                 }
             }
             if end.classes[k] != class {
-                return Err(Flaw::Class(k + 1, end.classes[k]));
+                return Err(flaw(true, Flaw::Class(k + 1, end.classes[k])));
             }
             verdict.classes.push(class);
-        }
-        // a(t) > 0 on every piece of the range.
-        const PIECES: u32 = 64;
-        let (low, high) = verdict.t_range;
-        for (e, length) in self.eq.homotopy.lengths.iter().enumerate() {
-            let piece = |k: u32| {
-                let part = hull(f64::from(k), f64::from(k + 1)) / point(PIECES.into());
-                point(low) + (point(high) - point(low)) * part
-            };
-            let finite = low.is_finite() && high.is_finite();
-            if !finite || !(0..PIECES).all(|k| length.enclose(piece(k)).inf() > 0.0) {
-                return Err(Flaw::Length(verdict.problem.distance_name(e), low, high));
-            }
         }
         Ok(())
     }
@@ -176,7 +190,10 @@ impl Chain {
     pub fn points(&self, solution: &Place) -> Vec<[Interval; 3]> {
         let homotopy = &self.eq.homotopy;
         let unit = point(homotopy.unit);
-        let coordinate = |p, axis| solution.figure[unknown(homotopy, p, axis)] * unit;
+        let coordinate = |p, axis| {
+            let free = homotopy.coordinate(p, axis);
+            free.map_or(ZERO, |i| solution.claimed[i] * unit)
+        };
         let points = 0..homotopy.points;
         let points = points.map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
         points.collect()

@@ -1,48 +1,73 @@
 //! Guesses in floats, which nobody has to trust: the proofs hold whatever these are.
 
-use super::equations::{Equations, ZERO};
-use super::krawczyk::{Curve, Fault, LARGE, ORDER};
+use super::equations::{Equations, Product};
+use super::krawczyk::{Curve, LARGE, ORDER, Section, magnitude, weight};
 use super::whole::{J_BITS, Whole, power};
 use crate::certificate::format::WEIGHT_UNIT;
+use crate::certificate::verdict::Fault;
 
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
 
-/// A matrix near the inverse of [J(z₀); c] U.
+/// Powers of two near the largest entries of the rows of [J(z₀); c] U, as exponents.
+pub fn scale(curve: &Curve, c: &[f64], u: &[u16]) -> Vec<i32> {
+    let m = curve.eq.m;
+    let units = power(-curve.bits[0]) * 0.5 * WEIGHT_UNIT;
+    let row = |e: usize| {
+        let entry = |&(i, factor, form): &(usize, i64, usize)| {
+            (factor as f64) * curve.forms[0][form] as f64 * f64::from(u[i]) * units
+        };
+        let time = (curve.slope(e, 0) * weight(u[m])).mag();
+        let entries = curve.eq.gradient[e].iter().map(entry).chain([time]);
+        magnitude(&entries.collect::<Vec<f64>>())
+    };
+    let normal = c
+        .iter()
+        .zip(u)
+        .map(|(c, &u)| c * WEIGHT_UNIT * f64::from(u));
+    let normal: Vec<f64> = normal.collect();
+    (0..m).map(row).chain([magnitude(&normal)]).collect()
+}
+
+/// A matrix near the inverse of [J(z₀); c] U, its rows scaled.
 pub struct Inverse {
     pub whole: Whole,
-    /// U Y: in the unknowns' own units.
+    /// U Y with columns scaled, column by column: the inverse of [J(z₀); c].
     unscaled: Vec<f64>,
 }
 
 impl Inverse {
-    /// At the first coefficient of a curve.
-    pub fn new(curve: &Curve, c: &[f64], u: &[u16]) -> Result<Inverse, Fault> {
-        let n = curve.eq.m + 1;
-        let mut rests = vec![ZERO; n];
-        let j0 = curve.bordered(c, u, &mut rests)?;
+    pub fn new(at: &Section) -> Result<Inverse, Fault> {
+        let n = at.u.len();
         let mut matrix = vec![0.0; n * n];
-        for (i, column) in j0.iter().enumerate() {
-            column
-                .iter()
-                .for_each(|&(e, x)| matrix[e * n + i] = x as f64 * power(-J_BITS));
+        for (i, column) in at.j0.iter().enumerate() {
+            for &(e, x) in column {
+                matrix[e * n + i] += x as f64 * power(-J_BITS);
+            }
         }
-        let floats = invert(n, matrix).ok_or("its Jacobian is singular")?;
-        let entries = floats.iter().enumerate();
-        let unscaled = entries
-            .map(|(k, y)| y * WEIGHT_UNIT * f64::from(u[k / n]))
-            .collect();
+        let floats = invert(n, matrix).ok_or(Fault::because("its Jacobian is singular"))?;
+        let mut unscaled = vec![0.0; n * n];
+        for (i, row) in floats.chunks(n).enumerate() {
+            let u = WEIGHT_UNIT * f64::from(at.u[i]);
+            for (e, y) in row.iter().enumerate() {
+                unscaled[e * n + i] = y * u * power(-at.scale[e]);
+            }
+        }
         Ok(Inverse {
-            whole: Whole::nearest(n, &floats).ok_or(LARGE)?,
+            whole: Whole::nearest(&floats, &at.scale).ok_or(LARGE)?,
             unscaled,
         })
     }
 
     /// U Y f, in floats.
     pub fn times(&self, f: &[f64]) -> Vec<f64> {
-        let rows = self.unscaled.chunks(f.len());
-        rows.map(|row| row.iter().zip(f).map(|(y, f)| y * f).sum())
-            .collect()
+        let mut out = vec![0.0; f.len()];
+        for (column, f) in self.unscaled.chunks(f.len()).zip(f) {
+            for (out, y) in out.iter_mut().zip(column) {
+                *out += y * f;
+            }
+        }
+        out
     }
 }
 
@@ -56,17 +81,17 @@ pub fn expand(curve: &mut Curve, inverse: &Inverse, advance: f64) -> Result<(), 
     Ok(())
 }
 
-/// The constant curve at a zero of F near a point, in the cross-section through that point. The
-/// steps, with one inverse for all, end below `enough`, or where they do not shrink any more.
+/// The constant curve at a zero of F near a point, in the cross-section with normal `c` through that
+/// point, with its section and inverse.
 pub fn newton<'a>(
     eq: &'a Equations,
     near: &[f64],
     c: &[f64],
     u: &[u16],
-    enough: f64,
-) -> Result<(Curve<'a>, Inverse), Fault> {
+) -> Result<(Curve<'a>, Section, Inverse), Fault> {
     let mut curve = Curve::at(eq, near)?;
-    let inverse = Inverse::new(&curve, c, u)?;
+    let mut at = curve.section(c, u, scale(&curve, c, u))?;
+    let inverse = Inverse::new(&at)?;
     let (mut z, mut last) = (near.to_vec(), f64::INFINITY);
     for _ in 0..STEPS {
         let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
@@ -75,12 +100,150 @@ pub fn newton<'a>(
         z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
         curve = Curve::at(eq, &z)?;
         let size = step.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-        if !(enough < size && size < 0.5 * last) {
+        if !(0.0 < size && size < 0.5 * last) {
             break;
         }
         last = size;
     }
-    Ok((curve, inverse))
+    at = curve.section(c, u, at.scale)?;
+    Ok((curve, at, inverse))
+}
+
+/// The preconditioner that moves along a curve, in floats.
+pub struct Moving<'a> {
+    curve: &'a Curve<'a>,
+    at: &'a Section,
+    inverse: &'a Inverse,
+    /// E'' t₁ for each equation.
+    bends: Vec<f64>,
+    /// The coefficients of E.
+    right: Vec<[f64; 5]>,
+}
+
+impl<'a> Moving<'a> {
+    pub fn new(curve: &'a Curve<'a>, at: &'a Section, inverse: &'a Inverse) -> Self {
+        let (eq, z) = (curve.eq, &curve.z);
+        let t = crate::interval::point(z[0][eq.m]);
+        Moving {
+            bends: (0..eq.m)
+                .map(|e| eq.bend(e, t).mid() * z[1][eq.m])
+                .collect(),
+            right: eq.homotopy.rights.iter().map(|right| right.e).collect(),
+            curve,
+            at,
+            inverse,
+        }
+    }
+
+    /// U Ỹ(s) f.
+    fn times(&self, f: &[f64], s: f64) -> Vec<f64> {
+        let mut v = self.inverse.times(f);
+        let (eq, mut change) = (
+            self.curve.eq,
+            directional(self.curve.eq, (&self.curve.z[1], 0.0), &v),
+        );
+        for (change, bend) in change.iter_mut().zip(&self.bends) {
+            *change -= bend * v[eq.m];
+        }
+        change.push(0.0);
+        let back = self.inverse.times(&change);
+        v.iter_mut().zip(back).for_each(|(v, x)| *v -= s * x);
+        v
+    }
+
+    /// A point near the zero of F in the cross-section through ẑ(s): with steps, in the norm, below
+    /// `enough`, or that do not shrink any more.
+    pub fn zero(&self, s: f64, enough: f64) -> Vec<f64> {
+        let (eq, n) = (self.curve.eq, self.at.c.len());
+        let along = |i: usize| self.curve.z.iter().rev().fold(0.0, |sum, z| sum * s + z[i]);
+        let start: Vec<f64> = (0..n).map(along).collect();
+        let mut z = start.clone();
+        self.improve(&mut z, s, enough, |z| {
+            let right = |c: &[f64; 5]| c.iter().rev().fold(0.0, |sum, c| sum * z[eq.m] + c);
+            let left = value(eq, z).into_iter().zip(&self.right);
+            let ahead = z.iter().zip(&start).zip(&self.at.c);
+            let ahead = ahead.map(|((z, start), c)| c * (z - start)).sum();
+            left.map(|(f, e)| f - right(e)).chain([ahead]).collect()
+        });
+        z
+    }
+
+    /// A vector T near the curve's direction at a point near ẑ(s), with c·T = 1.
+    pub fn tangent(&self, near: &[f64], s: f64) -> Vec<f64> {
+        let (eq, n, z) = (self.curve.eq, self.at.c.len(), &self.curve.z);
+        let slope = |i: usize| {
+            let terms = (1..z.len()).rev();
+            terms.fold(0.0, |sum, k| sum * s + k as f64 * z[k][i])
+        };
+        let mut v: Vec<f64> = (0..n).map(slope).collect();
+        let along = |v: &[f64]| v.iter().zip(&self.at.c).map(|(v, c)| v * c).sum::<f64>();
+        let advance = along(&v);
+        v.iter_mut().for_each(|v| *v /= advance);
+        let slope_of = |e: &[f64; 5]| {
+            let terms = (1..5).rev();
+            terms.fold(0.0, |sum, k| sum * near[eq.m] + k as f64 * e[k])
+        };
+        let slopes: Vec<f64> = self.right.iter().map(slope_of).collect();
+        let enough = 1e-9 * self.norm(&v);
+        self.improve(&mut v, s, enough, |v| {
+            let left = directional(eq, (near, 1.0), v).into_iter().zip(&slopes);
+            left.map(|(f, e)| f - e * v[eq.m])
+                .chain([along(v) - 1.0])
+                .collect()
+        });
+        v
+    }
+
+    /// Newton's steps, as far as they shrink and are not below `enough`.
+    fn improve(&self, v: &mut [f64], s: f64, enough: f64, f: impl Fn(&[f64]) -> Vec<f64>) {
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let step = self.times(&f(v), s);
+            v.iter_mut().zip(&step).for_each(|(v, step)| *v -= step);
+            let size = self.norm(&step);
+            if !(enough < size && size < 0.9 * last) {
+                break;
+            }
+            last = size;
+        }
+    }
+
+    fn norm(&self, v: &[f64]) -> f64 {
+        let ratios = v.iter().zip(&self.at.u);
+        ratios.fold(0.0, |max, (v, &u)| {
+            max.max(v.abs() / (WEIGHT_UNIT * f64::from(u)))
+        })
+    }
+}
+
+/// All q_e at a point, in floats.
+fn value(eq: &Equations, z: &[f64]) -> Vec<f64> {
+    let of = |form: usize| {
+        let [i, j] = eq.forms[form].map(|i| eq.entry(i, |i| z[i], [0.0, 1.0]));
+        i - j
+    };
+    let term = |&(factor, [left, right]): &Product| 0.5 * factor as f64 * of(left) * of(right);
+    let products = eq.products.iter();
+    products
+        .map(|products| products.iter().map(term).sum())
+        .collect()
+}
+
+/// The derivatives of all q_e at a point in a direction, in floats; the number 1 is `one` there.
+fn directional(eq: &Equations, (z, one): (&[f64], f64), v: &[f64]) -> Vec<f64> {
+    let of = |v: &[f64], form: usize, one: f64| {
+        let [i, j] = eq.forms[form].map(|i| eq.entry(i, |i| v[i], [0.0, one]));
+        i - j
+    };
+    let term = |&(factor, [left, right]): &Product| {
+        let [x, y] = [left, right].map(|form| of(z, form, one));
+        let [dx, dy] = [left, right].map(|form| of(v, form, 0.0));
+        0.5 * factor as f64 * (x * dy + dx * y)
+    };
+    let products = eq.products.iter();
+    products
+        .map(|products| products.iter().map(term).sum())
+        .collect()
 }
 
 /// A float inverse, or nothing where there is none: Gauss and Jordan in place, with row pivots.

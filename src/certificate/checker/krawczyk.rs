@@ -2,8 +2,9 @@
 //! polynomial. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
-use super::whole::{Columns, J_BITS, LIMIT, Whole, above, exact, power, size, split};
+use super::whole::{Columns, J_BITS, LIMIT, Whole, above, between, exact, power, size, split};
 use crate::certificate::format::WEIGHT_UNIT;
+use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 
 /// The degree of ẑ.
@@ -13,21 +14,31 @@ const DEGREE: usize = 4 * ORDER;
 /// Weights are multiples of 2 to minus this.
 const WEIGHT_BITS: i32 = 16;
 
-/// What fails in a test.
-pub type Fault = &'static str;
-pub const LARGE: Fault = "its numbers are too large for the test";
+pub const LARGE: Fault = Fault::because("its numbers are too large or too far apart for the test");
 
-/// A polynomial ẑ(σ) = Σ z_k σᵏ, |σ| ≤ 1, whose coefficients are multiples of 2^−bits: differences of
+/// Cross-sections c·z = const with the norm's weights u in them, and [J; c] U at a curve's z₀. Its rows are
+/// divided by the powers of two to the exponents in `scale`, in units of 2⁻⁴⁴, and rounded.
+pub struct Section {
+    pub c: Vec<f64>,
+    pub u: Vec<u16>,
+    pub scale: Vec<i32>,
+    pub j0: Columns,
+    /// What every row may have lost, undivided.
+    rests: Vec<Interval>,
+}
+
+/// A polynomial ẑ(σ) = Σ z_k σᵏ, |σ| ≤ 1, whose coordinates are multiples of powers of two: differences of
 /// coordinates and their products are exact.
 pub struct Curve<'a> {
     pub eq: &'a Equations,
-    bits: i32,
-    /// Its coefficients, each with n entries and a zero.
-    pub z: Vec<Vec<Interval>>,
-    /// For each coefficient p_i − p_j per distance and axis, in units of 2^−bits.
-    differences: Vec<Vec<[i64; 3]>>,
-    /// The coefficients of E_e(t₀ + τ) in τ, per distance.
-    half_squares: Vec<[Interval; 5]>,
+    /// The units of z₀ are 2 to minus the first of these, those of all others 2 to minus the second.
+    pub bits: [i32; 2],
+    /// Its coefficients.
+    pub z: Vec<Vec<f64>>,
+    /// For each coefficient all forms, in its units.
+    pub forms: Vec<Vec<i64>>,
+    /// The coefficients of E_e(t₀ + τ) in τ, per equation.
+    right: Vec<[Interval; 5]>,
     /// Where τ = Σ t_k σᵏ, k ≥ 1: the coefficients of τʲ.
     powers: [[Interval; DEGREE + 1]; 5],
 }
@@ -35,42 +46,47 @@ pub struct Curve<'a> {
 impl<'a> Curve<'a> {
     /// The constant polynomial that is nearest to a point.
     pub fn at(eq: &'a Equations, centre: &[f64]) -> Result<Self, Fault> {
-        let largest = centre.iter().fold(1e-9f64, |max, x| max.max(x.abs()));
         let mut curve = Curve {
             eq,
-            bits: 51 - largest.min(1e18).log2().ceil() as i32,
+            // The number 1 is a multiple of the unit, too.
+            bits: [51 - magnitude(&centre[..eq.m]).max(0); 2],
             z: Vec::new(),
-            differences: Vec::new(),
-            half_squares: Vec::new(),
+            forms: Vec::new(),
+            right: Vec::new(),
             powers: [[ZERO; DEGREE + 1]; 5],
         };
         curve.push(centre)?;
-        let t = curve.z[0][eq.m];
-        curve.half_squares = (0..eq.m).map(|e| eq.half_square_at(e, t)).collect();
+        let t = point(curve.z[0][eq.m]);
+        curve.right = (0..eq.m).map(|e| eq.right_at(e, t)).collect();
         Ok(curve)
     }
 
-    /// Adds the next coefficient, rounded.
+    /// Adds the next coefficient, its coordinates rounded.
     pub fn push(&mut self, z: &[f64]) -> Result<(), Fault> {
-        let round = |x: &f64| (x * power(self.bits)).round();
-        let whole: Vec<f64> = z.iter().map(round).chain([0.0]).collect();
-        // Then differences have 53 bits, and the sums of products 112.
-        if !whole.iter().all(|x| x.abs() < power(52)) {
+        let (k, m) = (self.z.len(), self.eq.m);
+        if k == 1 {
+            // All others may be 64 times as large.
+            self.bits[1] = (45 - magnitude(&z[..m])).max(self.bits[0]);
+        }
+        let bits = self.bits[k.min(1)];
+        let mut whole: Vec<f64> = z[..m].iter().map(|x| (x * power(bits)).round()).collect();
+        // Then differences have 53 bits, and the sums of products 121.
+        if !(whole.iter().all(|x| x.abs() < power(52)) && z[m].is_finite()) {
             return Err(LARGE);
         }
-        let difference = |[i, j]: [usize; 2]| (whole[i] - whole[j]) as i64;
-        let ends = self.eq.ends.iter();
-        self.differences
-            .push(ends.map(|e| e.map(difference)).collect());
-        let z: Vec<Interval> = whole.iter().map(|x| point(x * power(-self.bits))).collect();
-        let k = self.z.len();
+        let one = if k == 0 { power(bits) } else { 0.0 };
+        let of = |i: usize| self.eq.entry(i, |i| whole[i], [0.0, one]);
+        let forms = self.eq.forms.iter().map(|&[i, j]| (of(i) - of(j)) as i64);
+        self.forms.push(forms.collect());
+        whole.iter_mut().for_each(|x| *x *= power(-bits));
+        // t is in no form.
+        whole.push(z[m]);
+        self.z.push(whole);
         if k > 0 {
-            self.powers[1][k] = z[self.eq.m];
+            self.powers[1][k] = point(z[m]);
         }
-        self.z.push(z);
         // What is known now of the powers of τ: all of them once ẑ is complete.
-        let known = k + 1..=if k == ORDER { DEGREE } else { k + 1 };
-        for k in known {
+        for k in k + 1..=if k == ORDER { DEGREE } else { k + 1 } {
             for j in 2..5 {
                 let factors =
                     (1..k.min(ORDER + 1)).map(|a| (self.powers[1][a], self.powers[j - 1][k - a]));
@@ -81,176 +97,192 @@ impl<'a> Curve<'a> {
         Ok(())
     }
 
+    /// The sum of the products of q_e for two coefficients, doubled.
+    fn products(&self, e: usize, a: usize, b: usize) -> i128 {
+        let (x, y) = (&self.forms[a], &self.forms[b]);
+        let product = |&(factor, [left, right]): &(i64, [usize; 2])| {
+            i128::from(factor) * (i128::from(x[left]) * i128::from(y[right]))
+        };
+        self.eq.products[e].iter().map(product).sum()
+    }
+
     /// The coefficient of σᵏ in F(ẑ(σ)).
     pub fn residual(&self, k: usize) -> Vec<Interval> {
+        let ([coarse, fine], known) = (self.bits, self.z.len());
         let residual = |e: usize| {
-            let mut sum = 0i128;
-            for (a, one) in self.differences.iter().enumerate().take(k + 1) {
-                if let Some(other) = self.differences.get(k - a) {
-                    let products = one[e].iter().zip(&other[e]);
-                    sum += products
-                        .map(|(&x, &y)| i128::from(x) * i128::from(y))
-                        .sum::<i128>();
-                }
-            }
-            // Between the neighbours of the nearest float. Scaling is exact.
-            let (near, scale) = (sum as f64, power(-2 * self.bits - 1));
-            let half = between(near.next_down() * scale, near.next_up() * scale);
-            let l = &self.half_squares[e];
+            let (right, degree) = (&self.right[e], self.eq.degree(e));
             if k == 0 {
-                return half - l[0];
+                return nearly(self.products(e, 0, 0), 2 * coarse + 1) - right[0];
             }
-            let powers = (1..=self.eq.homotopy.rights[e].degree).map(|j| (j, self.powers[j][k]));
+            let inner = 1.max((k + 1).saturating_sub(known))..known.min(k);
+            let inner: i128 = inner.map(|a| self.products(e, a, k - a)).sum();
+            let mut f = nearly(inner, 2 * fine + 1);
+            if k < known {
+                let outer = self.products(e, 0, k) + self.products(e, k, 0);
+                f += nearly(outer, coarse + fine + 1);
+            }
+            let powers = (1..=degree).map(|j| (right[j], self.powers[j][k]));
             let powers = powers.filter(|&(_, power)| power != ZERO);
-            powers.fold(half, |sum, (j, power)| sum - l[j] * power)
+            powers.fold(f, |sum, (right, power)| sum - right * power)
         };
-        // Beyond 2 ORDER there are only powers of t, in the one length that bends.
-        let zero = |e: usize| k > 2 * ORDER && self.eq.homotopy.rights[e].degree == 2;
+        // Beyond 2 ORDER there are only powers of t, in equations of higher degree.
+        let zero = |e: usize| k > 2 * ORDER && self.eq.degree(e) <= 2;
         (0..self.eq.m)
             .map(|e| if zero(e) { ZERO } else { residual(e) })
             .collect()
     }
 
     /// The coefficient of σᵏ in E_e'(t).
-    fn slope(&self, e: usize, k: usize) -> Interval {
-        let l = &self.half_squares[e];
+    pub fn slope(&self, e: usize, k: usize) -> Interval {
+        let right = &self.right[e];
         if k == 0 {
-            return l[1];
+            return right[1];
         }
-        let terms = (2..=self.eq.homotopy.rights[e].degree)
-            .map(|j| point(j as f64) * l[j] * self.powers[j - 1][k]);
-        terms.fold(ZERO, |sum, x| sum + x)
+        let terms = 2..=self.eq.degree(e);
+        terms.fold(ZERO, |sum, j| {
+            sum + point(j as f64) * right[j] * self.powers[j - 1][k]
+        })
     }
 
-    /// The coefficient of σᵏ in J(ẑ(σ)) U, rounded to units of 2⁻⁴⁰. Adds bounds on what every row
-    /// of it lost to `rests`.
-    fn jacobian(&self, k: usize, u: &[u16], rests: &mut [Interval]) -> Result<Columns, Fault> {
+    /// The coefficient of σᵏ in J(ẑ(σ)) U. Adds bounds on what every row of it lost to `rests`.
+    fn jacobian(
+        &self,
+        k: usize,
+        (u, scale): (&[u16], &[i32]),
+        rests: &mut [Interval],
+    ) -> Result<Columns, Fault> {
         let m = self.eq.m;
-        let shift = self.bits + WEIGHT_BITS - J_BITS;
-        if shift < 1 {
-            return Err(LARGE);
-        }
         let mut columns: Columns = vec![Vec::new(); m + 1];
-        for e in 0..m {
-            for (ends, &d) in self.eq.ends[e].iter().zip(&self.differences[k][e]) {
-                for (&i, d) in ends.iter().zip([d, -d]).filter(|&(&i, _)| i <= m) {
-                    let entry = (i128::from(d) * i128::from(u[i]) + (1 << (shift - 1))) >> shift;
-                    if entry.unsigned_abs() >= LIMIT as u128 {
-                        return Err(LARGE);
-                    }
-                    columns[i].push((e, entry as i64));
-                }
+        for (e, &scale) in scale.iter().enumerate().take(m) {
+            let bits = self.bits[k.min(1)] + 1 + WEIGHT_BITS + scale;
+            for &(i, factor, form) in &self.eq.gradient[e] {
+                let entry = i128::from(factor) * i128::from(self.forms[k][form]) * i128::from(u[i]);
+                columns[i].push((e, in_units(entry, bits - J_BITS).ok_or(LARGE)?));
             }
-            let (entry, rest) = split(self.slope(e, k) * -weight(u[m])).ok_or(LARGE)?;
+            let slope = self.slope(e, k) * -weight(u[m]) * point(power(-scale));
+            let (entry, rest) = split(slope).ok_or(LARGE)?;
             columns[m].push((e, entry));
-            // Half a unit for each of six coordinates.
-            rests[e] += rest + point(3.0 * power(-J_BITS));
+            // Half a unit for each of the others.
+            let units = point(self.eq.gradient[e].len() as f64 * power(-J_BITS - 1));
+            rests[e] += (rest + units) * point(power(scale));
         }
         Ok(columns)
     }
 
-    /// [J(z₀); c] U, rounded in the same way.
-    pub fn bordered(&self, c: &[f64], u: &[u16], rests: &mut [Interval]) -> Result<Columns, Fault> {
-        let mut columns = self.jacobian(0, u, rests)?;
-        for ((column, &c), &u) in columns.iter_mut().zip(c).zip(u) {
+    /// [J(z₀); c] U.
+    pub fn section(&self, c: &[f64], u: &[u16], scale: Vec<i32>) -> Result<Section, Fault> {
+        let m = self.eq.m;
+        let mut rests = vec![ZERO; m + 1];
+        let mut j0 = self.jacobian(0, (u, &scale), &mut rests)?;
+        for ((column, &c), &u) in j0.iter_mut().zip(c).zip(u) {
             // Normals have 24 bits and weights 16: all is exact up to the rounding to a whole number.
-            let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS)).round();
-            if entry.abs() >= LIMIT {
+            let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS - scale[m])).round();
+            if !(entry.abs() < LIMIT) {
                 return Err(LARGE);
             }
-            column.push((self.eq.m, entry as i64));
-            rests[self.eq.m] += point(power(-J_BITS));
+            column.push((m, entry as i64));
+            rests[m] += point(power(scale[m] - J_BITS));
         }
-        Ok(columns)
-    }
-
-    /// Per axis the weights of a distance's two coordinates, added.
-    fn widths(&self, e: usize, u: &[u16]) -> [u64; 3] {
-        let weight = |i: usize| u.get(i).map_or(0, |&u| u.into());
-        self.eq.ends[e].map(|[i, j]| weight(i) + weight(j))
+        let (c, u) = (c.to_vec(), u.to_vec());
+        Ok(Section {
+            c,
+            u,
+            scale,
+            j0,
+            rests,
+        })
     }
 
     /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `y`, near the
     /// inverse of [J(z₀); c] U, is any matrix.
-    pub fn test(&self, y: &Whole, c: &[f64], u: &[u16], r: Interval) -> Result<Test, Fault> {
-        let (m, n) = (self.eq.m, self.eq.m + 1);
-        let order = self.z.len() - 1;
-        let mut rests = vec![ZERO; n];
-        let mut stiff = y.defect(&self.bordered(c, u, &mut rests)?);
+    pub fn test(&self, y: &Whole, at: &Section, r: Interval) -> Result<Test, Fault> {
+        let (m, n, order, u) = (self.eq.m, self.eq.m + 1, self.z.len() - 1, &at.u);
+        let mut rests = at.rests.clone();
+        let mut stiff = y.defect(&at.j0);
         let (mut moving, mut square) = (point(1.0), ZERO);
         if order > 0 {
-            let [j1, j2] = [1, 2].map(|k| self.jacobian(k, u, &mut rests));
+            let [j1, j2] = [1, 2].map(|k| self.jacobian(k, (u, &at.scale), &mut rests));
             let a = y.moving(&j1?, &j2?).ok_or(LARGE)?;
             stiff += a.rest;
             moving += a.norm;
             square = a.square + a.norm * a.second;
         }
         let t = polynomial(&self.z, m, around(point(1.0))) + around(r * weight(u[m]));
+        let t_slope = (1..=order).fold(ZERO, |sum, k| {
+            sum + point(k as f64) * point(self.z[k][m].abs())
+        });
+        let weight_of = |i: usize| u.get(i).filter(|_| i < m).map_or(0, |&u| u128::from(u));
+        let width = |form: usize| self.eq.forms[form].map(weight_of).iter().sum::<u128>();
         let (mut wide, mut turn) = (vec![ZERO; n], vec![ZERO; n]);
-        let t_slope = (1..=order).fold(ZERO, |sum, k| sum + point(k as f64) * size(self.z[k][m]));
         for e in 0..m {
-            let widths = self.widths(e, u);
-            let square: u64 = widths.iter().map(|w| w * w).sum();
-            let (mut beyond, mut slope) = (0u128, 0u128);
-            for (k, differences) in self.differences.iter().enumerate().skip(1) {
-                let sizes = differences[e].iter().zip(widths);
-                let sizes = sizes.map(|(d, w)| u128::from(d.unsigned_abs()) * u128::from(w));
-                let change: u128 = sizes.sum();
-                slope += k as u128 * change;
-                beyond += if k > 2 { change } else { 0 };
+            let (mut square, mut beyond, mut slope) = (0u128, 0u128, 0u128);
+            for &(i, factor, form) in &self.eq.gradient[e] {
+                let by = u128::from(factor.unsigned_abs()) * weight_of(i);
+                square += by * width(form);
+                let forms = self.forms.iter().skip(3).map(|f| f[form].unsigned_abs());
+                beyond += by * forms.map(u128::from).sum::<u128>();
             }
-            let degree = self.eq.homotopy.rights[e].degree;
-            let slopes = (3..=(degree - 1) * order).map(|k| size(self.slope(e, k)));
-            let slopes = slopes.fold(ZERO, |sum, x| sum + x) * weight(u[m]);
-            rests[e] += above(beyond, self.bits + WEIGHT_BITS) + slopes;
+            for (k, forms) in self.forms.iter().enumerate().skip(1) {
+                for &(factor, [left, right]) in &self.eq.products[e] {
+                    let size = |form: usize| u128::from(forms[form].unsigned_abs());
+                    let change = size(left) * width(right) + size(right) * width(left);
+                    slope += k as u128 * u128::from(factor.unsigned_abs()) * change;
+                }
+            }
+            let slopes = 3..=(self.eq.degree(e).max(2) - 1) * order;
+            let slopes = slopes.fold(ZERO, |sum, k| sum + size(self.slope(e, k)));
             let bend = size(self.eq.bend(e, t)) * weight(u[m]);
-            wide[e] = above(square.into(), 2 * WEIGHT_BITS) + bend * weight(u[m]);
-            turn[e] = above(slope, self.bits + WEIGHT_BITS) + bend * t_slope;
+            let fine = self.bits[1] + WEIGHT_BITS + 1;
+            rests[e] += above(beyond, fine) + slopes * weight(u[m]);
+            wide[e] = above(square, 2 * WEIGHT_BITS + 1) + bend * weight(u[m]);
+            turn[e] = above(slope, fine) + bend * t_slope;
         }
 
-        // The first coefficients of F(ẑ(σ)) are as good as zero: their sizes will do.
-        let mut small = vec![ZERO; n];
+        // The first coefficients of F(ẑ(σ)), and those of t alone, are as good as zero: of them their sizes, and
+        // k times these, will do.
+        let (mut small, mut small_slope) = (vec![ZERO; n], vec![ZERO; n]);
         let (mut defect, mut defect_slope) = (ZERO, ZERO);
         for k in 0..=if order > 0 { DEGREE } else { 0 } {
-            let mut f = self.residual(k);
-            if (1..=ORDER).contains(&k) || k > 2 * ORDER {
-                small.iter_mut().zip(f).for_each(|(sum, f)| *sum += size(f));
-            } else {
-                f.resize(n, ZERO);
-                let image = y.image(&f);
-                defect += image;
-                defect_slope += point(k as f64) * image;
+            let (f, times) = (self.residual(k), point(k as f64));
+            if k == 0 || (ORDER + 1..=2 * ORDER).contains(&k) {
+                let image = upper(y.image(&f));
+                (defect, defect_slope) = (defect + image, defect_slope + times * image);
+                continue;
+            }
+            for (e, f) in f.into_iter().enumerate().filter(|&(_, f)| f != ZERO) {
+                small[e] += size(f);
+                small_slope[e] += times * size(f);
             }
         }
-        let bound = |v: &[Interval]| {
-            let sizes: Vec<Interval> = v.iter().map(|&x| around(x)).collect();
-            y.image(&sizes)
-        };
-        let small = bound(&small);
         Ok(Test {
-            stiff: upper(moving * (stiff + bound(&rests)) + square),
-            width: upper(moving * bound(&wide)),
-            defect: upper(moving * (defect + small)),
-            defect_slope: upper(moving * (defect_slope + point(DEGREE as f64) * small)),
-            turn: upper(moving * bound(&turn)),
+            stiff: upper(moving * (stiff + y.bound(&rests)) + square),
+            width: upper(moving * y.bound(&wide)),
+            defect: upper(moving * (defect + y.bound(&small))),
+            defect_slope: upper(moving * (defect_slope + y.bound(&small_slope))),
+            turn: upper(moving * y.bound(&turn)),
+            moving: upper(moving),
         })
     }
 }
 
 /// What is known of a family of cross-sections: on |w|_u ≤ ρ, for ρ up to the r that it was made
 /// for, |I − Ỹ DG| ≤ `stiff` + `width` ρ; |Ỹ F(ẑ)| ≤ `defect`, its derivative by σ without that of Ỹ
-/// `defect_slope`, and |Ỹ (J(ẑ + w) − J(ẑ)) ẑ'| ≤ `turn` ρ.
+/// `defect_slope`, |Ỹ (J(ẑ + w) − J(ẑ)) ẑ'| ≤ `turn` ρ, and |Ỹ v| ≤ `moving` |Y v|.
 pub struct Test {
     pub stiff: Interval,
     pub width: Interval,
     pub defect: Interval,
     defect_slope: Interval,
     turn: Interval,
+    moving: Interval,
 }
 
 /// That every cross-section has exactly one zero φ(σ) in its box.
 pub struct Proof {
-    /// It is at most so far from ẑ(σ).
+    /// |w|_u is at most so many times |Y x|, for DG(w') U w = x with a w' in the box: as |I − Ỹ DG U| ≤ q
+    /// there, it is at most |Ỹ x| / (1 − q).
+    pub inverse: Interval,
+    /// The zero is at most so far from ẑ(σ).
     pub distance: Interval,
     /// And φ'(σ) from ẑ'(σ).
     pub slope_distance: Interval,
@@ -259,32 +291,54 @@ pub struct Proof {
 }
 
 impl Test {
+    /// At least q, the bound of |I − Ỹ DG| on |w|_u ≤ r.
+    pub fn contraction(&self, r: Interval) -> Interval {
+        upper(self.stiff + self.width * r)
+    }
+
     /// Whether every cross-section has exactly one zero within r.
     pub fn within(&self, r: Interval) -> Result<Proof, Fault> {
-        const EXPANDS: Fault = "the Krawczyk test fails: its map is no contraction of the box";
-        let one = point(1.0);
-        let q = upper(self.stiff + self.width * r);
-        if !(q.sup() < 1.0) {
-            return Err(EXPANDS);
-        }
+        let (one, q) = (point(1.0), self.contraction(r));
         let margin = (one - q - self.defect / r).inf();
-        if !(margin > 0.0) {
-            return Err("the Krawczyk test fails: the box is not mapped into its inside");
+        if !(q.sup() < 1.0 && margin > 0.0) {
+            return Err(Fault::margin(margin));
         }
         // |w| ≤ η/(1 − q) first, and then q for boxes of that size.
-        let near = upper(self.defect / (one - q));
-        let q = upper(self.stiff + self.width * near);
-        if !(q.sup() < 1.0) {
-            return Err(EXPANDS);
-        }
-        let distance = upper(self.defect / (one - q));
-        let slope_distance = upper((self.defect_slope + self.turn * distance) / (one - q));
+        let nearer = self.contraction(upper(self.defect / (one - q)));
+        let distance = upper(self.defect / (one - nearer));
         Ok(Proof {
+            inverse: upper(self.moving / (one - q)),
+            slope_distance: upper((self.defect_slope + self.turn * distance) / (one - nearer)),
             distance,
-            slope_distance,
             margin,
         })
     }
+}
+
+/// An exponent e with 2ᵉ ≥ |x| for all of these, within bounds.
+pub fn magnitude(v: &[f64]) -> i32 {
+    let largest = v.iter().fold(0.0f64, |max, x| max.max(x.abs()));
+    largest.clamp(1e-30, 1e30).log2().ceil() as i32
+}
+
+/// x 2^−bits, between the neighbours of the nearest float. Scaling is exact.
+fn nearly(x: i128, bits: i32) -> Interval {
+    let (near, scale) = (x as f64, power(-bits));
+    match x.unsigned_abs() < 1 << 53 {
+        true => point(near * scale),
+        false => between(near.next_down() * scale, near.next_up() * scale),
+    }
+}
+
+/// x 2^−shift, rounded to a whole number, for |x| below 2¹⁰⁰. `None`: too large.
+fn in_units(x: i128, shift: i32) -> Option<i64> {
+    let entry = match shift {
+        110.. => 0,
+        1..110 => (x + (1 << (shift - 1))) >> shift,
+        -50..1 => x.checked_mul(1 << -shift)?,
+        _ => return None,
+    };
+    (entry.unsigned_abs() < LIMIT as u128).then_some(entry as i64)
 }
 
 /// A weight.
@@ -293,13 +347,13 @@ pub fn weight(u: u16) -> Interval {
 }
 
 /// Σ z_k σᵏ, one of its entries.
-pub fn polynomial(z: &[Vec<Interval>], i: usize, s: Interval) -> Interval {
-    z.iter().rev().fold(ZERO, |sum, z| sum * s + z[i])
+pub fn polynomial(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
+    z.iter().rev().fold(ZERO, |sum, z| sum * s + point(z[i]))
 }
 
 /// The same of the derivative.
-pub fn derivative(z: &[Vec<Interval>], i: usize, s: Interval) -> Interval {
-    let terms = (1..z.len()).rev().map(|k| point(k as f64) * z[k][i]);
+pub fn derivative(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
+    let terms = (1..z.len()).rev().map(|k| point(k as f64) * point(z[k][i]));
     terms.fold(ZERO, |sum, z| sum * s + z)
 }
 
@@ -311,9 +365,4 @@ pub fn around(x: Interval) -> Interval {
 /// The upper end.
 pub fn upper(x: Interval) -> Interval {
     exact(x.sup())
-}
-
-/// From a to b; everything where that is no interval.
-pub fn between(a: f64, b: f64) -> Interval {
-    inari::interval!(a, b).unwrap_or(Interval::ENTIRE)
 }

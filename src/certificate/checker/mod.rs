@@ -8,6 +8,7 @@ mod equations;
 mod guess;
 mod krawczyk;
 mod place;
+mod refute;
 mod tube;
 mod whole;
 
@@ -62,7 +63,7 @@ pub fn verify(
     let homotopy = match Homotopy::with_unit(&header.problem, unit) {
         Ok(homotopy) => homotopy,
         Err(error) => {
-            verdict.outcome = Outcome::Refuted(Flaw::Sketch(error.to_string()));
+            verdict.outcome = Outcome::NotProved(Flaw::Sketch(error.to_string()));
             return Ok(verdict);
         }
     };
@@ -89,7 +90,7 @@ pub fn verify(
     };
     verdict.solutions = chain.solutions.iter().map(|s| chain.points(s)).collect();
     verdict.outcome = match proved.and_then(|()| chain.conclude(&end, &mut verdict)) {
-        Err(flaw) => Outcome::Refuted(flaw),
+        Err(outcome) => outcome,
         Ok(()) => end.stopped.map_or(Outcome::Verified, Outcome::Partial),
     };
     Ok(verdict)

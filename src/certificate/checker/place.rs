@@ -1,22 +1,70 @@
-//! Boxes around points of curves of F = 0: where one tube leads to the next, and the figures with t = 1.
+//! Boxes around points of curves of F = 0, and the figures with t = 1.
 
 use super::equations::{Equations, ZERO};
 use super::guess::newton;
-use super::krawczyk::{Fault, around, upper, weight};
-use super::whole::size;
+use super::krawczyk::{Section, around, weight};
+use super::refute;
+use super::whole::{exact, size};
 use crate::certificate::format::SolutionClaim;
+use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 
-/// A box that holds a regular zero of F, the only one near it in its cross-section.
+/// An enclosure of a point of a curve of F = 0, in n entries: exactly known floats, and what has to be
+/// added to them.
+pub struct Spot {
+    pub near: Vec<f64>,
+    pub rest: Vec<Interval>,
+}
+
+impl Spot {
+    /// One of its entries.
+    pub fn at(&self, i: usize) -> Interval {
+        exact(self.near[i]) + self.rest[i]
+    }
+
+    /// Its difference from a point.
+    pub fn minus(&self, other: &[f64], i: usize) -> Interval {
+        (exact(self.near[i]) - exact(other[i])) + self.rest[i]
+    }
+
+    /// [J; c] v − e_n at this point.
+    pub fn off_direction(&self, eq: &Equations, at: &Section, v: &[f64]) -> Vec<Interval> {
+        let t = self.at(eq.m);
+        let of = |i: usize| {
+            let of = |i: usize| (exact(self.near[i]), self.rest[i]);
+            eq.entry(i, of, [(ZERO, ZERO), (point(1.0), ZERO)])
+        };
+        let form = |form: usize| {
+            let [(a, da), (b, db)] = eq.forms[form].map(of);
+            (a - b) + (da - db)
+        };
+        let row = |e: usize| {
+            let terms = eq.gradient[e].iter();
+            let terms =
+                terms.map(|&(i, factor, f)| point(0.5 * factor as f64) * form(f) * exact(v[i]));
+            let time = eq.right_at(e, t)[1] * exact(v[eq.m]);
+            terms.fold(-time, |sum, x| sum + x)
+        };
+        let along = v.iter().zip(&at.c).map(|(&v, &c)| exact(v) * point(c));
+        let along = along.fold(point(-1.0), |sum, x| sum + x);
+        (0..eq.m).map(row).chain([along]).collect()
+    }
+}
+
+/// The component of the vectors in a box along another one.
+pub fn component(direction: &[Interval], normal: &[f64]) -> Interval {
+    let terms = direction.iter().zip(normal);
+    terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c))
+}
+
+/// A figure with t = 1, the only one in its box.
 pub struct Place {
-    /// The box: X, t, and a zero.
-    pub figure: Vec<Interval>,
-    /// A point in it.
-    centre: Vec<Interval>,
-    /// At most so far from that point, entry by entry, there is no other zero in the cross-section.
+    /// Where it is.
+    pub spot: Spot,
+    /// The box that was claimed, in m entries.
+    pub claimed: Vec<Interval>,
+    /// At most so far from the middle of `spot`, entry by entry, there is no other figure with t = 1.
     alone_within: Vec<f64>,
-    /// A vector along the curve, c·T = 1, at the zero or any other one within [`NEAR`] of that.
-    pub tangent: Vec<Interval>,
     pub margin: f64,
 }
 
@@ -24,128 +72,103 @@ pub struct Place {
 const HALF: u16 = 1 << 15;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
-/// The part of that distance in which the direction of curves is known.
-pub const NEAR: f64 = 1e-4;
+
 impl Place {
-    /// Proves that there is a zero near a point, in a cross-section c·z = const. Newton's steps
-    /// towards it end below `enough`.
-    pub fn prove(
+    /// Proves that a box holds exactly one solution of F(X, a(1)) = 0.
+    pub fn solution(eq: &Equations, claim: &SolutionClaim) -> Result<Place, Fault> {
+        let radius = around(point(claim.radius.into()));
+        let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
+        let place = Place::prove(eq, claim, claimed.clone());
+        if refute::empty(eq, &claimed, place.as_ref().ok()) {
+            return Err(Fault::proof("there is none in it"));
+        }
+        let place = place?;
+        let inside = |i: usize| place.spot.at(i).interior(claimed[i]);
+        match (0..eq.m).all(inside) && place.covers(&claimed) {
+            true => Ok(place),
+            false => Err(Fault::because(
+                "it is too narrow to hold the one near it, or so wide that it may hold another one",
+            )),
+        }
+    }
+
+    /// Proves that there is a figure with t = 1 near a box.
+    fn prove(
         eq: &Equations,
-        near: &[f64],
-        c: &[f64],
-        u: &[u16],
-        enough: f64,
+        claim: &SolutionClaim,
+        claimed: Vec<Interval>,
     ) -> Result<Place, Fault> {
-        let (mut curve, inverse) = newton(eq, near, c, u, enough)?;
-        let test = curve.test(&inverse.whole, c, u, point(SIGHT))?;
+        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
+        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
+        (c[eq.m], u[eq.m]) = (1.0, 1);
+        let (curve, at, inverse) = newton(eq, &near, &c, &u)?;
+        let test = curve.test(&inverse.whole, &at, point(SIGHT))?;
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
-        // [J; c] U T = e_n, and with |I − Y [J; c] U| ≤ q, T is near the last column of Y, for J at any
-        // point within `reach`.
-        let column = inverse.whole.last_column();
-        let largest = column.iter().fold(0.0, |max: f64, x| max.max(x.mag()));
-        let reach = alone * point(2.0 * NEAR);
-        let q = upper(test.stiff + test.width * reach);
-        let off = match proof.distance.sup() < reach.inf() {
-            true => around(q / (point(1.0) - q) * point(largest)),
-            false => Interval::ENTIRE,
-        };
+        let near = curve.z[0].clone();
+        if near[eq.m] != 1.0 {
+            return Err(Fault::because("its cross-section is not t = 1"));
+        }
         let weights = || u.iter().map(|&u| weight(u));
-        let centre = curve.z.swap_remove(0);
-        let radii = weights().map(|u| around(proof.distance * u)).chain([ZERO]);
+        let mut rest: Vec<Interval> = weights().map(|u| around(proof.distance * u)).collect();
+        rest[eq.m] = ZERO;
         Ok(Place {
-            figure: centre.iter().zip(radii).map(|(&x, r)| x + r).collect(),
+            spot: Spot { near, rest },
+            claimed,
             alone_within: weights().map(|u| (alone * u).inf()).collect(),
-            tangent: column
-                .iter()
-                .zip(weights())
-                .map(|(&x, u)| (x + off) * u)
-                .collect(),
-            centre,
             margin: proof.margin,
         })
     }
 
-    /// Proves that a box holds exactly one solution of F(X, a(1)) = 0.
-    pub fn solution(eq: &Equations, claim: &SolutionClaim) -> Result<Place, Fault> {
-        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
-        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
-        (c[eq.m], u[eq.m]) = (1.0, 1);
-        let mut place = Place::prove(eq, &near, &c, &u, 0.0)?;
-        let radius = around(point(claim.radius.into()));
-        for i in 0..eq.m {
-            let figure = point(near[i]) + radius;
-            if !place.figure[i].interior(figure) {
-                return Err("the solution near it does not lie in it for certain");
-            }
-            if !(size(figure - place.centre[i]).sup() < place.alone_within[i]) {
-                return Err("it is so wide that it may hold another one");
-            }
-            place.figure[i] = figure;
-        }
-        if place.centre[eq.m] != point(1.0) {
-            return Err("its cross-section is not t = 1");
-        }
-        place.figure[eq.m] = point(1.0);
-        Ok(place)
+    /// Whether a box of coordinates lies where this figure is the only one with t = 1.
+    pub fn covers(&self, z: &[Interval]) -> bool {
+        let near = |i: usize| size(z[i] - exact(self.spot.near[i])).sup() < self.alone_within[i];
+        (0..z.len()).all(near)
     }
 
-    /// Whether a box lies within a part of the distance in which this zero is alone: all zeros of
-    /// F in it that lie in this place's cross-section are this one; if the part is [`NEAR`], the
-    /// direction is known at all zeros in it.
-    pub fn covers(&self, z: &[Interval], part: f64) -> bool {
-        let near = |i: usize| size(z[i] - self.centre[i]).sup() < part * self.alone_within[i];
-        (0..self.alone_within.len()).all(near)
-    }
-
-    /// Whether the curve, in the direction in which it leaves the cross-section, goes through
-    /// another cross-section in its direction.
-    pub fn goes_along(&self, normal: &[f64]) -> bool {
-        let terms = self.tangent.iter().zip(normal);
-        terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c)).inf() > 0.0
-    }
-
-    /// Whether the boxes have no point in common.
+    /// Whether the claimed boxes have no point in common.
     pub fn is_apart(&self, other: &Place) -> bool {
-        let pairs = self.figure.iter().zip(&other.figure);
-        pairs.into_iter().any(|(a, b)| !(*a - *b).contains(0.0))
+        let mut pairs = self.claimed.iter().zip(&other.claimed);
+        pairs.any(|(a, b)| a.disjoint(*b))
     }
 
     /// Whether two different solutions are congruent up to reflection. `None`: it cannot be told.
     ///
-    /// The isometries that keep the gauge change signs of coordinates. The second reference
-    /// point's first coordinate and the third's second tell which signs one of them has to change
-    /// to make the figures equal; that of the last coordinate is free.
+    /// The isometries that keep the gauge reverse axes. The second reference point's first coordinate
+    /// and the third's second tell which axes one of them has to reverse to make the figures equal; the
+    /// last axis is free, unless constraints say which way round the figure is. Where they fix the figure in
+    /// its frame, no isometry is left.
     pub fn is_congruent(&self, other: &Place, eq: &Equations) -> Option<bool> {
         let (gauge, d) = (&eq.homotopy.gauge, eq.homotopy.dimension);
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * d + axis];
-            let sides = self.figure[i] * other.figure[i];
+            let sides = self.spot.at(i) * other.spot.at(i);
             if sides.contains(0.0) {
                 return None;
             }
             turned[axis] = sides.sup() < 0.0;
         }
-        for last in [false, true] {
+        for last in [false, true].into_iter().take(2 * gauge.reference.len()) {
             turned[d - 1] = last;
-            let image = (0..=eq.m).map(|i| match gauge.place.get(i) {
-                Some(place) if turned[place % d] => -self.figure[i],
-                _ => self.figure[i],
-            });
-            let image: Vec<Interval> = image.collect();
+            let axes: Vec<usize> = (0..d).filter(|&axis| turned[axis]).collect();
             // Without any change of sign they differ: their boxes are disjoint.
-            if turned == [false; 3] {
+            if axes.is_empty() || axes.len() % 2 == 1 && !eq.homotopy.tail.mirrors {
                 continue;
             }
+            let image = (0..eq.m).map(|i| {
+                let flips = axes.iter().filter(|&&axis| eq.homotopy.flips(i, axis));
+                let x = self.spot.at(i);
+                if flips.count() % 2 == 1 { -x } else { x }
+            });
+            let image: Vec<Interval> = image.collect();
             // The image is a solution too.
-            if other.covers(&image, 1.0) {
+            if other.covers(&image) {
                 return Some(true);
             }
-            let mut pairs = image.iter().zip(&other.figure);
-            if pairs.all(|(a, b)| (*a - *b).contains(0.0)) {
+            if !(0..eq.m).any(|i| image[i].disjoint(other.spot.at(i))) {
                 return None;
             }
         }

@@ -1,29 +1,34 @@
 //! One tube, proved again. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
-use super::guess::{Inverse, expand};
-use super::krawczyk::{Curve, Fault, ORDER, around, between, derivative, polynomial, weight};
-use super::place::Place;
-use super::whole::size;
+use super::guess::{Inverse, Moving, expand, scale};
+use super::krawczyk::{Curve, ORDER, Proof, Section, around, derivative, polynomial, weight};
+use super::place::{Place, Spot, component};
+use super::refute;
+use super::whole::{between, exact, size};
 use crate::certificate::format::TubeClaim;
+use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
 /// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ), φ' at
 /// most `slope_distance` from ẑ'.
 pub struct Tube {
-    /// Coefficients of ẑ, each with n entries and a zero.
-    z: Vec<Vec<Interval>>,
+    /// Coefficients of ẑ.
+    pub z: Vec<Vec<f64>>,
     pub normal: Vec<f64>,
-    pub weights: Vec<u16>,
-    u: Vec<Interval>,
+    pub u: Vec<Interval>,
     r: Interval,
-    distance: Interval,
+    pub distance: Interval,
     slope_distance: Interval,
     /// c·ẑ'(σ), positive.
     advance: Interval,
-    /// Where the path leaves, and the parameter of this point.
-    pub exit: (Place, Interval),
+    /// The parameter at which the path leaves.
+    pub exit_at: f64,
+    /// Where that is.
+    pub exit: Spot,
+    /// The path's direction there.
+    pub exit_direction: Vec<Interval>,
     /// 1 − q − η/r.
     pub margin: f64,
 }
@@ -32,133 +37,208 @@ pub struct Tube {
 pub struct Stretch {
     /// Solutions in the tube.
     pub met: Vec<usize>,
+    /// Solutions of which it is not known whether they are in it.
+    pub unknown: Vec<usize>,
     /// The range of t.
     pub t: Interval,
 }
 
 /// Ranges of parameters are not split into more pieces.
 const PIECES: usize = 10_000;
+/// How near the path its points are guessed, in radii.
+const ENOUGH: f64 = 1e-6;
+
+/// What a tube's proof is made of.
+struct Work<'a> {
+    curve: Curve<'a>,
+    at: Section,
+    inverse: Inverse,
+    r: Interval,
+    proof: Proof,
+}
+
+impl<'a> Work<'a> {
+    fn new(eq: &'a Equations, claim: &TubeClaim) -> Result<Work<'a>, Fault> {
+        let c: Vec<f64> = claim.normal.iter().map(|&c| c.into()).collect();
+        let (u, r) = (&claim.weights, point(claim.r.into()));
+        let mut curve = Curve::at(eq, &claim.centre)?;
+        let at = curve.section(&c, u, scale(&curve, &c, u))?;
+        let inverse = Inverse::new(&at)?;
+        expand(&mut curve, &inverse, claim.h)?;
+        let test = curve.test(&inverse.whole, &at, r)?;
+        let proof = test.within(r).map_err(|fault| Fault {
+            is_false: refute::tube(claim, &curve, &inverse.whole, &at, &test),
+            ..fault
+        })?;
+        Ok(Work {
+            curve,
+            at,
+            inverse,
+            r,
+            proof,
+        })
+    }
+
+    /// Encloses φ(s): for any w in the box, |w − w*| ≤ |Ỹ G(w)| / (1 − q) for the zero w*.
+    fn spot(&self, s: f64, moving: &Moving) -> Option<Spot> {
+        let (z, u) = (&self.curve.z, || self.at.u.iter().map(|&u| weight(u)));
+        let there = Curve::at(self.curve.eq, &moving.zero(s, ENOUGH * self.r.sup())).ok()?;
+        let near = there.z[0].clone();
+        let s = point(s);
+        let off = |i: usize| exact(near[i]) - point(z[0][i]) - polynomial(&z[1..], i, s) * s;
+        let off: Vec<Interval> = (0..near.len()).map(off).collect();
+        let mut inside = off.iter().zip(u());
+        if !inside.all(|(&off, u)| size(off).sup() < (self.r * u).inf()) {
+            return None;
+        }
+        let mut f = there.residual(0);
+        f.push(component(&off, &self.at.c));
+        let distance = self.proof.inverse * self.inverse.whole.image(&f);
+        let rest = u().map(|u| around(distance * u)).collect();
+        Some(Spot { near, rest })
+    }
+
+    /// The path's direction T, c·T = 1, at a point φ(σ) of it near φ(s):
+    /// |T − v| ≤ |Ỹ ([J; c] v − e_n)| / (1 − q) for any v.
+    fn direction(&self, spot: &Spot, s: f64, moving: &Moving) -> Vec<Interval> {
+        let v = moving.tangent(&spot.near, s);
+        let off = spot.off_direction(self.curve.eq, &self.at, &v);
+        let distance = self.proof.inverse * self.inverse.whole.image(&off);
+        let entries = v.iter().zip(&self.at.u);
+        entries
+            .map(|(&v, &u)| exact(v) + around(distance * weight(u)))
+            .collect()
+    }
+}
+
+/// The path's direction at a point that lies in a tube for certain: with c·T = 1 for the tube's normal c.
+pub fn direction(eq: &Equations, claim: &TubeClaim, spot: &Spot) -> Result<Vec<Interval>, Fault> {
+    let work = Work::new(eq, claim)?;
+    Ok(work.direction(
+        spot,
+        0.0,
+        &Moving::new(&work.curve, &work.at, &work.inverse),
+    ))
+}
 
 impl Tube {
     pub fn prove(eq: &Equations, claim: &TubeClaim) -> Result<Tube, Fault> {
-        let n = eq.m + 1;
-        let normal: Vec<f64> = claim.normal.iter().map(|&c| c.into()).collect();
-        let (c, u) = (&normal, &claim.weights);
-        let mut curve = Curve::at(eq, &claim.centre)?;
-        let inverse = Inverse::new(&curve, c, u)?;
-        expand(&mut curve, &inverse, claim.h)?;
-        let r = point(claim.r.into());
-        let proof = curve.test(&inverse.whole, c, u, r)?.within(r)?;
-
+        let work = Work::new(eq, claim)?;
         let along = |k: usize| {
-            let products = c.iter().zip(&curve.z[k]).map(|(&c, &z)| point(c) * z);
+            let z: Vec<Interval> = work.curve.z[k].iter().map(|&z| point(z)).collect();
             let range = if k == 1 {
                 point(1.0)
             } else {
                 around(point(k as f64))
             };
-            products.fold(ZERO, |sum, x| sum + x) * range
+            component(&z, &work.at.c) * range
         };
         let advance = (1..=ORDER).fold(ZERO, |sum, k| sum + along(k));
         if !(advance.inf() > 0.0) {
-            return Err("its cross-sections turn back");
+            return Err(Fault::because("its cross-sections may turn back"));
         }
-        let z = curve.z;
-        // A parameter in [−1, 1], whatever is rounded.
-        let exit = (claim.exit / claim.h).clamp(-1.0, 1.0);
-        let near = |i: usize| z.iter().rev().fold(0.0, |sum, z| sum * exit + z[i].mid());
-        let near: Vec<f64> = (0..n).map(near).collect();
-        let enough = 1e-6 * r.sup();
-        let exit =
-            Place::prove(eq, &near, c, u, enough).map_err(|_| "its exit cannot be enclosed")?;
-        let mut tube = Tube {
-            z,
-            u: u.iter().map(|&u| weight(u)).collect(),
-            r,
-            distance: proof.distance,
-            slope_distance: proof.slope_distance,
-            advance,
-            exit: (exit, ZERO),
-            margin: proof.margin,
-            weights: claim.weights.clone(),
-            normal,
+        let least = |i: usize| {
+            let away = around(work.proof.distance * weight(work.at.u[i]));
+            (polynomial(&work.curve.z, i, around(point(1.0))) + away).inf()
         };
-        tube.exit.1 = tube
-            .locate(&tube.exit.0.figure)
-            .ok_or("its exit does not lie in it for certain")?;
-        Ok(tube)
+        if !eq.positive.iter().all(|&i| least(i) > 0.0) {
+            return Err(Fault::because(
+                "a length or radius in it may not be positive",
+            ));
+        }
+        // A parameter in [−1, 1], whatever is rounded.
+        let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);
+        let moving = Moving::new(&work.curve, &work.at, &work.inverse);
+        let exit = work.spot(exit_at, &moving);
+        let exit = exit.ok_or(Fault::because("its exit cannot be enclosed"))?;
+        Ok(Tube {
+            exit_direction: work.direction(&exit, exit_at, &moving),
+            exit_at,
+            exit,
+            z: work.curve.z,
+            u: claim.weights.iter().map(|&u| weight(u)).collect(),
+            r: work.r,
+            distance: work.proof.distance,
+            slope_distance: work.proof.slope_distance,
+            advance,
+            margin: work.proof.margin,
+            normal: work.at.c,
+        })
     }
 
-    /// The parameters σ with φ(σ) = z, for a zero z of F that lies in a box. `None`: it could
-    /// not be proved that there is one.
-    ///
-    /// g(σ) = c·(z − ẑ(σ)) falls with slope −c·ẑ'; Newton's interval around 0 holds its zero.
-    pub fn locate(&self, z: &[Interval]) -> Option<Interval> {
-        let n = self.u.len();
-        let along = |sum, i: usize| sum + point(self.normal[i]) * (z[i] - self.z[0][i]);
-        let s = (0..n).fold(ZERO, along) / self.advance;
-        if !(s.mag() <= 1.0) {
-            return None;
-        }
-        let offset = |i: usize| size(z[i] - polynomial(&self.z, i, s));
-        let inside = |i: usize| offset(i).sup() < (self.r * self.u[i]).inf();
-        (0..n).all(inside).then_some(s)
+    /// The parameters in [−1, 1] in whose cross-sections a point may be, and if that is all within there it
+    /// is in one: g(σ) = c·(z − ẑ(σ)) falls with slope −c·ẑ', and this is Newton's interval around 0.
+    pub fn parameter(&self, z: &Spot) -> Interval {
+        let off: Vec<Interval> = (0..self.u.len()).map(|i| z.minus(&self.z[0], i)).collect();
+        component(&off, &self.normal) / self.advance
+    }
+
+    /// The parameters σ with φ(σ) = z, for a zero z of F. `None`: it could not be proved that there is one.
+    pub fn locate(&self, z: &Spot) -> Option<Interval> {
+        let s = self.parameter(z);
+        let inside = |i: usize| {
+            let along = polynomial(&self.z[1..], i, s) * s;
+            size(z.minus(&self.z[0], i) - along).sup() < (self.r * self.u[i]).inf()
+        };
+        (s.mag() <= 1.0 && (0..self.u.len()).all(inside)).then_some(s)
     }
 
     /// t on the path for all parameters of a range.
-    fn time(&self, s: Interval) -> Interval {
-        let (t, middle) = (self.u.len() - 1, point(s.mid()));
+    pub fn time(&self, s: Interval) -> Interval {
+        let (t, middle) = (self.u.len() - 1, exact(s.mid()));
         let change = derivative(&self.z, t, s) * (s - middle);
         polynomial(&self.z, t, middle) + change + around(self.distance * self.u[t])
     }
 
     /// dt/dσ on the path for all parameters of a range.
-    fn time_slope(&self, s: Interval) -> Interval {
+    pub fn time_slope(&self, s: Interval) -> Interval {
         let t = self.u.len() - 1;
         derivative(&self.z, t, s) + around(self.slope_distance * self.u[t])
     }
 
     /// Accounts for all parameters of a range: the path meets t = 1 in no other point of it than
     /// these solutions, which have t = 1. `Err`: a range where this fails.
-    pub fn account(&self, range: Interval, solutions: &[Place]) -> Result<Stretch, (f64, f64)> {
+    pub fn account(&self, range: Interval, solutions: &[Place]) -> Result<Stretch, Interval> {
         const PARTS: u32 = 16;
         let width = range.sup() - range.inf();
         let cut = |k: u32| match k {
             PARTS => range.sup(),
             _ => range.inf() + width * (f64::from(k) / f64::from(PARTS)),
         };
-        let parts = (0..PARTS).map(|k| between(cut(k), cut(k + 1)));
-        let t = parts
-            .clone()
-            .map(|part| self.time(part))
-            .reduce(|a, b| a.convex_hull(b));
-        let mut stretch = Stretch {
-            met: Vec::new(),
-            t: t.unwrap_or(Interval::ENTIRE),
-        };
-        if !stretch.t.contains(1.0) {
+        let mut pieces: Vec<Interval> = (0..PARTS).map(|k| between(cut(k), cut(k + 1))).collect();
+        let times = pieces.iter().map(|&part| self.time(part));
+        let t = times
+            .reduce(|a, b| a.convex_hull(b))
+            .unwrap_or(Interval::ENTIRE);
+        let (met, unknown) = (Vec::new(), Vec::new());
+        let mut stretch = Stretch { met, unknown, t };
+        if !t.contains(1.0) {
             return Ok(stretch);
         }
         // The solutions that are in this tube, and where.
-        let here = solutions.iter().enumerate();
-        let here = here.filter_map(|(k, solution)| Some((k, self.locate(&solution.figure)?)));
-        let here: Vec<(usize, Interval)> = here.collect();
-        let mut pieces: Vec<Interval> = parts.collect();
+        let mut here = Vec::new();
+        for (k, solution) in solutions.iter().enumerate() {
+            if let Some(s) = self.locate(&solution.spot) {
+                stretch.met.push(k);
+                here.push(s);
+            } else if !refute::elsewhere(self, &solution.spot) {
+                stretch.unknown.push(k);
+            }
+        }
         let mut next = 0;
         while let Some(&part) = pieces.get(next) {
             next += 1;
             // Where t is monotone from a solution on, it is the only one.
-            let only = |s: Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
-            if !self.time(part).contains(1.0) || here.iter().any(|&(_, s)| only(s)) {
+            let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
+            if !self.time(part).contains(1.0) || here.iter().any(only) {
                 continue;
             }
-            if pieces.len() > PIECES {
-                return Err((part.inf(), part.sup()));
+            if pieces.len() > PIECES || refute::missing(self, part, solutions) {
+                return Err(part);
             }
             pieces.push(between(part.inf(), part.mid()));
             pieces.push(between(part.mid(), part.sup()));
         }
-        stretch.met = here.into_iter().map(|(k, _)| k).collect();
         Ok(stretch)
     }
 }
@@ -166,6 +246,7 @@ impl Tube {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::certificate::checker::guess::newton;
     use crate::certificate::format::Record;
     use crate::certificate::reader::Reader;
     use crate::system::Homotopy;
@@ -186,20 +267,34 @@ mod tests {
                 let Record::Tube(claim) = record else {
                     continue;
                 };
-                let tube = Tube::prove(&eq, &claim).unwrap();
-                for s in [-0.99, -0.7, -0.2, 0.0, 0.4, 0.8, 1.0].map(point) {
-                    let n = eq.m + 1;
+                for s in [-0.99, -0.7, -0.2, 0.0, 0.4, 0.8, 1.0] {
+                    let exit = s * claim.h;
+                    let claim = TubeClaim {
+                        exit,
+                        ..claim.clone()
+                    };
+                    let tube = Tube::prove(&eq, &claim).unwrap();
+                    let (n, s) = (eq.m + 1, point(tube.exit_at));
                     let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
+                    // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
-                    let place = Place::prove(&eq, &middle, &tube.normal, &tube.weights, 0.0);
-                    let place = place.unwrap();
+                    let (curve, _, inverse) =
+                        newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
+                    let mut last = vec![0.0; n];
+                    last[n - 1] = 1.0;
+                    let tangent = inverse.times(&last);
                     for i in 0..n {
-                        let off = (place.figure[i] - z[i]).mig();
+                        let away = tube.exit.at(i) - point(curve.z[0][i]);
+                        assert!(away.mig() < 1e-13 && away.wid() < 1e-4 * f64::from(claim.r));
+                        let away = tube.exit_direction[i] - point(tangent[i]);
+                        assert!(away.mig() < 1e-6 && away.wid() < 1e-2, "{name}: {away:?}");
+                        let off = (tube.exit.at(i) - z[i]).mig();
                         let bound = (tube.distance * tube.u[i]).sup();
                         assert!(off <= bound, "{name}: {off:e} from the middle, {bound:e}");
                         nearest = nearest.min(bound / off);
                         // With c·T = 1 and c·φ' = c·ẑ'.
-                        let slope = place.tangent[i] * tube.advance - derivative(&tube.z, i, s);
+                        let slope =
+                            tube.exit_direction[i] * tube.advance - derivative(&tube.z, i, s);
                         let bound = (tube.slope_distance * tube.u[i]).sup();
                         assert!(
                             slope.mig() <= bound,

@@ -6,10 +6,10 @@
 
 use crate::interval::{Interval, point};
 
-/// Jacobians are in units of 2 to minus this.
-pub const J_BITS: i32 = 40;
-/// Y is in units of 2 to minus this.
-const Y_BITS: i32 = 30;
+/// Jacobians, whose rows are scaled so that entries are about 1, are in units of 2 to minus this.
+pub const J_BITS: i32 = 44;
+/// Y is in units of 2 to minus some number between these.
+const Y_BITS: [i32; 2] = [8, 60];
 /// A is in units of 2 to minus this.
 const A_BITS: i32 = 24;
 /// Entries of Y and J are smaller: they are floats too, and 2²⁰ products of two of them fit into
@@ -17,15 +17,16 @@ const A_BITS: i32 = 24;
 pub const LIMIT: f64 = (1u64 << 53) as f64;
 /// No row of |A| has a larger sum, 64: then all sums of products of two entries fit into an `i64`.
 const A_LIMIT: i64 = 1 << (A_BITS + 6);
-/// Vectors are taken to about so many bits.
-const VECTOR_BITS: i32 = 50;
 
 /// A square matrix with few entries: (row, entry) for each column.
 pub type Columns = Vec<Vec<(usize, i64)>>;
 
-/// Y: a square matrix, row by row.
+/// Y: a square matrix, row by row, in units of 2^−bits. It is multiplied with values of equations that are
+/// divided by powers of two, those to the exponents in `scale`.
 pub struct Whole {
     n: usize,
+    bits: i32,
+    scale: Vec<i32>,
     entries: Vec<i64>,
 }
 
@@ -60,11 +61,16 @@ pub fn size(x: Interval) -> Interval {
     exact(x.mag())
 }
 
-/// x in units of 2⁻⁴⁰, rounded, and a bound on the rest. `None`: too large.
+/// x in units of 2⁻⁴⁴, rounded, and a bound on the rest. `None`: too large.
 pub fn split(x: Interval) -> Option<(i64, Interval)> {
     let whole = (x.mid() * power(J_BITS)).round();
     let fits = whole.abs() < LIMIT;
     fits.then(|| (whole as i64, size(x - point(whole * power(-J_BITS)))))
+}
+
+/// From a to b; everything where that is no interval.
+pub fn between(a: f64, b: f64) -> Interval {
+    inari::interval!(a, b).unwrap_or(Interval::ENTIRE)
 }
 
 /// At least x 2^−bits: the conversion rounds to nearest, and one step up covers it.
@@ -75,7 +81,7 @@ pub fn above(x: u128, bits: i32) -> Interval {
 /// At least the largest sum of a row's sizes, for n × n entries in units of 2^−`bits`.
 ///
 /// Nothing overflows, whatever is in the file. Entries of A fit into an `i32`; all others are below
-/// 2¹²⁷, as they fit into an `i128`, and below 2¹¹¹ without their last 16 of 70 bits, so that rows of fewer
+/// 2¹²⁷, as they fit into an `i128`, and below 2¹¹¹ without their last 16 bits, so that rows of fewer
 /// than 2¹⁶ of them do not reach 2¹²⁸. What is dropped is less than the one that is added.
 fn norm(n: usize, bits: i32, entries: impl Iterator<Item = i128>) -> Interval {
     let dropped = if bits == A_BITS { 0 } else { 16 };
@@ -87,24 +93,31 @@ fn norm(n: usize, bits: i32, entries: impl Iterator<Item = i128>) -> Interval {
 }
 
 impl Whole {
-    /// The matrix nearest to one of floats.
-    pub fn nearest(n: usize, floats: &[f64]) -> Option<Self> {
+    /// The matrix nearest to one of floats, in units in which its largest entry has 52 bits.
+    pub fn nearest(floats: &[f64], scale: &[i32]) -> Option<Self> {
+        let largest = floats.iter().fold(0.0f64, |max, x| max.max(x.abs()));
+        let bits = 51 - largest.clamp(1e-9, 1e18).log2().ceil() as i32;
+        let bits = bits.clamp(Y_BITS[0], Y_BITS[1]);
         let entries = floats.iter().map(|&x| {
-            let whole = (x * power(Y_BITS)).round();
+            let whole = (x * power(bits)).round();
             (whole.abs() < LIMIT).then_some(whole as i64)
         });
         let entries = entries.collect::<Option<Vec<_>>>()?;
-        Some(Whole { n, entries })
+        let (n, scale) = (scale.len(), scale.to_vec());
+        Some(Whole {
+            n,
+            bits,
+            scale,
+            entries,
+        })
     }
 
-    /// The last column, as exact numbers.
-    pub fn last_column(&self) -> Vec<Interval> {
-        let rows = self.entries.chunks(self.n);
-        rows.map(|row| point(row[self.n - 1] as f64 * power(-Y_BITS)))
-            .collect()
+    /// The units of Y J are 2 to minus this.
+    fn product_bits(&self) -> i32 {
+        self.bits + J_BITS
     }
 
-    /// Y J in units of 2⁻⁷⁰.
+    /// Y J.
     fn times<'a>(&'a self, j: &'a Columns) -> impl Iterator<Item = i128> + 'a {
         let entry = |y: &[i64], column: &[(usize, i64)]| {
             let products = column
@@ -118,18 +131,18 @@ impl Whole {
 
     /// |I − Y J|.
     pub fn defect(&self, j: &Columns) -> Interval {
-        let one = |k: usize| i128::from(k.is_multiple_of(self.n + 1)) << (Y_BITS + J_BITS);
+        let bits = self.product_bits();
+        let one = |k: usize| i128::from(k.is_multiple_of(self.n + 1)) << bits;
         let entries = self.times(j).enumerate().map(|(k, x)| one(k) - x);
-        norm(self.n, Y_BITS + J_BITS, entries)
+        norm(self.n, bits, entries)
     }
 
     /// A is Y J₁, rounded.
     pub fn moving(&self, j1: &Columns, j2: &Columns) -> Option<Moving> {
-        const SHIFT: i32 = Y_BITS + J_BITS - A_BITS;
-        const BITS: i32 = Y_BITS + J_BITS;
-        let n = self.n;
+        let (n, bits) = (self.n, self.product_bits());
+        let shift = bits - A_BITS;
         let product: Vec<i128> = self.times(j1).collect();
-        let nearest = |&x: &i128| i32::try_from((x + (1 << (SHIFT - 1))) >> SHIFT).ok();
+        let nearest = |&x: &i128| i32::try_from((x + (1 << (shift - 1))) >> shift).ok();
         let a = product.iter().map(nearest).collect::<Option<Vec<i32>>>()?;
         // Every partial sum is below 2³⁰ 2³¹: the row that multiplies is checked first, and the entries of
         // the others fit into an `i32`.
@@ -148,43 +161,57 @@ impl Whole {
         let rests = product
             .iter()
             .zip(&a)
-            .map(|(x, &a)| x - (i128::from(a) << SHIFT));
+            .map(|(x, &a)| x - (i128::from(a) << shift));
         let squares = square.iter().zip(&second);
-        let squares = squares.map(|(&x, y)| (i128::from(x) << (BITS - 2 * A_BITS)) - y);
+        let squares = squares.map(|(&x, y)| (i128::from(x) << (bits - 2 * A_BITS)) - y);
         Some(Moving {
             norm: norm(n, A_BITS, a.iter().map(|&a| a.into())),
-            rest: norm(n, BITS, rests),
-            square: norm(n, BITS, squares),
-            second: norm(n, BITS, second.iter().copied()),
+            rest: norm(n, bits, rests),
+            square: norm(n, bits, squares),
+            second: norm(n, bits, second.iter().copied()),
         })
     }
 
-    /// At least |Y v|, the largest entry, for every v in a box.
+    /// |Y v|, the largest size of an entry: no less than the lower end for any v in a box, and no more
+    /// than the upper end. In floats: of fewer than 4 n roundings each is at most 2⁻⁵² of Σ |Y| |v|.
     pub fn image(&self, v: &[Interval]) -> Interval {
-        let largest = v.iter().fold(0.0f64, |max, x| max.max(x.mag()));
-        if !v.iter().all(|x| x.mag() <= 1e60) {
-            return Interval::ENTIRE;
+        let split = v.iter().zip(&self.scale).map(|(x, &e)| {
+            // Scaling is exact, or below the smallest normal number, where the step to the neighbour covers it.
+            let [low, high] = [x.inf(), x.sup()].map(|x| x * power(-e));
+            let middle = 0.5 * (low + high);
+            let radius = (high - middle).max(middle - low);
+            (middle, radius.next_up())
+        });
+        let split: Vec<(f64, f64)> = split.collect();
+        if !split.iter().all(|(x, r)| x.abs() < 1e60 && *r < 1e60) {
+            return between(0.0, f64::INFINITY);
         }
-        let bits = VECTOR_BITS - largest.max(1e-200).log2().ceil() as i32;
-        // Scaling by a power of two is exact, or below the smallest normal number, where the
-        // step to the neighbour covers it.
-        let scaled = |x: f64| x * power(bits);
-        let split = v.iter().map(|x| {
-            let low = scaled(x.inf()).next_down().floor() as i64;
-            let high = scaled(x.sup()).next_up().ceil() as i64;
-            let middle = (low + high) / 2;
-            (middle, (high - middle).max(middle - low))
-        });
-        let split: Vec<(i64, i64)> = split.collect();
-        let sums = self.entries.chunks(self.n).map(|row| {
-            let (mut middle, mut radius) = (0i128, 0i128);
+        let (mut least, mut most) = (0.0f64, 0.0f64);
+        let share = 4.0 * self.n as f64 * power(-52);
+        for row in self.entries.chunks(self.n) {
+            let (mut sum, mut size, mut radius) = (0.0, 0.0, 0.0);
             for (&y, &(x, r)) in row.iter().zip(&split) {
-                middle += i128::from(y) * i128::from(x);
-                radius += i128::from(y.abs()) * i128::from(r);
+                let y = y as f64;
+                sum += y * x;
+                size += y.abs() * x.abs();
+                radius += y.abs() * r;
             }
-            middle.unsigned_abs() + radius.unsigned_abs()
-        });
-        above(sums.max().unwrap_or(0), Y_BITS + bits)
+            let error = (size + radius) * share + radius;
+            least = least.max(sum.abs() - error);
+            most = most.max(sum.abs() + error);
+        }
+        // A sum and a scaling more.
+        let unit = power(-self.bits);
+        between(
+            least * unit * (1.0 - power(-50)),
+            (most * unit * (1.0 + power(-50))).next_up(),
+        )
+    }
+
+    /// At least |Y v|, for every v whose entries are no larger than the upper ends of these.
+    pub fn bound(&self, v: &[Interval]) -> Interval {
+        let sizes: Vec<Interval> = v.iter().map(|x| between(-x.sup(), x.sup())).collect();
+        exact(self.image(&sizes).sup())
     }
 }
 
@@ -198,8 +225,8 @@ mod tests {
     fn norms_of_extreme_matrices_are_bounds() {
         let n = crate::certificate::format::MAX_FREE_COORDINATES + 1;
         for entry in [i128::MIN, i128::MAX] {
-            let bound = norm(n, Y_BITS + J_BITS, repeat_n(entry, n)).sup();
-            let exact = n as f64 * power(127 - Y_BITS - J_BITS);
+            let bound = norm(n, 70, repeat_n(entry, n)).sup();
+            let exact = n as f64 * power(127 - 70);
             assert!((exact..1.001 * exact).contains(&bound), "{bound:e}");
         }
         let bound = norm(n, A_BITS, repeat_n(i32::MIN.into(), n)).sup();

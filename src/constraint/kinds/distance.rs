@@ -196,7 +196,7 @@ fn from_line(
     low.equate(&what, products, vec![Real::zero()], 1 + line.along.power);
     let mut products = low.dot(1, &across.forms, &across.forms);
     products.push(product(-1, value(projection), value(projection)));
-    let d = ramp(Real::from(square).sqrt(), then);
+    let d = low.lead(Real::from(square).sqrt(), then);
     low.equate(name, products, multiply(&d, &d), 2);
     Ok(())
 }

@@ -55,7 +55,7 @@ mod prelude {
     pub use super::super::kind::{Fixes, Given, Kind, Measure};
     pub use super::super::lowering::{Arrow, Fault, Lowering, Measured, Parity, Place};
     pub use super::super::objects::{Line, Plane, Round};
-    pub use super::super::polynomial::{multiply, ramp};
+    pub use super::super::polynomial::multiply;
     pub use super::super::quadratic::{Form, product, value};
     pub use crate::interval::Real;
     pub use crate::problem::{Item, Problem};

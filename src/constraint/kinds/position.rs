@@ -92,12 +92,8 @@ impl Kind for Position {
         };
         let then = Real::from(of.number().value().clone());
         of.items.end()?;
-        low.equate(
-            of.name,
-            vec![product(1, form, Form::One)],
-            ramp(now.into(), then),
-            1,
-        );
+        let path = low.lead(now.into(), then);
+        low.equate(of.name, vec![product(1, form, Form::One)], path, 1);
         Ok(())
     }
 }

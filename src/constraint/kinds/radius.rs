@@ -46,7 +46,8 @@ impl Kind for Size {
         let now = &Real::whole(factor) * &Real::from(round.squared).sqrt();
         let then = Real::from(of.number().value().clone());
         let products = vec![product(factor as i32, value(round.radius), Form::One)];
-        low.equate(of.name, products, ramp(now, then), 1);
+        let path = low.lead(now, then);
+        low.equate(of.name, products, path, 1);
         Ok(())
     }
 }

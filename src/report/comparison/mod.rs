@@ -47,6 +47,7 @@ fn status(row: &Row) -> (&'static str, Option<&str>) {
         Err(reason) => ("unsupported", Some(reason)),
         Ok(measured) => match &measured.outcome.status {
             Status::Closed => ("closed", None),
+            Status::Open(_) => ("open", None),
             Status::Stopped(reason) => ("stopped", Some(reason)),
         },
     }

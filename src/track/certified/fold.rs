@@ -53,6 +53,7 @@ pub struct FoldProver<const D: usize> {
     /// X, t and a spare entry; v likewise.
     x: Vector,
     v: Vector,
+    room: Vector,
     f: Vector,
     step: Vector,
     bound: Vector,
@@ -92,6 +93,7 @@ impl<const D: usize> FoldProver<D> {
             lengths: Lengths::new(equations),
             x: equations.vector(),
             v: equations.vector(),
+            room: equations.vector(),
             f: Vector::zeros(n),
             step: Vector::zeros(n),
             bound: Vector::zeros(n),
@@ -184,22 +186,11 @@ impl<const D: usize> FoldProver<D> {
     /// Φ in floats.
     fn residual(&mut self, equations: &Equations<D>, c: &[f64]) {
         let m = equations.m;
-        for e in 0..m {
-            let (mut squared, mut moved) = (0.0, 0.0);
-            for axis in 0..D {
-                squared += self.d[axis][e] * self.d[axis][e];
-                moved += self.d[axis][e] * self.dv[axis][e];
-            }
-            self.f[e] = 0.5 * squared - self.lengths.terms[0][e];
-            self.f[m + e] = moved;
-        }
-        if !equations.tail.is_empty() {
-            let (d, dv) = (&self.d.forms, &self.dv.forms);
-            let (f, jv) = self.f.split_at_mut(m);
-            equations.tail.add_half_products(1.0, d, d, f);
-            equations.tail.add_half_products(1.0, d, dv, jv);
-            equations.tail.add_half_products(1.0, dv, d, jv);
-        }
+        equations.residual(&self.d, &self.lengths, &mut self.room);
+        self.f[..m].copy_from_slice(&self.room[..m]);
+        let (d, dv) = (&self.d, &self.dv);
+        equations.jacobian_times(d, &self.lengths, dv, 0.0, &mut self.room);
+        self.f[m..2 * m].copy_from_slice(&self.room[..m]);
         let along: f64 = c.iter().zip(&self.v[..m]).map(|(c, v)| c * v).sum();
         self.f[2 * m] = along - 1.0;
     }
@@ -214,7 +205,7 @@ impl<const D: usize> FoldProver<D> {
         let m = equations.m;
         let n = 2 * m + 1;
         // |I − Y Φ'| as computed; the rounding of that product and of the Jacobian's entries, which are
-        // differences (one rounding) but for E', of at most twelve, and sums of such in the tail.
+        // differences (one rounding) or sums of them, but for E', of at most twelve.
         self.y
             .identity_minus_sparse_abs(&self.pattern, &self.values, &self.ones, &mut self.step);
         let defect = self.greatest_step(n);
@@ -226,19 +217,21 @@ impl<const D: usize> FoldProver<D> {
         for e in 0..m {
             let (mut size, mut size_v, mut change) = (0.0, 0.0, 0.0);
             for axis in 0..D {
-                let ends = equations.ends[axis][e].iter();
-                let free = ends.filter(|&&end| (end as usize) < m).count() as f64;
+                let free = equations.ends[axis][e].map(|end| is_free(end as usize));
+                let free = free[0] + free[1];
                 size += self.d[axis][e].abs() * free;
                 size_v += self.dv[axis][e].abs() * free;
                 change += free * free;
             }
             for (half, forms) in equations.tail.products(e) {
-                // The same for a product of two factors.
                 let free = forms.map(|form| equations.tail.ends(form).map(is_free));
                 let [left, right] = free.map(|ends| ends[0] + ends[1]);
-                let row = |at: &Vector| at[forms[0]].abs() * right + at[forms[1]].abs() * left;
-                size += half.abs() * row(&self.d.forms);
-                size_v += half.abs() * row(&self.dv.forms);
+                let of = |d: &Differences<D>| {
+                    let [l, r] = forms.map(|form| d.forms[form].abs());
+                    half.abs() * (l * right + r * left)
+                };
+                size += of(&self.d);
+                size_v += of(&self.dv);
                 change += 2.0 * half.abs() * left * right;
             }
             let (slope, slope_radius) = equations.slope_of_length(e, t);
@@ -246,8 +239,9 @@ impl<const D: usize> FoldProver<D> {
             let curvature = homotopy.rights[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
             self.bound[e] = per_entry * (size + slope) + slope_radius;
             self.bound[m + e] = per_entry * (size + size_v);
-            width[e] = round_up(change + curvature.mag(), equations.roundings(8));
-            width[m + e] = 2.0 * change;
+            let longest = 2 * equations.tail.longest;
+            width[e] = round_up(change + curvature.mag(), longest + 8);
+            width[m + e] = round_up(2.0 * change, longest + 8);
         }
         let normal: f64 = c.iter().map(|c| c.abs()).sum();
         self.bound[2 * m] = per_entry * normal;
@@ -305,22 +299,23 @@ impl<const D: usize> FoldProver<D> {
                 squared += d.sqr();
                 moved += d * (point(self.v[i]) - point(self.v[j]));
             }
+            let tail = &equations.tail;
+            let between = |z: &Vector, form: usize, one: f64| match form {
+                Tail::ONE => point(one),
+                _ => {
+                    let [i, j] = tail.ends(form).map(|end| point(z[end]));
+                    i - j
+                }
+            };
             let mut value = squared * point(0.5);
-            for (half, [left, right]) in equations.tail.products(e) {
-                let form = |z: &Vector, form: usize, one: f64| match form {
-                    Tail::ONE => point(one),
-                    _ => {
-                        let [i, j] = equations.tail.ends(form);
-                        point(z[i]) - point(z[j])
-                    }
-                };
-                let half = point(half);
-                let (x, y) = (form(&self.x, left, 1.0), form(&self.x, right, 1.0));
-                value += half * x * y;
-                moved += half * (x * form(&self.v, right, 0.0) + form(&self.v, left, 0.0) * y);
+            for (half, forms) in tail.products(e) {
+                // The number 1 does not move.
+                let [l, r] = forms.map(|form| between(&self.x, form, 1.0));
+                let [dl, dr] = forms.map(|form| between(&self.v, form, 0.0));
+                value += point(half) * l * r;
+                moved += point(half) * (l * dr + dl * r);
             }
-            let right = homotopy.rights[e].enclose(t);
-            self.f[e] = (value - right).mag();
+            self.f[e] = (value - homotopy.rights[e].enclose(t)).mag();
             self.f[m + e] = moved.mag();
         }
         let terms = c.iter().zip(&self.v[..m]);

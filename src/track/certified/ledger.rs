@@ -16,9 +16,9 @@ use crate::track::full::{Equations, InverseMaker, path_length};
 pub struct Ledger<const D: usize> {
     /// The homotopy's.
     unit: f64,
-    prover: SolutionProver<D>,
-    /// The auxiliary unknowns that have to be positive.
+    /// The auxiliary unknowns that must stay positive.
     positive: Vec<usize>,
+    prover: SolutionProver<D>,
     found: Vec<SolutionBox>,
     /// Work space.
     crossings: Vec<Crossing>,
@@ -45,8 +45,8 @@ impl<const D: usize> Ledger<D> {
     pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
         Ledger {
             unit: homotopy.unit,
-            prover: SolutionProver::new(homotopy, equations),
             positive: homotopy.positive_unknowns(),
+            prover: SolutionProver::new(homotopy, equations),
             found: Vec::new(),
             crossings: Vec::new(),
             last_crossing: f64::NAN,
@@ -158,9 +158,8 @@ impl<const D: usize> Ledger<D> {
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
     ) -> Option<usize> {
-        let fails = |&&unknown: &&usize| {
-            let along = tube.entry_along(unknown);
-            let ((low, _), _) = along.bounds(from, to);
+        let fails = |&&entry: &&usize| {
+            let ((low, _), _) = tube.entry_along(entry).bounds(from, to);
             // Bounds are of the unknown minus 1.
             (low + 1.0).next_down() <= 0.0 || low.is_nan()
         };
@@ -241,6 +240,40 @@ impl<const D: usize> Ledger<D> {
             ));
         }
         self.lengths_are_positive(homotopy)
+    }
+
+    /// What remains to be proved of an arc.
+    pub fn check_open(&self, homotopy: &Homotopy) -> Result<(), String> {
+        self.lengths_are_positive(homotopy)
+    }
+
+    /// Takes the account of the way from the sketch in the other direction to that of this way: solutions are
+    /// in the order of the path, from the end of the other way to that of this one. Fails where it cannot be told
+    /// whether a solution was found on both.
+    pub fn go_on_from(&mut self, back: Self) -> Result<(), String> {
+        let ahead = std::mem::take(&mut self.found);
+        self.found = back.found;
+        self.found.reverse();
+        for found in &mut self.found {
+            found.rising = !found.rising;
+        }
+        for found in ahead {
+            let same = |other: &SolutionBox| found.is_same(other, |_| false);
+            let answers: Vec<Same> = self.found.iter().map(same).collect();
+            if answers.contains(&Same::Unknown) {
+                return Err(
+                    "it could not be told whether a solution near the sketch is one or two"
+                        .to_owned(),
+                );
+            }
+            if !answers.contains(&Same::Yes) {
+                self.found.push(found);
+            }
+        }
+        self.length += back.length;
+        let (low, high) = back.t_range;
+        self.t_range = (self.t_range.0.min(low), self.t_range.1.max(high));
+        Ok(())
     }
 
     /// Claim 3: a_i(t) > 0 on the whole range of t.

@@ -204,14 +204,14 @@ pub fn undecided(doubt: Doubt, is_extended: bool, homotopy: &Homotopy) -> String
              between {:.1e} and {:.1e})",
             value.0, value.1, slope.0, slope.1
         ),
-        Doubt::Sign(unknown) => format!(
-            "{} could not be proved to stay positive; the figure degenerates there, or nearly so",
-            homotopy.name_of_auxiliary(unknown)
-        ),
         Doubt::Turn(Undecided { value, slope }) => format!(
             "it could not be decided whether the path turns back (t − 1 is between {:.1e} and {:.1e}, dt/ds \
              between {:.1e} and {:.1e})",
             value.0, value.1, slope.0, slope.1
+        ),
+        Doubt::Sign(unknown) => format!(
+            "{} could not be proved to stay positive; the figure degenerates there, or nearly so",
+            homotopy.tail.unknowns[unknown - homotopy.gauge.place.len()].name
         ),
         Doubt::Singular(pivots) => format!(
             "{WHETHER}: the Jacobian of a figure there is singular in 53 bits (its smallest pivot is {pivots:.1e} \

@@ -75,8 +75,8 @@ impl<const D: usize> SolutionProver<D> {
     /// Takes other target lengths.
     pub fn set_targets(&mut self, homotopy: &Homotopy) {
         self.targets.clear();
-        let targets = homotopy.rights.iter().map(|e| e.at_target());
-        self.targets.extend(targets);
+        self.targets
+            .extend(homotopy.rights.iter().map(|e| e.at_target()));
     }
 
     /// Proves a box around the solution near `guess`, the equations being F(X, a(1)) = 0.

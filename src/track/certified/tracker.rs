@@ -2,6 +2,7 @@
 
 mod arc;
 mod extension;
+mod open;
 mod stride;
 
 use super::ledger::Ledger;
@@ -15,6 +16,7 @@ use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::arc::Figure;
+use crate::track::ends::{EndKind, FAR, PathEnd, vanishing};
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use arc::{Arc, Joining};
@@ -137,19 +139,25 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     }
     let mut status = match tracker.run(options, control) {
         Ok(()) => Status::Closed,
-        Err(reason) => Status::Stopped(reason),
+        Err(reason) => match tracker.path_end(reason) {
+            Ok(end) => tracker.other_way(end, options, control),
+            Err(reason) => Status::Stopped(reason),
+        },
     };
-    if status == Status::Closed
-        && let Err(reason) = tracker.ledger.check_closed(homotopy)
-    {
-        status = Status::Stopped(format!("{reason} (on a loop of {} tubes)", tracker.steps));
+    let checked = match status {
+        Status::Closed => tracker.ledger.check_closed(homotopy),
+        Status::Open(_) => tracker.ledger.check_open(homotopy),
+        Status::Stopped(_) => Ok(()),
+    };
+    if let Err(reason) = checked {
+        status = Status::Stopped(format!("{reason} (on a path of {} tubes)", tracker.steps));
     }
     let solutions = match tracker.ledger.solutions(homotopy) {
         Ok(solutions) => solutions,
         Err((reason, solutions)) => {
-            if status == Status::Closed {
+            if !matches!(status, Status::Stopped(_)) {
                 status =
-                    Status::Stopped(format!("{reason} (on a loop of {} tubes)", tracker.steps));
+                    Status::Stopped(format!("{reason} (on a path of {} tubes)", tracker.steps));
             }
             solutions
         }
@@ -201,6 +209,12 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     has_set_out: bool,
     /// Whether the run is stuck near a place where the Jacobian loses rank.
     is_singular: bool,
+    /// Whether it ended because points are far away.
+    is_beyond: bool,
+    /// Whether it ended because no step could be proved, however short.
+    is_stuck: bool,
+    /// The largest coordinate of the sketch, or 1 if that is more.
+    size_of_sketch: f64,
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
     /// short, where the test does not foresee it, and after the first attempt: what is foreseen may be wrong.
     typical: f64,
@@ -215,6 +229,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             sketch.centre[i] = x.mid();
             sketch.radius[i] = x.rad();
         }
+        let places = homotopy.gauge.place.len();
+        let coordinates = sketch.centre[..places].iter();
+        let size_of_sketch = coordinates.fold(1.0, |max: f64, x| max.max(x.abs()));
         Tracker {
             inverter: equations.inverter(),
             test: T::new(&homotopy, &equations, options),
@@ -233,6 +250,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             arc: None,
             has_set_out: false,
             is_singular: false,
+            is_beyond: false,
+            is_stuck: false,
+            size_of_sketch,
             typical: f64::NAN,
             equations,
         }
@@ -296,6 +316,14 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         stride.forget();
                     }
                 }
+            }
+            if self.is_far() {
+                self.is_beyond = true;
+                return Err(format!(
+                    "points go beyond {:.0e}, {}",
+                    FAR * self.homotopy.unit,
+                    self.place()
+                ));
             }
             if self.steps >= options.max_steps {
                 return Err(format!(
@@ -440,7 +468,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     /// Begins anew: from another figure, or with other lengths in the homotopy.
     fn begin(&mut self, start: &Figure) {
         let m = self.equations.m;
-        self.equations.set_lengths(&self.homotopy);
+        self.equations.set_rights(&self.homotopy);
         self.ledger.begin(&self.homotopy);
         if self.extension.is_on() {
             self.test.set_extended(false);
@@ -453,7 +481,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             arc.begin(start);
         }
         (self.steps, self.rejected, self.shortened) = (0, 0, 0);
-        (self.has_previous, self.has_set_out, self.is_singular) = (false, false, false);
+        (self.has_previous, self.has_set_out) = (false, false);
+        (self.is_singular, self.is_beyond, self.is_stuck) = (false, false, false);
         self.typical = f64::NAN;
     }
 
@@ -594,6 +623,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let now = &self.now.local;
         let condition = condition(&self.equations, &now.z[0], &now.normal);
         self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
+        self.is_stuck = true;
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
         format!(

@@ -89,12 +89,6 @@ impl<const D: usize> Equations<D> {
             (0..m).for_each(|e| out[e] = pick(e));
             out
         };
-        let bends = rights.iter().enumerate().filter(|(_, e)| e.degree > 2);
-        let bends = bends.map(|(edge, right)| Bend {
-            edge,
-            e: right.e,
-            e_radius: right.e_radius,
-        });
         let mut tail = Tail::new(homotopy);
         // The edges of each column's entries, with axes and signs.
         let mut columns = vec![Vec::new(); m];
@@ -137,7 +131,7 @@ impl<const D: usize> Equations<D> {
             ends,
             e: std::array::from_fn(|k| coefficient(&|e| rights[e].e[k])),
             e_radius: std::array::from_fn(|k| coefficient(&|e| rights[e].e_radius[k])),
-            bends: bends.collect(),
+            bends: bends(homotopy).collect(),
             tail,
             extended: None,
             pattern: Sparse::new(&plain),
@@ -146,18 +140,18 @@ impl<const D: usize> Equations<D> {
         }
     }
 
-    /// Takes the lengths of another homotopy between the same points.
-    pub fn set_lengths(&mut self, homotopy: &Homotopy) {
+    /// Takes the right-hand sides of another homotopy of the same equations, with no more of degree 4 than
+    /// there were at first.
+    pub fn set_rights(&mut self, homotopy: &Homotopy) {
+        let rights = &homotopy.rights;
         for k in 0..3 {
-            for (e, right) in homotopy.rights.iter().enumerate() {
+            for (e, right) in rights.iter().enumerate() {
                 self.e[k][e] = right.e[k];
                 self.e_radius[k][e] = right.e_radius[k];
             }
         }
-        for bend in &mut self.bends {
-            let right = &homotopy.rights[bend.edge];
-            (bend.e, bend.e_radius) = (right.e, right.e_radius);
-        }
+        self.bends.clear();
+        self.bends.extend(bends(homotopy));
         self.extended = None;
     }
 
@@ -461,6 +455,18 @@ impl<const D: usize> Equations<D> {
             *out = value;
         }
     }
+}
+
+/// The right-hand sides of degree 4.
+fn bends(homotopy: &Homotopy) -> impl Iterator<Item = Bend> + '_ {
+    let rights = homotopy.rights.iter().enumerate();
+    rights
+        .filter(|(_, right)| right.degree > 2)
+        .map(|(edge, right)| Bend {
+            edge,
+            e: right.e,
+            e_radius: right.e_radius,
+        })
 }
 
 /// Differences of a vector of unknowns.

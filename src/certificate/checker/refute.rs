@@ -1,0 +1,67 @@
+//! That claims are false. Nobody who believes a verified certificate has to trust this; whoever believes
+//! a refuted one has.
+
+use super::equations::{Equations, ZERO};
+use super::krawczyk::{Curve, Section, Test, polynomial, weight};
+use super::place::{Place, Spot};
+use super::tube::Tube;
+use super::whole::{Whole, between, exact, size};
+use crate::certificate::format::TubeClaim;
+use crate::interval::{Interval, point};
+
+/// Whether a tube's first claim is false: that the cross-section through its centre holds a zero of F
+/// within its radius. For a zero w* would be |Y G(0)| = |Y (G(0) − G(w*))| ≤ (1 + q) |w*|.
+pub fn tube(claim: &TubeClaim, curve: &Curve, y: &Whole, at: &Section, test: &Test) -> bool {
+    // The centre was moved by rounding: a zero within r of where it was is within `wider`, and in a
+    // cross-section beside this one.
+    let moved = |i: usize| exact(claim.centre[i]) - point(curve.z[0][i]);
+    let along = (0..at.u.len()).fold(ZERO, |sum, i| sum + point(at.c[i]) * moved(i));
+    let away = (0..at.u.len()).map(|i| size(moved(i) / weight(at.u[i])).sup());
+    let wider = point(claim.r.into()) + exact(away.fold(0.0, f64::max));
+    let most = wider * (point(1.0) + test.contraction(wider));
+    let mut off = curve.residual(0);
+    off.push(-along);
+    y.image(&off).inf() > most.sup()
+}
+
+/// Whether a zero of F that lies in a tube's cross-sections is certainly not on the path in it: it is
+/// beyond both ends, or further from the middle than the path.
+pub fn elsewhere(tube: &Tube, z: &Spot) -> bool {
+    let (s, n) = (tube.parameter(z), tube.u.len());
+    let within = s.intersection(between(-1.0, 1.0));
+    let away = |i: usize| {
+        let along = polynomial(&tube.z[1..], i, within) * within;
+        (z.minus(&tube.z[0], i) - along).mig() > (tube.distance * tube.u[i]).sup()
+    };
+    within.is_empty() || (0..n).any(away)
+}
+
+/// Whether t certainly passes 1 in a range of a tube's parameters, at none of the solutions.
+pub fn missing(tube: &Tube, part: Interval, solutions: &[Place]) -> bool {
+    let [from, to] = [part.inf(), part.sup()].map(|s| tube.time(exact(s)));
+    let passes = from.sup() < 1.0 && to.inf() > 1.0 || from.inf() > 1.0 && to.sup() < 1.0;
+    let outside =
+        |place: &Place| elsewhere(tube, &place.spot) || tube.parameter(&place.spot).disjoint(part);
+    passes && solutions.iter().all(outside)
+}
+
+/// Whether a box certainly holds no zero of F with t = 1: one of the equations has none in it; or the
+/// whole box is where a figure is the only one, and that is not in it.
+pub fn empty(eq: &Equations, claimed: &[Interval], place: Option<&Place>) -> bool {
+    let value = |i: usize| eq.entry(i, |i| claimed[i], [ZERO, point(1.0)]);
+    let form = |f: usize| value(eq.forms[f][0]) - value(eq.forms[f][1]);
+    let excluded = |e: usize| {
+        let products = eq.products[e].iter().map(|&(factor, [left, right])| {
+            let product = match left == right {
+                true => form(left).sqr(),
+                false => form(left) * form(right),
+            };
+            point(0.5 * factor as f64) * product
+        });
+        let sum = products.fold(ZERO, |sum, x| sum + x);
+        !(sum - eq.right_at(e, point(1.0))[0]).contains(0.0)
+    };
+    let apart = |place: &Place| (0..eq.m).any(|i| claimed[i].disjoint(place.spot.at(i)));
+    let alone = place.is_some_and(|place| place.covers(&claimed[..eq.m]) && apart(place));
+    alone || (0..eq.m).any(excluded)
+}

@@ -1,0 +1,282 @@
+//! Covers of searches for all solutions: verified by the check, and damaged ones refused.
+
+mod common;
+
+use common::random::{recipe, same_each_time};
+use krawl::certificate::cover::{Cover, CoverVerdict, Mark, verify_cover};
+use krawl::complete::{Complete, Options, Status, all};
+use krawl::problem::Problem;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+
+fn searched(problem: &Problem) -> (Complete, Vec<u8>) {
+    let options = Options {
+        cover: true,
+        ..Options::default()
+    };
+    let mut result = all(problem, &options).unwrap();
+    let cover = result.cover.take().unwrap();
+    (result, cover)
+}
+
+fn proves_all(verdict: &CoverVerdict) -> bool {
+    verdict.flaw.is_none() && verdict.undecided == 0
+}
+
+fn shipped(name: &str) -> Problem {
+    Problem::read(format!("problems/{name}.toml")).unwrap()
+}
+
+#[test]
+fn shipped_problems_verify() {
+    for name in ["octahedron", "k33", "prism", "disulfide"] {
+        let problem = shipped(name);
+        let (result, bytes) = searched(&problem);
+        let verdict = verify_cover(&bytes).unwrap();
+        assert_eq!(verdict.flaw, None, "{name}");
+        assert_eq!(verdict.undecided, 0);
+        assert_eq!(verdict.solutions, result.solutions.len());
+        assert_eq!(verdict.problem.distances, problem.distances);
+    }
+}
+
+#[test]
+fn the_cover_is_the_same_for_any_number_of_threads() {
+    let problem = shipped("disulfide");
+    let with = |threads| {
+        let options = Options {
+            cover: true,
+            threads,
+            ..Options::default()
+        };
+        all(&problem, &options).unwrap().cover.unwrap()
+    };
+    assert!(with(1) == with(3));
+}
+
+#[test]
+fn random_problems_verify() {
+    for dimension in [2, 3] {
+        let config = Config {
+            cases: 25,
+            max_global_rejects: 100_000,
+            failure_persistence: None,
+            ..Config::default()
+        };
+        let mut runner = TestRunner::new_with_rng(config, same_each_time());
+        let result = runner.run(&recipe(dimension, 4..=7), |recipe| {
+            let Ok(problem) = recipe.build() else {
+                return Err(TestCaseError::reject("not a problem"));
+            };
+            let Ok(result) = all(
+                &problem,
+                &Options {
+                    cover: true,
+                    ..Options::default()
+                },
+            ) else {
+                return Ok(());
+            };
+            let Some(bytes) = &result.cover else {
+                return Ok(());
+            };
+            let verdict = verify_cover(bytes).unwrap();
+            prop_assert_eq!(&verdict.flaw, &None, "{}", problem.to_toml());
+            prop_assert_eq!(verdict.undecided == 0, result.status == Status::Complete);
+            prop_assert_eq!(verdict.solutions, result.solutions.len());
+            Ok(())
+        });
+        if let Err(error) = result {
+            panic!("{error}");
+        }
+    }
+}
+
+/// Where each mark begins, following them as a reader does.
+fn marks(cover: &Cover) -> Vec<(usize, Mark)> {
+    // The number of symbols of each part, in the order in which the parts come.
+    let mut out = Vec::new();
+    let drives = cover.drives.len();
+    let (mut at, mut symbols) = (0, drives);
+    // Only covers without folds are damaged mark by mark: then the number of symbols never changes.
+    while at < cover.marks.len() {
+        let (mark, next) = Mark::read(&cover.marks, at, symbols).unwrap();
+        assert!(!matches!(mark, Mark::Fold(..)));
+        symbols = drives;
+        out.push((at, mark));
+        at = next;
+    }
+    out
+}
+
+fn damaged(cover: &Cover) -> Option<CoverVerdict> {
+    verify_cover(&cover.to_bytes()).ok()
+}
+
+/// A problem whose search needs no fold.
+fn without_folds() -> Cover {
+    for name in ["octahedron", "prism", "k33", "disulfide"] {
+        let (_, bytes) = searched(&shipped(name));
+        let cover = Cover::from_bytes(&bytes).unwrap();
+        assert_eq!(Cover::from_bytes(&cover.to_bytes()).unwrap(), cover);
+        let mut at = 0;
+        let mut folded = false;
+        while at < cover.marks.len() {
+            let Some((mark, next)) = Mark::read(&cover.marks, at, cover.drives.len()) else {
+                break;
+            };
+            folded |= matches!(mark, Mark::Fold(..));
+            at = next;
+        }
+        if !folded && at == cover.marks.len() {
+            return cover;
+        }
+    }
+    panic!("all searches need folds");
+}
+
+#[test]
+fn a_mark_left_out_or_turned_into_another_is_noticed() {
+    let cover = without_folds();
+    let all = marks(&cover);
+    let ends: Vec<usize> = all
+        .iter()
+        .map(|m| m.0)
+        .skip(1)
+        .chain([cover.marks.len()])
+        .collect();
+    for ((at, mark), end) in all.iter().zip(&ends) {
+        let mut less = cover.clone();
+        less.marks.drain(*at..*end);
+        assert!(
+            damaged(&less).is_none_or(|v| v.flaw.is_some()),
+            "{mark:?} left out"
+        );
+        // A part with a figure in it is not excluded by any other reason.
+        if *mark == Mark::Figure {
+            for wrong in [
+                Mark::Excluded(cover.steps.len() - 1),
+                Mark::WrongDistance(cover.steps.len() - 1, 0),
+            ] {
+                let mut other = cover.clone();
+                let mut bytes = Vec::new();
+                wrong.put(cover.drives.len(), &mut bytes);
+                other.marks.splice(*at..*end, bytes);
+                assert!(
+                    damaged(&other).is_none_or(|v| v.flaw.is_some()),
+                    "{wrong:?}"
+                );
+            }
+        }
+        // And what is excluded holds no figure.
+        if matches!(
+            mark,
+            Mark::NoPlace(_) | Mark::Excluded(_) | Mark::WrongDistance(..)
+        ) {
+            let mut other = cover.clone();
+            other.marks.splice(*at..*end, [8]);
+            assert!(
+                damaged(&other).is_none_or(|v| v.flaw.is_some()),
+                "{mark:?} for a figure"
+            );
+            // Nothing claimed is no flaw, and no proof either.
+            let mut open = cover.clone();
+            open.marks.splice(*at..*end, [9]);
+            let verdict = damaged(&open).unwrap();
+            assert!(verdict.flaw.is_none() && verdict.undecided == 1);
+        }
+    }
+}
+
+#[test]
+fn a_solution_left_out_added_or_moved_is_noticed() {
+    let (_, bytes) = searched(&shipped("disulfide"));
+    let cover = Cover::from_bytes(&bytes).unwrap();
+    for index in 0..cover.figures.len() {
+        let mut less = cover.clone();
+        less.figures.remove(index);
+        assert!(damaged(&less).unwrap().flaw.is_some(), "{index} left out");
+        let mut twice = cover.clone();
+        twice.figures.push(cover.figures[index].clone());
+        assert!(damaged(&twice).unwrap().flaw.is_some(), "{index} twice");
+        let mut image = cover.clone();
+        let mut other = cover.figures[index].clone();
+        other.iter_mut().for_each(|p| p[2] = -p[2]);
+        image.figures.push(other);
+        assert!(
+            damaged(&image).unwrap().flaw.is_some(),
+            "{index} and its image"
+        );
+        let mut moved = cover.clone();
+        moved.figures[index][cover.steps[0].0][0] += 1e-3;
+        assert!(damaged(&moved).unwrap().flaw.is_some(), "{index} moved");
+    }
+}
+
+#[test]
+fn another_problem_or_plan_is_noticed() {
+    // Nothing has these lengths, and something has others: the cover of the one is none of the other.
+    let problem = |d: &str| {
+        Problem::build("tetrahedron", 3)
+            .point("a", ["0", "0", "0"])
+            .point("b", ["1", "0", "0"])
+            .point("c", ["0", "1", "0"])
+            .point("d", ["0", "0", "1"])
+            .distance("a", "b", "1")
+            .distance("b", "c", "1")
+            .distance("c", "a", "1")
+            .distance("a", "d", d)
+            .distance("b", "d", d)
+            .distance("c", "d", d)
+            .finish()
+            .unwrap()
+    };
+    let (result, bytes) = searched(&problem("0.57"));
+    assert_eq!(
+        (result.status, result.solutions.len()),
+        (Status::Complete, 0)
+    );
+    assert!(proves_all(&verify_cover(&bytes).unwrap()));
+    let mut cover = Cover::from_bytes(&bytes).unwrap();
+    cover.problem = problem("0.58").to_toml();
+    assert!(damaged(&cover).unwrap().flaw.is_some());
+
+    let (_, bytes) = searched(&shipped("k33"));
+    let cover = Cover::from_bytes(&bytes).unwrap();
+    let mut other = cover.clone();
+    other.base.swap(0, 1);
+    assert!(damaged(&other).unwrap().flaw.is_some());
+    let mut other = cover.clone();
+    other.steps.swap(0, 1);
+    assert!(damaged(&other).is_none_or(|v| v.flaw.is_some()));
+    let mut other = cover.clone();
+    other.steps.pop();
+    assert!(damaged(&other).unwrap().flaw.is_some());
+    let mut other = cover;
+    other.problem = other
+        .problem
+        .replacen("distances = [", "distances = [\n", 1);
+    // Only the text differs: the same problem.
+    assert!(proves_all(&damaged(&other).unwrap()));
+}
+
+#[test]
+fn any_byte_may_be_wrong() {
+    let (result, bytes) = searched(&shipped("octahedron"));
+    let mut state = 7u64;
+    for _ in 0..400 {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        let mut other = bytes.clone();
+        let at = (state >> 33) as usize % other.len();
+        other[at] ^= 1 << ((state >> 20) % 8);
+        // It is refused, or harmless: never another number of solutions of the same problem.
+        if let Ok(verdict) = verify_cover(&other)
+            && proves_all(&verdict)
+            && verdict.problem.distances == shipped("octahedron").distances
+        {
+            assert_eq!(verdict.solutions, result.solutions.len());
+        }
+    }
+}
