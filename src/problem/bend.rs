@@ -3,7 +3,7 @@
 use super::{Decimal, Distance, Target};
 
 /// c is so much of the mean target length: docs/bend.md has the measurements behind it.
-const PART: f64 = 0.1;
+const PART: f64 = 0.05;
 
 /// Part of the mean target length, to six digits: the same path in any unit.
 pub(super) fn default_coefficient(distances: &[Distance]) -> Decimal {
