@@ -10,35 +10,44 @@
 //!
 //! ```
 //! use krawl::problem::Problem;
-//! use krawl::track::{Control, Options, Status, solve};
+//! use krawl::track::{Status, prove};
 //!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! // K3,3 as a linkage in the plane: six points, nine bars.
-//! let mut k33 = Problem::build("k33", 2);
-//! for (name, sketch) in [
-//!     ("a", ["0", "0"]), ("b", ["3.1", "0"]), ("c", ["4.2", "2.1"]),
-//!     ("d", ["1.9", "3.8"]), ("e", ["-0.7", "2.4"]), ("f", ["1.2", "1.1"]),
-//! ] {
-//!     k33 = k33.point(name, sketch);
-//! }
-//! // Lengths are exact decimals: "3.2" is 32/10.
-//! for (one, other, length) in [
-//!     ("a", "b", "3.2"), ("a", "d", "4.1"), ("a", "f", "1.7"),
-//!     ("c", "b", "2.3"), ("c", "d", "2.9"), ("c", "f", "3.3"),
-//!     ("e", "b", "4.4"), ("e", "d", "2.8"), ("e", "f", "2.4"),
-//! ] {
-//!     k33 = k33.distance(one, other, length);
-//! }
-//! let outcome = solve(&k33.finish()?, &Options::certified(), &mut Control::default())?;
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     // A triangle whose side a-b was drawn 4 long and is to become 5. Lengths are exact decimals:
+//!     // "3.2" is 32/10.
+//!     let triangle = Problem::build("triangle", 2)
+//!         .point("a", ["0", "0"])
+//!         .point("b", ["4", "0"])
+//!         .point("c", ["0.5", "2.9"])
+//!         .distance("a", "b", "5")
+//!         .distance("b", "c", "4")
+//!         .distance("c", "a", "3")
+//!         .reference(["a", "b"])
+//!         .finish()?;
+//!     let outcome = prove(&triangle)?;
 //!
-//! assert_eq!(outcome.status, Status::Closed);
-//! for solution in &outcome.solutions {
-//!     // Every coordinate is an interval; the boxes hold exactly one solution each.
-//!     assert!(solution.width < 1e-12);
+//!     assert_eq!(outcome.status, Status::Closed);
+//!     for solution in &outcome.solutions {
+//!         // Every coordinate is an interval, which the exact one lies in.
+//!         let [x, y, _] = *solution.point(&triangle, "c").unwrap();
+//!         assert!(x.contains(1.8) && x.wid() < 1e-12);
+//!         println!("c is at {x}, {y}");
+//!     }
+//!     // This is the one that the drawing moves to without turning back.
+//!     let straight = outcome.solutions.iter().find(|s| s.place.is_some_and(|p| p.folds == Some(0)));
+//!     let [_, y, _] = *straight.unwrap().point(&triangle, "c").unwrap();
+//!     assert!(y.contains(2.4));
+//!     Ok(())
 //! }
-//! # Ok(())
-//! # }
 //! ```
+//!
+//! Coordinates are those of the reference: a at the origin, b on the x axis.
+//! [`Placement`](system::Placement) brings figures back to where the sketch is drawn. [`Control`](track::Control) has
+//! progress, interrupts and certificates; [`report::page`] makes a page to look at. Errors print as words,
+//! `{:?}` too, so that a `main` like this one tells its user what was wrong and where.
+//!
+//! The feature `cli`, on unless `default-features = false`, is for the program: command line, progress,
+//! pictures with axes, CSV. The library needs none of it.
 //!
 //! The modules, from the ground up; each knows only those before it:
 //!
@@ -50,10 +59,24 @@
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
+//! - [`remarks`]: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
+//! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
+
+/// Lets errors print as words where programs print them with `{:?}`, as `main` does.
+macro_rules! debug_in_words {
+    ($error:ty) => {
+        impl std::fmt::Debug for $error {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                std::fmt::Display::fmt(self, f)
+            }
+        }
+    };
+}
+pub(crate) use debug_in_words;
 
 pub mod certificate;
 pub mod compare;
@@ -65,6 +88,7 @@ pub mod interval;
 pub mod linalg;
 pub mod plan;
 pub mod problem;
+pub mod remarks;
 pub mod report;
 pub mod system;
 pub mod track;

@@ -5,6 +5,7 @@ use krawl::track::{Control, Options, Progress, Space, solve};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 /// Counts allocations.
 struct Counting;
@@ -30,20 +31,22 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Allocations in each stretch of [`Control::EVERY`] steps in which no solution was found.
+/// Allocations in each step in which no solution was found, but for the first ones.
 fn quiet_stretches(file: &str, options: Options) -> Vec<usize> {
     let problem = Problem::read(Path::new(file)).expect("a shipped problem");
-    let mut stretches = Vec::with_capacity(10_000);
+    let mut stretches = Vec::with_capacity(1_000_000);
     let (mut solutions, mut count) = (usize::MAX, 0);
     let mut progress = |now: Progress| {
         let seen = COUNT.load(Ordering::Relaxed);
-        if now.solutions == solutions {
+        // The first steps make room.
+        if now.solutions == solutions && now.steps > 64 {
             stretches.push(seen - count);
         }
         (solutions, count) = (now.solutions, seen);
     };
     let mut control = Control {
         progress: Some(&mut progress),
+        pause: Some(Duration::ZERO),
         ..Control::default()
     };
     let options = Options {

@@ -10,6 +10,7 @@ use krawl::problem::{Decimal, Problem, Target};
 use krawl::track::{self, Control, Mode, Options, Outcome, Progress, Status};
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 fn decimal(text: &str) -> Decimal {
     text.parse().unwrap()
@@ -258,6 +259,7 @@ fn cancelled_runs_stop() {
         let mut control = Control {
             cancel: Some(&cancel),
             progress: Some(&mut after),
+            pause: Some(Duration::ZERO),
             ..Control::default()
         };
         let outcome = track::solve(&problem, &way, &mut control).unwrap();
@@ -280,4 +282,6 @@ fn a_triangle_that_turns_over_is_the_same_triangle() {
     assert_eq!(outcome.status, Status::Closed);
     let classes: Vec<usize> = outcome.solutions.iter().map(|s| s.class).collect();
     assert_eq!(classes, [0, 0]);
+    // The same figure moved, not its mirror image.
+    assert!(outcome.solutions.iter().all(|s| s.mirror_of.is_none()));
 }

@@ -333,3 +333,173 @@ fn a_singular_sketch_is_said_to_be_one_by_a_number() {
         assert!(!reason.contains("the full space"), "{reason}");
     }
 }
+
+fn output_of(arguments: &[&str], input: Option<&str>) -> (Option<i32>, String, String) {
+    let mut command = krawl();
+    command.args(arguments);
+    if let Some(input) = input {
+        command.write_stdin(input);
+    }
+    let output = command.output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+#[test]
+fn reads_standard_input() {
+    let text = fs::read_to_string("problems/k33.toml").unwrap();
+    for verb in ["solve", "check"] {
+        let (code, out, _) = output_of(&[verb, "-"], Some(&text));
+        assert_eq!(code, Some(0));
+        assert!(out.starts_with("k33: "), "{out}");
+    }
+    let (code, _, errors) = output_of(&["solve", "-"], Some("dimension = 4\n"));
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("standard input:1: dimension: "), "{errors}");
+    let (code, _, errors) = output_of(&["solve", "-", "-"], Some(&text));
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("named twice"), "{errors}");
+}
+
+#[test]
+fn several_problems_in_one_run() {
+    let stopped = "problems/hard/threshold-9.toml";
+    let files = ["problems/k33.toml", stopped, OCTAHEDRON];
+    let (code, out, _) = output_of(&[&["solve"][..], &files, &["--summary"]].concat(), None);
+    let lines: Vec<&str> = out.lines().collect();
+    assert_eq!(lines.len(), 3, "{out}");
+    assert!(lines[0].starts_with("k33 ") && lines[0].contains("closed, proved"));
+    assert!(lines[0].contains("8 solutions") && lines[2].contains("4 solutions"));
+    let (one, _, _) = output_of(&["solve", stopped, "--quiet"], None);
+    assert_eq!(code, one, "the worst of them");
+    let (code, out, _) = output_of(&["solve", files[0], files[2], "--json", "-"], None);
+    assert_eq!(code, Some(0));
+    let names: Vec<Value> = out
+        .lines()
+        .map(|line| serde_json::from_str::<Value>(line).unwrap()["problem"].clone())
+        .collect();
+    assert_eq!(names, ["k33", "octahedron"]);
+    // What is wrong with the last is said before the first is run.
+    let (code, out, errors) = output_of(&["solve", OCTAHEDRON, "no-such.toml"], None);
+    assert_eq!((code, out.as_str()), (Some(2), ""));
+    assert!(errors.contains("no-such.toml: cannot be read"));
+    let (code, _, errors) = output_of(&["solve", OCTAHEDRON, files[0], "--cert", "c.krawl"], None);
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("`--cert` is for one problem"));
+}
+
+#[test]
+fn many_solutions_do_not_scroll() {
+    let icosahedron = "problems/icosahedron.toml";
+    let float = ["--mode", "float"];
+    let (code, short, _) = output_of(&[&["solve", icosahedron][..], &float].concat(), None);
+    assert_eq!(code, Some(0));
+    assert!(
+        short.lines().count() < 60,
+        "{} lines",
+        short.lines().count()
+    );
+    assert!(
+        short.contains("... and 281 solutions more: `--all` prints them"),
+        "{short}"
+    );
+    let (_, all, _) = output_of(
+        &[&["solve", icosahedron, "--all"][..], &float].concat(),
+        None,
+    );
+    assert!(all.lines().count() > 3900 && all.contains("Solution 284,"));
+    // A few are all printed.
+    let (_, few, _) = output_of(&["solve", "problems/prism.toml"], None);
+    assert!(
+        few.contains("Solution 12,") && !few.contains("--all"),
+        "{few}"
+    );
+}
+
+#[test]
+fn solutions_say_how_the_path_reaches_them() {
+    let (_, out, _) = output_of(&["solve", OCTAHEDRON], None);
+    let lines: Vec<&str> = out
+        .lines()
+        .filter(|line| line.starts_with("Solution "))
+        .collect();
+    assert!(
+        lines[0].starts_with("Solution 1, class 0, reached without a fold, "),
+        "{out}"
+    );
+    assert!(
+        lines[1..].iter().all(|line| line.contains(" fold")),
+        "{out}"
+    );
+}
+
+#[test]
+fn a_path_without_solutions_comes_with_advice() {
+    let text = |long: u32| {
+        format!(
+            "name = \"triangle\"\ndimension = 2\n[points]\na = [0, 0]\nb = [100, 0]\nc = [40, 60]\n\
+             [constraints]\ndistances = [[\"a\", \"b\", {long}], [\"b\", \"c\", 90], [\"c\", \"a\", 70]]\n"
+        )
+    };
+    let (code, out, _) = output_of(&["check", "-"], Some(&text(200)));
+    assert_eq!(code, Some(0));
+    let words = "no figure has these lengths: a-b is longer than a-c and c-b together";
+    assert!(out.contains(words), "{out}");
+    let (_, out, _) = output_of(&["solve", "-"], Some(&text(200)));
+    assert!(out.contains(words) && !out.contains("Other paths"), "{out}");
+    let (_, out, _) = output_of(&["check", "-"], Some(&text(120)));
+    assert!(!out.contains("no figure"), "{out}");
+}
+
+#[test]
+fn every_help_has_examples_and_exit_codes() {
+    let (_, help, _) = output_of(&["--help"], None);
+    let verbs: Vec<&str> = help
+        .lines()
+        .skip_while(|line| !line.starts_with("Commands:"))
+        .skip(1)
+        .map_while(|line| line.strip_prefix("  "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|&verb| verb != "help")
+        .collect();
+    assert!(verbs.len() >= 7, "{help}");
+    for verb in [&[""][..], &verbs].concat() {
+        let arguments: Vec<&str> = [verb, "--help"]
+            .into_iter()
+            .filter(|a| !a.is_empty())
+            .collect();
+        let (code, help, _) = output_of(&arguments, None);
+        assert_eq!(code, Some(0));
+        assert!(
+            help.contains("Examples:") && help.contains("Exit codes: 0 "),
+            "{verb}: {help}"
+        );
+    }
+}
+
+#[test]
+fn shells_and_man_are_told() {
+    for (shell, words) in [
+        ("bash", "_krawl()"),
+        ("zsh", "#compdef krawl"),
+        ("fish", "complete -c krawl"),
+    ] {
+        let (code, out, _) = output_of(&["completions", shell], None);
+        assert_eq!(code, Some(0));
+        assert!(
+            out.contains(words) && out.contains("tube-radius"),
+            "{shell}"
+        );
+    }
+    let (_, out, _) = output_of(&["man"], None);
+    assert!(out.contains(".TH krawl 1") && out.contains("Exit codes"));
+    let folder = tempfile::tempdir().unwrap();
+    let (code, _, _) = output_of(&["man", "--dir", folder.path().to_str().unwrap()], None);
+    assert_eq!(code, Some(0));
+    let solve = fs::read_to_string(folder.path().join("krawl-solve.1")).unwrap();
+    assert!(solve.contains("Examples:"));
+}

@@ -201,6 +201,8 @@ fn holds_newtons(problem: &Problem, result: &Complete, starts: usize) -> Result<
                 .collect(),
             class: 0,
             width: 0.0,
+            place: None,
+            mirror_of: None,
         };
         // Floats are good for 1e-6 where the figure is not nearly singular.
         let found = congruent(result, &pairs(&solution), 1e-5);

@@ -9,7 +9,7 @@ use common::moves::{mirrored, moved, ratio, relabelled, scaled, squared};
 use common::{FLOAT_SPACES, SHORT, arguments, closed, shipped, solve, ways};
 use krawl::interval::hull;
 use krawl::problem::Problem;
-use krawl::track::{Options, Solution, Status};
+use krawl::track::{Options, Place, Solution, Status};
 use serde_json::Value;
 
 /// The proved number of solutions on the path of the icosahedron as its data are printed. The
@@ -61,6 +61,12 @@ fn through_the_program(name: &str, way: &Options) -> (Value, Vec<Solution>) {
             .collect(),
         class: solution["class"].as_u64().unwrap() as usize,
         width: solution["width"].as_f64().unwrap(),
+        place: solution["arc"].as_f64().map(|arc| Place {
+            arc,
+            rising: solution["rising"].as_bool().unwrap(),
+            folds: solution["folds"].as_u64().map(|n| n as usize),
+        }),
+        mirror_of: solution["mirror_of"].as_u64().map(|k| k as usize),
     });
     let solutions = solutions.collect();
     (json, solutions)

@@ -93,7 +93,7 @@ pub struct EndClaim {
 }
 
 /// Why a file is not a certificate.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum FormatError {
     /// It cannot be read.
     #[error("cannot be read: {0}")]
@@ -111,3 +111,5 @@ pub enum FormatError {
     #[error("{0}")]
     Malformed(String),
 }
+
+crate::debug_in_words!(FormatError);

@@ -1,9 +1,11 @@
 //! `krawl all`: searches all figures that have the distances wanted.
 
 use super::output::{self, Beside, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
 use krawl::complete::{Options, Progress, Status, all};
 use krawl::problem::Problem;
+use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table};
 use std::io::Write;
 use std::path::PathBuf;
@@ -14,9 +16,13 @@ use std::time::{Duration, Instant};
 ///
 /// The sketch plays no part: every figure that has the distances is listed, up to rigid motions and
 /// reflections. "Complete" claims that these are all; "partial" and "flexible" say what is undecided.
-///
-/// Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl all problems/disulfide.toml
+  krawl all problems/disulfide.toml --html all.html --xyz all.xyz
+
+Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.")]
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,
@@ -32,6 +38,8 @@ pub struct Arguments {
     /// Stop after so many seconds, and say what is undecided
     #[arg(long, value_name = "S", value_parser = seconds)]
     time: Option<f64>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print no table and no progress
     #[arg(long)]
     quiet: bool,
@@ -65,10 +73,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             results.display()
         ));
     }
+    let pictures = arguments.pictures.places()?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let line = Mutex::new(ProgressLine::new(!arguments.quiet));
+    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let begin = Instant::now();
     let tell = |now: Progress| {
         if let Ok(mut line) = line.lock() {
@@ -95,6 +104,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let mut written = true;
+    if !pictures.is_empty() {
+        written &= pictures.write(&Page::of_complete(&problem, &result));
+    }
     match (&cert, &result.cover) {
         (Some(beside), Some(cover)) => {
             let whole = (&mut beside.file()).write_all(cover);

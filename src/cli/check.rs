@@ -1,16 +1,24 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
-use super::{BAD_INPUT, CLOSED, output};
+use super::{BAD_INPUT, CLOSED, input, output};
 use krawl::plan::Plan;
 use krawl::problem::{Object, Problem, Shape, Target};
+use krawl::remarks::{in_words, remarks};
 use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Check a problem file and print what is in it
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl check sketch.toml
+  krawl check sketch.toml --pattern
+  krawl generate tower --size 60 | krawl check -
+
+Exit codes: 0 in order, 2 not in order, with the line and what to do.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML); `-` is standard input
     file: PathBuf,
     /// Show where the Jacobian has entries, ordered by the construction plan, however many
     /// coordinates there are (otherwise up to 40)
@@ -23,14 +31,15 @@ const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
-    let problem = match Problem::read(&arguments.file) {
+    let problem = match input::read(&arguments.file) {
         Ok(problem) => problem,
-        Err(error) => {
-            output::complain(&error.to_string());
+        Err(message) => {
+            output::complain(&message);
             return BAD_INPUT;
         }
     };
     let mut text = describe(&problem);
+    text += &remarks_in_words(&problem);
     if !problem.is_distances_only() {
         text += "construction plan\n  none: plans are for distances between points alone\n";
         return if output::print(&text) {
@@ -42,7 +51,7 @@ pub fn run(arguments: &Arguments) -> u8 {
     match construction_plan(&problem, arguments.pattern) {
         Ok(plan) => text += &plan,
         Err(error) => {
-            output::complain(&format!("{}: {error}", arguments.file.display()));
+            output::complain(&format!("{}: {error}", input::name(&arguments.file)));
             return BAD_INPUT;
         }
     }
@@ -51,6 +60,28 @@ pub fn run(arguments: &Arguments) -> u8 {
     } else {
         BAD_INPUT
     }
+}
+
+/// What makes the sketch or the target singular or impossible, and what can be mirrored, as lines of text.
+fn remarks_in_words(problem: &Problem) -> String {
+    const MOST: usize = 12;
+    if !problem.is_distances_only() {
+        return String::new();
+    }
+    let found = remarks(problem);
+    let lines = found.iter().take(MOST).map(|remark| {
+        let label = if remark.is_warning() {
+            "warning"
+        } else {
+            "note"
+        };
+        format!("{label}: {}\n", in_words(problem, remark))
+    });
+    let mut text: String = lines.collect();
+    if found.len() > MOST {
+        let _ = writeln!(text, "and {} more of these", found.len() - MOST);
+    }
+    text
 }
 
 /// The construction plan with its driving parameters and removed constraints, and the pattern of
@@ -158,6 +189,9 @@ fn describe(problem: &Problem) -> String {
     for (label, value) in rows {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {label:<20}{value}");
+    }
+    if let Some(message) = problem.impossible_triangle() {
+        let _ = writeln!(text, "  {:<20}{message}", "but");
     }
     text
 }

@@ -13,9 +13,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Follow the path in every mode and space, several times each, and set them beside each other
-///
-/// Exit codes: 0 all ran and the certified runs closed, 1 one stopped, or interrupted, 2 bad input.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl compare problems/octahedron.toml
+  krawl compare problems/*.toml --repeat 9 --csv out.csv
+  krawl compare sketch.toml --sweep --output pictures
+
+Exit codes: 0 all ran and the certified runs closed, 1 one stopped, or interrupted, 2 bad input.")]
 pub struct Arguments {
     /// The problem files (TOML)
     #[arg(required = true, value_name = "FILE")]
@@ -97,8 +102,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let is_cancelled = || cancel.load(std::sync::atomic::Ordering::Relaxed);
     let mut all: Vec<Compared> = Vec::new();
     let mut written = true;
-    for (subject, file) in subjects.into_iter().zip(&arguments.files) {
-        let mut line = ProgressLine::new(!arguments.quiet);
+    let count = subjects.len();
+    for (k, (subject, file)) in subjects.into_iter().zip(&arguments.files).enumerate() {
+        let which = output::which_of((k, count), file);
+        let mut line = ProgressLine::new(!arguments.quiet, &which);
         let mut show = |now: Progress| line.show(now);
         let mut hooks = Hooks {
             cancel: Some(cancel),

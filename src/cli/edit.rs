@@ -1,9 +1,11 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::output::{self, Beside, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, interrupt, serve};
 use krawl::edit::{Edited, Ending, OpenError, Session, Setting, rewrite};
 use krawl::problem::Problem;
+use krawl::report::page::Page;
 use krawl::report::{edit_to_json, edit_to_table};
 use krawl::track::{Control, Options};
 use std::io::Write;
@@ -14,12 +16,14 @@ use std::path::{Path, PathBuf};
 /// The figure is the sketch in FILE, which should meet its dimensions, at least nearly. Only the dimensions named
 /// move, in proportion; all others stay.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the \
-                  dimensions can go so far and no further; 4 passes: branches of figures seem to meet; 1 stopped: \
-                  nothing could be proved from some point on; 2 bad input, or results that could not be written.\n\n\
-                  Example: krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml"
-)]
+#[command(after_help = "\
+Examples:
+  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
+  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
+
+Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
+go so far and no further; 4 passes: branches of figures seem to meet; 1 stopped: nothing could be proved
+from some point on; 2 bad input, or results that could not be written.")]
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,
@@ -41,6 +45,8 @@ pub struct Arguments {
     /// Write the result as JSON; `-` writes it to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Keep to 53 bits, and stop where they do not suffice
     #[arg(long)]
     no_extended: bool,
@@ -75,6 +81,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let settings = settings.map_err(|e| in_file(&e))?;
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let pictures = arguments.pictures.places()?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let mut control = Control {
         cancel: Some(interrupt::flag()),
@@ -88,6 +95,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let moved = session.moved();
 
     let mut written = true;
+    if !pictures.is_empty() {
+        written &= pictures.write(&Page::of_edit(&problem, &edited));
+    }
     if let Some(json) = &json {
         written &= json.write(&(edit_to_json(&problem, &edited, moved) + "\n"));
     }

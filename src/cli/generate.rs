@@ -8,6 +8,12 @@ use std::path::PathBuf;
 
 /// Make a large well-constrained problem with few key unknowns
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl generate tetrahedra --size 300 --out tetrahedra.toml
+  krawl generate strip --size 100 --loops 2 --seed 7 | krawl solve -
+
+Exit codes: 0 written, 2 it could not be made or written.")]
 pub struct Arguments {
     /// What it is made of
     #[arg(value_enum)]

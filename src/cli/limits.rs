@@ -13,10 +13,12 @@ use std::path::PathBuf;
 ///
 /// The figure is the sketch in FILE, which should meet its dimensions, at least nearly.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Exit codes: 0 all ranges are known to their ends, 1 some are not, 2 bad input, or results that \
-                  could not be written.\n\nExample: krawl limits problems/mechanisms/four-bar.toml"
-)]
+#[command(after_help = "\
+Examples:
+  krawl limits problems/mechanisms/four-bar.toml
+
+Exit codes: 0 all ranges are known to their ends, 1 some are not, 2 bad input, or results that could not
+be written.")]
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,

@@ -5,11 +5,15 @@ mod check;
 mod compare;
 mod edit;
 mod generate;
+mod input;
 mod interrupt;
 mod limits;
 mod output;
+mod pictures;
 mod processor;
 mod serve;
+mod shell;
+mod show;
 mod solve;
 mod sweep;
 mod verify;
@@ -37,14 +41,26 @@ pub const LIMIT: u8 = 3;
 /// Exit code of an edit that comes to where branches of figures seem to meet.
 pub const PASSES: u8 = 4;
 
-/// Follows the real homotopy path through a sketch and finds, with proof, the figures on it that
-/// meet the dimensions.
+/// Finds figures that meet given dimensions, with proof, from a rough sketch: it leads the sketch's
+/// dimensions to the wanted ones and follows the figure as it moves.
 #[derive(Parser)]
 #[command(
+    name = "krawl",
     version,
-    after_help = "Exit codes: 0 closed, verified or reached, 1 stopped or refuted, 2 bad input or results that \
-                  could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's \
-                  branches meet or an incomplete certificate, 5 open: a path with two ends, proved between them."
+    after_help = "\
+Examples:
+  krawl check sketch.toml                   is the input in order, and what was understood?
+  krawl solve sketch.toml                   the figures that meet the dimensions
+  krawl solve sketch.toml --html page.html  a page to look at
+  krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
+  krawl all sketch.toml                     every figure that there is
+  krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
+
+`krawl VERB --help` has more of each verb. The README has the format of problem files.
+
+Exit codes: 0 closed, complete, verified or reached, 1 stopped or refuted, 2 bad input or results that
+could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's branches meet or
+an incomplete certificate, 5 open: a path with two ends, proved between them."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -59,9 +75,12 @@ enum Verb {
     Edit(edit::Arguments),
     Generate(generate::Arguments),
     Limits(limits::Arguments),
+    Show(show::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
     Verify(verify::Arguments),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 /// Runs the program. The exit code is its result.
@@ -77,9 +96,12 @@ pub fn run() -> ExitCode {
         Verb::Edit(arguments) => edit::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Limits(arguments) => limits::run(&arguments),
+        Verb::Show(arguments) => show::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Sweep(arguments) => sweep::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
+        Verb::Completions(arguments) => shell::completions(&arguments),
+        Verb::Man(arguments) => shell::man(&arguments),
     };
     ExitCode::from(code)
 }

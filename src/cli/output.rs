@@ -30,6 +30,14 @@ pub fn print(text: &str) -> bool {
     }
 }
 
+/// `run 2 of 5: file`, or nothing where there is only one.
+pub fn which_of((k, count): (usize, usize), file: &Path) -> String {
+    match count {
+        1 => String::new(),
+        _ => format!("run {} of {count}: {}", k + 1, file.display()),
+    }
+}
+
 /// Whether two paths lead to the same existing file.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     match (fs::canonicalize(one), fs::canonicalize(other)) {

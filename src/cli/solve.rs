@@ -1,21 +1,41 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
 use super::output::{self, Beside, Destination};
-use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, interrupt};
+use super::pictures::Pictures;
+use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
-use krawl::report::{ProgressLine, to_json, to_table};
-use krawl::track::{self, Control, Options, Outcome, Progress, Status, Witness};
+use krawl::report::page::Page;
+use krawl::report::{ProgressLine, Run, to_short_table, to_summary, to_table};
+use krawl::track::{self, Control, Options, Outcome, Progress, Status, Trace, Witness};
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 /// Follow the path through the sketch and list the figures on it that meet the dimensions
+///
+/// The solutions come in the order in which the path meets them, in coordinates in which the reference
+/// points are fixed: the first at the origin, the second on the x axis. Solutions of the same class are
+/// congruent: the same figure, or its mirror image. `reached without a fold` marks the one to which the
+/// sketch moves without turning back when its dimensions are led to their targets.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl solve sketch.toml                      the solutions, with proof
+  krawl solve sketch.toml --html page.html     a page to look at
+  krawl solve sketch.toml --json out.json      for programs (docs/json.md); `krawl show` draws it
+  krawl solve a.toml b.toml c.toml --summary   one line for each
+  krawl generate strip --size 100 | krawl solve -
+  krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
+
+Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
+found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
+proved.")]
 pub struct Arguments {
-    /// The problem file (TOML)
-    file: PathBuf,
+    /// The problem files (TOML); `-` is standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
     /// Prove every step, or track in floating-point arithmetic
     #[arg(long, value_enum, default_value_t = Mode::Certified)]
     mode: Mode,
@@ -49,9 +69,21 @@ pub struct Arguments {
     /// Write a certificate that `verify` can check; only for runs in certified mode
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
-    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    /// Write the results as JSON, one line for each problem; `-` writes them to standard output in place
+    /// of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Certified mode: so many figures along the path go into the JSON and the page
+    #[arg(long, value_name = "N", value_parser = samples)]
+    samples: Option<usize>,
+    #[command(flatten)]
+    pictures: Pictures,
+    /// Print one line for each problem
+    #[arg(long)]
+    summary: bool,
+    /// Print all solutions, however many lines they take
+    #[arg(long, conflicts_with = "summary")]
+    all: bool,
     /// Print no table and no progress
     #[arg(long)]
     quiet: bool,
@@ -82,6 +114,13 @@ fn alpha(text: &str) -> Result<f64, String> {
     }
 }
 
+fn samples(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if (2..=100_000).contains(&n) => Ok(n),
+        _ => Err("must be a whole number from 2 to 100000".to_owned()),
+    }
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
@@ -98,6 +137,11 @@ impl Arguments {
         if self.mode == Mode::Float && self.cert.is_some() {
             return Err(
                 "float mode proves nothing: leave out `--cert`, or `--mode float`".to_owned(),
+            );
+        }
+        if self.mode == Mode::Float && self.samples.is_some() {
+            return Err(
+                "float mode keeps no path: leave out `--samples`, or `--mode float`".to_owned(),
             );
         }
         if self.mode == Mode::Certified && self.tolerance.is_some() {
@@ -121,17 +165,18 @@ impl Arguments {
         Ok(())
     }
 
-    fn options(&self, problem: &Problem) -> Options {
-        let space = self.space(problem);
+    fn options(&self) -> Options {
         let options = match (self.mode, self.preset) {
-            (Mode::Certified, _) => Options {
-                space,
-                ..Options::certified()
-            },
-            (Mode::Float, Preset::Default) => Options::float(space),
-            (Mode::Float, Preset::Paper) => Options::paper(space),
+            (Mode::Certified, _) => Options::certified(),
+            (Mode::Float, Preset::Default) => Options::float(track::Space::Reduced),
+            (Mode::Float, Preset::Paper) => Options::paper(track::Space::Reduced),
         };
         Options {
+            space: match self.space {
+                Some(Space::Full) => track::Space::Full,
+                Some(Space::Reduced) => track::Space::Reduced,
+                None => options.space,
+            },
             max_step: self.max_step,
             tube_radius: self.tube_radius,
             tolerance: self.tolerance,
@@ -142,14 +187,15 @@ impl Arguments {
         }
     }
 
-    fn space(&self, problem: &Problem) -> track::Space {
-        match (self.space, self.mode) {
-            (Some(Space::Full), _) => track::Space::Full,
-            (Some(Space::Reduced), _) | (None, Mode::Float) => track::Space::Reduced,
-            // A certificate's tubes are those of the full space.
-            (None, Mode::Certified) if self.cert.is_some() => track::Space::Full,
-            (None, Mode::Certified) => track::Space::for_certified(problem.distances.len()),
+    /// What is for one problem only, where there are several.
+    fn check_count(&self) -> Result<(), String> {
+        if self.files.len() > 1 && self.cert.is_some() {
+            return Err("`--cert` is for one problem: name one file".to_owned());
         }
+        if self.files.len() > 1 && self.pictures.files().next().is_some() {
+            return Err("a page and pictures are of one problem: name one file".to_owned());
+        }
+        input::only_one_standard_input(self.files.iter().map(PathBuf::as_path))
     }
 }
 
@@ -160,60 +206,144 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.check()?;
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
-    let options = arguments.options(&problem);
+    arguments.check_count()?;
+    // Whatever is wrong is said before anything runs.
+    let problems = arguments.files.iter().map(|file| input::read(file));
+    let problems = problems.collect::<Result<Vec<Problem>, String>>()?;
     let json = arguments
         .json
         .as_deref()
         .map(Destination::new)
         .transpose()?;
-
-    for results in [&arguments.json, &arguments.cert].into_iter().flatten() {
-        if output::is_same_file(results, &arguments.file) {
-            return Err(format!(
-                "{}: is the problem itself; name another file for the results",
-                results.display()
-            ));
+    let pictures = arguments.pictures.places()?;
+    let results = [&arguments.json, &arguments.cert].into_iter().flatten();
+    for results in results.chain(arguments.pictures.files()) {
+        for file in &arguments.files {
+            if output::is_same_file(results, file) {
+                return Err(format!(
+                    "{}: is the problem itself; name another file for the results",
+                    results.display()
+                ));
+            }
         }
     }
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let mut witness = cert
-        .as_ref()
-        .map(|beside| Writer::new(BufWriter::new(beside.file()), &problem));
-    let mut line = ProgressLine::new(!arguments.quiet);
+    let standard = json == Some(Destination::StandardOutput);
+    if standard && pictures.use_standard_output() {
+        return Err("only one result can go to standard output".to_owned());
+    }
+    let silent = arguments.quiet || standard || pictures.use_standard_output();
+    let mut lines = String::new();
+    let (mut written, mut worst) = (true, CLOSED);
+    for (k, (problem, file)) in problems.iter().zip(&arguments.files).enumerate() {
+        let which = output::which_of((k, problems.len()), file);
+        let mut trace = Trace::default();
+        let shown = !pictures.is_empty();
+        let wants_path = (json.is_some() || shown) && arguments.mode == Mode::Certified;
+        let samples = match arguments.samples {
+            Some(samples) => samples,
+            None if arguments.pictures.want_path() => samples_for(problem),
+            None => 0,
+        };
+        let (mut outcome, well) = follow(
+            arguments,
+            problem,
+            &input::name(file),
+            &which,
+            cert.as_ref(),
+            wants_path.then_some(&mut trace),
+        )?;
+        written &= well;
+        if wants_path
+            && samples > 0
+            && let Some(finer) = follow_finely(arguments, problem, &which, &mut outcome)
+        {
+            trace = finer;
+        }
+        worst = match (&outcome.status, worst) {
+            (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
+            (Status::Open(_), _) => OPEN,
+            (Status::Closed, worst) => worst,
+        };
+        let run = Run {
+            problem,
+            options: &arguments.options(),
+            outcome: &outcome,
+            trace: wants_path.then_some(&trace),
+            samples,
+        };
+        if json.is_some() {
+            lines += &(run.to_json() + "\n");
+        }
+        if shown {
+            let page = Page::from_result(&run.to_value()).map_err(|error| error.to_string())?;
+            written &= pictures.write(&page);
+        }
+        if !silent {
+            let gap = if k == 0 || arguments.summary {
+                ""
+            } else {
+                "\n"
+            };
+            written &= output::print(&format!("{gap}{}", arguments.shown(problem, &outcome)));
+        }
+        if cancel.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    // With one problem the file is written even where nobody reads the table any more: `print` does not fail
+    // for that.
+    if let Some(json) = &json {
+        written &= json.write(&lines);
+    }
+    Ok(if written { worst } else { BAD_INPUT })
+}
+
+impl Arguments {
+    fn shown(&self, problem: &Problem, outcome: &Outcome) -> String {
+        match (self.summary, self.all) {
+            (true, _) => to_summary(problem, outcome),
+            (false, true) => to_table(problem, outcome),
+            (false, false) => to_short_table(problem, outcome),
+        }
+    }
+}
+
+/// Figures along a path for a page: smooth, and not too much to load.
+fn samples_for(problem: &Problem) -> usize {
+    (60_000 / problem.points.len()).clamp(100, 2400)
+}
+
+/// Follows the path of one problem. Also tells whether its certificate could be written.
+fn follow(
+    arguments: &Arguments,
+    problem: &Problem,
+    name: &str,
+    which: &str,
+    cert: Option<&Beside>,
+    trace: Option<&mut Trace>,
+) -> Result<(Outcome, bool), String> {
+    let options = arguments.options();
+    let cancel = interrupt::flag();
+    let mut witness = cert.map(|beside| Writer::new(BufWriter::new(beside.file()), problem));
+    let mut line = ProgressLine::new(!arguments.quiet, which);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
         cancel: Some(cancel),
         progress: Some(&mut show),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
+        trace,
         ..Control::default()
     };
-    let mut outcome = track::solve(&problem, &options, &mut control);
-    // What was not asked for is not insisted on.
-    if arguments.mode == Mode::Certified
-        && arguments.space.is_none()
-        && options.space == track::Space::Reduced
-        && let Ok(Outcome {
-            status: Status::Stopped(reason),
-            ..
-        }) = &outcome
-        && !cancel.load(Ordering::Relaxed)
-    {
-        let remark = format!("full space: in the reduced space the run stopped, {reason}");
-        let full = Options {
-            space: track::Space::Full,
-            ..options
-        };
-        // Where the full space is not to be had, the first run is the result.
-        if let Ok(mut second) = track::solve(&problem, &full, &mut control) {
-            second.switched_on.push(remark);
-            outcome = Ok(second);
-        }
-    }
+    let outcome = match arguments.space {
+        Some(_) => track::solve(problem, &options, &mut control),
+        // What was not asked for is not insisted on.
+        None => track::solve_in_best_space(problem, &options, &mut control),
+    };
     line.clear();
-    let mut outcome = outcome.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
+    let mut outcome = outcome.map_err(|error| format!("{name}: {error}"))?;
     if arguments.mode == Mode::Certified
         && arguments.space.is_some()
         && outcome.space == track::Space::Reduced
@@ -225,10 +355,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     {
         *reason += "; the full space has extended precision (`--space full`)";
     }
-
-    // The file first: a table that nobody reads any more must not cost it.
     let mut written = true;
-    if let (Some(beside), Some(writer)) = (&cert, witness) {
+    if let (Some(beside), Some(writer)) = (cert, witness) {
         let cut = writer.is_cut();
         written &= beside.commit(writer.finish().map(|_| ()));
         if cut && written {
@@ -238,16 +366,34 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             );
         }
     }
-    if let Some(json) = &json {
-        written &= json.write(&(to_json(&problem, &outcome) + "\n"));
+    Ok((outcome, written))
+}
+
+/// Follows the path again in narrow tubes, if that comes to the same end, for pictures and folds: what it
+/// tells about the places of the solutions is more.
+fn follow_finely(
+    arguments: &Arguments,
+    problem: &Problem,
+    which: &str,
+    outcome: &mut Outcome,
+) -> Option<Trace> {
+    let mut line = ProgressLine::new(!arguments.quiet, format!("{which} picture").trim_start());
+    let mut show = |now: Progress| line.show(now);
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        progress: Some(&mut show),
+        ..Control::default()
+    };
+    let traced = track::trace_path(problem, &arguments.options(), &mut control);
+    line.clear();
+    let (finer, trace) = traced.ok()?;
+    let kind = |outcome: &Outcome| std::mem::discriminant(&outcome.status);
+    if kind(&finer) != kind(outcome) || finer.solutions.len() != outcome.solutions.len() {
+        return None;
     }
-    if !arguments.quiet && json != Some(Destination::StandardOutput) {
-        written &= output::print(&to_table(&problem, &outcome));
+    outcome.length = finer.length;
+    for (solution, finer) in outcome.solutions.iter_mut().zip(finer.solutions) {
+        solution.place = finer.place;
     }
-    Ok(match outcome.status {
-        _ if !written => BAD_INPUT,
-        Status::Closed => CLOSED,
-        Status::Open(_) => OPEN,
-        Status::Stopped(_) => STOPPED,
-    })
+    Some(trace)
 }

@@ -14,12 +14,12 @@ use std::path::PathBuf;
 /// The figure in FILE is led to the first value, and from there to the last one. Every frame is proved to be the one and
 /// only continuation of the one before. Where the mechanism comes to a limit the sweep ends, and the limit is enclosed.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are \
-                  written; 2 bad input, or results that could not be written.\n\n\
-                  Example: krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --frames 100 \
-                  --csv leg.csv"
-)]
+#[command(after_help = "\
+Examples:
+  krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --frames 100 --csv leg.csv
+
+Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are written;
+2 bad input, or results that could not be written.")]
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,

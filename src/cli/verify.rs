@@ -11,11 +11,15 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Prove all claims of a certificate again
-///
-/// Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another problem than FILE;
-/// 2 not a certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it;
-/// 4 incomplete, the proof of a run that stopped, true as far as it goes.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl verify proof.krawl
+  krawl verify proof.krawl sketch.toml    and it is about this problem
+
+Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another problem than FILE; 2 not a
+certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it; 4 incomplete, the
+proof of a run that stopped, true as far as it goes.")]
 pub struct Arguments {
     /// The certificate, as `solve --cert` or `all --cert` writes it
     cert: PathBuf,
@@ -47,7 +51,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         threads: arguments.threads.unwrap_or(0).into(),
     };
     let clock = Instant::now();
-    let mut line = ProgressLine::new(!arguments.quiet);
+    let mut line = ProgressLine::new(!arguments.quiet, "");
     let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
     let verdict = verify(file, &settings, &mut show);
     line.clear();

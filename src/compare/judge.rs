@@ -216,6 +216,8 @@ mod tests {
             ],
             class: 0,
             width: 2.0 * radius,
+            place: None,
+            mirror_of: None,
         };
         Measured {
             outcome: Outcome {

@@ -1,8 +1,8 @@
-//! The path as a certified run sees it, for pictures.
+//! The path as certified runs prove it, for pictures.
 
 use crate::problem::Problem;
 use crate::system::Homotopy;
-use crate::track::{Control, Options, StartError, Status, TubeSeen, Witness, solve};
+use crate::track::{Control, Options, StartError, Status, Trace, solve, trace_path};
 use std::sync::atomic::AtomicBool;
 
 /// A point of the path, in the problem's lengths.
@@ -16,141 +16,87 @@ pub struct PathStation {
     pub direction: Vec<f64>,
 }
 
-/// A path: the middles of a certified run's tubes.
-#[derive(Debug, Clone, PartialEq)]
+/// A path: where a certified run's tubes end, and what is between.
+#[derive(Debug, Clone)]
 pub struct RecordedPath {
     /// The problem's name.
     pub problem: String,
     /// What the free coordinates are called, such as `x of p5`.
     pub coordinates: Vec<String>,
-    /// In order, the sketch first. On a closed path the last one is the sketch again.
+    /// In order, the sketch first, and then the end of each tube. On a closed path the last one is the
+    /// sketch again.
     pub stations: Vec<PathStation>,
     /// Where the path meets t = 1.
     pub solutions: Vec<PathStation>,
     /// Whether the path was followed back to the sketch, with proof.
     pub closed: bool,
+    /// The path itself, from a run in tubes so narrow that their middles are a picture of it.
+    trace: Trace,
 }
 
-/// Follows the path once more and records it.
+impl RecordedPath {
+    /// The path's point at a length.
+    pub fn point(&self, at: f64) -> Option<PathStation> {
+        let (z, direction) = self.trace.at(at)?;
+        Some(PathStation { at, z, direction })
+    }
+}
+
+/// Follows the path twice more and records it: once for the steps that a certified run takes, and once
+/// closely, for the curve.
 ///
-/// Only certified runs show their tubes, so this is one: nothing of it is in any timing.
+/// Nothing of it is in any timing.
 pub fn record_path(
     problem: &Problem,
     cancel: Option<&AtomicBool>,
 ) -> Result<RecordedPath, StartError> {
     let homotopy = Homotopy::new(problem)?;
-    let mut recorder = Recorder {
-        unit: 1.0,
-        stations: Vec::new(),
-        solutions: Vec::new(),
-    };
+    let mut steps = Trace::default();
     let mut control = Control {
         cancel,
-        witness: Some(&mut recorder),
+        trace: Some(&mut steps),
         ..Control::default()
     };
     let outcome = solve(problem, &Options::certified(), &mut control)?;
-    let closed = outcome.status == Status::Closed;
+    let mut control = Control {
+        cancel,
+        ..Control::default()
+    };
+    let (finer, mut trace) = trace_path(problem, &Options::certified(), &mut control)?;
+    // Where narrow tubes do not get so far, those of the run are what there is.
+    let same = finer.status == Status::Closed || outcome.status != Status::Closed;
+    let found = if same { finer } else { outcome.clone() };
+    if !same {
+        trace = steps.clone();
+    }
     let gauge = &homotopy.gauge;
     let name = |&place: &usize| {
         let (p, axis) = (place / gauge.dimension, place % gauge.dimension);
         format!("{} of {}", ["x", "y", "z"][axis], problem.points[p].name)
     };
-    Ok(RecordedPath {
+    // Lengths of the two runs differ a little.
+    let scale = trace.length() / steps.length().max(f64::MIN_POSITIVE);
+    let ends = steps.ends().into_iter().map(|at| at * scale);
+    let mut path = RecordedPath {
         problem: problem.name.clone(),
         coordinates: gauge.place.iter().map(name).collect(),
-        stations: recorder.closed_loop(closed),
-        solutions: recorder.solutions,
-        closed,
-    })
-}
-
-struct Recorder {
-    unit: f64,
-    stations: Vec<PathStation>,
-    solutions: Vec<PathStation>,
-}
-
-impl Recorder {
-    /// In the problem's lengths; t is left as it is.
-    fn scaled(&self, z: &[f64]) -> Vec<f64> {
-        let mut out: Vec<f64> = z.iter().map(|x| x * self.unit).collect();
-        if let (Some(last), Some(t)) = (out.last_mut(), z.last()) {
-            *last = *t;
-        }
-        out
+        stations: Vec::new(),
+        solutions: Vec::new(),
+        closed: outcome.status == Status::Closed,
+        trace,
+    };
+    path.stations = std::iter::once(0.0)
+        .chain(ends)
+        .filter_map(|at| path.point(at))
+        .collect();
+    if path.closed
+        && let [first, .., last] = &mut path.stations[..]
+    {
+        last.z.clone_from(&first.z);
     }
-
-    /// The stations, back to the sketch if the path is closed.
-    fn closed_loop(&self, closed: bool) -> Vec<PathStation> {
-        let mut stations = self.stations.clone();
-        let (true, Some(first)) = (closed, self.stations.first()) else {
-            return stations;
-        };
-        // The middle of the last tube may lie beyond the sketch.
-        while let Some(last) = stations.pop() {
-            if dot(&difference(&first.z, &last.z), &first.direction) > 0.0 || stations.is_empty() {
-                let at = last.at + arc(&last, &first.z, &first.direction);
-                stations.push(last);
-                stations.push(PathStation {
-                    at,
-                    ..first.clone()
-                });
-                break;
-            }
-        }
-        stations
-    }
-}
-
-impl Witness for Recorder {
-    fn begin(&mut self, unit: f64) {
-        self.unit = unit;
-    }
-
-    fn tube(&mut self, tube: TubeSeen) {
-        let z = self.scaled(tube.centre);
-        // The normal of the cross-sections is the tangent at the prediction, near enough to draw.
-        let mut direction = self.scaled(tube.normal);
-        let size = dot(&direction, &direction).sqrt();
-        direction.iter_mut().for_each(|x| *x /= size);
-        let at = match self.stations.last() {
-            None => 0.0,
-            Some(last) => last.at + arc(last, &z, &direction),
-        };
-        self.stations.push(PathStation { at, z, direction });
-    }
-
-    fn solution(&mut self, centre: &[f64], _radius: &[f64]) {
-        let Some(tube) = self.stations.last() else {
-            return;
-        };
-        let z = self.scaled(&[centre, &[1.0]].concat());
-        let along = dot(&difference(&z, &tube.z), &tube.direction);
-        self.solutions.push(PathStation {
-            at: tube.at + along,
-            direction: tube.direction.clone(),
-            z,
-        });
-    }
-
-    fn end(&mut self, _status: &Status, _classes: &[usize]) {}
-}
-
-/// The length of the arc between two points of a curve, from its chord and its directions: the
-/// chord of an arc that turns by δ is shorter by the part δ²/24.
-fn arc(from: &PathStation, to: &[f64], direction: &[f64]) -> f64 {
-    let chord = difference(to, &from.z);
-    let turn = difference(direction, &from.direction);
-    dot(&chord, &chord).sqrt() * (1.0 + dot(&turn, &turn) / 24.0)
-}
-
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let places = found.solutions.iter().filter_map(|s| s.place);
+    path.solutions = places.filter_map(|place| path.point(place.arc)).collect();
+    Ok(path)
 }
 
 #[cfg(test)]
@@ -170,15 +116,67 @@ mod tests {
             path.stations.last().unwrap(),
         );
         assert_eq!(first.z, last.z);
-        // Lengths by arcs and by the tubes' polynomials agree.
-        assert!((last.at / outcome.length - 1.0).abs() < 0.01);
+        assert_eq!(path.stations.len(), outcome.steps + 2);
+        assert!((last.at / outcome.length - 1.0).abs() < 1e-3);
         let mut before = 0.0;
         for station in &path.stations[1..] {
             assert!(station.at > before);
             before = station.at;
         }
-        for solution in &path.solutions {
+        for (solution, boxes) in path.solutions.iter().zip(&outcome.solutions) {
             assert!(solution.at > 0.0 && solution.at < last.at);
+            assert!((solution.z[solution.z.len() - 1] - 1.0).abs() < 1e-4);
+            // x of p6, which is free.
+            let x = path
+                .coordinates
+                .iter()
+                .position(|name| name == "x of p6")
+                .unwrap();
+            assert!((solution.z[x] - boxes.points[5][0].mid()).abs() < 1e-4);
+        }
+    }
+
+    /// What is drawn is the path: every point of the curve meets the equations, and directions are those of
+    /// the curve. On a four-bar with normals of cross-sections for directions they were off by 23 degrees.
+    #[test]
+    fn what_is_drawn_is_what_was_proved() {
+        for file in ["problems/k33.toml", "problems/dodecagon.toml"] {
+            let problem = Problem::read(file).unwrap();
+            let path = record_path(&problem, None).unwrap();
+            let homotopy = Homotopy::new(&problem).unwrap();
+            let (length, m) = (path.stations.last().unwrap().at, path.coordinates.len());
+            for k in 0..=500 {
+                let here = path.point(length * f64::from(k) / 500.0).unwrap();
+                let t = here.z[m];
+                let place = |p: usize, axis: usize| {
+                    let i = homotopy.gauge.variable[p * problem.dimension + axis];
+                    here.z[..m].get(i).copied().unwrap_or(0.0)
+                };
+                for (edge, length) in problem.distances.iter().zip(&homotopy.lengths) {
+                    let [a, b] = edge.points;
+                    let squares =
+                        (0..problem.dimension).map(|k| (place(a, k) - place(b, k)).powi(2));
+                    let distance = squares.sum::<f64>().sqrt();
+                    let wanted = length.enclose(crate::interval::point(t)).mid() * homotopy.unit;
+                    assert!(
+                        (distance - wanted).abs() < 1e-4,
+                        "{file} {k}: {distance} {wanted}"
+                    );
+                }
+                // The direction against a difference quotient.
+                let ahead = path.point(here.at + 1e-4 * length);
+                if let Some(ahead) = ahead.filter(|_| k < 499) {
+                    let along: Vec<f64> = ahead.z.iter().zip(&here.z).map(|(a, b)| a - b).collect();
+                    let size = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+                    let cosine = along
+                        .iter()
+                        .zip(&here.direction)
+                        .map(|(a, b)| a * b)
+                        .sum::<f64>()
+                        / size;
+                    assert!(cosine > 0.999, "{file} {k}: {cosine}");
+                }
+            }
         }
     }
 }

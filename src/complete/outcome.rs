@@ -389,6 +389,8 @@ fn in_gauge(
         points,
         class: 0,
         width,
+        place: None,
+        mirror_of: None,
     })
 }
 

@@ -111,7 +111,7 @@ pub struct Recipe {
 }
 
 /// Why there is no such structure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum GenerateError {
     /// Nothing to close.
     #[error("the number of loops must be at least 1: without one the structure has no key unknown")]
@@ -145,6 +145,8 @@ pub enum GenerateError {
         largest: usize,
     },
 }
+
+crate::debug_in_words!(GenerateError);
 
 impl Recipe {
     /// With one loop and the first seed.

@@ -21,7 +21,7 @@ pub struct Decimal {
 }
 
 /// Why a text is not a decimal that krawl takes.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DecimalError {
     /// Not a decimal at all.
     #[error("`{0}` is not a decimal number")]
@@ -36,6 +36,8 @@ pub enum DecimalError {
     #[error("`{0}` is out of range: sizes from 1e-60 to 1e60, and zero, are accepted")]
     OutOfRange(String),
 }
+
+crate::debug_in_words!(DecimalError);
 
 const MAX_DIGITS: usize = 200;
 /// Largest power of ten accepted. Far from overflow and underflow, so that the error bounds of

@@ -6,7 +6,7 @@ use super::DecimalError;
 ///
 /// Every message names the point or the constraint and says what to do; [`ProblemError::place`]
 /// says which part of the input is meant, for whoever knows lines or widgets.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     /// Neither plane nor space.
     #[error("the dimension is {0}, but must be 2 (plane) or 3 (space)")]
@@ -250,6 +250,8 @@ pub enum ProblemError {
     )]
     ReferenceInOwnFrame(String),
 }
+
+crate::debug_in_words!(ProblemError);
 
 /// Most points that are read.
 ///

@@ -20,7 +20,6 @@ pub const MAX_FILE_SIZE: u64 = 1 << 20;
 
 /// Why a file is no problem that krawl takes. Its text names file, line, key, and point or
 /// constraint.
-#[derive(Debug)]
 pub struct FileError {
     /// The file, as it was named.
     pub file: String,
@@ -29,6 +28,8 @@ pub struct FileError {
     /// What is wrong.
     pub fault: Box<FileFault>,
 }
+
+crate::debug_in_words!(FileError);
 
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]

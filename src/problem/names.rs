@@ -13,17 +13,31 @@ pub(crate) fn list<S: AsRef<str>>(names: &[S], most: usize) -> String {
     }
 }
 
-/// The known name most similar to `name`, if one is similar at all.
+/// The known name most similar to `name`, if there is one that is similar, and only one: a guess that
+/// may as well be another is of no help.
 pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     // The work is bounded, whatever the input: neither names nor differences are long.
     let length = name.chars().count();
-    let limit = (length / 2).clamp(1, 3);
-    known
-        .filter(|k| k.chars().count().abs_diff(length) <= limit && length <= 64)
-        .map(|k| (edits(name, k), k))
-        .filter(|&(edits, _)| edits <= limit)
-        .min_by_key(|&(edits, _)| edits)
-        .map(|(_, k)| k.to_owned())
+    if length > 64 {
+        return None;
+    }
+    // More than half of the name is as it was meant.
+    let limit = (length.saturating_sub(1) / 2).min(3);
+    let lower = name.to_lowercase();
+    let mut best: Option<(usize, &str)> = None;
+    let mut alone = true;
+    for known in known.filter(|k| k.chars().count().abs_diff(length) <= limit) {
+        let edits = match known.to_lowercase() == lower {
+            true => 0,
+            false => edits(name, known),
+        };
+        if edits > limit || best.is_some_and(|(least, _)| edits > least) {
+            continue;
+        }
+        alone = best.is_none_or(|(least, _)| edits < least);
+        best = Some((edits, known));
+    }
+    best.filter(|_| alone).map(|(_, known)| known.to_owned())
 }
 
 /// Levenshtein's distance: insertions, deletions and replacements from one text to the other.
@@ -62,6 +76,17 @@ mod tests {
         );
         assert_eq!(nearest("angles", known.into_iter()), None);
         assert_eq!(nearest("", known.into_iter()), None);
+        // One letter for another is no likeness, and one of two is none either.
+        assert_eq!(nearest("D", ["A", "B", "C"].into_iter()), None);
+        assert_eq!(
+            nearest("c", ["A", "B", "C"].into_iter()).as_deref(),
+            Some("C")
+        );
+        assert_eq!(nearest("knee3", ["knee1", "knee2"].into_iter()), None);
+        assert_eq!(
+            nearest("kneee1", ["knee1", "knee2"].into_iter()).as_deref(),
+            Some("knee1")
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::certain_digits;
 use super::json::Points;
 use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Complete, Status, Why};
+use crate::interval::Interval;
 use crate::problem::{Problem, counted};
 use std::fmt::Write;
 
@@ -35,7 +36,7 @@ pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
             .solutions
             .iter()
             .map(|solution| Entry {
-                points: Points(problem, solution),
+                points: Points(problem, solution.points.clone()),
                 class: solution.class,
                 width: solution.width,
             })
@@ -73,7 +74,7 @@ struct Document<'a> {
 
 #[derive(serde::Serialize)]
 struct Entry<'a> {
-    points: Points<'a>,
+    points: Points<'a, [Interval; 3]>,
     class: usize,
     width: f64,
 }

@@ -1,37 +1,76 @@
-//! Results for programs.
+//! Results for programs (docs/json.md, docs/schema/result.schema.json).
 
+use super::table::verdict;
 use crate::interval::Interval;
-use crate::problem::Problem;
-use crate::track::{Outcome, Solution, Status};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use crate::problem::{Decimal, Problem, Shape, Target};
+use crate::system::{Homotopy, Placement};
+use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 
-/// The results as one line of JSON:
-///
-/// ```json
-/// {"problem": "...", "mode": "certified", "space": "full", "status": "closed", "reason": null,
-///  "solutions": [{"points": {"p1": [[0.0, 0.0], [0.0, 0.0]]}, "class": 0, "width": 1e-14}],
-///  "steps": 0, "rejected": 0, "plan_changes": 0, "driving": {"average": 0.0, "max": 0},
-///  "length": 0.0, "t_range": [0.0, 0.0], "seconds": 0.0, "switched_on": []}
-/// ```
-///
-/// A point has as many coordinates as the problem has dimensions, each a pair of bounds in the
-/// problem's units. Numbers read back as the floats that they were written from. JSON has neither
-/// infinities nor NaN: in their place stands `null`.
-pub fn to_json(problem: &Problem, outcome: &Outcome) -> String {
-    serde_json::to_string(&Document::new(problem, outcome))
-        .expect("strings, numbers and lists have a form in JSON")
+/// The version of the format: it grows when a key changes its meaning or goes; new keys alone do not
+/// change it.
+pub const JSON_VERSION: u32 = 1;
+
+/// A run with all that belongs to it, to be written down.
+#[derive(Debug, Clone, Copy)]
+pub struct Run<'a> {
+    /// What was solved.
+    pub problem: &'a Problem,
+    /// How.
+    pub options: &'a Options,
+    /// What came of it.
+    pub outcome: &'a Outcome,
+    /// The path, where it was kept: only certified runs have one.
+    pub trace: Option<&'a Trace>,
+    /// So many figures along the path are written.
+    pub samples: usize,
 }
 
-#[derive(serde::Serialize)]
+impl Run<'_> {
+    /// The results as one line of JSON, as docs/json.md describes it.
+    ///
+    /// Numbers read back as the floats that they were written from. JSON has neither infinities nor
+    /// NaN: in their place stands `null`.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(&Document::new(self))
+            .expect("strings, numbers and lists have a form in JSON")
+    }
+
+    /// The same as a value in memory.
+    pub fn to_value(&self) -> serde_json::Value {
+        serde_json::to_value(Document::new(self))
+            .expect("strings, numbers and lists have a form in JSON")
+    }
+}
+
+#[derive(Serialize)]
 struct Document<'a> {
+    version: u32,
+    krawl: &'static str,
     problem: &'a str,
+    dimension: usize,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    source: &'a str,
     mode: &'static str,
     space: &'static str,
+    options: WrittenOptions<'a>,
+    names: Vec<&'a str>,
+    reference: Vec<&'a str>,
+    frame: Option<WrittenFrame>,
+    sketch: Points<'a, [f64; 3]>,
+    constraints: Vec<Constraint<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    objects: Vec<WrittenObject<'a>>,
     status: &'static str,
     reason: Option<&'a str>,
+    verdict: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<End<'a>>>,
     solutions: Vec<Entry<'a>>,
+    folds: Vec<WrittenFold<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    samples: Vec<WrittenSample>,
     steps: usize,
     rejected: usize,
     plan_changes: usize,
@@ -42,45 +81,149 @@ struct Document<'a> {
     switched_on: &'a [String],
 }
 
-#[derive(serde::Serialize)]
+#[derive(Serialize)]
+struct WrittenOptions<'a> {
+    preset: &'static str,
+    reverse: bool,
+    bend: Option<[&'a str; 2]>,
+    bend_coefficient: Exact<'a>,
+    max_step: Option<f64>,
+    tube_radius: Option<f64>,
+    tolerance: Option<f64>,
+    alpha: f64,
+    extended: bool,
+    max_steps: usize,
+}
+
+#[derive(Serialize)]
+struct WrittenFrame {
+    origin: Vec<f64>,
+    axes: Vec<Vec<f64>>,
+}
+
+#[derive(Serialize)]
+struct Constraint<'a> {
+    kind: &'a str,
+    items: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<Exact<'a>>,
+}
+
+#[derive(Serialize)]
+struct WrittenObject<'a> {
+    name: &'a str,
+    kind: &'static str,
+    points: Vec<&'a str>,
+}
+
+/// A decimal as a text, so that it stays exact.
+struct Exact<'a>(&'a Decimal);
+
+#[derive(Serialize)]
 struct Driving {
     average: f64,
     max: usize,
 }
 
-#[derive(serde::Serialize)]
+#[derive(Serialize)]
 struct Entry<'a> {
-    points: Points<'a>,
+    points: Points<'a, [Interval; 3]>,
     class: usize,
     width: f64,
+    folds: Option<usize>,
+    arc: Option<f64>,
+    rising: Option<bool>,
+    mirror_of: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct WrittenFold<'a> {
+    at: f64,
+    t: [f64; 2],
+    rising: bool,
+    points: Points<'a, [Interval; 3]>,
+}
+
+#[derive(Serialize)]
+struct WrittenSample {
+    at: f64,
+    t: f64,
+    points: Vec<Vec<f64>>,
 }
 
 /// A map from names to coordinates, in the problem's order.
-pub(super) struct Points<'a>(pub &'a Problem, pub &'a Solution);
+pub(super) struct Points<'a, T>(pub &'a Problem, pub Vec<T>);
 
 impl<'a> Document<'a> {
-    fn new(problem: &'a Problem, outcome: &'a Outcome) -> Self {
+    fn new(run: &Run<'a>) -> Self {
+        let Run {
+            problem,
+            options,
+            outcome,
+            trace,
+            samples,
+        } = *run;
         let (status, reason) = match &outcome.status {
             Status::Closed => ("closed", None),
             Status::Open(_) => ("open", None),
             Status::Stopped(reason) => ("stopped", Some(reason.as_str())),
         };
+        let d = problem.dimension;
+        let name = |p: usize| problem.points[p].name.as_str();
+        let trace = trace.filter(|_| outcome.mode == Mode::Certified);
+        let placement = Homotopy::new(problem)
+            .and_then(|homotopy| homotopy.gauge.placement(problem))
+            .ok();
         Document {
+            version: JSON_VERSION,
+            krawl: env!("CARGO_PKG_VERSION"),
             problem: &problem.name,
+            dimension: d,
+            source: &problem.source,
             mode: outcome.mode.name(),
             space: outcome.space.name(),
+            options: WrittenOptions::new(problem, options),
+            names: problem.points.iter().map(|p| p.name.as_str()).collect(),
+            reference: problem
+                .homotopy
+                .reference
+                .iter()
+                .map(|&p| name(p))
+                .collect(),
+            frame: placement.map(|placement| WrittenFrame::new(&placement, d)),
+            sketch: Points(problem, sketch_of(problem)),
+            constraints: constraints_of(problem),
+            objects: objects_of(problem),
             status,
             reason,
+            verdict: verdict(problem, outcome),
             ends: ends(&outcome.status),
             solutions: outcome
                 .solutions
                 .iter()
-                .map(|solution| Entry {
-                    points: Points(problem, solution),
-                    class: solution.class,
-                    width: solution.width,
-                })
+                .map(|solution| Entry::new(problem, solution))
                 .collect(),
+            folds: trace.map_or(Vec::new(), |trace| {
+                let folds = trace.folds().into_iter();
+                folds
+                    .map(|fold| WrittenFold {
+                        at: fold.at,
+                        t: bounds(&fold.t),
+                        rising: fold.rising,
+                        points: Points(problem, fold.points),
+                    })
+                    .collect()
+            }),
+            samples: trace.map_or(Vec::new(), |trace| {
+                let samples = trace.samples(samples).into_iter();
+                samples
+                    .map(|sample| WrittenSample {
+                        at: sample.at,
+                        t: sample.t,
+                        points: sample.points.iter().map(|p| p[..d].to_vec()).collect(),
+                    })
+                    .collect()
+            }),
             steps: outcome.steps,
             rejected: outcome.rejected,
             plan_changes: outcome.plan_changes,
@@ -97,7 +240,7 @@ impl<'a> Document<'a> {
 }
 
 /// An end of an open path.
-#[derive(serde::Serialize)]
+#[derive(Serialize)]
 struct End<'a> {
     t: [f64; 2],
     kind: &'static str,
@@ -116,20 +259,160 @@ fn ends(status: &Status) -> Option<Vec<End<'_>>> {
     Some(all.collect())
 }
 
-impl Serialize for Points<'_> {
+/// The sketch in the problem's own coordinates.
+fn sketch_of(problem: &Problem) -> Vec<[f64; 3]> {
+    let points = problem.points.iter();
+    points
+        .map(|point| {
+            point
+                .sketch
+                .each_ref()
+                .map(|x| crate::interval::enclose(x).mid())
+        })
+        .collect()
+}
+
+fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
+    let distances = problem.distances.iter();
+    distances
+        .map(|distance| {
+            let (kind, value) = match &distance.target {
+                Target::Length(value) => ("distance", value),
+                Target::SquaredLength(value) => ("squared distance", value),
+            };
+            Constraint {
+                kind,
+                items: names(problem, &distance.points),
+                value: Some(Exact(value)),
+            }
+        })
+        .chain(problem.constraints.iter().map(|constraint| {
+            let items = constraint.items.iter();
+            Constraint {
+                kind: &constraint.kind,
+                items: items.map(|&item| problem.item_name(item)).collect(),
+                value: constraint.value.as_ref().map(Exact),
+            }
+        }))
+        .collect()
+}
+
+fn objects_of(problem: &Problem) -> Vec<WrittenObject<'_>> {
+    let flat = problem.dimension == 2;
+    let objects = problem.objects.iter();
+    objects
+        .map(|object| {
+            let (kind, points): (_, &[usize]) = match &object.shape {
+                Shape::Line(points) => ("line", points),
+                Shape::FreeLine { .. } => ("line", &[]),
+                Shape::Plane(points) => ("plane", points),
+                Shape::FreePlane { .. } => ("plane", &[]),
+                Shape::Round { center, .. } if flat => ("circle", std::slice::from_ref(center)),
+                Shape::Round { center, .. } => ("sphere", std::slice::from_ref(center)),
+                Shape::Arc { center, start, end } => ("arc", &[*center, *start, *end]),
+                Shape::Body { points, .. } => ("body", points),
+            };
+            WrittenObject {
+                name: &object.name,
+                kind,
+                points: names(problem, points),
+            }
+        })
+        .collect()
+}
+
+fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
+    points
+        .iter()
+        .map(|&p| problem.points[p].name.as_str())
+        .collect()
+}
+
+impl<'a> WrittenOptions<'a> {
+    fn new(problem: &'a Problem, options: &Options) -> Self {
+        let bend = problem.bend().map(|bend| &problem.distances[bend]);
+        WrittenOptions {
+            preset: match options.preset {
+                Preset::Default => "default",
+                Preset::Paper => "paper",
+            },
+            reverse: options.reverse,
+            bend: bend.map(|bend| bend.points.map(|p| problem.points[p].name.as_str())),
+            bend_coefficient: Exact(&problem.homotopy.bend_coefficient),
+            max_step: options.max_step,
+            tube_radius: options.tube_radius,
+            tolerance: options.tolerance,
+            alpha: options.alpha,
+            extended: options.extended,
+            max_steps: options.max_steps,
+        }
+    }
+}
+
+impl WrittenFrame {
+    fn new(placement: &Placement, d: usize) -> Self {
+        let middles = |v: &[Interval; 3]| v[..d].iter().map(|x| x.mid() + 0.0).collect();
+        WrittenFrame {
+            origin: middles(&placement.origin),
+            axes: placement.axes[..d].iter().map(middles).collect(),
+        }
+    }
+}
+
+impl<'a> Entry<'a> {
+    fn new(problem: &'a Problem, solution: &Solution) -> Self {
+        Entry {
+            points: Points(problem, solution.points.clone()),
+            class: solution.class,
+            width: solution.width,
+            folds: solution.place.and_then(|place| place.folds),
+            arc: solution.place.map(|place| place.arc),
+            rising: solution.place.map(|place| place.rising),
+            mirror_of: solution.mirror_of,
+        }
+    }
+}
+
+/// Adding zero turns -0, which intervals use as a lower bound, into 0.
+fn bounds(x: &Interval) -> [f64; 2] {
+    [x.inf() + 0.0, x.sup() + 0.0]
+}
+
+/// A coordinate as it is written.
+trait Coordinate {
+    type Written: Serialize;
+    fn written(&self) -> Self::Written;
+}
+
+impl Coordinate for Interval {
+    type Written = [f64; 2];
+    fn written(&self) -> [f64; 2] {
+        bounds(self)
+    }
+}
+
+impl Coordinate for f64 {
+    type Written = f64;
+    fn written(&self) -> f64 {
+        *self + 0.0
+    }
+}
+
+impl<C: Coordinate> Serialize for Points<'_, [C; 3]> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Points(problem, solution) = self;
+        let Points(problem, places) = self;
         let mut map = serializer.serialize_map(Some(problem.points.len()))?;
-        for (point, coordinates) in problem.points.iter().zip(&solution.points) {
-            // Adding zero turns -0, which intervals use as a lower bound, into 0.
-            let bounds = |x: &Interval| [x.inf() + 0.0, x.sup() + 0.0];
-            let pairs: Vec<[f64; 2]> = coordinates
-                .iter()
-                .take(problem.dimension)
-                .map(bounds)
-                .collect();
-            map.serialize_entry(&point.name, &pairs)?;
+        for (point, place) in problem.points.iter().zip(places) {
+            let place = place.iter().take(problem.dimension);
+            let place: Vec<C::Written> = place.map(Coordinate::written).collect();
+            map.serialize_entry(&point.name, &place)?;
         }
         map.end()
+    }
+}
+
+impl Serialize for Exact<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self.0)
     }
 }

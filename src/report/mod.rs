@@ -5,22 +5,28 @@ mod complete;
 mod digits;
 mod edit;
 mod json;
+pub mod page;
+#[cfg(feature = "cli")]
 pub mod picture;
+#[cfg(feature = "cli")]
 mod progress;
 mod sweep;
 mod table;
 mod theorem;
 
-pub use comparison::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
+#[cfg(feature = "cli")]
+pub use comparison::comparisons_to_csv;
+pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
 pub use complete::{complete_to_json, complete_to_table, cover_theorem};
 pub use digits::certain_digits;
 pub use edit::{
     edit_in_words, edit_to_json, edit_to_table, edit_to_value, figure_to_value, limit_in_words,
 };
-pub use json::to_json;
+pub use json::{JSON_VERSION, Run};
+#[cfg(feature = "cli")]
 pub use progress::ProgressLine;
 pub use sweep::{ranges_to_json, ranges_to_table, sweep_in_words, sweep_to_csv, sweep_to_json};
-pub use table::to_table;
+pub use table::{to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 
 #[cfg(test)]
@@ -28,7 +34,7 @@ mod tests {
     use super::*;
     use crate::interval::{Interval, hull, point};
     use crate::problem::Problem;
-    use crate::track::{Driving, Mode, Outcome, Solution, Space, Status};
+    use crate::track::{Driving, Mode, Options, Outcome, Solution, Space, Status};
     use serde_json::Value;
 
     fn triangle() -> Problem {
@@ -50,6 +56,8 @@ mod tests {
             points: vec![[zero; 3], [point(1.0), zero, zero], [third, y, zero]],
             class,
             width: 1.2e-16,
+            place: None,
+            mirror_of: None,
         };
         Outcome {
             mode,
@@ -67,29 +75,29 @@ mod tests {
         }
     }
 
+    fn to_json(problem: &Problem, outcome: &Outcome) -> String {
+        let run = Run {
+            problem,
+            options: &Options::certified(),
+            outcome,
+            trace: None,
+            samples: 0,
+        };
+        assert_eq!(
+            serde_json::from_str::<Value>(&run.to_json()).unwrap(),
+            run.to_value()
+        );
+        run.to_json()
+    }
+
     #[test]
-    fn json_has_the_schema_and_numbers_round_trip() {
+    fn numbers_in_json_round_trip() {
         let outcome = outcome(Mode::Certified, Status::Stopped("too hard".into()));
         let json: Value = serde_json::from_str(&to_json(&triangle(), &outcome)).unwrap();
-        let keys: Vec<&String> = json.as_object().unwrap().keys().collect();
-        let mut wanted = vec![
-            "problem",
-            "mode",
-            "space",
-            "status",
-            "reason",
-            "solutions",
-            "steps",
-            "rejected",
-            "plan_changes",
-            "driving",
-            "length",
-            "t_range",
-            "seconds",
-            "switched_on",
-        ];
-        wanted.sort_unstable();
-        assert_eq!(keys, wanted);
+        assert_eq!(json["version"], JSON_VERSION);
+        assert_eq!(json["constraints"][1]["value"], "1.12");
+        assert_eq!(json["options"]["bend_coefficient"], "2");
+        assert_eq!(json["sketch"]["apex"][1], 1.1);
         assert_eq!(json["problem"], "triangle");
         assert_eq!(
             (&json["mode"], &json["space"]),
@@ -113,7 +121,8 @@ mod tests {
         let mut outcome = outcome(Mode::Float, Status::Closed);
         outcome.length = f64::INFINITY;
         let text = to_json(&triangle(), &outcome);
-        let at = |name: &str| text.find(name).unwrap();
+        let (_, solutions) = text.split_once("\"solutions\":").unwrap();
+        let at = |name: &str| solutions.find(name).unwrap();
         assert!(at("\"a\"") < at("\"b\"") && at("\"b\"") < at("\"apex\""));
         assert!(!text.to_ascii_lowercase().contains("inf") && text.contains("\"length\":null"));
         assert!(text.contains("\"reason\":null") && text.contains("\"mode\":\"float\""));

@@ -3,69 +3,65 @@
 use crate::track::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// One line on standard error, where that is a terminal: t, steps, solutions so far, length of
-/// the path. Elsewhere nothing at all.
+/// One line on standard error, where that is a terminal: a clock that ticks from the first moment on,
+/// which run of how many, t, steps, solutions so far, length of the path. Elsewhere nothing at all.
 ///
 /// How long a path is is known only at its end, so there is no bar that fills up.
 pub struct ProgressLine {
     line: Option<ProgressBar>,
-    drawn: Instant,
+    /// What is at work, before the numbers.
+    what: String,
 }
 
-/// Between two drawings; runs report far more often.
-const PAUSE: Duration = Duration::from_millis(80);
+/// Between two drawings.
+const TICK: Duration = Duration::from_millis(125);
 
 impl ProgressLine {
-    /// The line, if standard error is a terminal and `wanted`.
-    pub fn new(wanted: bool) -> Self {
+    /// The line, if standard error is a terminal and `wanted`; `what` says what is at work.
+    pub fn new(wanted: bool, what: &str) -> Self {
+        let what = match what {
+            "" => String::new(),
+            _ => format!("{what}   "),
+        };
         let line = (wanted && std::io::stderr().is_terminal()).then(|| {
             let line = ProgressBar::new_spinner();
             let style = ProgressStyle::with_template("{spinner} {elapsed:>4}  {msg}");
             line.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            line.set_message(format!("{what}at the sketch"));
+            // A thread of its own: however long a step takes, the clock ticks.
+            line.enable_steady_tick(TICK);
             line
         });
-        ProgressLine {
-            line,
-            drawn: Instant::now(),
-        }
+        ProgressLine { line, what }
     }
 
     /// Shows where the run is.
     pub fn show(&mut self, now: Progress) {
-        if let Some(line) = &self.line
-            && self.drawn.elapsed() >= PAUSE
-        {
-            self.drawn = Instant::now();
-            line.set_message(text(now));
-            line.tick();
+        if let Some(line) = &self.line {
+            line.set_message(format!("{}{}", self.what, text(now)));
         }
     }
 
     /// Shows where the check of a certificate is.
     pub fn show_check(&mut self, tubes: u64, solutions: usize) {
-        if let Some(line) = &self.line
-            && self.drawn.elapsed() >= PAUSE
-        {
-            self.drawn = Instant::now();
-            line.set_message(format!("tubes checked {tubes}   solutions {solutions}"));
-            line.tick();
+        if let Some(line) = &self.line {
+            let what = &self.what;
+            line.set_message(format!(
+                "{what}tubes checked {tubes}   solutions {solutions}"
+            ));
         }
     }
 
     /// Shows where the search for all solutions is: what is left is guessed from what is done.
     pub fn show_search(&mut self, share: f64, boxes: u64, seconds: f64) {
-        if let Some(line) = &self.line
-            && self.drawn.elapsed() >= PAUSE
-        {
-            self.drawn = Instant::now();
+        if let Some(line) = &self.line {
             let left = seconds * (1.0 - share) / share.max(1e-9);
             line.set_message(format!(
                 "{:.4} % of the parameter space   boxes {boxes}   perhaps {left:.0} s left",
                 100.0 * share
             ));
-            line.tick();
         }
     }
 

@@ -1,6 +1,7 @@
 //! Results for people.
 
 use super::certain_digits;
+use crate::constraint::{Symmetry, symmetry};
 use crate::problem::Problem;
 use crate::track::{Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
@@ -8,16 +9,77 @@ use std::fmt::{self, Write};
 /// The results as a text of several lines: what was found and what that means, the solutions,
 /// the numbers of the run.
 pub fn to_table(problem: &Problem, outcome: &Outcome) -> String {
+    table(problem, outcome, usize::MAX)
+}
+
+/// Solutions are listed as long as they fit in so many lines.
+const LINES: usize = 120;
+/// Otherwise, as many as fit in these.
+const LINES_OF_MANY: usize = 45;
+
+/// The same with the first solutions only, where there are too many for a few screens.
+pub fn to_short_table(problem: &Problem, outcome: &Outcome) -> String {
+    let each = problem.points.len() + 2;
+    let most = match each * outcome.solutions.len() <= LINES {
+        true => usize::MAX,
+        false => (LINES_OF_MANY / each).max(1),
+    };
+    table(problem, outcome, most)
+}
+
+/// The result in one line: name, how it ended, solutions, classes, seconds, and the reason where the
+/// run stopped.
+pub fn to_summary(problem: &Problem, outcome: &Outcome) -> String {
+    let status = match (&outcome.status, outcome.mode) {
+        (Status::Closed, Mode::Certified) => "closed, proved",
+        (Status::Closed, Mode::Float) => "closed, observed",
+        (Status::Open(_), _) => "open, proved",
+        (Status::Stopped(_), _) => "stopped",
+    };
+    let count = outcome.solutions.len();
+    let straight = outcome.solutions.iter();
+    let straight = straight.filter(|s| s.place.is_some_and(|place| place.folds == Some(0)));
+    let mut line = format!(
+        "{:<20} {status:<16} {:>13} {:>9} up to congruence {:>10.4} s",
+        problem.name,
+        solutions(count),
+        classes(outcome),
+        outcome.seconds
+    );
+    if straight.count() > 0 {
+        line += "   one reached without a fold";
+    }
+    if let Status::Stopped(reason) = &outcome.status {
+        line += &format!("   {}", without_stop(reason));
+    }
+    line + "\n"
+}
+
+fn table(problem: &Problem, outcome: &Outcome, most: usize) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = write_table(&mut out, problem, outcome);
+    let _ = write_table(&mut out, problem, outcome, most);
     out
 }
 
-fn write_table(out: &mut String, problem: &Problem, outcome: &Outcome) -> fmt::Result {
-    writeln!(out, "{}: {}", problem.name, verdict(outcome))?;
-    for (index, solution) in outcome.solutions.iter().enumerate() {
+fn write_table(out: &mut String, problem: &Problem, outcome: &Outcome, most: usize) -> fmt::Result {
+    writeln!(out, "{}: {}", problem.name, verdict(problem, outcome))?;
+    if outcome.status == Status::Closed && outcome.solutions.is_empty() {
+        match problem.impossible_triangle() {
+            Some(message) => writeln!(out, "There can be none: {message}.")?,
+            None => writeln!(out, "{NOTHING_FOUND}")?,
+        }
+    }
+    for (index, solution) in outcome.solutions.iter().enumerate().take(most) {
         write_solution(out, problem, outcome, index, solution)?;
+    }
+    let left = outcome.solutions.len().saturating_sub(most);
+    if left > 0 {
+        writeln!(
+            out,
+            "\n... and {} more: `--all` prints them, `--json FILE` writes them, `--html FILE` shows them.",
+            solutions(left)
+        )?;
     }
     if outcome.mode == Mode::Certified && !outcome.solutions.is_empty() {
         writeln!(
@@ -32,16 +94,32 @@ fn write_table(out: &mut String, problem: &Problem, outcome: &Outcome) -> fmt::R
     Ok(())
 }
 
-/// What was found, in words that claim no more than was proved.
-fn verdict(outcome: &Outcome) -> String {
-    let count = outcome.solutions.len();
+/// What to do after a path without solutions.
+const NOTHING_FOUND: &str = "\
+This says nothing about figures that are not on this path. Other paths through the same sketch: set
+`bend_coefficient = 0` (or smaller, or larger) under [homotopy], or bend another length. Or move the sketch
+nearer to the figure wanted.";
+
+/// The number of classes of congruent solutions.
+fn classes(outcome: &Outcome) -> usize {
     let mut classes: Vec<usize> = outcome.solutions.iter().map(|s| s.class).collect();
     classes.sort_unstable();
     classes.dedup();
-    let different = match (count, classes.len()) {
-        (0 | 1, _) => String::new(),
-        (n, c) if n == c => " No two of them are congruent, even up to reflection.".to_owned(),
-        (_, c) => format!(" Up to congruence and reflection they are {c}."),
+    classes.len()
+}
+
+/// What was found, in words that claim no more than was proved.
+pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
+    let count = outcome.solutions.len();
+    let different = match (count, classes(outcome), symmetry(problem)) {
+        // Constraints that say where the figure is leave nothing to be told of congruence.
+        (0 | 1, _, _) | (_, _, Symmetry::Identity) => String::new(),
+        (n, c, Symmetry::Motions) if n == c => {
+            " No two of them are the same figure moved.".to_owned()
+        }
+        (_, c, Symmetry::Motions) => format!(" Up to motions they are {c}."),
+        (n, c, _) if n == c => " No two of them are congruent, even up to reflection.".to_owned(),
+        (_, c, _) => format!(" Up to congruence and reflection they are {c}."),
     };
     match (outcome.mode, &outcome.status) {
         (Mode::Certified, Status::Closed) => {
@@ -124,6 +202,15 @@ fn write_solution(
     solution: &Solution,
 ) -> fmt::Result {
     write!(out, "\nSolution {}, class {}", index + 1, solution.class)?;
+    if let Some(other) = solution.mirror_of {
+        write!(out, ", mirror image of solution {}", other + 1)?;
+    }
+    match solution.place.and_then(|place| place.folds) {
+        None => {}
+        Some(0) => write!(out, ", reached without a fold")?,
+        Some(1) => write!(out, ", after a fold")?,
+        Some(folds) => write!(out, ", after {folds} folds")?,
+    }
     match outcome.mode {
         Mode::Certified => writeln!(out, ", relative width {:.1e}", solution.width)?,
         Mode::Float => writeln!(out)?,

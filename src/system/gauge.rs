@@ -21,7 +21,7 @@ pub struct Gauge {
 }
 
 /// Why the sketch cannot be seen from the reference.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum GaugeError {
     /// The first two reference points cannot be told apart.
     #[error(
@@ -39,6 +39,8 @@ pub enum GaugeError {
     #[error("{0}")]
     Constraints(String),
 }
+
+crate::debug_in_words!(GaugeError);
 
 impl Gauge {
     /// The gauge of a problem.
@@ -79,7 +81,8 @@ impl Gauge {
         }
     }
 
-    /// How the gauge lies in the coordinates of the problem, as the sketch has it.
+    /// How the gauge lies in the coordinates of the problem, as the sketch has it: in the same place where
+    /// there is no reference.
     pub fn placement(&self, problem: &Problem) -> Result<Placement, GaugeError> {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
         let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
@@ -146,7 +149,8 @@ impl Gauge {
 /// let problem = Problem::read("problems/k33.toml")?;
 /// let placement = Homotopy::new(&problem)?.gauge.placement(&problem)?;
 /// let outcome = solve(&problem, &Options::certified(), &mut Control::default())?;
-/// let there = placement.to_problem(&outcome.solutions[0].points[3]);
+/// let first = outcome.solutions[0].point(&problem, "p4").unwrap();
+/// let there = placement.to_problem(first);
 /// assert!(there[0].wid() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

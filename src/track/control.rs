@@ -1,8 +1,8 @@
 //! How a run talks to its caller: progress out, a request to stop in.
 
-use super::Witness;
+use super::{Trace, Witness};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Where a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Progress {
 pub struct Limit {
     /// When the path followed is longer than this.
     pub length: f64,
-    /// When the clock shows this; looked at every [`Control::EVERY`] steps.
+    /// When the clock shows this.
     pub deadline: Instant,
 }
 
@@ -33,28 +33,42 @@ pub struct Control<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Where to give up.
     pub limit: Option<Limit>,
-    /// Called now and then, every [`Control::EVERY`] steps.
+    /// Called after the first step, and then after the first one when so much time has passed since.
     pub progress: Option<&'a mut dyn FnMut(Progress)>,
+    /// The time between two calls of `progress`; `None`: [`Control::PAUSE`]. With zero it is called
+    /// after each step.
+    pub pause: Option<Duration>,
+    /// When it was called last.
+    pub reported: Option<Instant>,
     /// Sees the proof of a certified run.
     pub witness: Option<&'a mut dyn Witness>,
+    /// Keeps the path of a certified run, to be drawn.
+    pub trace: Option<&'a mut Trace>,
 }
 
 impl Control<'_> {
-    /// Steps between two calls of `progress`.
-    pub const EVERY: usize = 64;
+    /// Time between two calls of `progress` where nothing else is said.
+    pub const PAUSE: Duration = Duration::from_millis(100);
 
     /// To be called after each step: reports, and tells whether the run must end.
     pub fn is_cancelled(&mut self, now: Progress) -> bool {
-        if now.steps.is_multiple_of(Self::EVERY)
-            && let Some(progress) = &mut self.progress
-        {
-            progress(now);
+        // The clock is looked at only for whom it matters.
+        if self.progress.is_some() || self.limit.is_some() {
+            let clock = Instant::now();
+            let pause = self.pause.unwrap_or(Self::PAUSE);
+            let is_due = |last: Instant| clock.duration_since(last) >= pause;
+            if let Some(progress) = &mut self.progress
+                && self.reported.is_none_or(is_due)
+            {
+                self.reported = Some(clock);
+                progress(now);
+            }
+            if let Some(limit) = &self.limit
+                && (now.length > limit.length || clock > limit.deadline)
+            {
+                return true;
+            }
         }
-        let passed = |limit: &Limit| {
-            now.length > limit.length
-                || now.steps.is_multiple_of(Self::EVERY) && Instant::now() > limit.deadline
-        };
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
-            || self.limit.as_ref().is_some_and(passed)
     }
 }

@@ -115,6 +115,12 @@ impl<const N: usize> TimeAlong<N> {
         (around(value, reach), around(slope, spread))
     }
 
+    /// Whether what hides the sign of dt/ds between two parameters is the band around it: cutting
+    /// the stretch would show no more.
+    pub fn is_flat(&self, a: f64, b: f64) -> bool {
+        self.curvature * (b - a) < self.slope_band
+    }
+
     /// A parameter from `a` to `b`, at which t − 1 has different signs, where it is about zero.
     pub fn zero_between(&self, (mut a, mut b): (f64, f64)) -> f64 {
         let value = |s: f64| {

@@ -2,6 +2,7 @@
 
 pub mod arc;
 pub mod certified;
+mod choice;
 mod congruence;
 mod control;
 mod ends;
@@ -11,20 +12,23 @@ pub mod full;
 mod options;
 mod outcome;
 pub mod reduced;
+mod turns;
 mod witness;
 
+pub use certified::{Fold, Sample, Trace};
+pub use choice::{prove, solve_in_best_space, trace_path};
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};
 pub use ends::{EndKind, PathEnd};
 pub use options::{Options, Preset};
-pub use outcome::{Driving, Mode, Outcome, Solution, Space, Status};
+pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
 pub use witness::{TubeSeen, Witness};
 
 use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};
 
 /// Why a run could not even start.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub enum StartError {
     /// The reference is degenerate.
     #[error(transparent)]
@@ -33,6 +37,8 @@ pub enum StartError {
     #[error("{0}")]
     Unsupported(String),
 }
+
+crate::debug_in_words!(StartError);
 
 /// Follows the path through the sketch of `problem`.
 ///
@@ -83,6 +89,10 @@ pub fn solve(
         2 => solve_in::<2>(&homotopy, options, control),
         _ => solve_in::<3>(&homotopy, options, control),
     }?;
+    // A run that ends at the sketch has seen that only.
+    if outcome.t_range.0 > outcome.t_range.1 {
+        outcome.t_range = (0.0, 0.0);
+    }
     if let Status::Stopped(reason) = &mut outcome.status {
         let wish = match options.mode {
             Mode::Certified => options

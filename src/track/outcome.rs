@@ -2,6 +2,7 @@
 
 use super::PathEnd;
 use crate::interval::Interval;
+use crate::problem::Problem;
 
 /// Whether steps are proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -74,6 +75,35 @@ pub struct Solution {
     pub class: usize,
     /// The widest coordinate's width, divided by the size (largest coordinate) of the figure.
     pub width: f64,
+    /// Where the path meets it. Float runs do not tell.
+    pub place: Option<Place>,
+    /// The first solution of the list (counted from 0) whose mirror image this one is, if there is one
+    /// before it.
+    pub mirror_of: Option<usize>,
+}
+
+impl Solution {
+    /// The coordinates of a point by its name, in the gauge and the units of the problem, the third
+    /// being zero in the plane. `None`: there is no such point.
+    pub fn point(&self, problem: &Problem, name: &str) -> Option<&[Interval; 3]> {
+        let mut points = problem.points.iter();
+        self.points
+            .get(points.position(|point| point.name == name)?)
+    }
+}
+
+/// Where on the path a solution is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Length of the path from the sketch to it, as in [`Outcome::length`]: a float, not an enclosure.
+    pub arc: f64,
+    /// Whether t rises through 1 there, in the direction of travel. Proved.
+    pub rising: bool,
+    /// How often the sign of dt/ds is proved to change between the sketch and it: folds of the path. Zero
+    /// is exact: t goes all the way from 0 to 1 without turning back. Other numbers are lower bounds, as
+    /// folds may hide in pairs where the sign is uncertain for a stretch. `None`: none was proved, and
+    /// none excluded. (A finer run, [`trace_path`](crate::track::trace_path), tells more.)
+    pub folds: Option<usize>,
 }
 
 /// Numbers of driving parameters over a run in the reduced space (RR 8705, table 2).

@@ -3,6 +3,7 @@
 pub(crate) mod field;
 mod rigidity;
 mod sketch;
+mod triangle;
 
 pub use rigidity::{Rigidity, rigidity};
 pub(super) use sketch::{coincide, collinear};

@@ -1,9 +1,11 @@
 //! A comparison as a table, as JSON and as CSV.
 
+#[cfg(feature = "cli")]
 mod csv;
 mod json;
 mod table;
 
+#[cfg(feature = "cli")]
 pub use csv::comparisons_to_csv;
 pub use json::comparisons_to_json;
 pub use table::comparison_to_table;

@@ -4,7 +4,7 @@ use super::style::{
     CLASSES, Chart, Entry, Failure, INK, SCALE, Sign, VERMILION, draw_sign, number_signs,
     size_colour,
 };
-use crate::compare::{PathStation, RecordedPath};
+use crate::compare::RecordedPath;
 use plotters::prelude::*;
 
 /// A point of the path: the length up to it, the free coordinates and t.
@@ -32,7 +32,7 @@ const SKETCH: Sign = Sign::Disc(INK);
 const POINTS: usize = 6000;
 
 impl Curve {
-    /// Cubics through the stations, in as many colours as there are classes of steps.
+    /// The path between its stations, in as many colours as there are classes of steps.
     pub fn new(path: &RecordedPath) -> Self {
         let steps: Vec<f64> = path
             .stations
@@ -44,7 +44,11 @@ impl Curve {
         let mut pieces: Vec<Piece> = Vec::new();
         for (ends, &step) in path.stations.windows(2).zip(&steps) {
             let class = bounds.iter().filter(|&&bound| step > bound).count();
-            let points = (1..=parts).map(|k| between(&ends[0], &ends[1], k as f64 / parts as f64));
+            let points = (1..=parts).filter_map(|k| {
+                let part = k as f64 / parts as f64;
+                let here = path.point(ends[0].at + part * (ends[1].at - ends[0].at))?;
+                Some((here.at, here.z))
+            });
             match pieces.last_mut() {
                 Some(last) if last.class == class => last.points.extend(points),
                 _ => {
@@ -152,15 +156,4 @@ fn bounds_of(steps: &[f64]) -> Vec<f64> {
         .collect();
     bounds.dedup();
     bounds
-}
-
-/// Hermite's cubic between two stations.
-fn between(from: &PathStation, to: &PathStation, u: f64) -> Point {
-    let h = to.at - from.at;
-    let (v, w) = (u * u, u * u * u);
-    let (a, b) = (2.0 * w - 3.0 * v + 1.0, 3.0 * v - 2.0 * w);
-    let (c, d) = (h * (w - 2.0 * v + u), h * (w - v));
-    let z = (0..from.z.len())
-        .map(|k| a * from.z[k] + b * to.z[k] + c * from.direction[k] + d * to.direction[k]);
-    (from.at + u * h, z.collect())
 }

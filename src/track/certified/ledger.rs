@@ -7,9 +7,10 @@ use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::Solution;
 use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{Equations, InverseMaker, path_length};
+use crate::track::turns::{Stretch, Turns};
+use crate::track::{Place, Solution};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
@@ -20,6 +21,11 @@ pub struct Ledger<const D: usize> {
     positive: Vec<usize>,
     prover: SolutionProver<D>,
     found: Vec<SolutionBox>,
+    /// Where on the path each of them is.
+    places: Vec<Place>,
+    turns: Turns,
+    /// The stretch of the last tube that belongs to the path, and the path's length up to it.
+    pub last_stretch: (f64, f64, f64),
     /// Work space.
     crossings: Vec<Crossing>,
     /// See the method of that name.
@@ -36,6 +42,7 @@ pub struct Ledger<const D: usize> {
 #[derive(Debug, Clone, Copy)]
 pub struct Mark {
     found: usize,
+    turns: Turns,
     length: f64,
     t_range: (f64, f64),
 }
@@ -48,6 +55,9 @@ impl<const D: usize> Ledger<D> {
             positive: homotopy.positive_unknowns(),
             prover: SolutionProver::new(homotopy, equations),
             found: Vec::new(),
+            places: Vec::new(),
+            turns: Turns::default(),
+            last_stretch: (0.0, 0.0, 0.0),
             crossings: Vec::new(),
             last_crossing: f64::NAN,
             scratch: equations.vector(),
@@ -61,6 +71,8 @@ impl<const D: usize> Ledger<D> {
     pub fn begin(&mut self, homotopy: &Homotopy) {
         self.prover.set_targets(homotopy);
         self.found.clear();
+        self.places.clear();
+        self.turns = Turns::default();
         self.length = 0.0;
         self.t_range = (f64::INFINITY, f64::NEG_INFINITY);
     }
@@ -69,6 +81,7 @@ impl<const D: usize> Ledger<D> {
     pub fn mark(&self) -> Mark {
         Mark {
             found: self.found.len(),
+            turns: self.turns,
             length: self.length,
             t_range: self.t_range,
         }
@@ -77,6 +90,8 @@ impl<const D: usize> Ledger<D> {
     /// Forgets what was entered since.
     pub fn return_to(&mut self, mark: Mark) {
         self.found.truncate(mark.found);
+        self.places.truncate(mark.found);
+        self.turns = mark.turns;
         (self.length, self.t_range) = (mark.length, mark.t_range);
     }
 
@@ -95,6 +110,7 @@ impl<const D: usize> Ledger<D> {
             return Err(Doubt::Sign(unknown));
         }
         self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
+        self.turns.follow(&tube.time(), (from, to), |_| {});
         self.widen_t_range(&tube.time(), from, to);
         Ok(())
     }
@@ -144,8 +160,11 @@ impl<const D: usize> Ledger<D> {
         self.crossings = crossings;
         if all.is_err() {
             self.found.truncate(known);
+            self.places.truncate(known);
             return all;
         }
+        self.place(tube, &time, (from, to), known);
+        self.last_stretch = (from, until, self.length);
         self.length += path_length(&tube.local, from, until, self.unit, &mut self.scratch);
         self.widen_t_range(&time, from, to);
         Ok(())
@@ -206,8 +225,52 @@ impl<const D: usize> Ledger<D> {
             }
         }
         self.found.push(found.clone());
+        // Its place in the tube, until [`Ledger::place`] knows that on the path.
+        self.places.push(Place {
+            arc: tube.time().zero_between((a, b)),
+            rising: crossing.rising,
+            folds: None,
+        });
         self.last_crossing = at.1;
         Ok(())
+    }
+
+    /// Counts the folds in a tube, and places the solutions in it that were not `known` before.
+    fn place<const N: usize, Y: Frame<D>>(
+        &mut self,
+        tube: &Tube<D, N, Y>,
+        time: &TimeAlong<N>,
+        (from, to): (f64, f64),
+        known: usize,
+    ) {
+        let before = self.turns.count();
+        let new = &mut self.places[known..];
+        let mut passed = vec![0; new.len()];
+        // From where the path is in this tube for certain, lest a fold be counted in two tubes.
+        let start = tube.entry.1.max(from);
+        let was_certain = self.turns.is_certain();
+        self.turns.follow(time, (start, to), |stretch| {
+            if let Stretch::Turned(at, _) = stretch {
+                let later = new
+                    .iter()
+                    .zip(&mut passed)
+                    .filter(|(place, _)| place.arc >= at);
+                later.for_each(|(_, passed)| *passed += 1);
+            }
+        });
+        let first = self.turns.first();
+        // What is hidden in this tube counts for all solutions in it.
+        let is_certain = was_certain && self.turns.is_certain();
+        for (place, passed) in new.iter_mut().zip(passed) {
+            let mut folds = before + passed;
+            // The sign at a crossing is certain. Where that of the stretch around it is not, the change
+            // is seen a little later.
+            let odd = folds % 2 == 1;
+            folds += usize::from(first.is_some_and(|first| (place.rising != first) != odd));
+            place.folds = (folds > 0 || is_certain).then_some(folds);
+            place.arc = self.length
+                + path_length(&tube.local, from, place.arc, self.unit, &mut self.scratch);
+        }
     }
 
     fn widen_t_range<const N: usize>(&mut self, time: &TimeAlong<N>, from: f64, to: f64) {
@@ -252,12 +315,19 @@ impl<const D: usize> Ledger<D> {
     /// whether a solution was found on both.
     pub fn go_on_from(&mut self, back: Self) -> Result<(), String> {
         let ahead = std::mem::take(&mut self.found);
+        let places = std::mem::take(&mut self.places);
         self.found = back.found;
         self.found.reverse();
         for found in &mut self.found {
             found.rising = !found.rising;
         }
-        for found in ahead {
+        // Behind the sketch lengths of the path count downwards.
+        self.places = back.places;
+        self.places.reverse();
+        for place in &mut self.places {
+            (place.arc, place.rising) = (-place.arc, !place.rising);
+        }
+        for (found, place) in ahead.into_iter().zip(places) {
             let same = |other: &SolutionBox| found.is_same(other, |_| false);
             let answers: Vec<Same> = self.found.iter().map(same).collect();
             if answers.contains(&Same::Unknown) {
@@ -268,6 +338,7 @@ impl<const D: usize> Ledger<D> {
             }
             if !answers.contains(&Same::Yes) {
                 self.found.push(found);
+                self.places.push(place);
             }
         }
         self.length += back.length;
@@ -303,13 +374,17 @@ impl<const D: usize> Ledger<D> {
     pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
         let mut reason = None;
         let mut classes: Vec<usize> = Vec::new();
+        let mut mirrors: Vec<Option<usize>> = Vec::new();
         for (k, found) in self.found.iter().enumerate() {
-            let mut class = None;
+            let (mut class, mut mirror) = (None, None);
             for (j, other) in self.found[..k].iter().enumerate() {
                 match self.is_congruent(homotopy, found, other) {
-                    Same::Yes => class = Some(classes[j]),
-                    Same::No => {}
-                    Same::Unknown => {
+                    (Same::Yes, mirrored) => {
+                        class = Some(classes[j]);
+                        mirror = mirror.or(mirrored.then_some(j));
+                    }
+                    (Same::No, _) => {}
+                    (Same::Unknown, _) => {
                         reason.get_or_insert(format!(
                             "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
                              are congruent; another reference may help",
@@ -321,19 +396,23 @@ impl<const D: usize> Ledger<D> {
                     }
                 }
             }
+            mirrors.push(mirror);
             classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
         }
         let solutions = self
             .found
             .iter()
-            .zip(classes)
-            .map(|(found, class)| {
+            .zip(&self.places)
+            .zip(classes.into_iter().zip(mirrors))
+            .map(|((found, &place), (class, mirror_of))| {
                 let points = found.points(homotopy);
                 let width = relative_width(&points);
                 Solution {
                     points,
                     class,
                     width,
+                    place: Some(place),
+                    mirror_of,
                 }
             })
             .collect();
@@ -345,16 +424,22 @@ impl<const D: usize> Ledger<D> {
 }
 
 impl<const D: usize> Ledger<D> {
-    /// Whether two different solutions are congruent up to reflection.
+    /// Whether two different solutions are congruent up to reflection, and if so, whether one is the
+    /// mirror image of the other (otherwise it is the other one moved).
     ///
     /// The isometries that keep the gauge change the signs of coordinates. The second reference
     /// point's first coordinate and the third's second one tell which signs they must change;
     /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
     /// constraints fix the figure in its frame no isometry is left, and different solutions are not congruent.
-    fn is_congruent(&self, homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> Same {
+    fn is_congruent(
+        &self,
+        homotopy: &Homotopy,
+        one: &SolutionBox,
+        other: &SolutionBox,
+    ) -> (Same, bool) {
         let gauge = &homotopy.gauge;
         if gauge.reference.is_empty() {
-            return Same::No;
+            return (Same::No, false);
         }
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
@@ -365,10 +450,12 @@ impl<const D: usize> Ledger<D> {
             };
             match (side(one), side(other)) {
                 (Some(a), Some(b)) => turned[axis] = a != b,
-                _ => return Same::Unknown,
+                _ => return (Same::Unknown, false),
             }
         }
-        for last in [false, true] {
+        // A motion first: a flat figure in space is its own mirror image.
+        let odd = turned.iter().filter(|&&turned| turned).count() % 2 == 1;
+        for last in [odd, !odd] {
             turned[D - 1] = last;
             // Without any change of sign they are known to differ.
             let reversed = turned.iter().filter(|&&turned| turned).count();
@@ -381,10 +468,11 @@ impl<const D: usize> Ledger<D> {
             };
             match one.is_same(other, signs) {
                 Same::No => {}
-                decided => return decided,
+                // The determinant of the diagonal matrix of signs tells motions from reflections.
+                decided => return (decided, reversed % 2 == 1),
             }
         }
-        Same::No
+        (Same::No, false)
     }
 }
 

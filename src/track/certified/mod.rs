@@ -4,7 +4,7 @@
 //! bounds to the longest tube they prove), `precision`, `link` (tubes, and that one leads to the
 //! next), `tube`, `extended` and `exit` (the test in the full space), `reduced` (that through a
 //! construction plan), `solution` (boxes around points with t = 1), `reasons` (why runs stop), `ledger`
-//! (what has been proved so far), `tracker` (the chain of tubes, in whichever space).
+//! (what has been proved so far), `trace` (the path, kept to be drawn), `tracker` (the chain of tubes, in whichever space).
 
 mod exit;
 mod extended;
@@ -19,10 +19,13 @@ mod reasons;
 mod reduced;
 mod shortfall;
 mod solution;
+mod trace;
 mod tracker;
 mod tube;
 #[cfg(test)]
 mod validation;
+
+pub use trace::{Fold, Sample, Trace};
 
 use crate::system::Homotopy;
 use crate::track::arc::{ArcRun, Figure};

@@ -137,6 +137,9 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     if let Some(witness) = &mut control.witness {
         witness.begin(homotopy.unit);
     }
+    if let Some(trace) = &mut control.trace {
+        trace.begin(homotopy);
+    }
     let mut status = match tracker.run(options, control) {
         Ok(()) => Status::Closed,
         Err(reason) => match tracker.path_end(reason) {
@@ -347,6 +350,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
 
     /// Shows the tube that was added last, and the solutions in it that were not `known` before.
     fn show_tube(&self, control: &mut Control, known: usize) {
+        if let Some(trace) = &mut control.trace {
+            trace.add(&self.now, self.ledger.last_stretch);
+        }
         let Some(witness) = &mut control.witness else {
             return;
         };

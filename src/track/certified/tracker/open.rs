@@ -32,7 +32,8 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         } else if let Some(name) = vanishing(&self.homotopy.tail, values, before) {
             (EndKind::Undefined, format!("{name} goes to zero: {reason}"))
         } else if !leg.is_empty() {
-            (EndKind::Undefined, reason)
+            let what = leg.trim_start_matches("; ");
+            (EndKind::Undefined, format!("{what}: {reason}"))
         } else if self.is_singular {
             let what = "the figure becomes degenerate, its constraints dependent on each other";
             (EndKind::Degenerate, format!("{what}: {reason}"))
@@ -68,6 +69,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &options);
         // A certificate holds one way only.
         let witness = control.witness.take();
+        if let Some(trace) = &mut control.trace {
+            trace.turn_back();
+        }
         let result = back.run(&options, control);
         control.witness = witness;
         let other = match result {
@@ -78,6 +82,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
                 return Status::Stopped(format!("{what}{}", end.reason));
             }
             Ok(()) => {
+                if let Some(trace) = &mut control.trace {
+                    trace.keep_other_way();
+                }
                 std::mem::swap(&mut self.ledger, &mut back.ledger);
                 std::mem::swap(&mut self.steps, &mut back.steps);
                 return Status::Closed;

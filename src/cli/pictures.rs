@@ -1,0 +1,113 @@
+//! Pages and pictures that verbs with figures can write.
+
+use super::output::{self, Destination};
+use krawl::report::page::Page;
+use std::path::{Path, PathBuf};
+
+/// Where pages, pictures and figures go.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Pictures and figures")]
+pub struct Pictures {
+    /// Write a page to look at: turn the figures, travel the path, pick solutions (any browser, no network)
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write a still picture of the first figures (SVG)
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a picture of the figure moving along its path (animated SVG)
+    #[arg(long, value_name = "FILE")]
+    animation: Option<PathBuf>,
+    /// Write the figures, the sketch first, as Wavefront OBJ
+    #[arg(long, value_name = "FILE")]
+    obj: Option<PathBuf>,
+    /// Write the solutions as XYZ, as programs for molecules read it
+    #[arg(long, value_name = "FILE")]
+    xyz: Option<PathBuf>,
+}
+
+/// Where they go, made sure of.
+pub struct Places<'a> {
+    all: Vec<(Kind, Destination, &'a Path)>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Html,
+    Svg,
+    Animation,
+    Obj,
+    Xyz,
+}
+
+impl Pictures {
+    /// The files that will be written.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.all().into_iter().map(|(_, path)| path)
+    }
+
+    fn all(&self) -> Vec<(Kind, &PathBuf)> {
+        [
+            (Kind::Html, &self.html),
+            (Kind::Svg, &self.svg),
+            (Kind::Animation, &self.animation),
+            (Kind::Obj, &self.obj),
+            (Kind::Xyz, &self.xyz),
+        ]
+        .into_iter()
+        .filter_map(|(kind, path)| Some((kind, path.as_ref()?)))
+        .collect()
+    }
+
+    /// Whether the path is needed, not the solutions only.
+    pub fn want_path(&self) -> bool {
+        self.html.is_some() || self.animation.is_some()
+    }
+
+    /// Says early that something cannot be written where it is wanted.
+    pub fn places(&self) -> Result<Places<'_>, String> {
+        let all = self.all().into_iter();
+        let all = all.map(|(kind, path)| Ok((kind, Destination::new(path)?, path.as_path())));
+        Ok(Places {
+            all: all.collect::<Result<_, String>>()?,
+        })
+    }
+}
+
+impl Places<'_> {
+    /// Whether there is nothing to write.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Whether something goes to standard output.
+    pub fn use_standard_output(&self) -> bool {
+        let mut all = self.all.iter();
+        all.any(|(_, destination, _)| *destination == Destination::StandardOutput)
+    }
+
+    /// Writes all of it. Returns whether all is well, having complained otherwise.
+    pub fn write(&self, page: &Page) -> bool {
+        let mut well = true;
+        for (kind, destination, path) in &self.all {
+            let text = match kind {
+                Kind::Html => Some(page.to_html()),
+                Kind::Svg => Some(page.to_svg()),
+                Kind::Animation => page.to_moving_svg(),
+                Kind::Obj => Some(page.to_obj()),
+                Kind::Xyz => Some(page.to_xyz()),
+            };
+            well &= match text {
+                Some(text) => destination.write(&text),
+                None => {
+                    output::complain(&format!(
+                        "{}: not written, as the result has no path (certified runs have one; a JSON \
+                         result has it with `--samples N`)",
+                        path.display()
+                    ));
+                    false
+                }
+            };
+        }
+        well
+    }
+}

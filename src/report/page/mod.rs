@@ -1,0 +1,223 @@
+//! One self-contained page with figures to turn, a path to travel, and the words that belong to them.
+//!
+//! A [`Page`] knows nothing of what its figures are solutions of: every verb that has figures fills one. It
+//! is written as HTML that needs no network: `page.html` with `page.css`, `page.js` and the data in it.
+
+mod exchange;
+mod figures;
+mod moving;
+mod projection;
+mod result;
+mod still;
+
+pub use result::ShowError;
+
+use serde::Serialize;
+
+/// What a page shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Page {
+    /// The name of the problem.
+    pub title: String,
+    /// A word or two on what the answer is worth: `proved`.
+    pub badge: String,
+    /// The colour of that.
+    pub tone: Tone,
+    /// The answer in a sentence.
+    pub verdict: String,
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The points' names.
+    pub points: Vec<String>,
+    /// Lines between points.
+    pub bars: Vec<Bar>,
+    /// The figures, in the order of the list.
+    pub figures: Vec<Figure>,
+    /// The path on which they are, if there is one to travel.
+    pub path: Option<Path>,
+    /// What stands below: the answer explained.
+    pub text: Vec<Text>,
+    /// What stands below the figures' digits.
+    pub digits: String,
+    /// Numbers, with what they are numbers of.
+    pub rows: Vec<(String, String)>,
+}
+
+/// What an answer is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tone {
+    /// All that is said is proved.
+    Proved,
+    /// It was observed.
+    Observed,
+    /// There is no full answer.
+    Stopped,
+}
+
+/// A piece of text.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Text {
+    /// A paragraph.
+    Paragraph(String),
+    /// A numbered list.
+    List(Vec<String>),
+}
+
+/// A line between two points.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Bar {
+    /// The points, by number.
+    pub ends: [usize; 2],
+    /// What is written on it: its dimension.
+    pub label: String,
+    /// The length that it has to have, if it has one.
+    pub target: Option<f64>,
+}
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Figure {
+    /// What it is called in the list.
+    pub name: String,
+    /// What else there is to say of it.
+    pub note: String,
+    /// `sketch`, which is drawn behind others, or `solution`.
+    pub kind: &'static str,
+    /// Figures of the same class have the same colour. `None`: it is no answer.
+    pub class: Option<usize>,
+    /// Where it is on the path.
+    pub at: Option<f64>,
+    /// The parameter of the path there.
+    pub t: Option<f64>,
+    /// Folds between the beginning of the path and it.
+    pub folds: Option<usize>,
+    /// Three coordinates of each point, one after the other.
+    pub points: Vec<f64>,
+    /// The coordinates of each point as they are to be read.
+    pub digits: Option<Vec<Vec<String>>>,
+}
+
+/// A path of figures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Path {
+    /// What the parameter is called.
+    pub parameter: String,
+    /// What the path's length is, under its picture.
+    pub along: String,
+    /// What the picture's signs mean.
+    pub legend: String,
+    /// Values of the parameter that mean something.
+    pub levels: Vec<Level>,
+    /// Figures along the path, in its order.
+    pub samples: Vec<Sample>,
+    /// Places where the path turns back in the parameter.
+    pub marks: Vec<Mark>,
+}
+
+/// A value of the parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Level {
+    /// The value.
+    pub t: f64,
+    /// What is written at it.
+    pub label: String,
+}
+
+/// A figure of the path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Sample {
+    /// Length of the path up to it.
+    pub at: f64,
+    /// The parameter.
+    pub t: f64,
+    /// Three coordinates of each point, one after the other.
+    pub points: Vec<f64>,
+}
+
+/// A place on the path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Mark {
+    /// Length of the path up to it.
+    pub at: f64,
+    /// The parameter.
+    pub t: f64,
+}
+
+impl Page {
+    /// The page, as the text of one file.
+    ///
+    /// # Panics
+    /// Never: the data are strings, numbers and lists.
+    pub fn to_html(&self) -> String {
+        let data = serde_json::to_string(&self.rounded()).expect("this has a form in JSON");
+        // Nothing in the data may end the element that it is in.
+        let data = data.replace('<', "\\u003c");
+        let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
+        let mut html = include_str!("page.html").to_owned();
+        for (place, text) in [
+            ("@style@", include_str!("page.css")),
+            ("@script@", include_str!("page.js")),
+            // The data last: what is in them is not looked at any more.
+            ("@title@", &title),
+            ("@data@", &data),
+        ] {
+            html = html.replacen(place, text, 1);
+        }
+        html
+    }
+
+    /// With no more digits in coordinates than a screen shows many times enlarged.
+    fn rounded(&self) -> Page {
+        let size = self
+            .figures
+            .iter()
+            .flat_map(|figure| &figure.points)
+            .fold(f64::MIN_POSITIVE, |max: f64, x| max.max(x.abs()));
+        let unit = 10f64.powi(6 - size.log10().ceil() as i32);
+        let round = |points: &mut Vec<f64>| {
+            for x in points {
+                *x = (*x * unit).round() / unit + 0.0;
+            }
+        };
+        let mut page = self.clone();
+        page.figures.iter_mut().for_each(|f| round(&mut f.points));
+        for sample in page.path.iter_mut().flat_map(|path| &mut path.samples) {
+            round(&mut sample.points);
+            sample.at = (sample.at * 1e7).round() / 1e7;
+            sample.t = (sample.t * 1e7).round() / 1e7;
+        }
+        page
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_ends_its_element() {
+        let evil = "</script><script>alert(1)</script>@data@";
+        let page = Page {
+            title: evil.into(),
+            badge: String::new(),
+            tone: Tone::Proved,
+            verdict: evil.into(),
+            dimension: 2,
+            points: vec![evil.into()],
+            bars: Vec::new(),
+            figures: Vec::new(),
+            path: None,
+            text: vec![Text::Paragraph(evil.into())],
+            digits: String::new(),
+            rows: Vec::new(),
+        };
+        let html = page.to_html();
+        assert_eq!(html.matches("</script>").count(), 2);
+        assert!(!html.contains("<script>alert"));
+        // Nothing is fetched.
+        assert!(!html.contains("http://") || html.contains("http://www.w3.org/2000/svg"));
+        assert_eq!(html.matches("https://").count(), 0);
+    }
+}

@@ -1,0 +1,200 @@
+//! Every result of every shipped problem meets the schema in docs/schema, and the schema refuses others.
+
+use assert_cmd::Command;
+use jsonschema::Validator;
+use serde_json::Value;
+use std::fs;
+
+fn schema() -> Validator {
+    let text = fs::read_to_string("docs/schema/result.schema.json").unwrap();
+    let schema: Value = serde_json::from_str(&text).unwrap();
+    jsonschema::meta::validate(&schema).expect("the schema itself is in order");
+    jsonschema::validator_for(&schema).unwrap()
+}
+
+fn solve(arguments: &[&str]) -> Vec<Value> {
+    let run = Command::new(env!("CARGO_BIN_EXE_krawl"))
+        .arg("solve")
+        .args(arguments)
+        .args(["--json", "-"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(run.stdout).unwrap();
+    let documents = text.lines().map(|line| serde_json::from_str(line).unwrap());
+    documents.collect()
+}
+
+fn complain(validator: &Validator, document: &Value) -> Vec<String> {
+    let errors = validator.iter_errors(document);
+    errors
+        .map(|e| format!("{}: {e}", e.instance_path()))
+        .collect()
+}
+
+#[test]
+fn all_shipped_problems_meet_the_schema() {
+    let validator = schema();
+    let mut files: Vec<String> = Vec::new();
+    for folder in ["problems", "problems/hard"] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            // Its 284 solutions take a while in a debug build; icosahedron-c1 stands for it.
+            if path.extension().is_some_and(|e| e == "toml") && !path.ends_with("icosahedron.toml")
+            {
+                files.push(path.to_str().unwrap().to_owned());
+            }
+        }
+    }
+    assert!(files.len() > 20);
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    let ways: [&[&str]; 3] = [
+        &["--samples", "40"],
+        &["--space", "reduced"],
+        &["--mode", "float"],
+    ];
+    for way in ways {
+        let documents = solve(&[&files[..], way].concat());
+        assert_eq!(documents.len(), files.len(), "{way:?}");
+        for document in &documents {
+            let name = document["problem"].as_str().unwrap();
+            assert_eq!(complain(&validator, document), [""; 0], "{name} {way:?}");
+            // No nulls but where docs/json.md has them.
+            assert!(document["length"].is_number() && document["t_range"][0].is_number());
+            assert!(document["frame"].is_object(), "{name}");
+            let certified = document["mode"] == "certified";
+            for solution in document["solutions"].as_array().unwrap() {
+                assert_eq!(solution["arc"].is_number(), certified);
+                assert!(certified || solution["folds"].is_null());
+                assert_eq!(solution["rising"].is_boolean(), certified);
+            }
+        }
+    }
+}
+
+#[test]
+fn folds_samples_and_solutions_belong_to_one_path() {
+    for file in [
+        "problems/octahedron.toml",
+        "problems/k33.toml",
+        "problems/dodecagon.toml",
+    ] {
+        for space in ["full", "reduced"] {
+            let all = solve(&[file, "--space", space, "--samples", "2000"]);
+            let document = &all[0];
+            let number = |value: &Value| value.as_f64().unwrap();
+            let length = number(&document["length"]);
+            let folds = document["folds"].as_array().unwrap();
+            let samples = document["samples"].as_array().unwrap();
+            assert_eq!(samples.len(), 2000);
+            assert!((number(&samples[1999]["at"]) - length).abs() < 1e-6 * length);
+            // A loop turns back as often from rising as from falling, and the samples turn where it does.
+            assert!(folds.len() >= 2 && folds.len().is_multiple_of(2), "{file}");
+            let turns: Vec<usize> = (1..samples.len() - 1)
+                .filter(|&k| {
+                    let t = |k: usize| number(&samples[k]["t"]);
+                    (t(k) - t(k - 1)) * (t(k + 1) - t(k)) < 0.0
+                })
+                .collect();
+            assert_eq!(turns.len(), folds.len(), "{file} {space}");
+            for (&k, fold) in turns.iter().zip(folds) {
+                let (low, high) = (number(&fold["t"][0]), number(&fold["t"][1]));
+                assert!(low <= high && high - low < 1e-3, "{file}: {low} to {high}");
+                assert!(
+                    (number(&samples[k]["t"]) - low).abs() < 2e-3,
+                    "{file} {space}"
+                );
+                assert!((number(&fold["at"]) - number(&samples[k]["at"])).abs() < 0.01 * length);
+            }
+            // Rising at the sketch, and the other way after each fold.
+            let mut last = 0.0;
+            for solution in document["solutions"].as_array().unwrap() {
+                let (arc, passed) = (
+                    number(&solution["arc"]),
+                    solution["folds"].as_u64().unwrap(),
+                );
+                let before = folds
+                    .iter()
+                    .filter(|fold| number(&fold["at"]) < arc)
+                    .count();
+                assert_eq!(passed as usize, before, "{file} {space}");
+                assert_eq!(solution["rising"].as_bool().unwrap(), passed % 2 == 0);
+                assert!(arc > last && arc < length);
+                last = arc;
+                // The samples around it are at t = 1, nearly.
+                let k = (arc / length * 1999.0).round() as usize;
+                let near = samples[k]["points"].as_array().unwrap();
+                let sizes = near.iter().map(|place| place.as_array().unwrap().len());
+                assert!(sizes.into_iter().all(|size| document["dimension"] == size));
+                assert!(
+                    (number(&samples[k]["t"]) - 1.0).abs() < 0.05,
+                    "{file} {space}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_frame_brings_the_sketch_back() {
+    // t = 0 at the first sample, where the figure is the sketch.
+    for file in ["problems/octahedron.toml", "problems/k33.toml"] {
+        let all = solve(&[file, "--samples", "2"]);
+        let document = &all[0];
+        let vector = |value: &Value| -> Vec<f64> {
+            let entries = value.as_array().unwrap().iter();
+            entries.map(|x| x.as_f64().unwrap()).collect()
+        };
+        let origin = vector(&document["frame"]["origin"]);
+        let axes: Vec<Vec<f64>> = document["frame"]["axes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(vector)
+            .collect();
+        let sketch = document["sketch"].as_object().unwrap();
+        // Names are sorted here; the file has them so too.
+        for ((name, place), sample) in sketch
+            .iter()
+            .zip(document["samples"][0]["points"].as_array().unwrap())
+        {
+            let (place, sample) = (vector(place), vector(sample));
+            for k in 0..place.len() {
+                let there = origin[k]
+                    + (0..place.len())
+                        .map(|a| axes[a][k] * sample[a])
+                        .sum::<f64>();
+                assert!(
+                    (there - place[k]).abs() < 1e-6,
+                    "{file} {name}: {there} {}",
+                    place[k]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn other_documents_are_refused() {
+    let validator = schema();
+    let good = solve(&["problems/k33.toml", "--samples", "3"]).remove(0);
+    assert_eq!(complain(&validator, &good), [""; 0]);
+    let changes: [(&str, Value); 6] = [
+        ("version", 2.into()),
+        ("status", "open".into()),
+        ("solutions", Value::Null),
+        ("t_range", serde_json::json!([null, null])),
+        ("mode", 1.into()),
+        ("unknown", true.into()),
+    ];
+    for (key, value) in changes {
+        let mut bad = good.clone();
+        bad[key] = value;
+        assert!(!complain(&validator, &bad).is_empty(), "{key}");
+    }
+    for key in good.as_object().unwrap().keys() {
+        let mut bad = good.clone();
+        bad.as_object_mut().unwrap().remove(key);
+        let optional = ["source", "samples", "objects"].contains(&key.as_str());
+        assert_eq!(complain(&validator, &bad).is_empty(), optional, "{key}");
+    }
+}
