@@ -59,6 +59,7 @@
 //! - [`linalg`]: dense kernels on small matrices, R-structured linear systems
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
+//! - [`remarks`]: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
@@ -87,6 +88,7 @@ pub mod interval;
 pub mod linalg;
 pub mod plan;
 pub mod problem;
+pub mod remarks;
 pub mod report;
 pub mod system;
 pub mod track;

@@ -113,7 +113,14 @@ fn what_is_optional_has_defaults() {
     let start = SQUARE.find("[homotopy]").unwrap();
     let problem = Problem::parse(&SQUARE[..start], "square.toml").unwrap();
     assert_eq!(problem.homotopy.bend, 4);
-    assert_eq!(problem.homotopy.bend_coefficient, decimal("2"));
+    // A twentieth of the mean target length, whatever the unit.
+    let lengths = problem.distances.iter().map(|d| match &d.target {
+        Target::Length(x) => x.to_f64(),
+        Target::SquaredLength(x) => x.to_f64().sqrt(),
+    });
+    let mean = lengths.sum::<f64>() / problem.distances.len() as f64;
+    let c = problem.homotopy.bend_coefficient.to_f64();
+    assert!((c - 0.05 * mean).abs() < 1e-5 * mean, "{c}");
     // The longest edge, the diagonal a-c, is the bend: the first of the sides is taken instead.
     assert_eq!(problem.homotopy.reference, [0, 1]);
     for line in [

@@ -3,6 +3,7 @@
 use super::{BAD_INPUT, CLOSED, input, output};
 use krawl::plan::Plan;
 use krawl::problem::{Object, Problem, Shape, Target};
+use krawl::remarks::{in_words, remarks};
 use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -38,6 +39,7 @@ pub fn run(arguments: &Arguments) -> u8 {
         }
     };
     let mut text = describe(&problem);
+    text += &remarks_in_words(&problem);
     if !problem.is_distances_only() {
         text += "construction plan\n  none: plans are for distances between points alone\n";
         return if output::print(&text) {
@@ -58,6 +60,28 @@ pub fn run(arguments: &Arguments) -> u8 {
     } else {
         BAD_INPUT
     }
+}
+
+/// What makes the sketch or the target singular or impossible, and what can be mirrored, as lines of text.
+fn remarks_in_words(problem: &Problem) -> String {
+    const MOST: usize = 12;
+    if !problem.is_distances_only() {
+        return String::new();
+    }
+    let found = remarks(problem);
+    let lines = found.iter().take(MOST).map(|remark| {
+        let label = if remark.is_warning() {
+            "warning"
+        } else {
+            "note"
+        };
+        format!("{label}: {}\n", in_words(problem, remark))
+    });
+    let mut text: String = lines.collect();
+    if found.len() > MOST {
+        let _ = writeln!(text, "and {} more of these", found.len() - MOST);
+    }
+    text
 }
 
 /// The construction plan with its driving parameters and removed constraints, and the pattern of

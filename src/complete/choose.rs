@@ -317,7 +317,8 @@ impl<'a> Draft<'a> {
         for q in others.into_iter().take(3 - standing.len()) {
             let most = self.most[p * self.targets.points + q];
             radii.push(Radius::Parameter(parameter + drives.len()));
-            drives.push(Drive::Square([0.0, (most * most).next_up()]));
+            // A little more, so that who bounds it with other roundings comes to less.
+            drives.push(Drive::Square([0.0, most * most * (1.0 + 1e-9)]));
             centres.push(q);
         }
         (centres.len() == 3).then_some((Kind::Meet { centres, radii }, drives))

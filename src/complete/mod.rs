@@ -45,7 +45,7 @@ pub use visit::Why;
 use crate::problem::Problem;
 use plan::Plan;
 use search::{Run, Search, Unfit};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 use targets::Targets;
 use visit::Found;
@@ -109,37 +109,71 @@ fn searched(targets: &Targets, plans: Vec<Plan>, run: &Run) -> Result<(Search, F
     if searches.is_empty() {
         return Err(unfit);
     }
-    let best = best_of(&searches);
+    let (order, best) = best_of(&searches);
+    // Samples miss what is deep and narrow: the first plan that gets through with few parts wins.
+    for budget in BUDGETS {
+        for &which in &order {
+            let trial = Run {
+                boxes: AtomicU64::new(0),
+                done: AtomicU64::new(0),
+                most_boxes: budget.min(run.most_boxes),
+                ..*run
+            };
+            let found = searches[which].run(&trial);
+            // What a search has looked at when it is through does not depend on the threads.
+            if found.unfinished == 0 && found.boxes <= trial.most_boxes {
+                return Ok((searches.swap_remove(which), found));
+            }
+        }
+        if budget >= run.most_boxes {
+            break;
+        }
+    }
     let search = searches.swap_remove(best);
     let found = search.run(run);
-    run.stop.store(true, Ordering::Relaxed);
     Ok((search, found))
 }
 
-/// Plans that are sampled at most.
-const CANDIDATES: usize = 48;
+/// How many parts each of the best plans is tried for, before the one that samples say is best is run to its end.
+const BUDGETS: [u64; 3] = [600, 3000, 15_000];
 
-/// The plan that samples say is least work.
-fn best_of(searches: &[Search]) -> usize {
+/// Plans that are sampled at most.
+const CANDIDATES: usize = 64;
+/// The rounds of samples: how many plans take part, and how many ways down the tree of each.
+const ROUNDS: [(usize, usize); 2] = [(CANDIDATES, 16), (12, 128)];
+/// Plans that are tried.
+const TRIED: usize = 3;
+
+/// The plans to try: the one guessed to be best, then those that samples say are least work; and which of these
+/// samples put first. Sampled are at first all plans by few ways, then the best ones by more.
+fn best_of(searches: &[Search]) -> (Vec<usize>, usize) {
     let k = searches[0].plan.parameters();
-    if searches.len() == 1 || k == 0 {
-        return 0;
+    let mut order: Vec<usize> = (0..searches.len()).collect();
+    match k {
+        0 => order.truncate(1),
+        1 => order.truncate(8),
+        _ => {}
     }
-    let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0);
-    let sampled = |searches: &[Search], from: &[usize], ways: usize| -> Vec<(f64, usize)> {
-        let mut out: Vec<(f64, usize)> = from
+    for (count, ways) in ROUNDS {
+        order.truncate(count);
+        if order.len() == 1 {
+            break;
+        }
+        let ways = if k == 1 { 4 } else { ways };
+        let mut sampled: Vec<(f64, usize)> = order
             .iter()
-            .map(|&i| (searches[i].sample(ways, 3000), i))
+            .map(|&i| (searches[i].sample(ways), i))
             .collect();
-        out.sort_by(order);
-        out
-    };
-    let everyone: Vec<usize> =
-        (0..searches.len().min(if k == 1 { 8 } else { CANDIDATES })).collect();
-    let first = sampled(searches, &everyone, if k == 1 { 2 } else { 8 });
-    if k == 1 {
-        return first[0].1;
+        sampled.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order = sampled.iter().map(|x| x.1).collect();
+        if k == 1 {
+            break;
+        }
     }
-    let best: Vec<usize> = first.iter().take(8).map(|x| x.1).collect();
-    sampled(searches, &best, 60)[0].1
+    order.truncate(TRIED);
+    let best = order[0];
+    // The guess is often right where samples are not.
+    order.retain(|&i| i != 0);
+    order.insert(0, 0);
+    (order, best)
 }

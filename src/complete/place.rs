@@ -283,7 +283,8 @@ fn moving<const D: usize, const S: usize, const M: usize>(
         return sided(node, index, middle, off);
     }
     // A little more, so that who evaluates it with other roundings comes to less.
-    let greatest = height.hi.max(0.0).sqrt() * (1.0 + 1e-9) + 1e-12;
+    let more = 1e-12 * (1.0 + n.size());
+    let greatest = (height.hi.max(0.0) + more).sqrt() * (1.0 + 1e-9);
     Placed::Near {
         height: greatest,
         far: 2.0 * greatest / width.lo.sqrt(),

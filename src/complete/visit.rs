@@ -43,6 +43,8 @@ pub struct Found {
     pub undecided_count: u64,
     /// Their share.
     pub undecided_share: f64,
+    /// How many of them the search did not come to.
+    pub unfinished: u64,
     /// Parts looked at.
     pub boxes: u64,
     /// The cover, if it is wanted.
@@ -66,6 +68,7 @@ impl Found {
         self.marks.put(Mark::Undecided, 0);
         self.undecided_count += 1;
         self.undecided_share += share;
+        self.unfinished += u64::from(why == Why::Unfinished);
         if self.undecided.len() < KEPT {
             self.undecided.push(Undecided { why, share });
         }
@@ -79,6 +82,7 @@ impl Found {
         self.undecided.append(&mut other.undecided);
         self.undecided_count += other.undecided_count;
         self.undecided_share += other.undecided_share;
+        self.unfinished += other.unfinished;
         self.boxes += other.boxes;
         if let (Some(mine), Some(mut more)) = (&mut self.marks.bytes, other.marks.bytes) {
             mine.append(&mut more);

@@ -88,6 +88,38 @@ fn tail(lowered: Result<Lowered, (Owner, Fault)>) -> Tail {
     }
 }
 
+/// Which other figures satisfy the constraints where one does: what *congruent* means for solutions of a
+/// problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Symmetry {
+    /// The same figure moved or mirrored.
+    Isometries,
+    /// The same figure moved: a constraint says which way round it is.
+    Motions,
+    /// None: constraints say where the figure is.
+    Identity,
+}
+
+/// The symmetry of a checked problem.
+///
+/// ```
+/// use krawl::constraint::{Symmetry, symmetry};
+/// use krawl::problem::Problem;
+/// let octahedron = Problem::read("problems/octahedron.toml")?;
+/// assert_eq!(symmetry(&octahedron), Symmetry::Isometries);
+/// # Ok::<(), krawl::problem::FileError>(())
+/// ```
+pub fn symmetry(problem: &Problem) -> Symmetry {
+    if problem.is_absolute() {
+        return Symmetry::Identity;
+    }
+    match try_lower(problem) {
+        _ if problem.is_distances_only() => Symmetry::Isometries,
+        Ok(lowered) if lowered.tail.mirrors => Symmetry::Isometries,
+        _ => Symmetry::Motions,
+    }
+}
+
 /// What an object or constraint that cannot be put to work is, by index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Owner {

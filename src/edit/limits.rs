@@ -3,7 +3,8 @@
 use super::ending::{Edited, Ending, Limit};
 use super::{Session, Setting};
 use crate::interval::Interval;
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Target};
+use crate::remarks::detour;
 use crate::track::Control;
 
 /// Towards zero a dimension is followed down to this part of what it is.
@@ -23,7 +24,7 @@ pub enum End {
 /// The values over which one dimension can move while all others stand still.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Range {
-    /// The index in [`Problem::distances`].
+    /// The index in [`Problem::distances`](crate::problem::Problem::distances).
     pub index: usize,
     /// What the dimension is.
     pub value: Interval,
@@ -50,7 +51,7 @@ impl Session {
     pub fn range(&mut self, index: usize, control: &mut Control) -> Range {
         let value = self.length(index);
         let low = SMALLEST * value.mid();
-        let high = match detour(self.problem(), index) {
+        let high = match detour(self.problem(), index).map(|(_, length)| length) {
             // No figure is that long: the other distances between its ends do not reach.
             Some(longest) => 1.0625 * longest.max(value.sup()),
             None => 1024.0 * value.mid(),
@@ -95,32 +96,4 @@ impl Session {
             Ending::Stopped(reason) => End::Unknown(value, reason),
         }
     }
-}
-
-/// The length of the shortest way from one end of a distance to the other along the others.
-fn detour(problem: &Problem, index: usize) -> Option<f64> {
-    let [from, to] = problem.distances[index].points;
-    let mut way = vec![f64::INFINITY; problem.points.len()];
-    way[from] = 0.0;
-    // Bellman and Ford: there are few points, or time does not matter beside the proofs.
-    for _ in 0..problem.points.len() {
-        let mut changed = false;
-        for (k, distance) in problem.distances.iter().enumerate() {
-            if k == index {
-                continue;
-            }
-            let length = super::session::length(&distance.target).sup();
-            let [a, b] = distance.points;
-            for (a, b) in [(a, b), (b, a)] {
-                if way[a] + length < way[b] {
-                    way[b] = way[a] + length;
-                    changed = true;
-                }
-            }
-        }
-        if !changed {
-            break;
-        }
-    }
-    way[to].is_finite().then_some(way[to])
 }

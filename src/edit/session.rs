@@ -51,6 +51,7 @@ impl Session {
     ) -> Result<Self, OpenError> {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
+        problem.homotopy.detour = Decimal::from(0);
         let homotopy = Homotopy::new(&problem)?;
         if homotopy.equations > LARGEST_SQUARE {
             let what = format!(

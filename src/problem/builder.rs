@@ -5,7 +5,7 @@ use super::draft::{DraftConstraint, DraftObject, check_names, what};
 use super::error::{MAX_NAME, MAX_POINTS, Place};
 use super::names::nearest;
 use super::{
-    Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target,
+    Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target, bend,
     reference,
 };
 use crate::constraint::{self, Owner};
@@ -253,7 +253,7 @@ impl ProblemBuilder {
         self
     }
 
-    /// Sets the bend's coefficient c. Left out, it is 2.
+    /// Sets the bend's coefficient c. Left out, it is a part of the mean target length (docs/bend.md).
     pub fn bend_coefficient<N>(mut self, c: N) -> Self
     where
         N: TryInto<Decimal>,
@@ -337,8 +337,10 @@ impl ProblemBuilder {
                 source,
             }),
         };
-        let c = self.bend_coefficient.clone();
-        let bend_coefficient = choice(c, Place::BendCoefficient, "the bend's coefficient", 2)?;
+        let bend_coefficient = match self.bend_coefficient.clone() {
+            None => bend::default_coefficient(&distances),
+            c => choice(c, Place::BendCoefficient, "the bend's coefficient", 0)?,
+        };
         let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
         let mut problem = Problem {
             name: self.name,

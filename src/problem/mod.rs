@@ -4,6 +4,7 @@
 //! sure that the system of equations is square and that its parts are neither over- nor
 //! under-constrained. Numbers are [`Decimal`]s, exactly what the file says.
 
+mod bend;
 mod builder;
 mod check;
 mod decimal;

@@ -196,7 +196,7 @@ impl<'a> Document<'a> {
             objects: objects_of(problem),
             status,
             reason,
-            verdict: verdict(outcome),
+            verdict: verdict(problem, outcome),
             ends: ends(&outcome.status),
             solutions: outcome
                 .solutions

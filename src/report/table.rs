@@ -1,6 +1,7 @@
 //! Results for people.
 
 use super::certain_digits;
+use crate::constraint::{Symmetry, symmetry};
 use crate::problem::Problem;
 use crate::track::{Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
@@ -62,7 +63,7 @@ fn table(problem: &Problem, outcome: &Outcome, most: usize) -> String {
 }
 
 fn write_table(out: &mut String, problem: &Problem, outcome: &Outcome, most: usize) -> fmt::Result {
-    writeln!(out, "{}: {}", problem.name, verdict(outcome))?;
+    writeln!(out, "{}: {}", problem.name, verdict(problem, outcome))?;
     if outcome.status == Status::Closed && outcome.solutions.is_empty() {
         match problem.impossible_triangle() {
             Some(message) => writeln!(out, "There can be none: {message}.")?,
@@ -108,12 +109,17 @@ fn classes(outcome: &Outcome) -> usize {
 }
 
 /// What was found, in words that claim no more than was proved.
-pub(super) fn verdict(outcome: &Outcome) -> String {
+pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
     let count = outcome.solutions.len();
-    let different = match (count, classes(outcome)) {
-        (0 | 1, _) => String::new(),
-        (n, c) if n == c => " No two of them are congruent, even up to reflection.".to_owned(),
-        (_, c) => format!(" Up to congruence and reflection they are {c}."),
+    let different = match (count, classes(outcome), symmetry(problem)) {
+        // Constraints that say where the figure is leave nothing to be told of congruence.
+        (0 | 1, _, _) | (_, _, Symmetry::Identity) => String::new(),
+        (n, c, Symmetry::Motions) if n == c => {
+            " No two of them are the same figure moved.".to_owned()
+        }
+        (_, c, Symmetry::Motions) => format!(" Up to motions they are {c}."),
+        (n, c, _) if n == c => " No two of them are congruent, even up to reflection.".to_owned(),
+        (_, c, _) => format!(" Up to congruence and reflection they are {c}."),
     };
     match (outcome.mode, &outcome.status) {
         (Mode::Certified, Status::Closed) => {

@@ -2,7 +2,8 @@
 
 use super::certain_digits;
 use crate::certificate::{Outcome, Verdict};
-use crate::problem::counted;
+use crate::constraint::{Symmetry, symmetry};
+use crate::problem::{Problem, counted};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -30,7 +31,7 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
                  3. On S t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
                 counted(count, "point"),
                 counted(count, "disjoint box"),
-                classes_in_words(&verdict.classes)
+                classes_in_words(&verdict.problem, &verdict.classes)
             )?;
         }
         Outcome::Partial(reason) => writeln!(
@@ -68,7 +69,15 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
     )
 }
 
-fn classes_in_words(classes: &[u32]) -> String {
+fn classes_in_words(problem: &Problem, classes: &[u32]) -> String {
+    let (congruent, none) = match symmetry(problem) {
+        Symmetry::Isometries => (
+            "congruent up to reflection",
+            "are congruent, even up to reflection",
+        ),
+        Symmetry::Motions => ("the same figure moved", "are the same figure moved"),
+        Symmetry::Identity => ("the same", "are the same"),
+    };
     let mut groups: Vec<String> = Vec::new();
     for class in 0..=classes.iter().copied().max().unwrap_or(0) {
         let of_class = (0..classes.len()).filter(|&k| classes[k] == class);
@@ -78,11 +87,8 @@ fn classes_in_words(classes: &[u32]) -> String {
         }
     }
     if groups.is_empty() {
-        "no two of them are congruent, even up to reflection".to_owned()
+        format!("no two of them {none}")
     } else {
-        format!(
-            "congruent up to reflection are {}, and no others",
-            groups.join("; ")
-        )
+        format!("{congruent} are {}, and no others", groups.join("; "))
     }
 }

@@ -32,6 +32,8 @@ pub fn solve_in_best_space(
     control: &mut Control,
 ) -> Result<Outcome, StartError> {
     let space = match options.mode {
+        // The reduced space is that of distances.
+        _ if !problem.is_distances_only() => Space::Full,
         Mode::Float => Space::Reduced,
         // A certificate's tubes are those of the full space.
         Mode::Certified if control.witness.is_some() => Space::Full,

@@ -226,7 +226,7 @@ impl Cover {
                 }
                 "figure" => {
                     let all: Vec<f64> = words.map(float).collect::<Result<_, _>>()?;
-                    if all.len() % 3 != 0 {
+                    if !all.len().is_multiple_of(3) {
                         return Err(error("a figure's coordinates"));
                     }
                     cover

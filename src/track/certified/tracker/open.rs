@@ -32,7 +32,8 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         } else if let Some(name) = vanishing(&self.homotopy.tail, values, before) {
             (EndKind::Undefined, format!("{name} goes to zero: {reason}"))
         } else if !leg.is_empty() {
-            (EndKind::Undefined, reason)
+            let what = leg.trim_start_matches("; ");
+            (EndKind::Undefined, format!("{what}: {reason}"))
         } else if self.is_singular {
             let what = "the figure becomes degenerate, its constraints dependent on each other";
             (EndKind::Degenerate, format!("{what}: {reason}"))

@@ -1,0 +1,154 @@
+//! What can be told of a problem before any path is followed, by the names of its points: target lengths that no
+//! figure has, places where the sketch or the target is singular, parts that can be mirrored.
+//!
+//! Everything here is decided exactly, on the decimals of the problem; what is not said is not excluded.
+//!
+//! ```
+//! use krawl::problem::Problem;
+//! use krawl::remarks::{in_words, remarks};
+//! let problem = Problem::build("impossible", 2)
+//!     .point("a", [0, 0]).point("b", [4, 0]).point("c", [0, 3])
+//!     .distance("a", "b", 200).distance("b", "c", 90).distance("c", "a", 70)
+//!     .finish().unwrap();
+//! let found = remarks(&problem);
+//! let text = in_words(&problem, &found[0]);
+//! assert_eq!(text, "no figure has these target lengths: a-b is 200, and b-c-a is only 160 long");
+//! ```
+
+mod flat;
+mod mirror;
+mod target;
+mod twins;
+mod words;
+
+use crate::problem::Problem;
+
+pub(crate) use target::detour;
+pub use words::in_words;
+
+/// Something to know about a problem. Numbers are indices of points, but for `distance`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remark {
+    /// No figure meets the targets: a distance is longer than a way around it, which is given by its points and
+    /// a bound on its length.
+    TooLong {
+        /// The index of the distance.
+        distance: usize,
+        /// The way from its one end to the other.
+        way: Vec<usize>,
+        /// No way is longer than this.
+        length: f64,
+    },
+    /// No figure meets the targets: four points that are all joined would need a tetrahedron of negative volume.
+    NoTetrahedron([usize; 4]),
+    /// In every figure that meets the targets these three points are on one line, in this order: the figure
+    /// is singular.
+    LineInTarget([usize; 3]),
+    /// In every figure that meets the targets these four points are in one plane: the figure is singular.
+    PlaneInTarget([usize; 4]),
+    /// In the sketch a point is on one line (in space: in one plane) with all points that it is joined to, so that it
+    /// can move away from it for an instant: the sketch is singular.
+    Loose {
+        /// The point.
+        point: usize,
+        /// Those that it is joined to.
+        joined: Vec<usize>,
+    },
+    /// In the sketch three points that are all joined are on one line (in space: four in one plane): the sketch
+    /// is singular.
+    FlatInSketch(Vec<usize>),
+    /// Two triangles on a common side have the same sides at every t: where the path brings one onto a line
+    /// it does so with the other, and branches meet.
+    Twins {
+        /// The common side.
+        side: [usize; 2],
+        /// The other corners.
+        corners: [usize; 2],
+    },
+    /// Some points are joined to the others only through two points (in space: three), so that they can be
+    /// mirrored: every figure comes in two forms, mirror images of the whole apart.
+    Mirrored {
+        /// Those that can be mirrored.
+        part: Vec<usize>,
+        /// Those that stay.
+        hinge: Vec<usize>,
+    },
+}
+
+impl Remark {
+    /// Whether it tells that no figure meets the targets.
+    pub fn is_impossible(&self) -> bool {
+        matches!(self, Remark::TooLong { .. } | Remark::NoTetrahedron(_))
+    }
+
+    /// Whether the path may end there, or cannot begin: everything but what can be mirrored.
+    pub fn is_warning(&self) -> bool {
+        !matches!(self, Remark::Mirrored { .. })
+    }
+}
+
+/// Most points of problems that are looked at for what takes long.
+const MANY: usize = 200;
+
+/// Everything that is found, the gravest first.
+pub fn remarks(problem: &Problem) -> Vec<Remark> {
+    let mut all = target::too_long(problem);
+    all.extend(target::flat(problem));
+    all.extend(flat::in_sketch(problem));
+    all.extend(twins::twins(problem));
+    if problem.points.len() <= MANY {
+        all.extend(mirror::parts(problem));
+    }
+    all
+}
+
+/// For each point the points joined to it, in order, with the index of the distance.
+fn joined(problem: &Problem) -> Vec<Vec<(usize, usize)>> {
+    let mut joined = vec![Vec::new(); problem.points.len()];
+    for (index, distance) in problem.distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        joined[a].push((b, index));
+        joined[b].push((a, index));
+    }
+    for all in &mut joined {
+        all.sort_unstable();
+    }
+    joined
+}
+
+/// All sets of three points that are all joined, with the distances opposite to them.
+fn triangles(problem: &Problem) -> Vec<([usize; 3], [usize; 3])> {
+    let joined = joined(problem);
+    let mut all = Vec::new();
+    for (c_side, distance) in problem.distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        for &(c, b_side) in &joined[a] {
+            let Some(&(_, a_side)) = joined[b].iter().find(|&&(p, _)| p == c) else {
+                continue;
+            };
+            // Each turns up once for each of its sides.
+            if c_side > b_side && c_side > a_side {
+                all.push(([a, b, c], [a_side, b_side, c_side]));
+            }
+        }
+    }
+    all
+}
+
+/// All sets of four points that are all joined.
+fn tetrahedra(problem: &Problem) -> Vec<[usize; 4]> {
+    let joined = joined(problem);
+    let are_joined = |a: usize, b: usize| joined[a].iter().any(|&(p, _)| p == b);
+    let mut all = Vec::new();
+    for ([a, b, c], _) in triangles(problem) {
+        let largest = a.max(b).max(c);
+        for &(d, _) in &joined[a] {
+            if d > largest && are_joined(b, d) && are_joined(c, d) {
+                let mut points = [a, b, c, d];
+                points.sort_unstable();
+                all.push(points);
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,95 @@
+//! Remarks as people read them.
+
+use super::Remark;
+use super::target::length_in_words;
+use crate::problem::Problem;
+
+/// A remark as a sentence without its end, with the names of points.
+pub fn in_words(problem: &Problem, remark: &Remark) -> String {
+    let name = |p: usize| problem.points[p].name.as_str();
+    let list = |points: &[usize]| list(problem, points);
+    let (line, triangle) = match problem.dimension {
+        2 => ("on one line", "line"),
+        _ => ("in one plane", "plane"),
+    };
+    match remark {
+        Remark::TooLong {
+            distance,
+            way,
+            length,
+        } => {
+            let way: Vec<&str> = way.iter().map(|&p| name(p)).collect();
+            let shown = format!("{length:.9e}").parse::<f64>().unwrap_or(*length);
+            format!(
+                "no figure has these target lengths: {} is {}, and {} is only {shown} long",
+                problem.distance_name(*distance),
+                length_in_words(problem, *distance),
+                way.join("-")
+            )
+        }
+        Remark::NoTetrahedron(points) => format!(
+            "no figure has these target lengths: there is no tetrahedron {} with them",
+            list(points)
+        ),
+        Remark::LineInTarget(points) => format!(
+            "with these target lengths {} are on one line, {} between the others: figures that meet them are \
+             singular, and proofs end there; a length changed a little, or {} left out, makes them regular",
+            list(points),
+            name(points[1]),
+            name(points[1])
+        ),
+        Remark::PlaneInTarget(points) => format!(
+            "with these target lengths {} are in one plane: figures that meet them are singular, and proofs end \
+             there; a length changed a little makes them regular",
+            list(points)
+        ),
+        Remark::Loose { point, joined } => format!(
+            "in the sketch {} is {line} with all points that it is joined to ({}), so that it can leave the \
+             {triangle} for an instant: the sketch is singular, and a run may not set out from it; move {0} a little",
+            name(*point),
+            list(joined)
+        ),
+        Remark::FlatInSketch(points) => format!(
+            "in the sketch {} are {}: the sketch is singular, and a run may not set out from it; move one of \
+             them a little",
+            list(points),
+            if points.len() == 3 {
+                "on one line"
+            } else {
+                "in one plane"
+            }
+        ),
+        Remark::Twins { side, corners } => {
+            let [a, b] = side.map(name);
+            let [c, d] = corners.map(name);
+            format!(
+                "the triangles {a} {b} {c} and {a} {b} {d} have the same sides all along the path: where one comes \
+                 to be on a line the other does too, branches meet, and a proof ends there; one point of the sketch \
+                 moved a little keeps them apart"
+            )
+        }
+        Remark::Mirrored { part, hinge } => format!(
+            "{} {} joined to the rest through {} only, and can be mirrored in their {}: every figure has another \
+             one with the same dimensions",
+            list(part),
+            if part.len() == 1 { "is" } else { "are" },
+            list(hinge),
+            triangle
+        ),
+    }
+}
+
+/// `a, b and c`; the first of many.
+fn list(problem: &Problem, points: &[usize]) -> String {
+    const SHOWN: usize = 8;
+    let names = points.iter().map(|&p| problem.points[p].name.as_str());
+    let names: Vec<&str> = names.collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        all if all.len() > SHOWN => {
+            format!("{} and {} more", all[..SHOWN].join(", "), all.len() - SHOWN)
+        }
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
