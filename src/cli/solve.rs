@@ -1,13 +1,14 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
 use super::output::{self, Beside, Destination};
-use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, interrupt};
+use super::{BAD_INPUT, CLOSED, NOT_PROVED, OPEN, REFUTED, STOPPED, interrupt};
 use clap::ValueEnum;
-use krawl::certificate::Writer;
+use krawl::certificate::{Outcome as Verdict, Settings, Stage, Writer, verify};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, to_json, to_table};
 use krawl::track::{self, Control, Options, Outcome, Progress, Status, Witness};
-use std::io::BufWriter;
+use std::fs::File;
+use std::io::{BufReader, BufWriter};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
@@ -46,9 +47,13 @@ pub struct Arguments {
     /// Follow the loop the other way round
     #[arg(long)]
     reverse: bool,
-    /// Write a certificate that `verify` can check; only for runs in certified mode
+    /// Write a certificate, and check it as `verify` does; only for runs in certified mode. Where a
+    /// certificate of a closed run does not pass, the exit code is that of `verify`
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
+    /// Do not check the certificate that was written
+    #[arg(long, requires = "cert")]
+    no_verify: bool,
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -227,10 +232,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
 
     // The file first: a table that nobody reads any more must not cost it.
-    let mut written = true;
+    let (mut written, mut verdict) = (true, None);
     if let (Some(beside), Some(writer)) = (&cert, witness) {
         let cut = writer.is_cut();
         written &= beside.commit(writer.finish().map(|_| ()));
+        if written && !arguments.no_verify {
+            verdict = check_certificate(arguments, !cancel.load(Ordering::Relaxed))?;
+        }
         if cut && written {
             output::complain(
                 "the certificate holds the beginning of the proof only: the tubes that follow were proved \
@@ -246,8 +254,32 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     Ok(match outcome.status {
         _ if !written => BAD_INPUT,
-        Status::Closed => CLOSED,
+        Status::Closed => verdict.unwrap_or(CLOSED),
         Status::Open(_) => OPEN,
         Status::Stopped(_) => STOPPED,
     })
+}
+
+/// Checks the certificate that was written, on all processors, and says on standard error whether it does
+/// not pass: then the result is the exit code for that.
+fn check_certificate(arguments: &Arguments, wanted: bool) -> Result<Option<u8>, String> {
+    let Some(path) = arguments.cert.as_ref().filter(|_| wanted) else {
+        return Ok(None);
+    };
+    let name = path.display();
+    let file = File::open(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
+    let mut line = ProgressLine::new(!arguments.quiet);
+    let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
+    let verdict = verify(BufReader::new(file), &Settings::default(), &mut show);
+    line.clear();
+    let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
+    let (what, code) = match &verdict.outcome {
+        Verdict::Verified | Verdict::Partial(_) => return Ok(None),
+        Verdict::NotProved(flaw) => (format!("NOT PROVED: {flaw}"), NOT_PROVED),
+        Verdict::Refuted(flaw) => (format!("REFUTED, please report this: {flaw}"), REFUTED),
+    };
+    output::complain(&format!(
+        "{name}: the certificate does not pass the checker. {what}"
+    ));
+    Ok(Some(code))
 }
