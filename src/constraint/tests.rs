@@ -409,3 +409,24 @@ fn mirror_images_are_solutions_unless_a_side_is_meant() {
         "{three}]\nhorizontal = [[\"a\", \"b\"]]\ndx = [[\"a\", \"c\", 2]]"
     )));
 }
+
+/// With the reference among them, coplanar points cost no unknowns.
+#[test]
+fn points_in_the_plane_of_the_reference() {
+    let text = |reference: &str| {
+        format!(
+            "dimension = 3\n[points]\na = [0, 0, 0]\nb = [3, 0.2, 0.1]\nc = [1, 2, 0.3]\nd = [2.2, 1.9, 0.2]\n\
+             e = [1, 1, 2]\n[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.8], [\"a\", \"c\", 2.1], \
+             [\"d\", \"b\", 2], [\"d\", \"c\", 1.2], [\"a\", \"e\", 2.5], [\"b\", \"e\", 2.9], [\"c\", \"e\", 2]]\n\
+             coplanar = [[\"d\", \"a\", \"b\", \"c\"]]\n[homotopy]\nbend_coefficient = 0\nreference = [{reference}]"
+        )
+    };
+    for (reference, unknowns) in [("\"a\", \"b\", \"c\"", 0), ("\"a\", \"b\", \"e\"", 3)] {
+        let text = text(reference);
+        let problem = super::testing::read(&text);
+        let lowered = super::try_lower(&problem).unwrap();
+        assert_eq!(lowered.tail.unknowns.len(), unknowns);
+        assert!(lowered.tail.mirrors);
+        near(examine(&text).off_plane("d", "a", "b", "c"), 0.0);
+    }
+}

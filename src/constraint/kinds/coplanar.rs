@@ -1,7 +1,8 @@
 //! `coplanar`: four or more points in one plane.
 //!
 //! For each point beyond three, the determinant `((b − a) × (c − a))·(p − a)`, through the cross product as
-//! an unknown vector, is led to zero.
+//! an unknown vector, is led to zero. Where the points of the reference are among them, their plane is z = 0
+//! and the coordinate z of each other point is led to zero instead: no singular place where they come in line.
 
 use super::prelude::*;
 
@@ -32,6 +33,17 @@ impl Kind for Coplanar {
         let mut points = distinct(&mut of.items)?;
         if points.len() < 4 {
             return Err("any three points are in one plane: name at least four".to_owned());
+        }
+        let reference = low.problem.homotopy.reference.clone();
+        if !reference.is_empty() && reference.iter().all(|p| points.contains(p)) {
+            points.retain(|p| !reference.contains(p));
+            for point in points {
+                let place = low.place(point);
+                let products = vec![product(1, value(place.entries[2]), Form::One)];
+                let start = low.frame.coordinate(&place.at, 2);
+                low.vanish(of.name, products, start, 1);
+            }
+            return Ok(());
         }
         // The third of the plane's points is one off the line through the first two, if there is one.
         let off = (2..points.len()).find(|&k| {
