@@ -129,7 +129,7 @@ fn the_page_can_be_used() {
             let (title, console) = driven(&browser, &page, script, size);
             assert_eq!(console, "", "{problem} {size}");
             let said = said(&title);
-            assert_eq!(said.len(), 14, "{title}");
+            assert_eq!(said.len(), 16, "{title}");
             let pixels = |k: usize| said[k][0].as_u64().unwrap();
             let text = |k: usize| said[k].as_str().unwrap();
             // A figure is there, and a curve.
