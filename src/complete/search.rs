@@ -112,12 +112,7 @@ impl Search {
 
     /// Searches everything.
     pub fn run(&self, run: &Run) -> Found {
-        let mut found = Found::default();
-        let nodes = Node::roots(&self.plan);
-        for part in self.each(run, nodes, 0) {
-            found.append_or_take(part);
-        }
-        found
+        Found::together(self.each(run, Node::roots(&self.plan), 0))
     }
 
     fn each(&self, run: &Run, nodes: Vec<Node>, depth: usize) -> Vec<Found> {
@@ -337,16 +332,6 @@ fn normal_solve(j: &[f64], right: &[f64], m: usize, epsilon: f64) -> Option<Vec<
             })
             .collect()
     })
-}
-
-impl Found {
-    fn append_or_take(&mut self, other: Found) {
-        if self.boxes == 0 {
-            *self = other;
-        } else {
-            self.append(other);
-        }
-    }
 }
 
 /// Figures without repetitions: mirror images in the base are one. `Err` if two of them cannot be told

@@ -74,6 +74,14 @@ impl Found {
         }
     }
 
+    /// What was found in parts, one after the other.
+    pub fn together(parts: Vec<Found>) -> Found {
+        let mut parts = parts.into_iter();
+        let mut found = parts.next().unwrap_or_default();
+        parts.for_each(|part| found.append(part));
+        found
+    }
+
     /// Adds what was found in parts that come after.
     pub fn append(&mut self, mut other: Found) {
         self.figures.append(&mut other.figures);
@@ -368,4 +376,34 @@ fn movers_of<'m, const S: usize, const M: usize>(
         }
     }
     weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A part that the search did not come to has no boxes, and must not be lost among those that have.
+    #[test]
+    fn what_is_undecided_stays_so_beside_what_is_done() {
+        let part = |undecided: bool| {
+            let mut found = Found::default();
+            found.marks.bytes = Some(Vec::new());
+            if undecided {
+                found.leave(0.5, Why::Unfinished);
+            } else {
+                found.boxes = 7;
+                found.marks.put(Mark::Excluded(0), 0);
+            }
+            found
+        };
+        for order in [[true, false], [false, true]] {
+            let found = Found::together(order.map(part).into());
+            assert_eq!(
+                (found.undecided_count, found.unfinished, found.boxes),
+                (1, 1, 7)
+            );
+            assert_eq!((found.undecided.len(), found.undecided_share), (1, 0.5));
+            assert_eq!(found.marks.bytes.unwrap().len(), 3);
+        }
+    }
 }

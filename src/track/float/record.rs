@@ -87,11 +87,21 @@ impl<const D: usize> Record<D> {
                     .collect()
             })
             .collect();
+        let mut solutions = observed_solutions(figures, SAME_LENGTH);
+        if !homotopy.tail.is_empty() {
+            let classes = classes(homotopy, &self.found);
+            for (solution, &class) in solutions.iter_mut().zip(&classes) {
+                solution.class = class;
+                // Points can be mirrored where lines between them are not.
+                let same = |&other: &usize| classes[other] == class;
+                solution.mirror_of = solution.mirror_of.filter(same);
+            }
+        }
         Outcome {
             mode: Mode::Float,
             space: Space::Full,
             status,
-            solutions: observed_solutions(figures, SAME_LENGTH),
+            solutions,
             steps: self.steps,
             rejected: self.rejected,
             plan_changes: 0,
@@ -102,4 +112,31 @@ impl<const D: usize> Record<D> {
             switched_on: Vec::new(),
         }
     }
+}
+
+/// Classes of congruent figures of a problem with other constraints than distances, by all of their unknowns:
+/// the isometries that keep the reference change signs. Where a constraint says which way round the figure is
+/// only those that do not mirror it count, and without a reference there are none.
+fn classes(homotopy: &Homotopy, found: &[Vector]) -> Vec<usize> {
+    let (m, d) = (homotopy.equations, homotopy.dimension);
+    let turns: Vec<usize> = (1..1usize << d)
+        .filter(|_| !homotopy.gauge.reference.is_empty())
+        .filter(|turn| homotopy.tail.mirrors || turn.count_ones() % 2 == 0)
+        .collect();
+    let is_image = |one: &Vector, other: &Vector, turn: usize| {
+        let size = one[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+        (0..m).all(|i| {
+            let flips = (0..d).filter(|&axis| turn >> axis & 1 == 1 && homotopy.flips(i, axis));
+            let sign = if flips.count() % 2 == 1 { -1.0 } else { 1.0 };
+            (sign * one[i] - other[i]).abs() <= SAME_FIGURE * size
+        })
+    };
+    let mut classes: Vec<usize> = Vec::new();
+    for (k, x) in found.iter().enumerate() {
+        let mut before = found[..k].iter();
+        let same = before.position(|y| turns.iter().any(|&turn| is_image(x, y, turn)));
+        let next = classes.iter().max().map_or(0, |c| c + 1);
+        classes.push(same.map_or(next, |j| classes[j]));
+    }
+    classes
 }

@@ -5,8 +5,8 @@ use super::*;
 /// The sketch, with t = 0.
 pub fn sketch<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> Vector {
     let mut z = equations.vector();
-    for (z, &place) in z.iter_mut().zip(&homotopy.gauge.place) {
-        *z = homotopy.sketch[place];
+    for (z, exact) in z.iter_mut().zip(homotopy.sketch_of_unknowns()) {
+        *z = exact.mid();
     }
     z
 }
