@@ -190,6 +190,8 @@ fn a_run_leaves_a_certificate_that_verifies() {
             String::from_utf8(output.stderr).unwrap(),
         )
     };
+    // It was checked at once, unless that was not wanted.
+    assert_eq!(solve(&["--no-verify"]), Some(0));
     let (code, text, errors) = verify(&["--threads", "1", OCTAHEDRON]);
     assert_eq!(code, Some(0), "{text} {errors}");
     assert!(

@@ -2,14 +2,15 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
+use super::{BAD_INPUT, CLOSED, NOT_PROVED, OPEN, REFUTED, STOPPED, input, interrupt};
 use clap::ValueEnum;
-use krawl::certificate::Writer;
+use krawl::certificate::{Outcome as Verdict, Settings, Stage, Writer, verify};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, Run, to_short_table, to_summary, to_table};
 use krawl::track::{self, Control, Options, Outcome, Progress, Status, Trace, Witness};
-use std::io::BufWriter;
+use std::fs::File;
+use std::io::{BufReader, BufWriter};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
@@ -66,9 +67,13 @@ pub struct Arguments {
     /// Follow the loop the other way round
     #[arg(long)]
     reverse: bool,
-    /// Write a certificate that `verify` can check; only for runs in certified mode
+    /// Write a certificate, and check it as `verify` does; only for runs in certified mode. Where a
+    /// certificate of a closed run does not pass, the exit code is that of `verify`
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
+    /// Do not check the certificate that was written
+    #[arg(long, requires = "cert")]
+    no_verify: bool,
     /// Write the results as JSON, one line for each problem; `-` writes them to standard output in place
     /// of the table
     #[arg(long, value_name = "FILE")]
@@ -247,7 +252,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             None if arguments.pictures.want_path() => samples_for(problem),
             None => 0,
         };
-        let (mut outcome, well) = follow(
+        let (mut outcome, well, verdict) = follow(
             arguments,
             problem,
             &input::name(file),
@@ -265,6 +270,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         worst = match (&outcome.status, worst) {
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
             (Status::Open(_), _) => OPEN,
+            // A certificate that does not pass its check.
+            (Status::Closed, CLOSED) => verdict.unwrap_or(CLOSED),
             (Status::Closed, worst) => worst,
         };
         let run = Run {
@@ -316,7 +323,8 @@ fn samples_for(problem: &Problem) -> usize {
     (60_000 / problem.points.len()).clamp(100, 2400)
 }
 
-/// Follows the path of one problem. Also tells whether its certificate could be written.
+/// Follows the path of one problem. Also tells whether its certificate could be written, and the exit code for
+/// one that does not pass its check.
 fn follow(
     arguments: &Arguments,
     problem: &Problem,
@@ -324,7 +332,7 @@ fn follow(
     which: &str,
     cert: Option<&Beside>,
     trace: Option<&mut Trace>,
-) -> Result<(Outcome, bool), String> {
+) -> Result<(Outcome, bool, Option<u8>), String> {
     let options = arguments.options();
     let cancel = interrupt::flag();
     let mut witness = cert.map(|beside| Writer::new(BufWriter::new(beside.file()), problem));
@@ -355,10 +363,13 @@ fn follow(
     {
         *reason += "; the full space has extended precision (`--space full`)";
     }
-    let mut written = true;
+    let (mut written, mut verdict) = (true, None);
     if let (Some(beside), Some(writer)) = (cert, witness) {
         let cut = writer.is_cut();
         written &= beside.commit(writer.finish().map(|_| ()));
+        if written && !arguments.no_verify {
+            verdict = check_certificate(arguments, !cancel.load(Ordering::Relaxed))?;
+        }
         if cut && written {
             output::complain(
                 "the certificate holds the beginning of the proof only: the tubes that follow were proved \
@@ -366,7 +377,7 @@ fn follow(
             );
         }
     }
-    Ok((outcome, written))
+    Ok((outcome, written, verdict))
 }
 
 /// Follows the path again in narrow tubes, if that comes to the same end, for pictures and folds: what it
@@ -396,4 +407,28 @@ fn follow_finely(
         solution.place = finer.place;
     }
     Some(trace)
+}
+
+/// Checks the certificate that was written, on all processors, and says on standard error whether it does
+/// not pass: then the result is the exit code for that.
+fn check_certificate(arguments: &Arguments, wanted: bool) -> Result<Option<u8>, String> {
+    let Some(path) = arguments.cert.as_ref().filter(|_| wanted) else {
+        return Ok(None);
+    };
+    let name = path.display();
+    let file = File::open(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
+    let mut line = ProgressLine::new(!arguments.quiet, "");
+    let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
+    let verdict = verify(BufReader::new(file), &Settings::default(), &mut show);
+    line.clear();
+    let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
+    let (what, code) = match &verdict.outcome {
+        Verdict::Verified | Verdict::Partial(_) => return Ok(None),
+        Verdict::NotProved(flaw) => (format!("NOT PROVED: {flaw}"), NOT_PROVED),
+        Verdict::Refuted(flaw) => (format!("REFUTED, please report this: {flaw}"), REFUTED),
+    };
+    output::complain(&format!(
+        "{name}: the certificate does not pass the checker. {what}"
+    ));
+    Ok(Some(code))
 }

@@ -1,0 +1,499 @@
+#!/usr/bin/env python3
+"""Checks a krawl certificate, from certs/README.md alone, with another method than krawl's own checker.
+
+Distances only. Numbers are intervals of whole multiples of 2^-B. Every tube is cut into pieces, each proved
+with a matrix of its own. Prints VERIFIED or why not; exit codes as those of `krawl verify`.
+
+Usage: checker.py CERTIFICATE
+"""
+import hashlib, math, struct, sys, tomllib
+from fractions import Fraction
+
+B = 110
+ONE = 1 << B
+
+
+class NotProved(Exception):
+    pass
+
+
+def need(fact, what):
+    if not fact:
+        raise NotProved(what)
+
+
+# Intervals (low, high) of multiples of 2^-B.
+def exact(x):
+    x = Fraction(x) * ONE
+    return (math.floor(x), math.ceil(x))
+
+
+def add(a, b): return (a[0] + b[0], a[1] + b[1])
+def sub(a, b): return (a[0] - b[1], a[1] - b[0])
+def hull(a, b): return (min(a[0], b[0]), max(a[1], b[1]))
+def mag(a): return max(abs(a[0]), abs(a[1]))
+def ball(r): return (-r, r)
+def up(x): return -((-x) >> B)
+
+
+def mul(a, b):
+    p = (a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1])
+    return (min(p) >> B, up(max(p)))
+
+
+def div(a, b):
+    need(b[0] > 0, "a division")
+    q = [(x << B, y) for x in a for y in b]
+    return (min(x // y for x, y in q), max(-(-x // y) for x, y in q))
+
+
+def root(a): return (math.isqrt(a[0] << B), math.isqrt(a[1] << B) + 1)
+def number(a): return (a[0] + a[1]) / 2 / ONE
+def dot(v, w):
+    lo = hi = 0
+    for a, b in zip(v, w):
+        p = mul(a, b)
+        lo, hi = lo + p[0], hi + p[1]
+    return (lo, hi)
+
+
+class Problem:
+    def __init__(self, text, unit):
+        # Numbers keep all of their digits.
+        data = tomllib.loads(text, parse_float=Fraction)
+        self.d = d = data["dimension"]
+        names = list(data["points"])
+        at = [[Fraction(x) for x in data["points"][p]] for p in names]
+        choices, rules = data["homotopy"], data["constraints"]
+        known = {"distances", "squared_distances"}
+        need(set(rules) <= known, "constraints other than distances are not for this checker")
+        scale = Fraction(2) ** -unit
+        reference = [names.index(p) for p in choices["reference"]]
+        self.free, self.index = [], {}
+        for p in range(len(names)):
+            for axis in range(reference.index(p) if p in reference else d):
+                self.index[p, axis] = len(self.free)
+                self.free.append((p, axis))
+        self.m = len(self.free)
+        self.edges = []
+        for key in ("distances", "squared_distances"):
+            for a, b, target in rules.get(key, []):
+                i, j = names.index(a), names.index(b)
+                square = sum((x - y) ** 2 for x, y in zip(at[i], at[j])) * scale**2
+                start = root(exact(square))
+                target = Fraction(target)
+                end = exact(target * scale) if key == "distances" else root(exact(target * scale**2))
+                bends = {a, b} == set(choices["bend"])
+                c = exact(Fraction(choices["bend_coefficient"]) * scale) if bends else (0, 0)
+                # a(t), t^0 first.
+                length = [start, add(sub(end, start), c), sub((0, 0), c)]
+                ends = [(self.index.get((i, k)), self.index.get((j, k))) for k in range(d)]
+                self.edges.append((ends, length))
+        need(len(self.edges) == self.m, "as many distances as free coordinates")
+        self.sketch = self.gauge(at, reference, scale) + [(0, 0)]
+        self.axes = [axis for _, axis in self.free]
+
+    def gauge(self, at, reference, scale):
+        def seen(p): return [exact((x - y) * scale) for x, y in zip(at[p], at[reference[0]])]
+        def unit(v):
+            length = root(dot(v, v))
+            return [div(x, length) for x in v]
+        def cross(a, b):
+            return [sub(mul(a[i - 2], b[i - 1]), mul(a[i - 1], b[i - 2])) for i in range(3)]
+        e1 = unit(seen(reference[1]))
+        if self.d == 2:
+            frame = [e1, [sub((0, 0), e1[1]), e1[0]]]
+        else:
+            e3 = unit(cross(e1, seen(reference[2])))
+            frame = [e1, cross(e3, e1), e3]
+        return [dot(frame[axis], seen(p)) for p, axis in self.free]
+
+    # Polynomials in a parameter are lists of coefficients; z[i] is one.
+    def along(self, z):
+        """The coefficients of F, per equation."""
+        out = []
+        for ends, a in self.edges:
+            f = []
+            for i, j in ends:
+                x = difference(z, i, j)
+                f = plus(f, times(x, x))
+            t = z[self.m]
+            length = plus([a[0]], times(t, plus([a[1]], times(t, [a[2]]))))
+            f = plus(f, [sub((0, 0), x) for x in times(length, length)])
+            out.append([half(x) for x in f])
+        return out
+
+    def jacobian(self, z):
+        """Rows as {unknown: entry}, for z in intervals."""
+        rows = []
+        for ends, a in self.edges:
+            row = {}
+            for i, j in ends:
+                x = sub(z[i] if i is not None else (0, 0), z[j] if j is not None else (0, 0))
+                if i is not None:
+                    row[i] = x
+                if j is not None:
+                    row[j] = sub((0, 0), x)
+            t = z[self.m]
+            length = add(a[0], mul(t, add(a[1], mul(t, a[2]))))
+            slope = add(a[1], mul(t, add(a[2], a[2])))
+            row[self.m] = sub((0, 0), mul(length, slope))
+            rows.append(row)
+        return rows
+
+
+def half(a): return (a[0] // 2, -(-a[1] // 2))
+def difference(z, i, j):
+    x = z[i] if i is not None else []
+    y = [sub((0, 0), a) for a in z[j]] if j is not None else []
+    return plus(x, y)
+
+
+def plus(p, q):
+    short, long = sorted((p, q), key=len)
+    return [add(a, b) for a, b in zip(short, long)] + long[len(short):]
+
+
+def times(p, q):
+    out = [(0, 0)] * max(len(p) + len(q) - 1, 0)
+    for i, a in enumerate(p):
+        if a != (0, 0):
+            for j, b in enumerate(q):
+                out[i + j] = add(out[i + j], mul(a, b))
+    return out
+
+
+def at(p, s):
+    out = (0, 0)
+    for a in reversed(p):
+        out = add(mul(out, s), a)
+    return out
+
+
+def moved(p, s):
+    """p(s + x) as a polynomial in x."""
+    out = []
+    for a in reversed(p):
+        out = plus(times(out, [s, exact(1)]), [a])
+    return out
+
+
+def inverse(rows, c, n):
+    """A float inverse of a Jacobian's middle with the row c: any matrix will do."""
+    a = [[number(row.get(i, (0, 0))) for i in range(n)] for row in rows] + [list(c)]
+    for k, row in enumerate(a):
+        row.extend(float(k == i) for i in range(n))
+    for k in range(n):
+        p = max(range(k, n), key=lambda i: abs(a[i][k]))
+        a[k], a[p] = a[p], a[k]
+        need(a[k][k] != 0.0, "a singular matrix")
+        pivot = a[k][k]
+        a[k] = [x / pivot for x in a[k]]
+        for i in range(n):
+            if i != k and a[i][k] != 0.0:
+                f = a[i][k]
+                a[i] = [x - f * y for x, y in zip(a[i], a[k])]
+    return [[exact(x) for x in row[n:]] for row in a]
+
+
+class Piece:
+    """A part of a tube, with a matrix of its own: |I - Y [J; c] U| <= q on the box of radius r."""
+
+    def __init__(self, tube, a, b, most):
+        self.tube, self.a, self.b = tube, a, b
+        problem, n = tube.problem, tube.n
+        middle = (a + b) // 2
+        d = max(b - middle, middle - a)
+        z = [moved(p, (middle, middle)) for p in tube.z]
+        here = [at(p, (0, 0)) for p in z]
+        self.z = [at(p, ball(d)) for p in z]
+        self.y = inverse(problem.jacobian(here), tube.c_float, n)
+        self.q = self.contraction([add(x, ball(up(tube.r * u))) for x, u in zip(self.z, tube.u)])
+        need(self.q < most, "a contraction")
+        f = problem.along(z)
+        power, bound = ONE, [0] * n
+        for k in range(max(map(len, f))):
+            column = [p[k] if k < len(p) else (0, 0) for p in f]
+            for i, row in enumerate(self.y):
+                bound[i] += up(mag(dot(row, column)) * power)
+            power = up(power * d)
+        eta = max(-(-(x << B) // u) for x, u in zip(bound, tube.u))
+        need(eta < (ONE - self.q) * tube.r >> B, "a box mapped into itself")
+        self.distance = -(-(eta << B) // (ONE - self.q))
+        # The sum first: but for the first coefficients it is next to nothing.
+        across = [dot(tube.c, column) for column in zip(*z)]
+        advance = at(derivative(across), ball(d))
+        need(advance[0] > 0, "cross-sections in order")
+        self.advance = advance
+
+    def contraction(self, box):
+        rows, n, u = self.tube.problem.jacobian(box), self.tube.n, self.tube.u
+        rows.append(dict(enumerate(self.tube.c)))
+        most = 0
+        for i, y in enumerate(self.y):
+            entries = [(-ONE, -ONE) if j == i else (0, 0) for j in range(n)]
+            for x, row in zip(y, rows):
+                for j, value in row.items():
+                    entries[j] = add(entries[j], mul(x, value))
+            total = sum(up(mag(x) * w) for x, w in zip(entries, u))
+            most = max(most, -(-(total << B) // u[i]))
+        return most
+
+    def solved(self, x):
+        """At most |w|_u for DG w = x, with DG of the box."""
+        size = max(-(-(mag(dot(y, x)) << B) // u) for y, u in zip(self.y, self.tube.u))
+        return -(-(size << B) // (ONE - self.q))
+
+    def tangent(self, box, steps=5):
+        """The direction of the path at its points in a box, c T = 1: near any v, brought nearer in steps."""
+        tube = self.tube
+        v = [row[-1] for row in self.y]
+        rows = tube.problem.jacobian(box)
+        for _ in range(steps):
+            v = [((x[0] + x[1]) // 2,) * 2 for x in v]
+            off = [dot([v[j] for j in row], row.values()) for row in rows]
+            off.append(sub(dot(tube.c, v), exact(1)))
+            r, w = self.solved(off), v
+            v = [sub(x, dot(y, off)) for x, y in zip(v, self.y)]
+        v = w
+        return [add(x, ball(up(r * u))) for x, u in zip(v, tube.u)]
+
+
+def derivative(p): return [mul(exact(k), a) for k, a in enumerate(p)][1:]
+
+
+class Tube:
+    def __init__(self, problem, z0, c, u, h, r, s):
+        self.problem, self.n = problem, problem.m + 1
+        self.c_float, self.c = c, [exact(x) for x in c]
+        self.u = [w * ONE >> 16 for w in u]
+        self.h, self.r, self.s = exact(h)[0], exact(r)[0], exact(s)[0]
+        zero = [exact(x) for x in z0]
+        zero = [(x[0], x[0]) for x in zero]
+        # A polynomial in s near the path: any would do.
+        y = inverse(problem.jacobian(zero), c, self.n)
+        self.z = [[x] for x in zero]
+        for k in range(1, 6):
+            f = [p[k] if k < len(p) else (0, 0) for p in problem.along(self.z)]
+            f = [sub((0, 0), x) for x in f] + [exact(int(k == 1))]
+            for p, row in zip(self.z, y):
+                x = dot(row, f)[0]
+                p.append((x, x))
+        self.pieces = []
+        self.cut(-self.h, self.h, 4)
+
+    def cut(self, a, b, depth):
+        try:
+            need(depth < 4, "two pieces at least")
+            # Better short pieces and good bounds, if that can be had.
+            self.pieces.append(Piece(self, a, b, ONE // 2 if depth else ONE))
+        except NotProved:
+            if depth == 0:
+                raise
+            middle = (a + b) // 2
+            self.cut(a, middle, depth - 1)
+            self.cut(middle, b, depth - 1)
+
+    def piece(self, s):
+        return next(p for p in self.pieces if p.a <= s <= p.b)
+
+    def exit(self):
+        """A box around the point where the path leaves, and its direction there."""
+        s = (self.s, self.s)
+        piece = self.piece(self.s)
+        start = [at(p, s) for p in self.z]
+        w = [(0, 0)] * self.n
+        for step in range(8):
+            f = self.value([add(x, y) for x, y in zip(start, w)]) + [dot(self.c, w)]
+            radius = piece.solved(f)
+            need(all(mag(x) < up(self.r * u) for x, u in zip(w, self.u)), "an exit")
+            if radius < self.r >> 20 or step == 7:
+                break
+            off = [dot(y, f) for y in piece.y]
+            w = [((x[0] - y[0]),) * 2 for x, y in zip(w, off)]
+        box = [add(add(x, y), ball(up(radius * u))) for x, y, u in zip(start, w, self.u)]
+        return box, piece.tangent(box)
+
+    def value(self, z):
+        return [f[0] for f in self.problem.along([[x] for x in z])]
+
+    def locate(self, z):
+        """The parameters of a zero of F in a box."""
+        advance = self.pieces[0].advance
+        for piece in self.pieces:
+            advance = hull(advance, piece.advance)
+        s = div(dot(self.c, [sub(x, p[0]) for x, p in zip(z, self.z)]), advance)
+        if mag(s) > self.h:
+            return None
+        off = [mag(sub(x, at(p, s))) for x, p in zip(z, self.z)]
+        return s if all(x < self.r * u >> B for x, u in zip(off, self.u)) else None
+
+    def box(self, s):
+        """Where the path is for parameters s; with the pieces that hold these."""
+        pieces = [p for p in self.pieces if p.a <= s[1] and p.b >= s[0]]
+        distance = max(p.distance for p in pieces)
+        middle = (s[0] + s[1]) // 2
+        d = max(s[1] - middle, middle - s[0])
+        z = [at(moved(p, (middle, middle)), ball(d)) for p in self.z]
+        return [add(x, ball(up(distance * u))) for x, u in zip(z, self.u)], pieces
+
+    def rises(self, s):
+        """The sign of dt/ds where it has one."""
+        box, pieces = self.box(s)
+        slopes = [p.tangent(box, 2)[-1] for p in pieces]
+        if all(x[0] > 0 for x in slopes):
+            return 1
+        return -1 if all(x[1] < 0 for x in slopes) else 0
+
+    def account(self, a, b, solutions, depth=60):
+        """t = 1 between two parameters only at these solutions' parameters."""
+        t = self.box((a, b))[0][-1]
+        if not t[0] <= ONE <= t[1]:
+            return
+        if any(self.rises(hull((a, b), s)) for s in solutions):
+            return
+        if self.rises((a, b)):
+            ends = [self.box((x, x))[0][-1] for x in (a, b)]
+            if all(x[1] < ONE for x in ends) or all(x[0] > ONE for x in ends):
+                return
+        need(depth > 0, f"t = 1 between {a / self.h:.6f} and {b / self.h:.6f} of the half length")
+        self.account(a, (a + b) // 2, solutions, depth - 1)
+        self.account((a + b) // 2, b, solutions, depth - 1)
+
+
+def solution(problem, centre, radius):
+    """Proves that a box holds exactly one figure with t = 1: a narrow box around that."""
+    m, r = problem.m, exact(radius)[0]
+    middle = [(exact(x)[0],) * 2 for x in centre] + [exact(1)]
+    last = [0.0] * m + [1.0]
+    y = inverse(problem.jacobian(middle), last, m + 1)
+    box = [add(x, ball(r)) for x in middle[:m]] + [exact(1)]
+    rows = problem.jacobian(box)
+    q = 0
+    for i in range(m):
+        entries = [(-ONE, -ONE) if j == i else (0, 0) for j in range(m)]
+        for x, row in zip(y[i], rows):
+            for j, value in row.items():
+                if j < m:
+                    entries[j] = add(entries[j], mul(x, value))
+        q = max(q, sum(mag(x) for x in entries))
+    f = [p[0] for p in problem.along([[x] for x in middle])]
+    eta = max(mag(dot(row[:m], f)) for row in y[:m])
+    need(q < ONE and eta < (ONE - q) * r >> B, "a solution's box")
+    narrow = -(-(eta << B) // (ONE - q))
+    return box, [add(x, ball(narrow)) for x in middle[:m]] + [exact(1)]
+
+
+def apart(a, b): return any(x[1] < y[0] or y[1] < x[0] for x, y in zip(a, b))
+
+
+def congruent(problem, a, b):
+    for mask in range(1, 1 << problem.d):
+        image = [sub((0, 0), x) if mask >> axis & 1 else x for x, axis in zip(a, problem.axes)]
+        if not apart(image, b):
+            return True
+    return False
+
+
+class File:
+    def __init__(self, data): self.data, self.at = data, 0
+    def read(self, form):
+        size = struct.calcsize("<" + form)
+        values = struct.unpack_from("<" + form, self.data, self.at)
+        self.at += size
+        return values
+    def text(self):
+        (size,) = self.read("I")
+        self.at += size
+        return self.data[self.at - size:self.at]
+
+
+def check(data):
+    file = File(data)
+    assert file.read("18s")[0] == b"krawl certificate\n", "no certificate"
+    assert file.read("I")[0] == 2, "another version"
+    file.text()
+    (digest,) = file.read("32s")
+    text = file.text()
+    assert hashlib.sha256(text).digest() == digest, "another problem's hash"
+    problem = Problem(text.decode(), file.read("h")[0])
+    m, n = problem.m, problem.m + 1
+    records = []
+    while True:
+        (tag,) = file.read("B")
+        if tag == 1:
+            z, c, u = file.read(f"{n}d"), file.read(f"{n}f"), file.read(f"{n}H")
+            records.append(("tube", (z, c, u, *file.read("dfd"))))
+        elif tag == 2:
+            records.append(("solution", (file.read(f"{m}d"), file.read("f")[0])))
+        else:
+            assert tag == 3, "no such record"
+            break
+    (stopped,) = file.read("B")
+    if stopped:
+        file.text()
+    count, solutions = file.read("QI")
+    classes = file.read(f"{solutions}I")
+    assert file.at == len(data) and count == sum(kind == "tube" for kind, _ in records)
+    need(not stopped, "the run stopped")
+
+    listed, met, before, first = [], set(), None, None
+    for position, (kind, claim) in enumerate(records):
+        if kind == "solution":
+            continue
+        tube = Tube(problem, *claim)
+        following = position + 1
+        while following < len(records) and records[following][0] == "solution":
+            listed.append(solution(problem, *records[following][1]))
+            following += 1
+        closes = following == len(records)
+        if before is None:
+            entry = tube.locate(problem.sketch)
+            need(entry, "the sketch in the first tube")
+            first = tube.piece(entry[0]).tangent(problem.sketch)
+            need(tube.piece(entry[0]).b >= entry[1], "the sketch in one piece")
+        else:
+            box, direction = before
+            entry = tube.locate(box)
+            need(entry, "a link")
+            need(dot(direction, tube.c)[0] > 0, "a link's direction")
+        leave = (tube.s, tube.s)
+        if closes:
+            need(before is not None, "more than one tube")
+            leave = tube.locate(problem.sketch)
+            need(leave, "the sketch in the last tube")
+            need(dot(first, tube.c)[0] > 0, "the direction of the start")
+        need(entry[1] < leave[0], "an exit behind the entry")
+        here = []
+        for k, (_, narrow) in enumerate(listed):
+            s = tube.locate(narrow)
+            if s:
+                met.add(k)
+                here.append(s)
+        tube.account(entry[0], leave[1], here)
+        before = None if closes else tube.exit()
+    need(before is None and records, "the end")
+    need(met == set(range(solutions)), "solutions that are met")
+    numbers = []
+    for k, (box, narrow) in enumerate(listed):
+        same = None
+        for j, (other, other_narrow) in enumerate(listed[:k]):
+            need(apart(box, other), "disjoint boxes")
+            if congruent(problem, narrow, other_narrow):
+                same = numbers[j]
+        numbers.append(max(numbers, default=-1) + 1 if same is None else same)
+    need(tuple(numbers) == classes, "the classes")
+    return count, solutions
+
+
+if __name__ == "__main__":
+    try:
+        with open(sys.argv[1], "rb") as file:
+            tubes, solutions = check(file.read())
+        print(f"VERIFIED: {tubes} tubes, {solutions} solutions")
+    except NotProved as fault:
+        print(f"NOT PROVED: {fault}")
+        sys.exit(3)
+    except (AssertionError, struct.error) as fault:
+        print(f"no certificate: {fault}")
+        sys.exit(2)
