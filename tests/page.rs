@@ -54,6 +54,9 @@ fn driven(browser: &Path, page: &Path, script: &str, size: &str) -> (String, Str
          </script></body>"
     );
     let driven = folder.path().join("driven.html");
+    // In virtual time there are no frames: a timer stands in for them.
+    let frames = "<head><script>requestAnimationFrame = (f) => setTimeout(() => f(performance.now()), 16);</script>";
+    let html = html.replacen("<head>", frames, 1);
     fs::write(&driven, html.replace("</body>", &script)).unwrap();
     let output = Process::new(browser)
         .args([
