@@ -31,7 +31,7 @@
 //!         // Every coordinate is an interval, which the exact one lies in.
 //!         let [x, y, _] = *solution.point(&triangle, "c").unwrap();
 //!         assert!(x.contains(1.8) && x.wid() < 1e-12);
-//!         println!("c is at {x}, {y}");
+//!         println!("c: x from {} to {}, y from {} to {}", x.inf(), x.sup(), y.inf(), y.sup());
 //!     }
 //!     // This is the one that the drawing moves to without turning back.
 //!     let straight = outcome.solutions.iter().find(|s| s.place.is_some_and(|p| p.folds == Some(0)));

@@ -156,8 +156,10 @@ fn a_mark_left_out_or_turned_into_another_is_noticed() {
     for ((at, mark), end) in all.iter().zip(&ends) {
         let mut less = cover.clone();
         less.marks.drain(*at..*end);
+        // What a contraction leaves may be more than is needed: the proof without it is a proof still.
+        let needed = !matches!(mark, Mark::Within(..));
         assert!(
-            damaged(&less).is_none_or(|v| v.flaw.is_some()),
+            !needed || damaged(&less).is_none_or(|v| v.flaw.is_some()),
             "{mark:?} left out"
         );
         // A part with a figure in it is not excluded by any other reason.

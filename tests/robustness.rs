@@ -352,7 +352,8 @@ fn interrupts_leave_what_can_be_read() {
             .assert();
         assert_eq!(
             verify.get_output().status.code(),
-            Some(code),
+            // Incomplete, where the run stopped.
+            Some(if code == 0 { 0 } else { 4 }),
             "after {delay:?}"
         );
         if code == 1 {

@@ -111,5 +111,3 @@ pub enum FormatError {
     #[error("{0}")]
     Malformed(String),
 }
-
-crate::debug_in_words!(FormatError);

@@ -36,3 +36,6 @@ pub use format::{EndClaim, FormatError, Header, Record, SolutionClaim, TubeClaim
 pub use reader::Reader;
 pub use verdict::{Fault, Flaw, Outcome, Verdict};
 pub use writer::{Writer, write_header, write_record};
+
+// Not beside the type: the checker's files use nothing but what they check with.
+crate::debug_in_words!(FormatError);

@@ -164,7 +164,7 @@ mod tests {
                     );
                 }
                 // The direction against a difference quotient.
-                let ahead = path.point(here.at + 1e-4 * length);
+                let ahead = path.point(here.at + 2e-5 * length);
                 if let Some(ahead) = ahead.filter(|_| k < 499) {
                     let along: Vec<f64> = ahead.z.iter().zip(&here.z).map(|(a, b)| a - b).collect();
                     let size = along.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -12,9 +12,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// ```
 /// use krawl::interval::Real;
-/// let half = Real::cosine_of_degrees(60.into());
+/// let half = Real::cosine_of_degrees(num_rational::BigRational::from_integer(60.into()));
 /// assert!(half.enclose().contains(0.5));
-/// let two = Real::from(2.into());
+/// let two = Real::whole(2);
 /// let root = two.clone().sqrt();
 /// assert!((&(&root * &root) - &two).enclose().mag() < 1e-60);
 /// ```

@@ -12,7 +12,7 @@
 //!     .finish().unwrap();
 //! let found = remarks(&problem);
 //! let text = in_words(&problem, &found[0]);
-//! assert_eq!(text, "no figure has these target lengths: a-b is 200, and b-c-a is only 160 long");
+//! assert_eq!(text, "no figure has these target lengths: a-b is 200, and a-c-b is only 160 long");
 //! ```
 
 mod flat;

@@ -96,7 +96,8 @@ mod tests {
         let json: Value = serde_json::from_str(&to_json(&triangle(), &outcome)).unwrap();
         assert_eq!(json["version"], JSON_VERSION);
         assert_eq!(json["constraints"][1]["value"], "1.12");
-        assert_eq!(json["options"]["bend_coefficient"], "2");
+        let c = triangle().homotopy.bend_coefficient.to_string();
+        assert_eq!(json["options"]["bend_coefficient"], c);
         assert_eq!(json["sketch"]["apex"][1], 1.1);
         assert_eq!(json["problem"], "triangle");
         assert_eq!(

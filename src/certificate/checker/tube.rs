@@ -278,6 +278,9 @@ mod tests {
                     let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
                     // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
+                    let (curve, ..) = newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
+                    // With the inverse there.
+                    let middle = curve.z[0][..n].to_vec();
                     let (curve, _, inverse) =
                         newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
                     let mut last = vec![0.0; n];

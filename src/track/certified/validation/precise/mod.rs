@@ -179,8 +179,9 @@ pub fn settle<const D: usize, const N: usize, Y>(
     Y: crate::track::full::Preconditioner<D>,
 {
     let m = equations.m;
-    for k in 0..N {
-        equations.differences(&local.z[k], &mut local.d[k]);
+    equations.differences(&local.z[0], &mut local.d[0]);
+    for k in 1..N {
+        equations.directions(&local.z[k], &mut local.d[k]);
     }
     equations.expand_lengths(local.z[0][m], &mut local.lengths);
     let t: Vec<f64> = (0..local.powers[0].len())
