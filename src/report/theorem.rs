@@ -24,7 +24,7 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
             writeln!(
                 out,
                 "{name}: VERIFIED.\n\
-                 Theorem. Let H(X, t) = 0 be the distance equations of the problem in this certificate, \
+                 Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, \
                  for the exact decimals in it, and S the connected component of the sketch at t = 0.\n\
                  1. S is a closed curve, regular along its whole length.\n\
                  2. S has exactly {} with t = 1, one in each of {}; {}.\n\
