@@ -248,7 +248,7 @@ impl Plain {
         });
         let classes = congruence_classes(&scattered.collect::<Vec<_>>(), 1e-8);
         records.push(Record::End(EndClaim {
-            stopped: None,
+            ending: krawl::certificate::Ending::Complete,
             tubes: points.len() as u64,
             classes: classes.into_iter().map(|c| c as u32).collect(),
         }));

@@ -11,6 +11,7 @@ mod homotopy;
 mod interpolation;
 mod right;
 
+pub use edit::is_met;
 pub use exact::ExactLength;
 pub use gauge::{Gauge, GaugeError, Placement};
 pub use homotopy::{Edge, Homotopy, Term};

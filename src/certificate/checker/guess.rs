@@ -3,7 +3,7 @@
 use super::equations::{Equations, Product};
 use super::krawczyk::{Curve, LARGE, ORDER, Section, magnitude, weight};
 use super::whole::{J_BITS, Whole, power};
-use crate::certificate::format::WEIGHT_UNIT;
+use crate::certificate::format::{FoldClaim, TubeClaim, WEIGHT_UNIT};
 use crate::certificate::verdict::Fault;
 
 /// More Newton's steps than any place needs.
@@ -107,6 +107,20 @@ pub fn newton<'a>(
     }
     at = curve.section(c, u, at.scale)?;
     Ok((curve, at, inverse))
+}
+
+/// A point (X, v, t) near a fold in a box, where the path comes in a tube; t's derivative is as good as zero.
+pub fn fold(eq: &Equations, claim: &FoldClaim, tube: &TubeClaim) -> Result<Vec<f64>, Fault> {
+    let mut z: Vec<f64> = claim.figure.centre.clone();
+    z.push(claim.t);
+    let c: Vec<f64> = tube.normal.iter().map(|&c| c.into()).collect();
+    let curve = Curve::at(eq, &z)?;
+    let at = curve.section(&c, &tube.weights, scale(&curve, &c, &tube.weights))?;
+    let mut last = vec![0.0; eq.m + 1];
+    last[eq.m] = 1.0;
+    let tangent = Inverse::new(&at)?.times(&last);
+    z.splice(eq.m..eq.m, tangent[..eq.m].iter().copied());
+    Ok(z)
 }
 
 /// The preconditioner that moves along a curve, in floats.

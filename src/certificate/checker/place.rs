@@ -11,6 +11,7 @@ use crate::interval::{Interval, point};
 
 /// An enclosure of a point of a curve of F = 0, in n entries: exactly known floats, and what has to be
 /// added to them.
+#[derive(Clone)]
 pub struct Spot {
     pub near: Vec<f64>,
     pub rest: Vec<Interval>,
@@ -57,19 +58,19 @@ pub fn component(direction: &[Interval], normal: &[f64]) -> Interval {
     terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c))
 }
 
-/// A figure with t = 1, the only one in its box.
+/// A figure with t = 1, the only one in its box; or a point where other equations and a cross-section meet.
 pub struct Place {
     /// Where it is.
     pub spot: Spot,
     /// The box that was claimed, in m entries.
     pub claimed: Vec<Interval>,
-    /// At most so far from the middle of `spot`, entry by entry, there is no other figure with t = 1.
+    /// At most so far from the middle of `spot`, entry by entry, there is no other one.
     alone_within: Vec<f64>,
     pub margin: f64,
 }
 
 /// Solutions are tested with the weight ½ for coordinates, and next to none for t.
-const HALF: u16 = 1 << 15;
+pub const HALF: u16 = 1 << 15;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
 
@@ -78,7 +79,15 @@ impl Place {
     pub fn solution(eq: &Equations, claim: &SolutionClaim) -> Result<Place, Fault> {
         let radius = around(point(claim.radius.into()));
         let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
-        let place = Place::prove(eq, claim, claimed.clone());
+        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
+        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
+        (c[eq.m], u[eq.m]) = (1.0, 1);
+        let place = Place::prove(eq, &near, (&c, &u), claimed.clone()).and_then(|mut place| {
+            // In this cross-section t is what it is in the middle.
+            place.spot.rest[eq.m] = ZERO;
+            let other = Fault::because("its cross-section is not t = 1");
+            (place.spot.near[eq.m] == 1.0).then_some(place).ok_or(other)
+        });
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
         }
@@ -92,28 +101,22 @@ impl Place {
         }
     }
 
-    /// Proves that there is a figure with t = 1 near a box.
-    fn prove(
+    /// Proves that near a point there is a zero of F in a cross-section with this normal.
+    pub fn prove(
         eq: &Equations,
-        claim: &SolutionClaim,
+        near: &[f64],
+        (c, u): (&[f64], &[u16]),
         claimed: Vec<Interval>,
     ) -> Result<Place, Fault> {
-        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
-        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
-        (c[eq.m], u[eq.m]) = (1.0, 1);
-        let (curve, at, inverse) = newton(eq, &near, &c, &u)?;
+        let (curve, at, inverse) = newton(eq, near, c, u)?;
         let test = curve.test(&inverse.whole, &at, point(SIGHT))?;
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
         let near = curve.z[0].clone();
-        if near[eq.m] != 1.0 {
-            return Err(Fault::because("its cross-section is not t = 1"));
-        }
         let weights = || u.iter().map(|&u| weight(u));
-        let mut rest: Vec<Interval> = weights().map(|u| around(proof.distance * u)).collect();
-        rest[eq.m] = ZERO;
+        let rest = weights().map(|u| around(proof.distance * u)).collect();
         Ok(Place {
             spot: Spot { near, rest },
             claimed,

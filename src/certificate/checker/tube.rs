@@ -22,7 +22,7 @@ pub struct Tube {
     pub distance: Interval,
     slope_distance: Interval,
     /// c·ẑ'(σ), positive.
-    advance: Interval,
+    pub advance: Interval,
     /// The parameter at which the path leaves.
     pub exit_at: f64,
     /// Where that is.
@@ -183,30 +183,32 @@ impl Tube {
         (s.mag() <= 1.0 && (0..self.u.len()).all(inside)).then_some(s)
     }
 
+    /// An entry of the path for all parameters of a range.
+    pub fn at(&self, i: usize, s: Interval) -> Interval {
+        let middle = exact(s.mid());
+        let change = derivative(&self.z, i, s) * (s - middle);
+        polynomial(&self.z, i, middle) + change + around(self.distance * self.u[i])
+    }
+
+    /// The same of its derivative by σ.
+    pub fn slope(&self, i: usize, s: Interval) -> Interval {
+        derivative(&self.z, i, s) + around(self.slope_distance * self.u[i])
+    }
+
     /// t on the path for all parameters of a range.
     pub fn time(&self, s: Interval) -> Interval {
-        let (t, middle) = (self.u.len() - 1, exact(s.mid()));
-        let change = derivative(&self.z, t, s) * (s - middle);
-        polynomial(&self.z, t, middle) + change + around(self.distance * self.u[t])
+        self.at(self.u.len() - 1, s)
     }
 
     /// dt/dσ on the path for all parameters of a range.
     pub fn time_slope(&self, s: Interval) -> Interval {
-        let t = self.u.len() - 1;
-        derivative(&self.z, t, s) + around(self.slope_distance * self.u[t])
+        self.slope(self.u.len() - 1, s)
     }
 
     /// Accounts for all parameters of a range: the path meets t = 1 in no other point of it than
     /// these solutions, which have t = 1. `Err`: a range where this fails.
     pub fn account(&self, range: Interval, solutions: &[Place]) -> Result<Stretch, Interval> {
-        const PARTS: u32 = 16;
-        let width = range.sup() - range.inf();
-        let cut = |k: u32| match k {
-            PARTS => range.sup(),
-            _ => range.inf() + width * (f64::from(k) / f64::from(PARTS)),
-        };
-        let mut pieces: Vec<Interval> = (0..PARTS).map(|k| between(cut(k), cut(k + 1))).collect();
-        let times = pieces.iter().map(|&part| self.time(part));
+        let times = parts(range).map(|part| self.time(part));
         let t = times
             .reduce(|a, b| a.convex_hull(b))
             .unwrap_or(Interval::ENTIRE);
@@ -225,22 +227,50 @@ impl Tube {
                 stretch.unknown.push(k);
             }
         }
-        let mut next = 0;
-        while let Some(&part) = pieces.get(next) {
-            next += 1;
-            // Where t is monotone from a solution on, it is the only one.
+        // Where t is monotone from a solution on, it is the only one.
+        let holds = |part: Interval| {
             let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
-            if !self.time(part).contains(1.0) || here.iter().any(only) {
-                continue;
-            }
-            if pieces.len() > PIECES || refute::missing(self, part, solutions) {
-                return Err(part);
-            }
-            pieces.push(between(part.inf(), part.mid()));
-            pieces.push(between(part.mid(), part.sup()));
-        }
+            !self.time(part).contains(1.0) || here.iter().any(only)
+        };
+        everywhere(range, holds, |part| {
+            refute::missing(self, part, solutions)
+        })?;
         Ok(stretch)
     }
+}
+
+/// A range in equal parts.
+fn parts(range: Interval) -> impl Iterator<Item = Interval> {
+    const PARTS: u32 = 16;
+    let width = range.sup() - range.inf();
+    let cut = move |k: u32| match k {
+        PARTS => range.sup(),
+        _ => range.inf() + width * (f64::from(k) / f64::from(PARTS)),
+    };
+    (0..PARTS).map(move |k| between(cut(k), cut(k + 1)))
+}
+
+/// Proves that something holds on pieces that cover a range. `Err`: one where it does not, though it is small,
+/// or fails for certain.
+pub fn everywhere(
+    range: Interval,
+    holds: impl Fn(Interval) -> bool,
+    fails: impl Fn(Interval) -> bool,
+) -> Result<(), Interval> {
+    let mut pieces: Vec<Interval> = parts(range).collect();
+    let mut next = 0;
+    while let Some(&part) = pieces.get(next) {
+        next += 1;
+        if holds(part) {
+            continue;
+        }
+        if pieces.len() > PIECES || fails(part) {
+            return Err(part);
+        }
+        pieces.push(between(part.inf(), part.mid()));
+        pieces.push(between(part.mid(), part.sup()));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
