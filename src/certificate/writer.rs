@@ -18,6 +18,8 @@ const _: () = assert!(LARGEST_SQUARE <= MAX_FREE_COORDINATES);
 /// largest coordinate, so that a checker that rounds more coarsely has room; the claim is weaker,
 /// not stronger.
 const WIDER: f64 = 2.0;
+/// The same for folds, where a checker may bound all entries by the largest, velocities among them.
+const WIDER_AT_FOLDS: f64 = 1024.0;
 /// See [`WIDER`].
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
@@ -93,11 +95,11 @@ impl<'a, W: Write> Writer<'a, W> {
 }
 
 /// A box around a figure, wider than it was proved.
-fn solution_claim(centre: &[f64], radius: &[f64]) -> SolutionClaim {
+fn solution_claim(centre: &[f64], radius: &[f64], wider: f64) -> SolutionClaim {
     let largest = |v: &[f64]| v.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
     SolutionClaim {
         centre: centre.to_vec(),
-        radius: (WIDER * largest(radius) + ROUNDINGS * largest(centre)) as f32,
+        radius: (wider * largest(radius) + ROUNDINGS * largest(centre)) as f32,
     }
 }
 
@@ -139,7 +141,7 @@ impl<W: Write> Witness for Writer<'_, W> {
         // An edit's figures stand at its end.
         if self.arc.is_none() {
             self.solutions += 1;
-            self.put(&Record::Solution(solution_claim(centre, radius)));
+            self.put(&Record::Solution(solution_claim(centre, radius, WIDER)));
         }
     }
 
@@ -183,22 +185,22 @@ impl<W: Write> Witness for Writer<'_, W> {
         for tube in tubes {
             self.put(&Record::Tube(tube));
         }
-        let figure = |figure: &Figure| {
+        let figure = |figure: &Figure, wider: f64| {
             let radius = figure.radius.iter().zip(&figure.low);
             let radius: Vec<f64> = radius.map(|(r, low)| r + low.abs()).collect();
-            solution_claim(&figure.centre, &radius)
+            solution_claim(&figure.centre, &radius, wider)
         };
         self.edits = Some(match &run.end {
             ArcEnd::Reached(reached) => {
-                self.put(&Record::Reached(figure(reached)));
+                self.put(&Record::Reached(figure(reached, WIDER)));
                 Ok(())
             }
             ArcEnd::Limit(fold) => {
                 let t = fold.t.mid();
                 self.put(&Record::Fold(FoldClaim {
-                    figure: figure(&fold.figure),
+                    figure: figure(&fold.figure, WIDER_AT_FOLDS),
                     t,
-                    t_radius: (WIDER * fold.t.rad() + ROUNDINGS) as f32,
+                    t_radius: (WIDER_AT_FOLDS * fold.t.rad() + 64.0 * ROUNDINGS) as f32,
                 }));
                 Ok(())
             }
