@@ -4,7 +4,7 @@ use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAGIC, MAX_DECIMAL,
     MAX_FREE_COORDINATES, MAX_LISTED, MAX_NUMBER, MAX_PROBLEM, MAX_SOLUTIONS, MAX_TEXT,
     MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_END, TAG_EXTENDED, TAG_FOLD,
-    TAG_TUBE, TAG_REACHED, TAG_SOLUTION, TAG_TURN, TubeClaim, VERSION,
+    TAG_REACHED, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION,
 };
 use crate::constraint;
 use crate::problem::{Decimal, Problem};
@@ -126,7 +126,9 @@ impl<R: Read> Reader<R> {
             (TAG_REACHED, Stage::Along) => Stage::Reached,
             (TAG_FOLD, Stage::Along) => Stage::Fold,
             (TAG_END, stage) => stage,
-            (1..=8, _) => return Err(self.fault(&format!("a record of kind {tag} may not stand here"))),
+            (1..=8, _) => {
+                return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
+            }
             _ => return Err(self.fault(&format!("there is no kind {tag} of record"))),
         };
         let record = match tag {
@@ -269,7 +271,10 @@ impl<R: Read> Reader<R> {
             Ok(()) => return Err(malformed("something stands behind its end")),
         }
         let fits = match &ending {
-            Ending::Complete => matches!(self.stage, Stage::Begun | Stage::Path { turned: false } | Stage::Reached | Stage::Fold),
+            Ending::Complete => matches!(
+                self.stage,
+                Stage::Begun | Stage::Path { turned: false } | Stage::Reached | Stage::Fold
+            ),
             Ending::Stopped(_) => true,
             Ending::Open(_) => self.stage == Stage::Path { turned: true },
         };

@@ -125,7 +125,9 @@ pub enum Flaw {
     #[error("there is a fold in the box at the end of arc {0}: {1}")]
     Fold(usize, Fault),
     /// An arc ends elsewhere.
-    #[error("arc {0} comes to the figure in the box at its end, behind its entry into the last tube")]
+    #[error(
+        "arc {0} comes to the figure in the box at its end, behind its entry into the last tube"
+    )]
     Elsewhere(usize),
     /// No tube at all.
     #[error("there is a tube")]

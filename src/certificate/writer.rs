@@ -35,11 +35,18 @@ pub struct Writer<'a, W> {
     /// The way back from the sketch, and how many solutions there were before.
     back: Option<(Vec<Record>, usize)>,
     /// The edit at hand: what it changes, and its tubes so far.
-    arc: Option<(Vec<(u32, Decimal)>, Vec<TubeClaim>)>,
+    arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
     edits: Option<Result<(), String>>,
     ended: bool,
     result: io::Result<()>,
+}
+
+/// An edit that is being followed.
+#[derive(Debug)]
+struct Following {
+    lengths: Vec<(u32, Decimal)>,
+    tubes: Vec<TubeClaim>,
 }
 
 impl<'a, W: Write> Writer<'a, W> {
@@ -129,7 +136,7 @@ impl<W: Write> Witness for Writer<'_, W> {
             exit: tube.exit,
         };
         match &mut self.arc {
-            Some((_, tubes)) => tubes.push(tube),
+            Some(arc) => arc.tubes.push(tube),
             None => {
                 self.tubes += 1;
                 self.put(&Record::Tube(tube));
@@ -168,16 +175,26 @@ impl<W: Write> Witness for Writer<'_, W> {
             Target::SquaredLength(_) => None,
         };
         match lengths.iter().map(length).collect() {
-            Some(lengths) => self.arc = Some((lengths, Vec::new())),
-            None => self.result = Err(io::Error::other("certificates hold lengths, not squares of them")),
+            Some(lengths) => {
+                let tubes = Vec::new();
+                self.arc = Some(Following { lengths, tubes });
+            }
+            None => {
+                self.result = Err(io::Error::other(
+                    "certificates hold lengths, not squares of them",
+                ))
+            }
         }
     }
 
     fn end_arc(&mut self, run: &ArcRun) {
-        let Some((lengths, tubes)) = self.arc.take() else {
+        let Some(Following { lengths, tubes }) = self.arc.take() else {
             return;
         };
-        let kept = run.orientations.iter().filter(|o| o.sign != 0 && o.lost.is_none());
+        let kept = run
+            .orientations
+            .iter()
+            .filter(|o| o.sign != 0 && o.lost.is_none());
         let kept = kept.map(|o| (o.points.iter().map(|&p| p as u32).collect(), o.sign > 0));
         let kept = kept.collect();
         self.put(&Record::Arc(ArcClaim { lengths, kept }));
@@ -243,7 +260,11 @@ pub fn write_header(
 pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
     match record {
         Record::Tube(tube) => {
-            out.write_all(&[if tube.low.is_empty() { TAG_TUBE } else { TAG_EXTENDED }])?;
+            out.write_all(&[if tube.low.is_empty() {
+                TAG_TUBE
+            } else {
+                TAG_EXTENDED
+            }])?;
             for x in tube.centre.iter().chain(&tube.low) {
                 out.write_all(&x.to_le_bytes())?;
             }

@@ -115,7 +115,10 @@ fn write_edits(out: &mut String, verdict: &Verdict) -> std::fmt::Result {
             continue;
         }
         let lengths = arc.claim.lengths.iter().map(|(index, length)| {
-            format!("{} to {length}", verdict.problem.distance_name(*index as usize))
+            format!(
+                "{} to {length}",
+                verdict.problem.distance_name(*index as usize)
+            )
         });
         let what = match arc.claim.lengths.is_empty() {
             true => "the sketch is led to its own dimensions".to_owned(),

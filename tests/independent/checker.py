@@ -411,7 +411,7 @@ class File:
 def check(data):
     file = File(data)
     assert file.read("18s")[0] == b"krawl certificate\n", "no certificate"
-    assert file.read("I")[0] == 2, "another version"
+    assert file.read("I")[0] == 3, "another version"
     file.text()
     (digest,) = file.read("32s")
     text = file.text()

@@ -33,7 +33,12 @@ impl Fold {
         let of_figure = |i: usize| box_of(claim.figure.centre[i], claim.figure.radius);
         let mut claimed: Vec<Interval> = (0..m).map(of_figure).collect();
         claimed.push(box_of(claim.t, claim.t_radius));
-        let place = Place::prove(&folds, &near, (&c, &vec![HALF; 2 * m + 1]), claimed)?;
+        let place = Place::prove(
+            &folds,
+            (&near, false),
+            (&c, &vec![HALF; 2 * m + 1]),
+            claimed,
+        )?;
         let entries = || (0..m).chain([2 * m]);
         let spot = Spot {
             near: entries().map(|i| place.spot.near[i]).collect(),
@@ -52,9 +57,9 @@ impl Fold {
     /// with φ' scaled to c·φ' = c·v₀, is a zero of this fold's equations, near enough to be this one.
     fn is_alone(&self, tube: &Tube, s: Interval) -> bool {
         let m = self.spot.near.len() - 1;
-        let x = (0..m).map(|i| tube.at(i, s));
+        let x = (0..m).map(|i| tube.beyond(0.0, i, s));
         let v = (0..m).map(|i| tube.slope(i, s) * self.along / tube.advance);
-        let z: Vec<Interval> = x.chain(v).chain([tube.time(s)]).collect();
+        let z: Vec<Interval> = x.chain(v).chain([tube.beyond(0.0, m, s)]).collect();
         self.place.covers(&z)
     }
 }
@@ -78,7 +83,7 @@ pub fn keeps(
     signs: &[(Vec<u32>, bool)],
 ) -> Result<(), (Interval, bool)> {
     let all = |s: Interval, test: &dyn Fn(Interval) -> bool| {
-        let z: Vec<Interval> = (0..eq.m).map(|i| tube.at(i, s)).collect();
+        let z: Vec<Interval> = (0..eq.m).map(|i| tube.beyond(0.0, i, s)).collect();
         let mut values = signs.iter().map(|(points, positive)| {
             let value = determinant(eq, &z, points);
             if *positive { value } else { -value }

@@ -83,10 +83,10 @@ impl Chain {
         let tubes: Vec<_> = tubes.collect();
         // How many solutions are listed up to each tube.
         let mut listed = Vec::new();
-        for (_, solutions) in claims {
+        for (tube, solutions) in claims {
             for solution in solutions {
                 let number = self.solutions.len() + 1;
-                let solution = Place::solution(eq, solution);
+                let solution = Place::solution(eq, solution, tube);
                 let solution = solution.map_err(|f| flaw(f.is_false, Flaw::Solution(number, f)));
                 self.solutions.push(solution?);
             }
@@ -96,7 +96,10 @@ impl Chain {
         if let (None, Some((claim, _))) = (&self.last, claims.first()) {
             let start = direction(eq, claim, &self.from).unwrap_or_default();
             if self.turned {
-                let along = component(&self.start, &tubes[0].as_ref().map_err(Outcome::clone)?.normal);
+                let along = component(
+                    &self.start,
+                    &tubes[0].as_ref().map_err(Outcome::clone)?.normal,
+                );
                 if !(along.sup() < 0.0) {
                     return Err(flaw(along.inf() > 0.0, Flaw::Turn(first)));
                 }
@@ -110,8 +113,8 @@ impl Chain {
             (Some(Record::End(end)), _) if self.arc.is_none() && end.ending == Ending::Complete => {
                 Goal::Sketch
             }
-            (Some(Record::Reached(claim)), _) => {
-                let place = Place::solution(eq, claim);
+            (Some(Record::Reached(claim)), Some((tube, _))) => {
+                let place = Place::solution(eq, claim, tube);
                 Goal::Figure(place.map_err(|f| flaw(f.is_false, Flaw::Figure(arc, f)))?)
             }
             (Some(Record::Fold(claim)), Some((tube, _))) => {
@@ -126,7 +129,11 @@ impl Chain {
                 _ => Some(tubes[k - 1].as_ref().map_err(Outcome::clone)?),
             };
             let tube = tubes[k].as_ref().map_err(Outcome::clone)?;
-            let goal = if k + 1 == tubes.len() { &goal } else { &Goal::On };
+            let goal = if k + 1 == tubes.len() {
+                &goal
+            } else {
+                &Goal::On
+            };
             let solutions = &self.solutions[..listed[k]];
             let stretch = self.join((first + k as u64, arc), before, tube, goal, solutions)?;
             Ok((tube.margin, stretch))
@@ -137,7 +144,8 @@ impl Chain {
             verdict.tubes += 1;
             verdict.margin = verdict.margin.min(margin);
             let (low, high) = verdict.t_range;
-            verdict.t_range = (low.min(stretch.t.inf()), high.max(stretch.t.sup()));
+            let t = stretch.t + point(1.0);
+            verdict.t_range = (low.min(t.inf()), high.max(t.sup()));
             for k in stretch.unknown {
                 self.met[k] = self.met[k].filter(|&met| met);
             }

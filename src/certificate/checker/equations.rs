@@ -1,8 +1,9 @@
 //! The equations q_e(X) = E_e(t) in intervals: 2 q_e is a sum of products of differences, with whole
 //! factors, and E_e a polynomial in t. For a distance 2 q_e = |p_i − p_j|² and 2 E_e = a_e².
 
-use crate::interval::{Interval, point};
+use crate::interval::{DoubleDouble, Interval, point};
 use crate::system::Homotopy;
+use std::sync::OnceLock;
 
 /// A factor, and the two forms that it multiplies.
 pub type Product = (i64, [usize; 2]);
@@ -21,7 +22,11 @@ pub struct Equations {
     pub positive: Vec<usize>,
     /// Per equation the terms of all 2 ∂q_e/∂x_i: i, a factor, and the form that it multiplies.
     pub gradient: Vec<Vec<(usize, i64, usize)>>,
+    doubles: OnceLock<Vec<Doubles>>,
 }
+
+/// Coefficients of E_e(t) to twice a float's digits, and how far the exact ones may be from that.
+type Doubles = [(DoubleDouble, f64); 5];
 
 /// No equation has a larger sum of factors, so that its sums of products fit into an `i128`.
 const MAX_FACTORS: i64 = 1 << 12;
@@ -74,7 +79,14 @@ impl Equations {
             forms,
             products,
             homotopy,
+            doubles: OnceLock::new(),
         }
+    }
+
+    /// The coefficients of all E_e(t), for points of more than 53 bits.
+    pub fn doubles(&self) -> &[Doubles] {
+        let rights = || self.homotopy.rights.iter().map(|right| right.doubles());
+        self.doubles.get_or_init(|| rights().collect())
     }
 
     /// The equations F(X, t) = 0 and J v = 0, J = ∂F/∂X, in the unknowns (X, v) and t.

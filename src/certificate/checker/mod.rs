@@ -6,6 +6,7 @@
 mod arc;
 mod chain;
 mod equations;
+mod extended;
 mod guess;
 mod krawczyk;
 mod place;

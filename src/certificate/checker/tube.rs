@@ -11,15 +11,18 @@ use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
-/// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ), φ' at
+/// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ),
+/// and at most `distances[0] + |σ| distances[1]`, φ' at
 /// most `slope_distance` from ẑ'.
 pub struct Tube {
-    /// Coefficients of ẑ.
+    /// Coefficients of ẑ, and what z₀ is more than its floats.
     pub z: Vec<Vec<f64>>,
+    pub low: Vec<Interval>,
     pub normal: Vec<f64>,
     pub u: Vec<Interval>,
     r: Interval,
     pub distance: Interval,
+    distances: [Interval; 2],
     slope_distance: Interval,
     /// c·ẑ'(σ), positive.
     pub advance: Interval,
@@ -39,7 +42,7 @@ pub struct Stretch {
     pub met: Vec<usize>,
     /// Solutions of which it is not known whether they are in it.
     pub unknown: Vec<usize>,
-    /// The range of t.
+    /// The range of t − 1.
     pub t: Interval,
 }
 
@@ -61,7 +64,10 @@ impl<'a> Work<'a> {
     fn new(eq: &'a Equations, claim: &TubeClaim) -> Result<Work<'a>, Fault> {
         let c: Vec<f64> = claim.normal.iter().map(|&c| c.into()).collect();
         let (u, r) = (&claim.weights, point(claim.r.into()));
-        let mut curve = Curve::at(eq, &claim.centre)?;
+        let mut curve = match claim.low.is_empty() {
+            true => Curve::at(eq, &claim.centre)?,
+            false => Curve::at_sum(eq, &claim.centre, &claim.low)?,
+        };
         let at = curve.section(&c, u, scale(&curve, &c, u))?;
         let inverse = Inverse::new(&at)?;
         expand(&mut curve, &inverse, claim.h)?;
@@ -82,10 +88,13 @@ impl<'a> Work<'a> {
     /// Encloses φ(s): for any w in the box, |w − w*| ≤ |Ỹ G(w)| / (1 − q) for the zero w*.
     fn spot(&self, s: f64, moving: &Moving) -> Option<Spot> {
         let (z, u) = (&self.curve.z, || self.at.u.iter().map(|&u| weight(u)));
-        let there = Curve::at(self.curve.eq, &moving.zero(s, ENOUGH * self.r.sup())).ok()?;
+        let there = moving.zero(s, ENOUGH * self.r.sup()).ok()?;
         let near = there.z[0].clone();
         let s = point(s);
-        let off = |i: usize| exact(near[i]) - point(z[0][i]) - polynomial(&z[1..], i, s) * s;
+        let off = |i: usize| {
+            let low = there.low_of(i) - self.curve.low_of(i);
+            exact(near[i]) - point(z[0][i]) + low - polynomial(&z[1..], i, s) * s
+        };
         let off: Vec<Interval> = (0..near.len()).map(off).collect();
         let mut inside = off.iter().zip(u());
         if !inside.all(|(&off, u)| size(off).sup() < (self.r * u).inf()) {
@@ -94,8 +103,12 @@ impl<'a> Work<'a> {
         let mut f = there.residual(0);
         f.push(component(&off, &self.at.c));
         let distance = self.proof.inverse * self.inverse.whole.image(&f);
-        let rest = u().map(|u| around(distance * u)).collect();
-        Some(Spot { near, rest })
+        let rest = u().enumerate();
+        let rest = rest.map(|(i, u)| there.low_of(i) + around(distance * u));
+        Some(Spot {
+            rest: rest.collect(),
+            near,
+        })
     }
 
     /// The path's direction T, c·T = 1, at a point φ(σ) of it near φ(s):
@@ -139,7 +152,7 @@ impl Tube {
         }
         let least = |i: usize| {
             let away = around(work.proof.distance * weight(work.at.u[i]));
-            (polynomial(&work.curve.z, i, around(point(1.0))) + away).inf()
+            (polynomial(&work.curve.z, i, around(point(1.0))) + work.curve.low_of(i) + away).inf()
         };
         if !eq.positive.iter().all(|&i| least(i) > 0.0) {
             return Err(Fault::because(
@@ -155,10 +168,12 @@ impl Tube {
             exit_direction: work.direction(&exit, exit_at, &moving),
             exit_at,
             exit,
+            low: (0..=eq.m).map(|i| work.curve.low_of(i)).collect(),
             z: work.curve.z,
             u: claim.weights.iter().map(|&u| weight(u)).collect(),
             r: work.r,
             distance: work.proof.distance,
+            distances: work.proof.distances,
             slope_distance: work.proof.slope_distance,
             advance,
             margin: work.proof.margin,
@@ -166,10 +181,15 @@ impl Tube {
         })
     }
 
+    /// How far a point is from z₀.
+    pub fn off(&self, z: &Spot, i: usize) -> Interval {
+        z.minus(&self.z[0], i) - self.low[i]
+    }
+
     /// The parameters in [−1, 1] in whose cross-sections a point may be, and if that is all within there it
     /// is in one: g(σ) = c·(z − ẑ(σ)) falls with slope −c·ẑ', and this is Newton's interval around 0.
     pub fn parameter(&self, z: &Spot) -> Interval {
-        let off: Vec<Interval> = (0..self.u.len()).map(|i| z.minus(&self.z[0], i)).collect();
+        let off: Vec<Interval> = (0..self.u.len()).map(|i| self.off(z, i)).collect();
         component(&off, &self.normal) / self.advance
     }
 
@@ -178,16 +198,19 @@ impl Tube {
         let s = self.parameter(z);
         let inside = |i: usize| {
             let along = polynomial(&self.z[1..], i, s) * s;
-            size(z.minus(&self.z[0], i) - along).sup() < (self.r * self.u[i]).inf()
+            size(self.off(z, i) - along).sup() < (self.r * self.u[i]).inf()
         };
         (s.mag() <= 1.0 && (0..self.u.len()).all(inside)).then_some(s)
     }
 
-    /// An entry of the path for all parameters of a range.
-    pub fn at(&self, i: usize, s: Interval) -> Interval {
+    /// An entry of the path for all parameters of a range, beyond a number.
+    pub fn beyond(&self, base: f64, i: usize, s: Interval) -> Interval {
         let middle = exact(s.mid());
+        let way = polynomial(&self.z[1..], i, middle) * middle;
         let change = derivative(&self.z, i, s) * (s - middle);
-        polynomial(&self.z, i, middle) + change + around(self.distance * self.u[i])
+        let start = (point(self.z[0][i]) - point(base)) + self.low[i];
+        let [constant, growing] = self.distances;
+        start + (way + change + around((constant + growing * size(s)) * self.u[i]))
     }
 
     /// The same of its derivative by σ.
@@ -195,9 +218,9 @@ impl Tube {
         derivative(&self.z, i, s) + around(self.slope_distance * self.u[i])
     }
 
-    /// t on the path for all parameters of a range.
+    /// t − 1 on the path for all parameters of a range.
     pub fn time(&self, s: Interval) -> Interval {
-        self.at(self.u.len() - 1, s)
+        self.beyond(1.0, self.u.len() - 1, s)
     }
 
     /// dt/dσ on the path for all parameters of a range.
@@ -214,7 +237,7 @@ impl Tube {
             .unwrap_or(Interval::ENTIRE);
         let (met, unknown) = (Vec::new(), Vec::new());
         let mut stretch = Stretch { met, unknown, t };
-        if !t.contains(1.0) {
+        if !t.contains(0.0) {
             return Ok(stretch);
         }
         // The solutions that are in this tube, and where.
@@ -230,11 +253,9 @@ impl Tube {
         // Where t is monotone from a solution on, it is the only one.
         let holds = |part: Interval| {
             let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
-            !self.time(part).contains(1.0) || here.iter().any(only)
+            !self.time(part).contains(0.0) || here.iter().any(only)
         };
-        everywhere(range, holds, |part| {
-            refute::missing(self, part, solutions)
-        })?;
+        everywhere(range, holds, |part| refute::missing(self, part, solutions))?;
         Ok(stretch)
     }
 }
@@ -308,11 +329,12 @@ mod tests {
                     let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
                     // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
-                    let (curve, ..) = newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
+                    let (curve, ..) =
+                        newton(&eq, (&middle, false), &tube.normal, &claim.weights).unwrap();
                     // With the inverse there.
                     let middle = curve.z[0][..n].to_vec();
                     let (curve, _, inverse) =
-                        newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
+                        newton(&eq, (&middle, false), &tube.normal, &claim.weights).unwrap();
                     let mut last = vec![0.0; n];
                     last[n - 1] = 1.0;
                     let tangent = inverse.times(&last);
