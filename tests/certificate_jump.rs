@@ -210,6 +210,7 @@ impl Plain {
         for (k, (z, c)) in points.iter().enumerate() {
             let (before, after) = (if k == 0 { 0.0 } else { gaps[k - 1] }, gaps[k]);
             records.push(Record::Tube(TubeClaim {
+                low: Vec::new(),
                 centre: z.iter().copied().collect(),
                 normal: c.iter().map(|&c| c as f32).collect(),
                 weights: vec![u16::MAX; self.n],

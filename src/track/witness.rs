@@ -35,14 +35,14 @@ pub trait Witness {
     /// `radius`, per free coordinate.
     fn solution(&mut self, centre: &[f64], radius: &[f64]);
     /// What follows are the tubes the other way from the sketch.
-    fn turn(&mut self);
-    /// The way back is over. Unless it is `kept` its tubes and solutions are forgotten.
-    fn end_turn(&mut self, kept: bool);
+    fn turn(&mut self) {}
+    /// The way back is over. Unless it is kept its tubes and solutions are forgotten.
+    fn end_turn(&mut self, _kept: bool) {}
     /// An edit: what follows are tubes of an arc from the figure at hand, along which these distances are led to these
     /// lengths. An arc that was begun and did not end is given up.
-    fn begin_arc(&mut self, lengths: &[(usize, &Target)]);
+    fn begin_arc(&mut self, _lengths: &[(usize, &Target)]) {}
     /// The arc is over.
-    fn end_arc(&mut self, run: &ArcRun);
+    fn end_arc(&mut self, _run: &ArcRun) {}
     /// The run is over; `classes` has the class of every solution seen.
     fn end(&mut self, status: &Status, classes: &[usize]);
 }
