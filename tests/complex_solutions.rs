@@ -48,7 +48,11 @@ fn known_counts_and_what_is_proved_of_them() {
         ("prism", [48, 24, 12, 12], Status::Complete),
         // The bound of the graph is 128.
         ("disulfide", [256, 64, 32, 18], Status::Found),
-        ("constraints/3p3l-orthogonal", [960, 240, 120, 4], Status::Found),
+        (
+            "constraints/3p3l-orthogonal",
+            [960, 240, 120, 4],
+            Status::Found,
+        ),
     ] {
         let (_, lowered, solutions) = solved(name);
         assert_eq!(counts(&solutions), expected, "{name}");
@@ -119,7 +123,12 @@ fn a_template_is_filled_from_one_random_figure() {
                 ..Filling::default()
             };
             let fibre = fill(&lowered.system, &filling).unwrap();
-            assert_eq!(fibre.solutions.len(), count, "{name} {seed}: {:?}", fibre.failed);
+            assert_eq!(
+                fibre.solutions.len(),
+                count,
+                "{name} {seed}: {:?}",
+                fibre.failed
+            );
         }
     }
 }
@@ -166,9 +175,16 @@ fn there_and_back_is_the_identity_and_loops_are_permutations() {
         for (k, (there, again)) in pairs.iter().enumerate() {
             // Home again, in the same box.
             let only_itself = &system.group[..1];
-            assert_eq!(template.solutions.find(again, only_itself, false), Found::Old(k));
+            assert_eq!(
+                template.solutions.find(again, only_itself, false),
+                Found::Old(k)
+            );
             // No two came to the same place.
-            assert_eq!(far.find(there, &system.group, false), Found::New, "{name} {k}");
+            assert_eq!(
+                far.find(there, &system.group, false),
+                Found::New,
+                "{name} {k}"
+            );
             far.push(there.clone());
         }
         // Another way back makes a permutation.
@@ -184,7 +200,10 @@ fn there_and_back_is_the_identity_and_loops_are_permutations() {
             let Found::Old(k) = template.solutions.find(&end, &system.group, false) else {
                 panic!("{name}: a full fibre has no other solution");
             };
-            assert!(!std::mem::replace(&mut hit[k], true), "{name}: two came to {k}");
+            assert!(
+                !std::mem::replace(&mut hit[k], true),
+                "{name}: two came to {k}"
+            );
         }
     }
 }
@@ -200,7 +219,10 @@ fn damaged_templates_are_refused() {
     let mut twice = whole.clone();
     twice["solutions"][3] = whole["solutions"][5].clone();
     let error = read(&twice).unwrap_err().to_string();
-    assert!(error.contains("solution 6") && error.contains("again"), "{error}");
+    assert!(
+        error.contains("solution 6") && error.contains("again"),
+        "{error}"
+    );
 
     let mut moved = whole.clone();
     for part in moved["solutions"][2].as_array_mut().unwrap() {
@@ -217,7 +239,9 @@ fn damaged_templates_are_refused() {
 
     // Of another graph.
     let (_, other) = shipped("prism");
-    let error = Template::read(&text, &other.system).unwrap_err().to_string();
+    let error = Template::read(&text, &other.system)
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("octahedron"), "{error}");
 
     // A path that is dropped is missed: nothing is called complete.
@@ -225,5 +249,8 @@ fn damaged_templates_are_refused() {
     dropped["solutions"].as_array_mut().unwrap().pop();
     let template = read(&dropped).unwrap();
     let solutions = solve(&lowered, &template, &Ways::default());
-    assert_eq!((solutions.boxes.len(), solutions.status), (7, Status::Found));
+    assert_eq!(
+        (solutions.boxes.len(), solutions.status),
+        (7, Status::Found)
+    );
 }

@@ -53,12 +53,26 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
     let lowered = lower(&problem).map_err(|error| format!("{file}: {error}"))?;
-    for given in [Some(&arguments.file), arguments.template.as_ref()].into_iter().flatten() {
-        if arguments.json.as_ref().is_some_and(|json| output::is_same_file(json, given)) {
-            return Err(format!("{}: is read; name another file for the results", given.display()));
+    for given in [Some(&arguments.file), arguments.template.as_ref()]
+        .into_iter()
+        .flatten()
+    {
+        if arguments
+            .json
+            .as_ref()
+            .is_some_and(|json| output::is_same_file(json, given))
+        {
+            return Err(format!(
+                "{}: is read; name another file for the results",
+                given.display()
+            ));
         }
     }
-    let json = arguments.json.as_deref().map(Destination::new).transpose()?;
+    let json = arguments
+        .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let tell = |done: usize, all: usize| {
         if let Ok(mut line) = line.lock() {
@@ -82,7 +96,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             }
             None => {
                 let fibre = arguments.search.fill(&lowered, &line);
-                Template::new(&problem.name, fibre.map_err(|error| format!("{file}: {error}"))?)
+                Template::new(
+                    &problem.name,
+                    fibre.map_err(|error| format!("{file}: {error}"))?,
+                )
             }
         };
         Ok::<_, String>(solve(&lowered, &template, &ways))
@@ -96,7 +113,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= json.write(&(complex_to_json(&problem, &lowered, &result) + "\n"));
     }
     if !arguments.quiet && json != Some(Destination::StandardOutput) {
-        written &= output::print(&complex_to_table(&problem, &lowered, &result, arguments.all));
+        written &= output::print(&complex_to_table(
+            &problem,
+            &lowered,
+            &result,
+            arguments.all,
+        ));
     }
     Ok(match result.status {
         _ if !written => BAD_INPUT,

@@ -77,7 +77,9 @@ impl Search {
             progress: Some(&tell),
             ways: Ways {
                 cancel: Some(interrupt::flag()),
-                deadline: self.time.map(|s| Instant::now() + Duration::from_secs_f64(s)),
+                deadline: self
+                    .time
+                    .map(|s| Instant::now() + Duration::from_secs_f64(s)),
                 ..plain.ways
             },
         };
@@ -95,12 +97,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
     let lowered = lower(&problem).map_err(|error| format!("{file}: {error}"))?;
     if output::is_same_file(&arguments.out, &arguments.file) {
-        return Err(format!("{file}: is the problem itself; name another file for the template"));
+        return Err(format!(
+            "{file}: is the problem itself; name another file for the template"
+        ));
     }
     let out = Destination::new(&arguments.out)?;
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let begin = Instant::now();
-    let fibre = arguments.search.in_pool(|| arguments.search.fill(&lowered, &line))?;
+    let fibre = arguments
+        .search
+        .in_pool(|| arguments.search.fill(&lowered, &line))?;
     if let Ok(line) = line.into_inner() {
         line.clear();
     }
@@ -128,7 +134,10 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
     );
     let full = match (&lowered.bound, lowered.enough()) {
         (Some(bound), Some(enough)) if enough == fibre.solutions.len() => {
-            format!("Full, proved: {found}; {} is {}.", bound.source, bound.count)
+            format!(
+                "Full, proved: {found}; {} is {}.",
+                bound.source, bound.count
+            )
         }
         (Some(bound), _) => format!(
             "{found}, each proved. That these are all is not proved: {} is {} up to rotation; the last {} ways found \

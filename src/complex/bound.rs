@@ -53,7 +53,8 @@ pub fn bound(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Option<Bo
     }
     Some(Bound {
         count,
-        source: "the multi-homogeneous Bézout bound of the graph (Bartzos, Emiris, Schicho 2020)".to_owned(),
+        source: "the multi-homogeneous Bézout bound of the graph (Bartzos, Emiris, Schicho 2020)"
+            .to_owned(),
         fixed,
     })
 }
@@ -122,7 +123,8 @@ fn orientations(left: &mut [u8], edges: &[[usize; 2]], free: &[usize]) -> Option
         let degree = |p: usize| remaining.iter().filter(|e| e.contains(&p)).count();
         let at = (0..rest.len()).min_by_key(|&k| degree(rest[k]))?;
         let point = rest.swap_remove(at);
-        let (its, others): (Vec<_>, Vec<_>) = remaining.into_iter().partition(|e| e.contains(&point));
+        let (its, others): (Vec<_>, Vec<_>) =
+            remaining.into_iter().partition(|e| e.contains(&point));
         remaining = others;
         for edge in its {
             let mut next: HashMap<Vec<u8>, u128> = HashMap::new();
@@ -151,11 +153,17 @@ mod tests {
 
     fn of(problem: &Problem) -> u128 {
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
-        bound(problem.dimension, problem.points.len(), &edges).unwrap().count
+        bound(problem.dimension, problem.points.len(), &edges)
+            .unwrap()
+            .count
     }
 
     fn shipped(name: &str) -> Problem {
-        Problem::read(format!("{}/problems/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap()
+        Problem::read(format!(
+            "{}/problems/{name}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .unwrap()
     }
 
     #[test]

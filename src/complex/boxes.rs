@@ -126,7 +126,10 @@ impl SolutionSet {
         // Lower ends further away than the widest key belong to keys that are disjoint from this one.
         let (low, high) = ((key.inf() - self.widest).next_down(), key.sup());
         let first = self.keys.partition_point(|k| k.0 < low);
-        self.keys[first..].iter().take_while(move |k| k.0 <= high).map(|k| k.1)
+        self.keys[first..]
+            .iter()
+            .take_while(move |k| k.0 <= high)
+            .map(|k| k.1)
     }
 
     /// Which of the set's solutions a box holds, up to a group; or the conjugate of which.

@@ -157,7 +157,10 @@ pub fn follow_all(
     let homotopy = system.homotopy();
     let done = AtomicUsize::new(0);
     // One follower for each piece of work: setting it up costs as much as a few tubes.
-    let piece = starts.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+    let piece = starts
+        .len()
+        .div_ceil(4 * rayon::current_num_threads())
+        .max(1);
     let results: Vec<(Vec<PathEnd>, Effort)> = starts
         .par_chunks(piece)
         .map(|starts| {
@@ -193,7 +196,10 @@ pub fn prove_all(
     points: &[Vec<f64>],
 ) -> Vec<Result<SolutionBox, String>> {
     let homotopy = system.homotopy();
-    let piece = points.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+    let piece = points
+        .len()
+        .div_ceil(4 * rayon::current_num_threads())
+        .max(1);
     points
         .par_chunks(piece)
         .flat_map_iter(|points| {

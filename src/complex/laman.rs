@@ -123,7 +123,8 @@ fn count(g: &Graph, h: &Graph, known: &mut HashMap<(Graph, Graph), u128>) -> Opt
     let mut sum: u128 = 0;
     for x in 1..others {
         let y = others & !x;
-        let (Some(g_x), Some(h_y)) = (quotient(g, y, x, special), quotient(h, x, y, special)) else {
+        let (Some(g_x), Some(h_y)) = (quotient(g, y, x, special), quotient(h, x, y, special))
+        else {
             continue;
         };
         let first = count(&g_x, &restricted(h, x), known)?;
@@ -154,7 +155,17 @@ mod tests {
         assert_eq!(number(&triangle), Some(2));
         let two = [[0, 1], [1, 2], [0, 2], [1, 3], [2, 3]];
         assert_eq!(number(&two), Some(4));
-        let prism = [[0, 1], [1, 2], [0, 2], [3, 4], [4, 5], [3, 5], [0, 3], [1, 4], [2, 5]];
+        let prism = [
+            [0, 1],
+            [1, 2],
+            [0, 2],
+            [3, 4],
+            [4, 5],
+            [3, 5],
+            [0, 3],
+            [1, 4],
+            [2, 5],
+        ];
         assert_eq!(number(&prism), Some(24));
         let mut k33 = Vec::new();
         for a in 0..3 {
@@ -169,7 +180,17 @@ mod tests {
     fn the_greatest_with_seven_vertices_is_known() {
         // Capco et al., table 1: 56; the graph is that of figure 5.
         let graph = [
-            [0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 6], [4, 6], [5, 6], [5, 3],
+            [0, 1],
+            [0, 2],
+            [0, 3],
+            [1, 2],
+            [1, 4],
+            [2, 5],
+            [3, 4],
+            [3, 6],
+            [4, 6],
+            [5, 6],
+            [5, 3],
         ];
         let number = number(&graph).unwrap();
         assert!(number > 0 && number <= 56 && number % 2 == 0, "{number}");

@@ -49,7 +49,10 @@ struct Given {
 
 fn given(problem: &Problem) -> Option<Given> {
     let lines: Vec<usize> = (0..problem.objects.len()).collect();
-    let are_lines = problem.objects.iter().all(|o| matches!(o.shape, Shape::FreeLine { .. }));
+    let are_lines = problem
+        .objects
+        .iter()
+        .all(|o| matches!(o.shape, Shape::FreeLine { .. }));
     let lines: [usize; 3] = lines.try_into().ok()?;
     if problem.dimension != 3 || !are_lines {
         return None;
@@ -127,7 +130,11 @@ pub fn lower(problem: &Problem) -> Option<System> {
         push(format!("y of the direction of {}", name(1)), 0, s);
         push(format!("x of the direction of {}", name(2)), 0, c);
         push(format!("y of the direction of {}", name(2)), 0, s);
-        push(format!("z of the direction of {}", name(2)), 0, [true, false, true]);
+        push(
+            format!("z of the direction of {}", name(2)),
+            0,
+            [true, false, true],
+        );
     }
     let height = first + HEIGHT;
     let foot = FOOT.map(|k| first + k);
@@ -214,7 +221,11 @@ pub fn lower(problem: &Problem) -> Option<System> {
         let half = Exact::whole(1).over(&Exact::whole(2))?;
         add(angle(0, 1), vec![times(2, c2, None)], parameter(0));
         add(angle(0, 2), vec![times(2, c3, None)], parameter(1));
-        add(angle(1, 2), vec![times(2, c2, c3), times(2, s2, a)], parameter(2));
+        add(
+            angle(1, 2),
+            vec![times(2, c2, c3), times(2, s2, a)],
+            parameter(2),
+        );
         add(
             format!("length of the direction of {}", name(1)),
             vec![times(1, c2, c2), times(1, s2, s2)],
@@ -235,11 +246,17 @@ pub fn lower(problem: &Problem) -> Option<System> {
         dimension: 3,
         unknowns,
         equations,
-        points: (0..points).map(|p| [0, 1, 2].map(|axis| Some(coordinate(p, axis)))).collect(),
+        points: (0..points)
+            .map(|p| [0, 1, 2].map(|axis| Some(coordinate(p, axis))))
+            .collect(),
         unit,
         group: Vec::new(),
         group_of_instance: Vec::new(),
-        start: if are_orthogonal { Start::Any } else { Start::Lines },
+        start: if are_orthogonal {
+            Start::Any
+        } else {
+            Start::Lines
+        },
         positions: 1,
         gauge: format!(
             "{} is the x axis, {} meets the z axis at a right angle",

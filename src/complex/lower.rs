@@ -119,7 +119,10 @@ fn general(problem: &Problem) -> Result<Lowered, Unserved> {
     let head = homotopy.edges.len();
     let equations = (0..n).map(|e| {
         let (power, right) = match problem.distances.get(e) {
-            Some(distance) if e < head => (2, Kind::Parameter([half_square(&distance.target), Real::zero()])),
+            Some(distance) if e < head => (
+                2,
+                Kind::Parameter([half_square(&distance.target), Real::zero()]),
+            ),
             _ => {
                 let equation = &homotopy.tail.equations[e - head];
                 (equation.power, right_of(&equation.right))
@@ -138,14 +141,20 @@ fn general(problem: &Problem) -> Result<Lowered, Unserved> {
         .map(|p| std::array::from_fn(|axis| homotopy.coordinate(p, axis)))
         .collect();
     let (mut start, mut positions) = (Start::Any, 1);
-    if let Some(bound) = bound.as_ref().filter(|bound| bound.fixed == problem.homotopy.reference)
+    if let Some(bound) = bound
+        .as_ref()
+        .filter(|bound| bound.fixed == problem.homotopy.reference)
         && let Some(unknowns) = place(&problem, &homotopy, &bound.fixed, &mut equations)
     {
         start = Start::Placed(unknowns, if d == 2 { 1 } else { 3 });
         // The signs of the reference's coordinates.
         positions = if d == 2 { 2 } else { 4 };
     }
-    let names = problem.homotopy.reference.iter().map(|&p| problem.points[p].name.as_str());
+    let names = problem
+        .homotopy
+        .reference
+        .iter()
+        .map(|&p| problem.points[p].name.as_str());
     let names: Vec<&str> = names.collect();
     let system = System {
         dimension: d,
@@ -166,7 +175,9 @@ fn general(problem: &Problem) -> Result<Lowered, Unserved> {
         },
     };
     // The bound is about figures that stand on what it holds fixed.
-    let bound = bound.filter(|bound| bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed));
+    let bound = bound.filter(|bound| {
+        bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed)
+    });
     Ok(Lowered {
         system: system.with_groups(),
         bound,
@@ -217,7 +228,11 @@ fn place(
             if !area.is_positive() || !u.is_positive() {
                 return None;
             }
-            let unknowns = [homotopy.coordinate(b, 0)?, homotopy.coordinate(c, 0)?, homotopy.coordinate(c, 1)?];
+            let unknowns = [
+                homotopy.coordinate(b, 0)?,
+                homotopy.coordinate(c, 0)?,
+                homotopy.coordinate(c, 1)?,
+            ];
             let length = Real::from(u).sqrt();
             let below = &length * &Real::whole(2);
             put(ab, unknowns[0], length);

@@ -28,6 +28,9 @@ pub struct Fibre {
     pub failed: (usize, Option<String>),
 }
 
+/// Told of the solutions so far, and the effort.
+pub type Tell<'a> = dyn Fn(usize, &Effort) + Sync + 'a;
+
 /// When to stop filling.
 #[derive(Clone, Copy)]
 pub struct Filling<'a> {
@@ -38,7 +41,7 @@ pub struct Filling<'a> {
     /// Stop after so many ways in a row without a new solution.
     pub patience: usize,
     /// Called after each way with the solutions so far, and the effort.
-    pub progress: Option<&'a (dyn Fn(usize, &Effort) + Sync)>,
+    pub progress: Option<&'a Tell<'a>>,
     /// How to follow paths.
     pub ways: Ways<'a>,
 }
@@ -140,7 +143,9 @@ fn seed(system: &System, random: &mut Random) -> Result<(StartFigure, SolutionBo
         match Follower::new(system.homotopy(), &rights, &Ways::default()).prove(&near) {
             Ok(found) => return Ok((figure, found)),
             Err(reason) => {
-                why = format!("random figures are singular: {reason}; the constraints depend on each other");
+                why = format!(
+                    "random figures are singular: {reason}; the constraints depend on each other"
+                );
             }
         }
     }
@@ -148,7 +153,7 @@ fn seed(system: &System, random: &mut Random) -> Result<(StartFigure, SolutionBo
 }
 
 /// How far the parameters of a way leave the straight one: about as far as they are from zero.
-pub(super) fn bow(system: &System, random: &mut Random) -> Vec<Parameter> {
+pub fn bow(system: &System, random: &mut Random) -> Vec<Parameter> {
     let size = Exact::whole(BOW);
     let of = |equation: &Equation| match (&equation.right, equation.bows) {
         (Kind::Parameter(_), true) => random.complex().times(&size).parts(),
@@ -174,7 +179,9 @@ fn exhaust(
         _ => (&*there, &mut fibre.solutions),
     };
     way.known[end].resize(from.len(), None);
-    let open: Vec<usize> = (0..from.len()).filter(|&k| way.known[end][k].is_none()).collect();
+    let open: Vec<usize> = (0..from.len())
+        .filter(|&k| way.known[end][k].is_none())
+        .collect();
     if open.is_empty() {
         return false;
     }

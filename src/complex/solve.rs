@@ -159,7 +159,9 @@ impl Solutions {
     /// The indices of the solutions that are proved real.
     pub fn real(&self) -> impl Iterator<Item = usize> + '_ {
         let natures = self.natures.iter().enumerate();
-        natures.filter(|(_, nature)| **nature == Nature::Real).map(|(k, _)| k)
+        natures
+            .filter(|(_, nature)| **nature == Nature::Real)
+            .map(|(k, _)| k)
     }
 
     /// The counts in words.

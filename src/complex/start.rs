@@ -34,9 +34,9 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
     let mut defined: Vec<Option<usize>> = vec![None; n];
     for (e, equation) in system.equations.iter().enumerate() {
         if let Kind::Fixed(_) = equation.right {
-            let alone = (0..n).rev().find(|&u| {
-                defined[u].is_none() && values[u].is_none() && is_linear(system, e, u)
-            });
+            let alone = (0..n)
+                .rev()
+                .find(|&u| defined[u].is_none() && values[u].is_none() && is_linear(system, e, u));
             if let Some(unknown) = alone {
                 defined[unknown] = Some(e);
             }
@@ -120,7 +120,9 @@ fn solve(
             .collect()
     };
     let at_zero = system.evaluate(equation, &at(Exact::zero()));
-    let slope = system.evaluate(equation, &at(Exact::whole(1))).minus(&at_zero);
+    let slope = system
+        .evaluate(equation, &at(Exact::whole(1)))
+        .minus(&at_zero);
     let Kind::Fixed(right) = &system.equations[equation].right else {
         return None;
     };

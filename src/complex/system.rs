@@ -172,16 +172,18 @@ impl System {
                 .unknowns
                 .iter()
                 .map(|u| {
-                    let reversed = (0..self.dimension).filter(|&k| axes >> k & 1 == 1 && u.flips[k]);
+                    let reversed =
+                        (0..self.dimension).filter(|&k| axes >> k & 1 == 1 && u.flips[k]);
                     reversed.count() % 2 == 1
                 })
                 .collect();
-            let is_symmetry = self.equations.iter().all(|equation| {
-                match sign_of(equation, &changes) {
-                    Some(reversed) => !reversed || vanishes(equation),
-                    None => false,
-                }
-            });
+            let is_symmetry =
+                self.equations
+                    .iter()
+                    .all(|equation| match sign_of(equation, &changes) {
+                        Some(reversed) => !reversed || vanishes(equation),
+                        None => false,
+                    });
             // Two sets of axes may change the same signs.
             if is_symmetry && !group.iter().any(|s: &Signs| s.changes == changes) {
                 group.push(Signs {
@@ -197,7 +199,13 @@ impl System {
     pub fn structure(&self) -> String {
         let mut text = format!("{} {:?}\n", self.unknowns.len(), self.start);
         let n = self.unknowns.len();
-        let end = |i: usize| if i < n { format!("z{i}") } else { "0".to_owned() };
+        let end = |i: usize| {
+            if i < n {
+                format!("z{i}")
+            } else {
+                "0".to_owned()
+            }
+        };
         for equation in &self.equations {
             for term in &equation.terms {
                 let form = |form: Option<[usize; 2]>| match form {

@@ -84,7 +84,9 @@ impl Template {
         let near = |solution: &super::boxes::SolutionBox| {
             let middles = solution.figure.centre.iter();
             // Newton's method has the rest again.
-            middles.map(|x| format!("{x:.9e}").parse().expect("a number")).collect()
+            middles
+                .map(|x| format!("{x:.9e}").parse().expect("a number"))
+                .collect()
         };
         let file = File {
             version: VERSION,
@@ -92,7 +94,11 @@ impl Template {
             structure: system.structure(),
             ways: self.ways,
             idle: self.idle,
-            parameters: self.parameters.iter().map(|p| [text(&p[0]), text(&p[1])]).collect(),
+            parameters: self
+                .parameters
+                .iter()
+                .map(|p| [text(&p[0]), text(&p[1])])
+                .collect(),
             solutions: self.solutions.boxes().iter().map(near).collect(),
         };
         serde_json::to_string(&file).expect("text") + "\n"
@@ -112,7 +118,10 @@ impl Template {
         }
         let n = system.unknowns.len();
         let is_whole = file.parameters.len() == n
-            && file.solutions.iter().all(|s| s.len() == 2 * n && s.iter().all(|x| x.is_finite()));
+            && file
+                .solutions
+                .iter()
+                .all(|s| s.len() == 2 * n && s.iter().all(|x| x.is_finite()));
         if !is_whole {
             let what = format!("parameters and solutions of {n} unknowns are wanted");
             return Err(TemplateError::Format(what));
@@ -121,7 +130,9 @@ impl Template {
             let bad = || TemplateError::Format(format!("`{text}` is no ratio"));
             // A denominator of zero would be a panic.
             let below = text.split('/').nth(1);
-            if text.len() > 10_000 || below.is_some_and(|d| d.trim_matches(['0', '+', '-']).is_empty()) {
+            if text.len() > 10_000
+                || below.is_some_and(|d| d.trim_matches(['0', '+', '-']).is_empty())
+            {
                 return Err(bad());
             }
             text.parse().map_err(|_| bad())
@@ -142,7 +153,10 @@ impl Template {
         }
         let rights = segment(&parameters, &parameters, None);
         let mut solutions = SolutionSet::default();
-        for (k, proved) in prove_all(system, &rights, &file.solutions).into_iter().enumerate() {
+        for (k, proved) in prove_all(system, &rights, &file.solutions)
+            .into_iter()
+            .enumerate()
+        {
             let fail = |reason: String| TemplateError::Unproved {
                 index: k + 1,
                 reason,

@@ -37,7 +37,9 @@ fn coordinate(
 fn others(lowered: &Lowered) -> Vec<usize> {
     let system = &lowered.system;
     let is_coordinate = |u: &usize| system.points.iter().flatten().any(|c| *c == Some(*u));
-    (0..system.unknowns.len()).filter(|u| !is_coordinate(u)).collect()
+    (0..system.unknowns.len())
+        .filter(|u| !is_coordinate(u))
+        .collect()
 }
 
 fn name(nature: Nature) -> &'static str {
@@ -66,26 +68,35 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
         parts.iter().map(|x| json!([x.inf(), x.sup()])).collect()
     };
     let others = others(lowered);
-    let solutions = result.boxes.boxes().iter().zip(&result.natures).map(|(one, &nature)| {
-        let points = problem.points.iter().zip(&lowered.system.points).map(|(p, unknowns)| {
-            let place = unknowns[..d].iter();
-            let place = place.map(|&u| pair(coordinate(lowered, one, nature, u)));
-            (p.name.clone(), place.collect::<Value>())
+    let solutions = result
+        .boxes
+        .boxes()
+        .iter()
+        .zip(&result.natures)
+        .map(|(one, &nature)| {
+            let points = problem
+                .points
+                .iter()
+                .zip(&lowered.system.points)
+                .map(|(p, unknowns)| {
+                    let place = unknowns[..d].iter();
+                    let place = place.map(|&u| pair(coordinate(lowered, one, nature, u)));
+                    (p.name.clone(), place.collect::<Value>())
+                });
+            let unknowns = others.iter().map(|&u| {
+                let name = lowered.system.unknowns[u].name.clone();
+                (name, pair(coordinate(lowered, one, nature, Some(u))))
+            });
+            json!({
+                "kind": name(nature),
+                "conjugate": match nature {
+                    Nature::Pair(other) => json!(other),
+                    _ => Value::Null,
+                },
+                "points": points.collect::<Map<String, Value>>(),
+                "unknowns": unknowns.collect::<Map<String, Value>>(),
+            })
         });
-        let unknowns = others.iter().map(|&u| {
-            let name = lowered.system.unknowns[u].name.clone();
-            (name, pair(coordinate(lowered, one, nature, Some(u))))
-        });
-        json!({
-            "kind": name(nature),
-            "conjugate": match nature {
-                Nature::Pair(other) => json!(other),
-                _ => Value::Null,
-            },
-            "points": points.collect::<Map<String, Value>>(),
-            "unknowns": unknowns.collect::<Map<String, Value>>(),
-        })
-    });
     let counts = result.counts;
     let value = json!({
         "version": JSON_VERSION,
@@ -115,7 +126,12 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
 }
 
 /// The result for people: what was found and what that means, then solutions, the real ones only unless `all`.
-pub fn complex_to_table(problem: &Problem, lowered: &Lowered, result: &Solutions, all: bool) -> String {
+pub fn complex_to_table(
+    problem: &Problem,
+    lowered: &Lowered,
+    result: &Solutions,
+    all: bool,
+) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write_table(&mut out, problem, lowered, result, all);
@@ -133,10 +149,17 @@ fn write_table(
     all: bool,
 ) -> std::fmt::Result {
     writeln!(out, "{}: {}", problem.name, verdict(lowered, result))?;
-    writeln!(out, "Each box holds exactly one solution; no two are congruent. {}", natures(result))?;
+    writeln!(
+        out,
+        "Each box holds exactly one solution; no two are congruent. {}",
+        natures(result)
+    )?;
     if !result.infinite.is_empty() {
         let paths = counted(result.infinite.len(), "path");
-        writeln!(out, "{paths} went beyond the radius before t = 1, as to a solution at infinity.")?;
+        writeln!(
+            out,
+            "{paths} went beyond the radius before t = 1, as to a solution at infinity."
+        )?;
     }
     if result.repeated > 0 {
         let paths = counted(result.repeated, "path");
@@ -166,10 +189,19 @@ fn write_table(
             Nature::Unknown => "it could not be told whether it is real".to_owned(),
         };
         let width = one.relative_width();
-        writeln!(out, "\nSolution {}, {what}, relative width {width:.1e}", k + 1)?;
+        writeln!(
+            out,
+            "\nSolution {}, {what}, relative width {width:.1e}",
+            k + 1
+        )?;
         let show = |out: &mut String, [re, im]: [Interval; 2]| match nature {
             Nature::Real => write!(out, "  {:>18}", certain_digits(re)),
-            _ => write!(out, "  {:>18} + {:>18} i", certain_digits(re), certain_digits(im)),
+            _ => write!(
+                out,
+                "  {:>18} + {:>18} i",
+                certain_digits(re),
+                certain_digits(im)
+            ),
         };
         for (p, unknowns) in problem.points.iter().zip(&lowered.system.points) {
             write!(out, "  {}", p.name)?;
@@ -185,13 +217,21 @@ fn write_table(
         }
     }
     if listed.len() > most {
-        writeln!(out, "\n{} more: `--all` lists every one, `--json` writes them", listed.len() - most)?;
+        writeln!(
+            out,
+            "\n{} more: `--all` lists every one, `--json` writes them",
+            listed.len() - most
+        )?;
     } else if !all && listed.len() < result.natures.len() {
         writeln!(out, "\nReal ones are listed; `--all` lists the others too.")?;
     }
     writeln!(out, "\ngauge      {}", lowered.system.gauge)?;
     let effort = result.effort;
-    writeln!(out, "paths      {}, {} tubes, {} rejected", effort.paths, effort.tubes, effort.rejected)?;
+    writeln!(
+        out,
+        "paths      {}, {} tubes, {} rejected",
+        effort.paths, effort.tubes, effort.rejected
+    )?;
     writeln!(out, "seconds    {:.4}", result.seconds)
 }
 
@@ -228,7 +268,9 @@ fn verdict(lowered: &Lowered, result: &Solutions) -> String {
             format!("Found, each proved: {counts}. That there are no others is not proved{bound}.")
         }
         (Status::Partial, _) => {
-            format!("Partial: {counts}, each proved; some paths could not be followed, and there may be more.")
+            format!(
+                "Partial: {counts}, each proved; some paths could not be followed, and there may be more."
+            )
         }
     }
 }

@@ -155,7 +155,11 @@ impl Homotopy {
     /// If there are not as many equations as unknowns, or one of them is about a point.
     pub fn of_equations(tail: Tail) -> Self {
         let equations = tail.unknowns.len();
-        assert_eq!(equations, tail.equations.len(), "as many equations as unknowns");
+        assert_eq!(
+            equations,
+            tail.equations.len(),
+            "as many equations as unknowns"
+        );
         let gauge = Gauge {
             dimension: 2,
             reference: Vec::new(),

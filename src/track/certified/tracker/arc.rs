@@ -126,15 +126,17 @@ impl<const D: usize> Arc<D> {
         let doubt = || Rejection::Undecided(Doubt::Time(time.undecided(from, h)));
         // Of t − 1; the figure at the start has t = 0.
         let ((low, high), _) = time.bounds(tube.exit_at, tube.exit_at);
-        if is_first && !(low > -1.0) {
+        if is_first && (low <= -1.0 || low.is_nan()) {
             return Err(doubt());
         }
         if high < 0.0 {
-            ledger.pass(tube, (from, tube.exit_at)).map_err(Rejection::Undecided)?;
+            ledger
+                .pass(tube, (from, tube.exit_at))
+                .map_err(Rejection::Undecided)?;
             return Ok(false);
         }
         let ((low, _), _) = time.bounds(h, h);
-        if !(low > 0.0) {
+        if low <= 0.0 || low.is_nan() {
             return Err(doubt());
         }
         // The chain has t < 1 up to the entry, and beyond it t rises: it is 1 once.
@@ -232,7 +234,11 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
 
     /// Says that the equations are those of the real and imaginary parts of complex ones.
     pub fn set_complex(&mut self) {
-        self.tracker.arc.as_mut().expect("a run to t = 1").is_complex = true;
+        self.tracker
+            .arc
+            .as_mut()
+            .expect("a run to t = 1")
+            .is_complex = true;
     }
 
     /// Proves a box around the zero of F(X, a(1)) near a point: there is exactly one zero in it, and no other
@@ -274,7 +280,11 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
             _ => t,
         };
         let alone_within = match &end {
-            ArcEnd::Reached(_) => tracker.ledger.found().last().map_or(0.0, |found| found.alone_within),
+            ArcEnd::Reached(_) => tracker
+                .ledger
+                .found()
+                .last()
+                .map_or(0.0, |found| found.alone_within),
             _ => 0.0,
         };
         let last = match tracker.has_set_out {
