@@ -306,23 +306,23 @@ class Tube:
     def piece(self, s):
         return next(p for p in self.pieces if p.a <= s <= p.b)
 
-    def exit(self, at_s=None):
+    def exit(self, at_s=None, digits=20, most=8):
         """A box around the point where the path leaves, or is at another parameter, and its direction there."""
         at_s = self.s if at_s is None else at_s
         s = (at_s, at_s)
         piece = self.piece(at_s)
         start = [at(p, s) for p in self.z]
         w = [(0, 0)] * self.n
-        for step in range(8):
+        for step in range(most):
             f = self.value([add(x, y) for x, y in zip(start, w)]) + [dot(self.c, w)]
             radius = piece.solved(f)
             need(all(mag(x) < up(self.r * u) for x, u in zip(w, self.u)), "an exit")
-            if radius < self.r >> 20 or step == 7:
+            if radius < self.r >> digits or step == most - 1:
                 break
             off = [dot(y, f) for y in piece.y]
             w = [((x[0] - y[0]),) * 2 for x, y in zip(w, off)]
         box = [add(add(x, y), ball(up(radius * u))) for x, y, u in zip(start, w, self.u)]
-        return box, piece.tangent(box)
+        return box, piece.tangent(box, 5 if most == 8 else most)
 
     def value(self, z):
         return [f[0] for f in self.problem.along([[x] for x in z])]
@@ -383,16 +383,20 @@ class Tube:
         places = [a + (b - a) * k // steps for k in range(steps + 1)]
         k = next((k for k in range(1, steps + 1) if self.exit(places[k])[1][-1][1] < 0), None)
         need(k, "t falls behind the fold")
-        low, high = places[max(k - 2, 0)], places[k]
-        if low > a:
-            self.climbs(entry[0], low)
-        else:
-            low = entry[0]
-        self.bends_down(low, high)
+        high = places[k]
+        for back in (2, 4, 8, 16, 32, 64, 128, 256):
+            low = places[k - back] if k > back else entry[0]
+            try:
+                if k > back:
+                    self.climbs(entry[0], low, 12)
+                self.bends_down(low, high, 8)
+                break
+            except NotProved:
+                need(k > back, "t rises up to the fold")
         self.keeps(entry[0], high, signs)
         for _ in range(80):
             middle = (low + high) // 2
-            slope = self.exit(middle)[1][-1]
+            slope = self.exit(middle, 60, 80)[1][-1]
             if slope[0] > 0:
                 low = middle
             elif slope[1] < 0:
@@ -401,7 +405,7 @@ class Tube:
                 break
         # The fold is between the two.
         centre, radius, t, t_radius = fold
-        box, direction = self.exit(low)
+        box, _ = self.exit(low, 60, 80)
         pieces = self.box((low, high))[0]
         span = (0, high - low)
         tangent = [p.tangent(pieces, 2) for p in self.pieces if p.a <= high and p.b >= low]
@@ -631,9 +635,13 @@ def enter(tube, before, start):
         return entry, None
     entry = tube.locate(start)
     need(entry, "where it begins, in the first tube")
-    piece = tube.piece(entry[0])
-    need(piece.b >= entry[1], "where it begins, in one piece")
-    return entry, piece.tangent(start)
+    # It may be where two pieces meet.
+    pieces = [p for p in tube.pieces if p.a <= entry[1] and p.b >= entry[0]]
+    tangents = [p.tangent(start) for p in pieces]
+    direction = tangents[0]
+    for other in tangents[1:]:
+        direction = [hull(x, y) for x, y in zip(direction, other)]
+    return entry, direction
 
 
 def edits(problem, records):

@@ -259,12 +259,12 @@ impl Chain {
                 (find(spot, Flaw::Elsewhere(arc))?, Flaw::Elsewhere(arc))
             }
         };
+        if before.is_none() && matches!(goal, Goal::Sketch) {
+            return Err(flaw(true, claim));
+        }
         order(entry, exit, claim.clone())?;
         if let Goal::Sketch = goal {
-            along(&self.start, claim.clone())?;
-            if before.is_none() {
-                return Err(flaw(true, claim));
-            }
+            along(&self.start, claim)?;
         }
         let range = hull(entry.inf(), exit.sup());
         let Some(edit) = &self.arc else {
