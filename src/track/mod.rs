@@ -52,9 +52,9 @@ pub fn solve(
         Preset::Paper => Homotopy::for_the_paper(problem)?,
     };
     if !homotopy.tail.is_empty() {
-        let what = match (options.preset, options.space) {
-            (Preset::Paper, _) => Some("the paper's preset follows"),
-            (_, Space::Reduced) => Some("the reduced space has"),
+        let what = match (options.preset, options.mode, options.space) {
+            (Preset::Paper, ..) => Some("the paper's preset follows"),
+            (_, Mode::Float, Space::Reduced) => Some("float runs in the reduced space have"),
             _ => None,
         };
         if let Some(what) = what {

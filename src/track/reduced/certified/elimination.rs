@@ -50,6 +50,8 @@ pub struct Elimination<const D: usize> {
     d: [Vector; D],
     slope: Vector,
     normal: Vector,
+    /// Values of the tail's entries.
+    entries: Vec<f64>,
 }
 
 impl<const D: usize> Elimination<D> {
@@ -64,6 +66,7 @@ impl<const D: usize> Elimination<D> {
             d: std::array::from_fn(|_| equations.per_edge()),
             slope: equations.per_edge(),
             normal: equations.vector(),
+            entries: vec![0.0; equations.tail.entries()],
         }
     }
 
@@ -79,7 +82,9 @@ impl<const D: usize> Elimination<D> {
             let layout = self.layout.clone();
             return self.make_like(&layout, equations, at);
         }
-        maker.order.choose(at.0, maker.alpha, &mut maker.candidate);
+        maker
+            .order
+            .choose(equations, at.0, maker.alpha, &mut maker.candidate);
         if maker.candidate != *maker.layout {
             maker.layout = Arc::new(maker.candidate.clone());
         }
@@ -94,17 +99,19 @@ impl<const D: usize> Elimination<D> {
         (d, lengths, normal): (&Differences<D>, &Lengths, &Vector),
     ) -> Result<(), Singular> {
         self.layout = layout.clone();
-        let entries = slices(d);
-        self.inverses.clear();
-        let inverses = layout.blocks.iter().map(|block| invert(block, &entries));
-        self.inverses.extend(inverses);
-        let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
-        self.width = width.ok_or(Singular)?;
         for (kept, d) in self.d.iter_mut().zip(&d.axes) {
             kept.copy_from_slice(d);
         }
         self.slope.copy_from_slice(&lengths.terms[1]);
         self.normal.copy_from_slice(normal);
+        equations.tail.row_values(&d.forms, &mut self.entries);
+        let mut inverses = std::mem::take(&mut self.inverses);
+        inverses.clear();
+        let jacobian = self.jacobian(equations);
+        inverses.extend(layout.blocks.iter().map(|block| invert(block, &jacobian)));
+        self.inverses = inverses;
+        let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
+        self.width = width.ok_or(Singular)?;
         with_width!(self.width, self.eliminate(equations))
     }
 
@@ -141,6 +148,8 @@ impl<const D: usize> Elimination<D> {
             d: slices(&self.d),
             slope: &self.slope,
             t: equations.m,
+            tail: &equations.tail,
+            entries: &self.entries,
         }
     }
 

@@ -38,6 +38,7 @@ pub fn of_z<const D: usize, const W: usize>(
         }
     }
     let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
+    let first = equations.tail.first();
     for e in 0..equations.m {
         let mut tails = [0.0; SERIES + 1];
         for axis in 0..D {
@@ -46,6 +47,10 @@ pub fn of_z<const D: usize, const W: usize>(
             tails[0] += along.from4[axis][e] * both;
             tails[1] += along.from3[axis][e] * both;
             tails[2] += along.from2[axis][e] * both;
+        }
+        if e >= first {
+            let [_, from2, from3, from4, _] = &along.tail.entries;
+            tails = [from4, from3, from2].map(|from| along.tail.times(equations, e, from, rho_a));
         }
         for (q, (z, tail)) in zs.iter().zip(tails).enumerate() {
             let size = z[e].map(|lane| lane.map(f64::abs));

@@ -11,10 +11,12 @@ mod left_over;
 mod passes;
 mod resolvent;
 mod rounds;
+mod sequence;
 mod series;
 mod shape;
 mod sides;
 mod speed;
+mod tail;
 mod test;
 
 use crate::track::full::MAX_DEGREE;

@@ -1,18 +1,22 @@
 //! Products with the Jacobian and substitution through its blocks, for all key unknowns at once.
 //!
 //! A row holds one number per key unknown, in W lanes. Unknowns have one row each, and a row of
-//! zeros for fixed coordinates; equations have one row per distance, and one for the normal.
+//! zeros for fixed coordinates; equations have one row each, distances first, and one for the normal.
+//!
+//! Rows of the Jacobian are differences per axis for distances, and compressed lists of entries for
+//! other equations, whose differences are zero; one comparison per row tells them apart.
 
 use super::layout::{Block, Layout};
 use crate::linalg::{LANE, Vector};
+use crate::track::full::Tail;
 
 /// Four numbers in one register.
 pub type Lane = [f64; LANE];
 /// The numbers of one row.
 pub type Row<const W: usize> = [Lane; W];
 
-/// A derivative of the Jacobian along the path: differences per axis, and the slopes of the
-/// lengths' half squares.
+/// A derivative of the Jacobian along the path: differences per axis, the slopes of the right-hand sides,
+/// and the entries of the tail's rows.
 #[derive(Debug, Clone, Copy)]
 pub struct Derivative<'a, const D: usize> {
     /// The ends of the distances, see [`crate::track::full::Equations::ends`].
@@ -21,6 +25,9 @@ pub struct Derivative<'a, const D: usize> {
     pub slope: &'a [f64],
     /// Which unknown t is.
     pub t: usize,
+    pub tail: &'a Tail,
+    /// Values of the tail's entries.
+    pub entries: &'a [f64],
 }
 
 #[inline(always)]
@@ -47,7 +54,33 @@ impl<const D: usize> Derivative<'_, D> {
             }
         }
         add(&mut sum, -self.slope[e], &k[self.t]);
+        if e >= self.tail.first() {
+            self.add_tail(e, k, &mut sum);
+        }
         sum
+    }
+
+    /// Adds the tail's entries in a row of J, times K.
+    #[inline(never)]
+    fn add_tail<const W: usize>(&self, e: usize, k: &[Row<W>], sum: &mut Row<W>) {
+        for entry in self.tail.row(e) {
+            add(sum, self.entries[entry], &k[self.tail.unknown(entry)]);
+        }
+    }
+
+    /// Adds the tail's entries in a row of J, times a row, to the rows of their unknowns.
+    #[inline(never)]
+    fn add_tail_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
+        for entry in self.tail.row(e) {
+            add(&mut out[self.tail.unknown(entry)], self.entries[entry], z);
+        }
+    }
+
+    /// The entry of an unknown in a row of the tail.
+    #[inline(never)]
+    fn tail_entry(&self, e: usize, unknown: u32) -> f64 {
+        let entry = self.tail.entry(e, unknown as usize);
+        entry.map_or(0.0, |entry| self.entries[entry])
     }
 
     /// `out += J K`.
@@ -72,6 +105,9 @@ impl<const D: usize> Derivative<'_, D> {
             add(&mut sum, -slope, &last);
             *out = sum;
         }
+        for e in self.tail.first()..m {
+            self.add_tail(e, k, &mut out[e]);
+        }
     }
 
     /// `out += Zᵀ J`, without t: rows per equation times J, one row per unknown.
@@ -83,6 +119,9 @@ impl<const D: usize> Derivative<'_, D> {
                 add(&mut out[j], -*d, z);
             }
         }
+        for e in self.tail.first()..z.len() {
+            self.add_tail_left(e, &z[e], out);
+        }
     }
 
     /// `out += Zᵀ J` for one equation.
@@ -92,6 +131,9 @@ impl<const D: usize> Derivative<'_, D> {
             let [i, j] = self.ends[axis][e].map(|end| end as usize);
             add(&mut out[i], self.d[axis][e], z);
             add(&mut out[j], -self.d[axis][e], z);
+        }
+        if e >= self.tail.first() {
+            self.add_tail_left(e, z, out);
         }
     }
 
@@ -163,6 +205,10 @@ impl<const D: usize> Derivative<'_, D> {
                     let other = if block.signs[r] > 0.0 { j } else { i };
                     add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
                 }
+                if e >= self.tail.first() {
+                    // Those of its own block are not looked at again.
+                    self.add_tail_left(e, &sum, t);
+                }
             }
         }
     }
@@ -189,6 +235,11 @@ impl<const D: usize> Derivative<'_, D> {
         for axis in 0..D {
             let [i, j] = self.ends[axis][e];
             sum = self.d[axis][e].mul_add(x[i as usize] - x[j as usize], sum);
+        }
+        if e >= self.tail.first() {
+            for entry in self.tail.row(e) {
+                sum = self.entries[entry].mul_add(x[self.tail.unknown(entry)], sum);
+            }
         }
         sum
     }
@@ -217,20 +268,25 @@ pub fn by_adjugate(a: &[[f64; 3]; 3]) -> Inverse {
 }
 
 /// The entries of a diagonal block: `entries[row][column]`.
-pub fn entries<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
+pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
     let mut out = [[0.0; 3]; 3];
     for r in 0..block.size {
+        let e = block.rows[r] as usize;
         for c in 0..block.size {
             let axis = block.axes[c] as usize;
-            out[r][c] = block.signs[r] * d[axis][block.rows[r] as usize];
+            out[r][c] = if e < j.tail.first() {
+                block.signs[r] * j.d[axis][e]
+            } else {
+                j.tail_entry(e, block.unknowns[c])
+            };
         }
     }
     out
 }
 
 /// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
-pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
-    let a = entries(block, d);
+pub fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
+    let a = entries(block, j);
     let mut out = [[0.0; 3]; 3];
     match block.size {
         1 => out[0][0] = 1.0 / a[0][0],

@@ -27,8 +27,9 @@ pub struct Resolvent<const D: usize> {
     rows: Vec<(usize, usize)>,
     x: Vec<Lane>,
     n: Vec<Lane>,
-    /// Â by axis and distance.
+    /// Â by axis and distance, and by entry of the tail's rows.
     spread: [Vector; D],
+    spread_of_tail: Vec<f64>,
     /// R for each block.
     diagonal: Vec<[[f64; 3]; 3]>,
     /// The position in A of each unknown of A; otherwise too large.
@@ -45,6 +46,7 @@ impl<const D: usize> Resolvent<D> {
             x: Vec::new(),
             n: Vec::new(),
             spread: std::array::from_fn(|_| equations.per_edge()),
+            spread_of_tail: vec![0.0; equations.tail.entries()],
             diagonal: Vec::new(),
             position: Vec::new(),
             roundings: 0,
@@ -52,8 +54,8 @@ impl<const D: usize> Resolvent<D> {
     }
 
     /// Â, to be filled before [`Resolvent::make`].
-    pub fn spread_mut(&mut self) -> &mut [Vector; D] {
-        &mut self.spread
+    pub fn spread_mut(&mut self) -> (&mut [Vector; D], &mut [f64]) {
+        (&mut self.spread, &mut self.spread_of_tail)
     }
 
     /// More roundings than any number in a bound goes through.
@@ -61,16 +63,17 @@ impl<const D: usize> Resolvent<D> {
         self.roundings
     }
 
-    /// Computes X and N for |s| ≤ `h`, the differences of order 0 and 1 being given. False: the bound
-    /// does not exist for such a long tube.
+    /// Computes X and N for |s| ≤ `h`, the differences of order 0 and 1 and the values of the tail's entries
+    /// being given. False: the bound does not exist for such a long tube.
     pub fn make(
         &mut self,
         equations: &Equations<D>,
         layout: &Layout,
         inverses: &[Inverse],
-        d: [&[Vector; D]; 2],
+        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
     ) -> bool {
+        let tail = &equations.tail;
         self.lay_out(equations, layout);
         self.diagonal.clear();
         for (block, inverse) in layout.blocks.iter().zip(inverses) {
@@ -95,6 +98,18 @@ impl<const D: usize> Resolvent<D> {
                         }
                     }
                 }
+                for entry in tail.row(e) {
+                    let row = self.position[tail.unknown(entry)] as usize;
+                    // Neither key nor of this block.
+                    if row < start {
+                        let (from, to) = self.rows[row];
+                        for (sum, x) in n.iter_mut().zip(&before[from..to]) {
+                            for i in 0..LANE {
+                                sum[i] = x[i].mul_add(-entries[0][entry], sum[i]);
+                            }
+                        }
+                    }
+                }
             }
             for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
                 for (l, x) in x.iter_mut().enumerate() {
@@ -108,7 +123,11 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
             for r in 0..size {
-                self.make_row(equations, block, r, d, h);
+                if (block.rows[r] as usize) < tail.first() {
+                    self.make_row(equations, block, r, d, h);
+                } else {
+                    self.make_tail_row(equations, block, r, entries, h);
+                }
             }
             let mut b = [[0.0; 3]; 3];
             for r in 0..size {
@@ -116,7 +135,7 @@ impl<const D: usize> Resolvent<D> {
                     let (l, i) = (j / LANE, j % LANE);
                     let mut entry = self.n[first + r * lanes + l][i];
                     for c in 0..size {
-                        let spread = self.spread[block.axes[c] as usize][block.rows[r] as usize];
+                        let spread = self.spread_in_block(equations, block, r, c);
                         entry += spread * self.x[first + c * lanes + l][i].abs();
                     }
                     b[r][j - start] = round_up(entry, self.roundings);
@@ -157,24 +176,38 @@ impl<const D: usize> Resolvent<D> {
                 add(row, d.map(|d| -sign * d[axis][e]));
             }
         }
-        let one = block.start + r;
-        for (l, n) in self.n[at..end].iter_mut().enumerate() {
-            let mut sums = [[0.0; LANE]; 2];
-            for (x, [a0, a1]) in &terms[..count] {
-                if let Some(x) = x.get(l) {
-                    for i in 0..LANE {
-                        sums[0][i] = x[i].mul_add(*a0, sums[0][i]);
-                        sums[1][i] = x[i].mul_add(*a1, sums[1][i]);
-                    }
-                }
-            }
-            if l == one / LANE {
-                sums[0][one % LANE] -= 1.0;
-            }
-            for i in 0..LANE {
-                n[i] = sums[0][i].abs() + h * sums[1][i].abs();
-            }
+        sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
+    }
+
+    /// The same for a row of the tail.
+    fn make_tail_row(
+        &mut self,
+        equations: &Equations<D>,
+        block: &Block,
+        r: usize,
+        entries: [&[f64]; 2],
+        h: f64,
+    ) {
+        let (at, end) = self.rows[block.start + r];
+        let tail = &equations.tail;
+        let terms = tail.row(block.rows[r] as usize).filter_map(|entry| {
+            let position = self.position[tail.unknown(entry)];
+            let &(from, to) = self.rows.get(position as usize)?;
+            Some((&self.x[from..to], entries.map(|entries| entries[entry])))
+        });
+        let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
+        sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+    }
+
+    /// Â in a block's row r and column c.
+    #[inline(always)]
+    fn spread_in_block(&self, equations: &Equations<D>, block: &Block, r: usize, c: usize) -> f64 {
+        let e = block.rows[r] as usize;
+        if e < equations.tail.first() {
+            return self.spread[block.axes[c] as usize][e];
         }
+        let entry = equations.tail.entry(e, block.unknowns[c] as usize);
+        entry.map_or(0.0, |entry| self.spread_of_tail[entry])
     }
 
     fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
@@ -194,7 +227,8 @@ impl<const D: usize> Resolvent<D> {
         // All of them are computed.
         self.x.resize(at, [0.0; LANE]);
         self.n.resize(at, [0.0; LANE]);
-        let largest = layout.order + D + 10;
+        // A row of the tail has more entries than that of a distance.
+        let largest = layout.order + D + 10 + equations.row_roundings();
         self.roundings = (layout.blocks.len() + 4) * 2 * largest + 200;
     }
 
@@ -235,8 +269,17 @@ impl<const D: usize> Resolvent<D> {
                         }
                     }
                 }
+                for entry in equations.tail.row(e) {
+                    let from = self.position[equations.tail.unknown(entry)] as usize;
+                    if from < start {
+                        let spread = self.spread_of_tail[entry];
+                        for i in 0..LANE {
+                            rest[r][i] = v[from][i].mul_add(spread, rest[r][i]);
+                        }
+                    }
+                }
                 for c in 0..size {
-                    let spread = self.spread[block.axes[c] as usize][e];
+                    let spread = self.spread_in_block(equations, block, r, c);
                     for i in 0..LANE {
                         rest[r][i] = near[c][i].mul_add(spread, rest[r][i]);
                     }
@@ -262,6 +305,28 @@ impl<const D: usize> Resolvent<D> {
                 }
                 v[start + c] = near[c];
             }
+        }
+    }
+}
+
+/// |Σ a₀ x − 1| + H |Σ a₁ x| over rows x of X, the 1 in one place.
+#[inline(always)]
+fn sum_row(n: &mut [Lane], terms: &[(&[Lane], [f64; 2])], one: usize, h: f64) {
+    for (l, n) in n.iter_mut().enumerate() {
+        let mut sums = [[0.0; LANE]; 2];
+        for (x, [a0, a1]) in terms {
+            if let Some(x) = x.get(l) {
+                for i in 0..LANE {
+                    sums[0][i] = x[i].mul_add(*a0, sums[0][i]);
+                    sums[1][i] = x[i].mul_add(*a1, sums[1][i]);
+                }
+            }
+        }
+        if l == one / LANE {
+            sums[0][one % LANE] -= 1.0;
+        }
+        for i in 0..LANE {
+            n[i] = sums[0][i].abs() + h * sums[1][i].abs();
         }
     }
 }
