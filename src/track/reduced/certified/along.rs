@@ -1,7 +1,6 @@
 //! How large everything along a tube's polynomial ẑ(s) is for |s| ≤ h.
 
 use super::frame::Locals;
-use super::passes::Lane;
 use super::series::SIGNED;
 use super::tail::TailSizes;
 use super::{COEFFICIENTS, DEGREE, ORDER};
@@ -9,6 +8,7 @@ use crate::interval::rounding::gamma;
 use crate::linalg::{LANE, Vector};
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};
+use crate::track::reduced::structure::passes::Lane;
 
 /// More roundings than any term of a distance's coefficient of F along ẑ goes through: the differences and
 /// their sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).

@@ -3,15 +3,11 @@
 mod along;
 mod bounds;
 mod diagonal;
-mod elimination;
 mod exit;
 mod frame;
-mod layout;
 mod left_over;
-mod passes;
 mod resolvent;
 mod rounds;
-mod sequence;
 mod series;
 mod shape;
 mod sides;
@@ -23,7 +19,7 @@ use crate::track::full::MAX_DEGREE;
 
 pub use test::ReducedTest;
 #[cfg(test)]
-pub use {bounds::Bounds, layout::Block};
+pub use {crate::track::reduced::structure::layout::Block, bounds::Bounds};
 
 /// The tubes' polynomials have so many coefficients.
 pub const COEFFICIENTS: usize = 9;

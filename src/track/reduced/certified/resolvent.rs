@@ -13,11 +13,11 @@
 //! (docs/reduced.md).
 
 use super::diagonal::bound_on_inverse;
-use super::layout::{Block, Layout};
-use super::passes::{Inverse, Lane};
 use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
+use crate::track::reduced::structure::layout::{Block, Layout};
+use crate::track::reduced::structure::passes::{Inverse, Lane};
 
 /// See above.
 #[derive(Debug, Clone)]
@@ -98,18 +98,10 @@ impl<const D: usize> Resolvent<D> {
                         }
                     }
                 }
-                for entry in tail.row(e) {
-                    let row = self.position[tail.unknown(entry)] as usize;
-                    // Neither key nor of this block.
-                    if row < start {
-                        let (from, to) = self.rows[row];
-                        for (sum, x) in n.iter_mut().zip(&before[from..to]) {
-                            for i in 0..LANE {
-                                sum[i] = x[i].mul_add(-entries[0][entry], sum[i]);
-                            }
-                        }
-                    }
-                }
+            }
+            if block.has_tail(tail.first()) {
+                let given = (&self.position[..], &self.rows[..]);
+                subtract_tails(equations, block, entries[0], given, before, n);
             }
             for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
                 for (l, x) in x.iter_mut().enumerate() {
@@ -123,19 +115,19 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
             for r in 0..size {
-                if (block.rows[r] as usize) < tail.first() {
-                    self.make_row(equations, block, r, d, h);
-                } else {
-                    self.make_tail_row(equations, block, r, entries, h);
-                }
+                self.make_row(equations, block, r, d, h);
             }
+            if block.has_tail(tail.first()) {
+                self.make_tail_rows(equations, block, entries, h);
+            }
+            let spreads = self.spreads(equations, block);
             let mut b = [[0.0; 3]; 3];
             for r in 0..size {
                 for j in start..start + size {
                     let (l, i) = (j / LANE, j % LANE);
                     let mut entry = self.n[first + r * lanes + l][i];
                     for c in 0..size {
-                        let spread = self.spread_in_block(equations, block, r, c);
+                        let spread = spreads[r][c];
                         entry += spread * self.x[first + c * lanes + l][i].abs();
                     }
                     b[r][j - start] = round_up(entry, self.roundings);
@@ -179,35 +171,85 @@ impl<const D: usize> Resolvent<D> {
         sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
     }
 
-    /// The same for a row of the tail.
-    fn make_tail_row(
+    /// The same for rows of the tail.
+    #[cold]
+    #[inline(never)]
+    fn make_tail_rows(
         &mut self,
         equations: &Equations<D>,
         block: &Block,
-        r: usize,
         entries: [&[f64]; 2],
         h: f64,
     ) {
-        let (at, end) = self.rows[block.start + r];
         let tail = &equations.tail;
-        let terms = tail.row(block.rows[r] as usize).filter_map(|entry| {
-            let position = self.position[tail.unknown(entry)];
-            let &(from, to) = self.rows.get(position as usize)?;
-            Some((&self.x[from..to], entries.map(|entries| entries[entry])))
-        });
-        let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
-        sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            if e < tail.first() {
+                continue;
+            }
+            let (at, end) = self.rows[block.start + r];
+            let terms = tail.row(e).filter_map(|entry| {
+                let position = self.position[tail.unknown(entry)];
+                let &(from, to) = self.rows.get(position as usize)?;
+                Some((&self.x[from..to], entries.map(|entries| entries[entry])))
+            });
+            let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
+            sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+        }
     }
 
-    /// Â in a block's row r and column c.
+    /// Â in a block.
     #[inline(always)]
-    fn spread_in_block(&self, equations: &Equations<D>, block: &Block, r: usize, c: usize) -> f64 {
-        let e = block.rows[r] as usize;
-        if e < equations.tail.first() {
-            return self.spread[block.axes[c] as usize][e];
+    fn spreads(&self, equations: &Equations<D>, block: &Block) -> [[f64; 3]; 3] {
+        let mut out = [[0.0; 3]; 3];
+        for r in 0..block.size {
+            for c in 0..block.size {
+                out[r][c] = self.spread[block.axes[c] as usize][block.rows[r] as usize];
+            }
         }
-        let entry = equations.tail.entry(e, block.unknowns[c] as usize);
-        entry.map_or(0.0, |entry| self.spread_of_tail[entry])
+        if block.has_tail(equations.tail.first()) {
+            self.set_tail_spreads(equations, block, &mut out);
+        }
+        out
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn set_tail_spreads(&self, equations: &Equations<D>, block: &Block, out: &mut [[f64; 3]; 3]) {
+        let tail = &equations.tail;
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            if e >= tail.first() {
+                for c in 0..block.size {
+                    let entry = tail.entry(e, block.unknowns[c] as usize);
+                    out[r][c] = entry.map_or(0.0, |entry| self.spread_of_tail[entry]);
+                }
+            }
+        }
+    }
+
+    /// Adds Â v for the tail's rows in a block, of v from blocks before it.
+    #[cold]
+    #[inline(never)]
+    fn add_tail_spreads(
+        &self,
+        equations: &Equations<D>,
+        block: &Block,
+        v: &[Lane],
+        rest: &mut [Lane; 3],
+    ) {
+        let tail = &equations.tail;
+        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
+            for entry in tail.row(e as usize) {
+                let from = self.position[tail.unknown(entry)] as usize;
+                // Neither key nor of this block.
+                if from < block.start {
+                    for i in 0..LANE {
+                        rest[i] = v[from][i].mul_add(self.spread_of_tail[entry], rest[i]);
+                    }
+                }
+            }
+        }
     }
 
     fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
@@ -259,6 +301,10 @@ impl<const D: usize> Resolvent<D> {
                 }
                 (rest[r], near[r]) = (sum, through);
             }
+            let spreads = self.spreads(equations, block);
+            if block.has_tail(equations.tail.first()) {
+                self.add_tail_spreads(equations, block, v, &mut rest);
+            }
             for r in 0..size {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);
                 for axis in 0..D {
@@ -269,17 +315,8 @@ impl<const D: usize> Resolvent<D> {
                         }
                     }
                 }
-                for entry in equations.tail.row(e) {
-                    let from = self.position[equations.tail.unknown(entry)] as usize;
-                    if from < start {
-                        let spread = self.spread_of_tail[entry];
-                        for i in 0..LANE {
-                            rest[r][i] = v[from][i].mul_add(spread, rest[r][i]);
-                        }
-                    }
-                }
                 for c in 0..size {
-                    let spread = self.spread_in_block(equations, block, r, c);
+                    let spread = spreads[r][c];
                     for i in 0..LANE {
                         rest[r][i] = near[c][i].mul_add(spread, rest[r][i]);
                     }
@@ -304,6 +341,35 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
                 v[start + c] = near[c];
+            }
+        }
+    }
+}
+
+/// Subtracts the tail's rows in a block, times the rows of X before it, from rows of I.
+#[cold]
+#[inline(never)]
+fn subtract_tails<const D: usize>(
+    equations: &Equations<D>,
+    block: &Block,
+    entries: &[f64],
+    (position, rows): (&[u32], &[(usize, usize)]),
+    before: &[Lane],
+    n: &mut [Lane],
+) {
+    let tail = &equations.tail;
+    let lanes = n.len() / block.size;
+    for (n, &e) in n.chunks_exact_mut(lanes).zip(&block.rows) {
+        for entry in tail.row(e as usize) {
+            let row = position[tail.unknown(entry)] as usize;
+            // Neither key nor of this block.
+            if row < block.start {
+                let (from, to) = rows[row];
+                for (sum, x) in n.iter_mut().zip(&before[from..to]) {
+                    for i in 0..LANE {
+                        sum[i] = x[i].mul_add(-entries[entry], sum[i]);
+                    }
+                }
             }
         }
     }

@@ -3,17 +3,17 @@
 
 use super::along::Along;
 use super::bounds::Bounds;
-use super::elimination::MAX_KEYS;
 use super::frame::{Locals, Reduction, Tubes};
-use super::layout::Layout;
 use super::left_over;
-use super::passes::Row;
 use super::sides::weigh;
 use super::speed::speed;
 use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
 use crate::track::full::Equations;
+use crate::track::reduced::structure::elimination::MAX_KEYS;
+use crate::track::reduced::structure::layout::Layout;
+use crate::track::reduced::structure::passes::Row;
 
 /// The contraction that comes with the reference length may be that at most.
 const TOO_LONG: f64 = 0.8;
@@ -135,14 +135,14 @@ impl<const D: usize> ReducedTest<D> {
                     + along.from3[axis][e] * both(moved2, ends);
                 width += both(omega, ends).powi(2);
             }
-            if e >= first {
-                let [_, _, from3, from4, from5] = &along.tail.entries;
-                let times = |entries, moved| along.tail.times(equations, e, entries, moved);
-                cubic += times(from5, moved0) + times(from4, moved1) + times(from3, moved2);
-                width += along.tail.width(equations, e);
-            }
             width += along.curvature[e] * (omega[t] * omega[t]);
             sides.g[e] = [along.low[e], cubic, width, along.high[e]];
+        }
+        for e in first..equations.m {
+            let [_, _, from3, from4, from5] = &along.tail.entries;
+            let times = |entries, moved| along.tail.times(equations, e, entries, moved);
+            sides.g[e][1] += times(from5, moved0) + times(from4, moved1) + times(from3, moved2);
+            sides.g[e][2] += along.tail.width(equations, e);
         }
         sides.g[t] = [0.0; LANE];
         sides.gather(y);
@@ -235,18 +235,18 @@ impl<const D: usize> ReducedTest<D> {
                 width += both * both;
                 turn += along.slopes[axis][e] * both;
             }
-            if e >= first {
-                let [all, ..] = &along.tail.entries;
-                rounding += along.tail.times(equations, e, all, omega);
-                width += along.tail.width(equations, e);
-                turn += along.tail.turn(equations, e);
-            }
             let curvature = along.curvature[e];
             width += curvature * (ut * ut);
             turn += curvature * along.time.speed * ut;
             let constant = place.per_entry * (rounding + along.slope_size[e] * ut)
                 + along.slope_radius[e] * ut;
             sides.g[e] = [constant, width, turn, along.low_slope[e]];
+        }
+        for e in first..m {
+            let [all, ..] = &along.tail.entries;
+            sides.g[e][0] += place.per_entry * along.tail.times(equations, e, all, omega);
+            sides.g[e][1] += along.tail.width(equations, e);
+            sides.g[e][2] += along.tail.turn(equations, e);
         }
         sides.g[m] = [
             place.per_entry * sum_of_sizes(&local.normal[..n], omega),

@@ -3,9 +3,9 @@
 
 use super::COEFFICIENTS;
 use super::frame::{Locals, SERIES};
-use super::passes::{Derivative, Lane, Row, add, slices};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
+use crate::track::reduced::structure::passes::{Derivative, Lane, Row, add, slices};
 
 /// Orders of J K that are looked at with their signs: two more than the series have.
 pub const SIGNED: usize = SERIES + 2;

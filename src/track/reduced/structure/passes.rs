@@ -40,9 +40,9 @@ pub fn add<const W: usize>(sum: &mut Row<W>, factor: f64, row: &Row<W>) {
 }
 
 impl<const D: usize> Derivative<'_, D> {
-    /// Row e of J K.
+    /// Row e of J K, but for the tail's entries.
     #[inline(always)]
-    pub fn row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
+    fn row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
         let mut sum = [[0.0; LANE]; W];
         for axis in 0..D {
             let [i, j] = self.ends[axis][e];
@@ -54,6 +54,12 @@ impl<const D: usize> Derivative<'_, D> {
             }
         }
         add(&mut sum, -self.slope[e], &k[self.t]);
+        sum
+    }
+
+    /// Row e of J K for any equation.
+    pub fn any_row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
+        let mut sum = self.row(e, k);
         if e >= self.tail.first() {
             self.add_tail(e, k, &mut sum);
         }
@@ -61,6 +67,7 @@ impl<const D: usize> Derivative<'_, D> {
     }
 
     /// Adds the tail's entries in a row of J, times K.
+    #[cold]
     #[inline(never)]
     fn add_tail<const W: usize>(&self, e: usize, k: &[Row<W>], sum: &mut Row<W>) {
         for entry in self.tail.row(e) {
@@ -69,6 +76,7 @@ impl<const D: usize> Derivative<'_, D> {
     }
 
     /// Adds the tail's entries in a row of J, times a row, to the rows of their unknowns.
+    #[cold]
     #[inline(never)]
     fn add_tail_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
         for entry in self.tail.row(e) {
@@ -76,11 +84,45 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// The entry of an unknown in a row of the tail.
+    /// Whether a block has rows of the tail: the last of its rows is one then.
+    #[inline(always)]
+    fn has_tail(&self, block: &Block) -> bool {
+        block.has_tail(self.tail.first())
+    }
+
+    /// Adds the tail's entries of a block's rows in J K.
+    #[cold]
     #[inline(never)]
-    fn tail_entry(&self, e: usize, unknown: u32) -> f64 {
-        let entry = self.tail.entry(e, unknown as usize);
-        entry.map_or(0.0, |entry| self.entries[entry])
+    fn add_tails<const W: usize>(&self, block: &Block, k: &[Row<W>], sums: &mut [Row<W>; 3]) {
+        for (sum, &e) in sums.iter_mut().zip(&block.rows[..block.size]) {
+            self.add_tail(e as usize, k, sum);
+        }
+    }
+
+    /// Subtracts the tail's entries of a block's rows in J x.
+    #[cold]
+    #[inline(never)]
+    fn subtract_tails(&self, block: &Block, x: &[f64], rest: &mut [f64; 3]) {
+        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
+            for entry in self.tail.row(e as usize) {
+                *rest -= self.entries[entry] * x[self.tail.unknown(entry)];
+            }
+        }
+    }
+
+    /// Sets the tail's entries of a diagonal block.
+    #[cold]
+    #[inline(never)]
+    fn set_tail_entries(&self, block: &Block, out: &mut Inverse) {
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            if e >= self.tail.first() {
+                for c in 0..block.size {
+                    let entry = self.tail.entry(e, block.unknowns[c] as usize);
+                    out[r][c] = entry.map_or(0.0, |entry| self.entries[entry]);
+                }
+            }
+        }
     }
 
     /// `out += J K`.
@@ -174,6 +216,9 @@ impl<const D: usize> Derivative<'_, D> {
                 sums[r] = self.row(e, k);
                 known(e, &mut sums[r]);
             }
+            if self.has_tail(block) {
+                self.add_tails(block, k, &mut sums);
+            }
             for c in 0..block.size {
                 let row = &mut k[block.unknowns[c] as usize];
                 for r in 0..block.size {
@@ -205,9 +250,11 @@ impl<const D: usize> Derivative<'_, D> {
                     let other = if block.signs[r] > 0.0 { j } else { i };
                     add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
                 }
-                if e >= self.tail.first() {
-                    // Those of its own block are not looked at again.
-                    self.add_tail_left(e, &sum, t);
+            }
+            if self.has_tail(block) {
+                // Those of its own block are not looked at again.
+                for &e in &block.rows[..block.size] {
+                    self.add_tail_left(e as usize, &z[e as usize], t);
                 }
             }
         }
@@ -221,6 +268,9 @@ impl<const D: usize> Derivative<'_, D> {
                 let e = block.rows[r] as usize;
                 rest[r] = f[e] - self.row_of(e, x);
             }
+            if self.has_tail(block) {
+                self.subtract_tails(block, x, &mut rest);
+            }
             for c in 0..block.size {
                 x[block.unknowns[c] as usize] =
                     (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
@@ -228,20 +278,22 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// Row e of J x.
+    /// Row e of J x, but for the tail's entries.
     #[inline(always)]
-    pub fn row_of(&self, e: usize, x: &[f64]) -> f64 {
+    fn row_of(&self, e: usize, x: &[f64]) -> f64 {
         let mut sum = -self.slope[e] * x[self.t];
         for axis in 0..D {
             let [i, j] = self.ends[axis][e];
             sum = self.d[axis][e].mul_add(x[i as usize] - x[j as usize], sum);
         }
-        if e >= self.tail.first() {
-            for entry in self.tail.row(e) {
-                sum = self.entries[entry].mul_add(x[self.tail.unknown(entry)], sum);
-            }
-        }
         sum
+    }
+
+    /// Row e of J x for any equation.
+    pub fn any_row_of(&self, e: usize, x: &[f64]) -> f64 {
+        let tail = self.tail.row(e);
+        let terms = tail.map(|entry| self.entries[entry] * x[self.tail.unknown(entry)]);
+        self.row_of(e, x) + terms.sum::<f64>()
     }
 }
 
@@ -274,12 +326,11 @@ pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
         let e = block.rows[r] as usize;
         for c in 0..block.size {
             let axis = block.axes[c] as usize;
-            out[r][c] = if e < j.tail.first() {
-                block.signs[r] * j.d[axis][e]
-            } else {
-                j.tail_entry(e, block.unknowns[c])
-            };
+            out[r][c] = block.signs[r] * j.d[axis][e];
         }
+    }
+    if j.has_tail(block) {
+        j.set_tail_entries(block, &mut out);
     }
     out
 }
@@ -316,7 +367,7 @@ macro_rules! with_width {
         }
     };
 }
-pub(super) use with_width;
+pub(in crate::track::reduced) use with_width;
 
 /// Lanes for so many key unknowns; `None`: too many.
 pub fn width_for(keys: usize) -> Option<usize> {

@@ -290,6 +290,12 @@ impl<const D: usize> Candidate<D> {
 }
 
 impl Block {
+    /// Whether rows of the tail are among its rows, which are in order; the tail's begin at `first`.
+    #[inline(always)]
+    pub fn has_tail(&self, first: usize) -> bool {
+        self.size > 0 && self.rows[self.size - 1] as usize >= first
+    }
+
     /// Adds a column (axis and unknown) and a row (distance and sign): both are kept in the order of
     /// axes and distances, as it does not matter which pivot came first.
     fn insert(&mut self, (axis, unknown): (u8, u32), (row, sign): (u32, f64)) {
