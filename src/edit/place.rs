@@ -1,7 +1,7 @@
 //! Where figures stand in the coordinates of the problem.
 
-use crate::interval::vector::{Vector, cross, dot, minus, unit};
 use crate::interval::point;
+use crate::interval::vector::{Vector, cross, dot, minus, unit};
 use crate::problem::Problem;
 use crate::system::Placement;
 

@@ -6,6 +6,8 @@ use crate::track::full::Equations;
 
 /// So many groups are tried for the first.
 const STARTS: usize = 40;
+/// Fewer where there are many groups: so many steps in all.
+const WORK: usize = 4_000_000;
 
 /// Groups of unknowns in an order in which few of them have fewer equations with groups before them than they
 /// have unknowns. A group is the free coordinates of a point, or an auxiliary vector, or another auxiliary
@@ -40,7 +42,9 @@ pub fn groups_in_order<const D: usize>(
         rows: &rows,
         rows_of: &rows_of,
     };
-    let starts = (0..groups.len()).take(STARTS).map(Some);
+    // Each search goes through all groups for each group.
+    let count = (WORK / groups.len().pow(2).max(1)).clamp(1, STARTS);
+    let starts = (0..groups.len()).take(count).map(Some);
     let orders = std::iter::once(None)
         .chain(starts)
         .map(|start| search.order(start));
