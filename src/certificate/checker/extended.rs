@@ -115,3 +115,107 @@ fn enclosed(x: BigInt, bits: i32) -> Interval {
         (floor.next_up() + 1.0) * unit,
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::checker::krawczyk::{Curve, ORDER};
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
+    use num_rational::BigRational;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    fn holds(x: Interval, value: &BigRational, room: f64) -> bool {
+        exact(x.inf()) <= value + exact(room) && value - exact(room) <= exact(x.sup())
+    }
+
+    /// F along random polynomials, tails and all, against rational numbers; and a wrong factor is found.
+    #[test]
+    fn values_are_those_of_rational_numbers() {
+        let mut seed = 1u64;
+        let mut random = move || {
+            seed = seed
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 * 2f64.powi(-52) - 1.0
+        };
+        for name in ["pentahedron", "3p3l", "3p3l-orthogonal"] {
+            let problem = Problem::read(format!("problems/constraints/{name}.toml")).unwrap();
+            let eq = Equations::new(Homotopy::new(&problem).unwrap());
+            let (m, n) = (eq.m, eq.m + 1);
+            assert!(!eq.homotopy.tail.is_empty());
+            for _ in 0..5 {
+                let high: Vec<f64> = (0..n).map(|_| 2.0 * random()).collect();
+                let low: Vec<f64> = (0..n).map(|_| 1e-17 * random()).collect();
+                let mut curve = Curve::at_sum(&eq, &high, &low).unwrap();
+                for _ in 1..=ORDER {
+                    let mut z: Vec<f64> = (0..n).map(|_| 0.1 * random()).collect();
+                    // E is then a constant.
+                    z[m] = 0.0;
+                    curve.push(&z).unwrap();
+                }
+                let mut z: Vec<Vec<BigRational>> = Vec::new();
+                for z_k in &curve.z {
+                    z.push(z_k.iter().map(|&x| exact(x)).collect());
+                }
+                for (i, x) in z[0].iter_mut().enumerate() {
+                    *x += exact(curve.low_of(i).mid());
+                    let near = exact(high[i]) + exact(low[i]) - &*x;
+                    assert!(near < exact(1e-27) && near > exact(-1e-27));
+                }
+                let zero = || BigRational::from_integer(0.into());
+                for k in 0..=2 * ORDER {
+                    let found = curve.residual(k);
+                    for e in 0..m {
+                        let terms = eq.homotopy.terms(e);
+                        let form = |form: Option<[usize; 2]>, a: usize| match form {
+                            None => exact(if a == 0 { 1.0 } else { 0.0 }),
+                            Some(ends) => {
+                                let [x, y] =
+                                    ends.map(|i| if i < m { z[a][i].clone() } else { zero() });
+                                x - y
+                            }
+                        };
+                        let coefficient = |wrong: i32| {
+                            let mut sum = zero();
+                            for (index, term) in terms.iter().enumerate() {
+                                let factor = term.factor + if index == 0 { wrong } else { 0 };
+                                for a in k.saturating_sub(ORDER)..=k.min(ORDER) {
+                                    let product = form(term.left, a) * form(term.right, k - a);
+                                    sum += product * exact(0.5 * f64::from(factor));
+                                }
+                            }
+                            sum
+                        };
+                        let (mut right, mut room) = (zero(), 0.0);
+                        if k == 0 {
+                            for &(near, radius) in eq.doubles()[e].iter().rev() {
+                                right = right * &z[0][m] + exact(near.hi) + exact(near.lo);
+                                room = 2.0 * room * high[m].abs() + 2.0 * radius + 1e-50;
+                            }
+                        }
+                        let value = coefficient(0) - &right;
+                        assert!(
+                            holds(found[e], &value, room),
+                            "{name} {e} {k}: {:?}",
+                            found[e]
+                        );
+                        let width = found[e].wid();
+                        assert!(
+                            width <= if k == 0 { 1e-25 } else { 1e-14 },
+                            "{name} {k}: {width:e}"
+                        );
+                        let wrong = coefficient(1) - right;
+                        let shift = &wrong - &value;
+                        if shift > exact(1e-10) || shift < exact(-1e-10) {
+                            assert!(!holds(found[e], &wrong, room));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
