@@ -78,12 +78,14 @@ macro_rules! debug_in_words {
 }
 pub(crate) use debug_in_words;
 
+pub mod blocks;
 pub mod certificate;
 pub mod compare;
 pub mod complete;
 pub mod constraint;
 pub mod edit;
 pub mod generate;
+pub mod import;
 pub mod interval;
 pub mod linalg;
 pub mod plan;

@@ -343,6 +343,7 @@ impl ProblemBuilder {
         };
         let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
         let mut problem = Problem {
+                labels: Default::default(),
             name: self.name,
             dimension: self.dimension,
             source: self.source,

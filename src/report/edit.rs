@@ -23,7 +23,7 @@ pub(super) fn named(problem: &Problem, points: &[usize]) -> String {
 /// What came of an edit in words, one sentence or two, without the figure.
 pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
     let changes = edited.dimensions.iter().map(|d| {
-        let name = problem.distance_name(d.index);
+        let name = problem.dimension_name(d.index);
         format!("{name} from {} to {}", short(d.from), short(d.to))
     });
     let changes = changes.collect::<Vec<_>>().join(", ");
@@ -33,7 +33,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         ),
         Ending::Limit(limit) => {
             let reached = edited.dimensions.iter().map(|d| {
-                let name = problem.distance_name(d.index);
+                let name = problem.dimension_name(d.index);
                 let verb = if d.to.mid() >= d.from.mid() {
                     "grow"
                 } else {
@@ -262,7 +262,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
             .collect()
     };
     let dimensions = edited.dimensions.iter().map(|d| {
-        let name = problem.distance_name(d.index);
+        let name = problem.dimension_name(d.index);
         (name, bounds(d.value))
     });
     let reason = match &edited.ending {
@@ -313,8 +313,9 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
 /// The figure of a session and its dimensions, as a value in memory.
 pub fn figure_to_value(session: &Session) -> Value {
     let problem = session.problem();
-    let dimensions = (0..problem.distances.len())
-        .map(|index| (problem.distance_name(index), bounds(session.length(index))));
+    let dimensions = problem
+        .dimensions()
+        .map(|index| (problem.dimension_name(index), bounds(session.length(index))));
     json!({
         "problem": problem.name,
         "status": "figure",

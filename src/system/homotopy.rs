@@ -63,6 +63,8 @@ pub struct Homotopy {
     pub sketch: Vec<f64>,
     /// Enclosures of the auxiliary unknowns in the sketch.
     auxiliary: Vec<Interval>,
+    /// Points whose orientation is followed along arcs, beside those that distances join.
+    pub followed: Vec<Vec<usize>>,
 }
 
 impl Homotopy {
@@ -141,12 +143,39 @@ impl Homotopy {
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
             auxiliary: Vec::new(),
+            followed: Vec::new(),
             gauge,
             tail,
         };
         homotopy.add_distances(problem);
         homotopy.add_constraints();
         Ok(homotopy)
+    }
+
+    /// The homotopy of a tail alone, all unknowns being its own.
+    pub(super) fn without_distances(gauge: Gauge, unit: f64, tail: Tail) -> Self {
+        let dimension = gauge.dimension;
+        let places = gauge.variable.len();
+        let mut homotopy = Homotopy {
+            dimension,
+            points: places / dimension,
+            equations: tail.unknowns.len(),
+            unit,
+            edges: Vec::new(),
+            lengths: Vec::new(),
+            terms: Vec::new(),
+            rights: Vec::new(),
+            bend: 0,
+            names: Vec::new(),
+            sketch: vec![0.0; places],
+            sketch_box: vec![point(0.0); places],
+            auxiliary: Vec::new(),
+            followed: Vec::new(),
+            gauge,
+            tail,
+        };
+        homotopy.add_constraints();
+        homotopy
     }
 
     fn add_distances(&mut self, problem: &Problem) {
@@ -303,7 +332,7 @@ impl Homotopy {
 
 /// The power of two nearest to the mean target length; where there are no distances, to the mean
 /// distance of the sketch's points from their middle.
-fn typical_length(problem: &Problem) -> f64 {
+pub(crate) fn typical_length(problem: &Problem) -> f64 {
     let mean = if problem.distances.is_empty() {
         let places: Vec<[f64; 3]> = problem
             .points
