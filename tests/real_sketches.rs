@@ -16,7 +16,11 @@ const BUDGET: Duration = Duration::from_secs(240);
 fn folder() -> Option<PathBuf> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let named = std::env::var_os("KRAWL_SKETCHES").map(PathBuf::from);
-    let places = [named, Some(root.join("../shared/sketches")), Some(root.join("../../shared/sketches"))];
+    let places = [
+        named,
+        Some(root.join("../shared/sketches")),
+        Some(root.join("../../shared/sketches")),
+    ];
     places.into_iter().flatten().find(|place| place.is_dir())
 }
 
@@ -76,6 +80,7 @@ fn real_sketches_load_and_survive_edits() {
         }
         let name = file.file_name().unwrap().to_str().unwrap();
         let bytes = std::fs::read(file).unwrap();
+        println!("{name} {:?}", clock.elapsed());
         for listed in import::list(name, &bytes).unwrap() {
             let sketch = import::read(name, &bytes, Some(&listed.name)).unwrap();
             if sketch.problem.points.is_empty() {
@@ -100,7 +105,11 @@ fn real_sketches_load_and_survive_edits() {
             };
             let opening = start.elapsed();
             count.opened += 1;
-            let size = session.figure().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+            let size = session
+                .figure()
+                .iter()
+                .flatten()
+                .fold(0.0f64, |m, x| m.max(x.abs()));
             let moved = session.moved().distance / size.max(1e-9);
             count.moved = count.moved.max(moved);
             if moved > 1e-5 {
@@ -112,21 +121,34 @@ fn real_sketches_load_and_survive_edits() {
             for index in problem.dimensions() {
                 count.dimensions += 1;
                 for factor in [0.99, 1.01, 0.9, 1.1] {
-                    let Some(value) = times(&problem, index, factor) else { continue };
-                    let Ok(setting) = Setting::new(&problem, index, value) else { continue };
+                    let Some(value) = times(&problem, index, factor) else {
+                        continue;
+                    };
+                    let Ok(setting) = Setting::new(&problem, index, value) else {
+                        continue;
+                    };
                     let edited = session.probe(&[setting], &mut Default::default());
                     edits += 1;
                     *count.edits.entry(edited.ending.name()).or_default() += 1;
                     if let Ending::Stopped(reason) | Ending::Passes(reason) = &edited.ending {
                         let dimension = problem.dimension_name(index);
-                        troubles.push(format!("{what}: {dimension} x {factor}: {} {reason}", edited.ending.name()));
+                        troubles.push(format!(
+                            "{what}: {dimension} x {factor}: {} {reason}",
+                            edited.ending.name()
+                        ));
                     }
                 }
             }
             println!(
-                "{what}: {} points, {:?}, free {}, redundant {}; open {:.1} ms, {edits} edits {:.2} ms each",
+                "{what}: {} points, blocks {:?}, free {}, redundant {}; open {:.1} ms, {edits} edits {:.2} ms each",
                 problem.points.len(),
-                session.decomposition().unwrap(),
+                session
+                    .decomposition()
+                    .unwrap()
+                    .blocks
+                    .iter()
+                    .map(Vec::len)
+                    .collect::<Vec<_>>(),
                 session.free().len(),
                 session.redundant().len(),
                 opening.as_secs_f64() * 1e3,
@@ -134,9 +156,16 @@ fn real_sketches_load_and_survive_edits() {
             );
         }
     }
-    println!("{} sketches, {} of supported kinds, {} opened, {} dimensions, edits {:?}", count.sketches, count.supported, count.opened, count.dimensions, count.edits);
+    println!(
+        "{} sketches, {} of supported kinds, {} opened, {} dimensions, edits {:?}",
+        count.sketches, count.supported, count.opened, count.dimensions, count.edits
+    );
     println!("not supported: {unsupported:?}");
-    println!("moved by at most {:.1e} of their size; {left} files left; {:.1} s", count.moved, clock.elapsed().as_secs_f64());
+    println!(
+        "moved by at most {:.1e} of their size; {left} files left; {:.1} s",
+        count.moved,
+        clock.elapsed().as_secs_f64()
+    );
     for trouble in &troubles {
         println!("  {trouble}");
     }

@@ -98,7 +98,10 @@ impl Blocks {
         blocks.into_iter().for_each(|b| taken[b] = true);
         for b in (0..self.blocks.len()).rev() {
             if taken[b] {
-                self.blocks[b].needs.iter().for_each(|&need| taken[need] = true);
+                self.blocks[b]
+                    .needs
+                    .iter()
+                    .for_each(|&need| taken[need] = true);
             }
         }
         (0..taken.len()).filter(|&b| taken[b]).collect()
@@ -116,7 +119,10 @@ mod tests {
         let cut = Blocks::new(&equations, 4).unwrap();
         assert_eq!(cut.blocks.len(), 3);
         let of_y = &cut.blocks[cut.of_unknown[1]];
-        assert_eq!((of_y.equations.clone(), of_y.unknowns.clone()), (vec![0, 2], vec![1, 2]));
+        assert_eq!(
+            (of_y.equations.clone(), of_y.unknowns.clone()),
+            (vec![0, 2], vec![1, 2])
+        );
         assert_eq!(of_y.needs, [cut.of_unknown[0]]);
         assert!(cut.of_unknown[0] < cut.of_unknown[1]);
         assert_eq!(cut.with_needs([cut.of_unknown[1]]).len(), 2);

@@ -115,8 +115,7 @@ impl System {
                 implied.push(index);
                 continue;
             }
-            let unknowns: BTreeSet<usize> =
-                products.iter().flat_map(super::unknowns_of).collect();
+            let unknowns: BTreeSet<usize> = products.iter().flat_map(super::unknowns_of).collect();
             rows.push(Row {
                 index,
                 products,
@@ -167,10 +166,16 @@ fn normalised(products: impl Iterator<Item = Product>) -> Vec<Product> {
             continue;
         };
         let factor = p.factor * left.1 * right.1;
-        let (one, other) = if left.2 <= right.2 { (left, right) } else { (right, left) };
+        let (one, other) = if left.2 <= right.2 {
+            (left, right)
+        } else {
+            (right, left)
+        };
         let entry = sum.entry((one.2, other.2)).or_insert((0, one.0, other.0));
         entry.0 += factor;
     }
     let terms = sum.into_values().filter(|term| term.0 != 0);
-    terms.map(|(factor, left, right)| product(factor, left, right)).collect()
+    terms
+        .map(|(factor, left, right)| product(factor, left, right))
+        .collect()
 }

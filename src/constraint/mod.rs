@@ -50,8 +50,8 @@ use crate::interval::Interval;
 use crate::problem::{Problem, Target};
 use arguments::Arguments;
 use kind::Given;
-pub(crate) use lowering::{Lowered, Record};
 use lowering::{Fault, Lowering, Start};
+pub(crate) use lowering::{Lowered, Record};
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {
@@ -148,11 +148,7 @@ pub(crate) fn try_lower_all(
     try_lower_from(problem, from, true)
 }
 
-fn try_lower_from(
-    problem: &Problem,
-    from: Start,
-    all: bool,
-) -> Result<Lowered, (Owner, Fault)> {
+fn try_lower_from(problem: &Problem, from: Start, all: bool) -> Result<Lowered, (Owner, Fault)> {
     let mut low = Lowering::new(problem, from, all);
     let objects = problem.objects.len();
     for object in 0..objects {

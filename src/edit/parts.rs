@@ -8,14 +8,15 @@
 
 use super::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use super::open::{Moved, OpenError};
-use super::whole::sine;
+use super::session::Decomposition;
 use super::setting::Setting;
-use crate::blocks::{Blocks, Choice, Row, System};
+use super::whole::sine;
+use crate::blocks::{Block, Blocks, Choice, Row, System};
 use crate::constraint::{
     Entry, Equation, Form, Lowered, Owner, Product, Record, Role, try_lower_all, value,
 };
 use crate::interval::{Interval, Real, hull, point};
-use crate::problem::{Item, Problem, Shape};
+use crate::problem::{Decimal, Item, Problem, Shape};
 use crate::system::{Homotopy, Part, Right, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
@@ -26,6 +27,10 @@ use std::time::Instant;
 
 /// Points are said to be on one line where the sine of the angle is at most this.
 const FLAT: f64 = 1e-9;
+
+/// A part is followed over so many tubes. Edits of real sketches take a few; one that takes thousands creeps up to a
+/// singular figure.
+const MOST_TUBES: usize = 2000;
 
 /// An equation of the square system.
 #[derive(Debug, Clone, Copy)]
@@ -124,7 +129,22 @@ impl Parts {
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
-        let lowered = lowered(problem, None).map_err(refuse)?;
+        let (mut parts, rights) = Self::assemble(problem, options).map_err(refuse)?;
+        parts.lead(&rights, control)?;
+        Ok(parts)
+    }
+
+    /// Merges, chooses and cuts; the figure is the sketch still, which the right-hand sides that come along lead to its
+    /// dimensions.
+    pub fn assemble(
+        problem: &Problem,
+        options: &Options,
+    ) -> Result<(Self, Vec<Vec<Real>>), String> {
+        let mut problem = problem.clone();
+        problem.homotopy.bend_coefficient = Decimal::from(0);
+        problem.homotopy.detour = Decimal::from(0);
+        let problem = &problem;
+        let lowered = lowered(problem, None)?;
         let owner_is_dimension = |owner: usize| {
             let (objects, all) = (problem.objects.len(), problem.constraints.len());
             match owner.checked_sub(objects) {
@@ -147,7 +167,12 @@ impl Parts {
         let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
         let choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
         let held = choice.free.iter().map(|&u| Used::Held(u));
-        let used: Vec<Used> = choice.used.iter().map(|&r| Used::Row(r)).chain(held).collect();
+        let used: Vec<Used> = choice
+            .used
+            .iter()
+            .map(|&r| Used::Row(r))
+            .chain(held)
+            .collect();
         let of: Vec<Vec<usize>> = used
             .iter()
             .map(|used| match *used {
@@ -155,9 +180,8 @@ impl Parts {
                 Used::Held(u) => vec![u],
             })
             .collect();
-        let blocks = Blocks::new(&of, system.unknowns.len()).ok_or_else(|| {
-            refuse("its equations do not match its unknowns: the sketch is singular".to_owned())
-        })?;
+        let blocks = Blocks::new(&of, system.unknowns.len())
+            .ok_or("its equations do not match its unknowns: the sketch is singular")?;
         let radii = problem.objects.iter().enumerate().map(|(o, object)| {
             let entry = lowered.object_unknowns[o].first();
             match (&object.shape, entry) {
@@ -171,6 +195,7 @@ impl Parts {
             options: Options {
                 space: crate::track::Space::Full,
                 reverse: false,
+                max_steps: options.max_steps.min(MOST_TUBES),
                 ..options.clone()
             },
             record: lowered.record.clone(),
@@ -191,16 +216,30 @@ impl Parts {
             system,
         };
         parts.find_exact();
-        let rights: Vec<Vec<Real>> = lowered.tail.equations.into_iter().map(|e| e.right).collect();
+        let rights: Vec<Vec<Real>> = lowered
+            .tail
+            .equations
+            .into_iter()
+            .map(|e| e.right)
+            .collect();
         for &index in &parts.system.implied {
-            if !rights[index].iter().fold(Real::zero(), |sum, c| &sum + c).is_zero() {
-                return Err(refuse(format!(
+            if !rights[index]
+                .iter()
+                .fold(Real::zero(), |sum, c| &sum + c)
+                .is_zero()
+            {
+                return Err(format!(
                     "{} contradicts the other constraints",
                     parts.name(index)
-                )));
+                ));
             }
         }
-        let run = parts.follow(&rights, control);
+        Ok((parts, rights))
+    }
+
+    /// Leads the sketch to its own dimensions.
+    fn lead(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Result<(), OpenError> {
+        let run = self.follow(rights, control);
         let failed = |ending: Ending, what: String| OpenError::Correction {
             what,
             ending: Box::new(ending),
@@ -222,15 +261,16 @@ impl Parts {
                 return Err(failed(Ending::Stopped(reason.clone()), reason));
             }
         };
-        parts.moved = Moved {
-            distance: parts.distance(&figure),
-            tubes: run.tubes.max(usize::from(parts.distance(&figure) > 0.0)),
+        let distance = self.distance(&figure);
+        self.moved = Moved {
+            distance,
+            tubes: run.tubes.max(usize::from(distance > 0.0)),
         };
-        parts.figure = figure;
-        if let Some(what) = parts.broken(&rights) {
-            return Err(failed(Ending::Stopped(what.clone()), what));
+        self.figure = figure;
+        match self.broken(rights) {
+            Some(what) => Err(failed(Ending::Stopped(what.clone()), what)),
+            None => Ok(()),
         }
-        Ok(parts)
     }
 
     fn find_exact(&mut self) {
@@ -265,7 +305,9 @@ impl Parts {
         for &u in &self.free {
             let points = self.system.coordinates.iter().position(|&c| c == u);
             let name = match points {
-                Some(place) => self.problem.points[place / self.problem.dimension].name.clone(),
+                Some(place) => self.problem.points[place / self.problem.dimension]
+                    .name
+                    .clone(),
                 None => self.system.unknowns[u].name.clone(),
             };
             if !names.contains(&name) {
@@ -287,21 +329,25 @@ impl Parts {
         names
     }
 
-    /// For each block that is no single number known exactly how many unknowns it has.
-    pub fn block_sizes(&self) -> Vec<usize> {
+    /// How the equations fall apart.
+    pub fn decomposition(&self) -> Decomposition {
         let blocks = self.blocks.blocks.iter().zip(&self.is_exact);
-        let rest = blocks.filter(|(_, exact)| !**exact);
-        rest.map(|(block, _)| block.unknowns.len()).collect()
-    }
-
-    /// How many coordinates were merged with others.
-    pub fn merged(&self) -> usize {
-        self.system.merged
-    }
-
-    /// How many unknowns are left.
-    pub fn unknowns(&self) -> usize {
-        self.system.unknowns.len()
+        let names = |block: &Block| {
+            let unknowns = block.unknowns.iter();
+            unknowns
+                .map(|&u| self.system.unknowns[u].name.clone())
+                .collect()
+        };
+        Decomposition {
+            merged: self.system.merged,
+            unknowns: self.system.unknowns.len(),
+            blocks: blocks
+                .filter(|(_, exact)| !**exact)
+                .map(|(block, _)| names(block))
+                .collect(),
+            free: self.free(),
+            redundant: self.redundant(),
+        }
     }
 
     /// What people call the source of one of the problem's equations.
@@ -351,7 +397,11 @@ impl Parts {
         });
         // Where nothing moved the enclosures are of one and the same point.
         let apart = apart.fold(0.0, f64::max);
-        if apart > 1e-15 * self.unit { apart } else { 0.0 }
+        if apart > 1e-15 * self.unit {
+            apart
+        } else {
+            0.0
+        }
     }
 
     pub fn edit(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
@@ -363,8 +413,12 @@ impl Parts {
         let (edited, figure) = match lowered(&problem, Some(&self.record)) {
             Err(fault) => (self.account(settings, stopped(fault)), None),
             Ok(lowered) => {
-                let rights: Vec<Vec<Real>> =
-                    lowered.tail.equations.into_iter().map(|e| e.right).collect();
+                let rights: Vec<Vec<Real>> = lowered
+                    .tail
+                    .equations
+                    .into_iter()
+                    .map(|e| e.right)
+                    .collect();
                 let mut run = match self.unmovable(&rights) {
                     Some(what) => stopped(what),
                     None => self.follow(&rights, control),
@@ -395,7 +449,10 @@ impl Parts {
 
     /// A dimension that is to move but follows from others.
     fn unmovable(&self, rights: &[Vec<Real>]) -> Option<String> {
-        let redundant = self.redundant.iter().map(|&row| self.system.rows[row].index);
+        let redundant = self
+            .redundant
+            .iter()
+            .map(|&row| self.system.rows[row].index);
         let mut all = redundant.chain(self.system.implied.iter().copied());
         let fixed = all.find(|&index| moves(&rights[index]))?;
         Some(format!(
@@ -472,7 +529,9 @@ impl Parts {
             let run = self.follow_group(group, rights, control);
             let is_reached = matches!(run.run.end, ArcEnd::Reached(_));
             runs.push(run);
-            let is_cancelled = control.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+            let is_cancelled = control
+                .cancel
+                .is_some_and(|flag| flag.load(Ordering::Relaxed));
             if !is_reached && is_cancelled {
                 break;
             }
@@ -576,7 +635,10 @@ impl Parts {
             }
         }
         let with_needs = self.blocks.with_needs(taken);
-        let not_exact: Vec<usize> = with_needs.into_iter().filter(|&b| !self.is_exact[b]).collect();
+        let not_exact: Vec<usize> = with_needs
+            .into_iter()
+            .filter(|&b| !self.is_exact[b])
+            .collect();
         for &b in &not_exact {
             for &need in &self.blocks.blocks[b].needs {
                 if !self.is_exact[need] {
@@ -619,7 +681,12 @@ impl Parts {
             .collect();
         let used: Vec<Used> = blocks
             .iter()
-            .flat_map(|&b| self.blocks.blocks[b].equations.iter().map(|&e| self.used[e]))
+            .flat_map(|&b| {
+                self.blocks.blocks[b]
+                    .equations
+                    .iter()
+                    .map(|&e| self.used[e])
+            })
             .collect();
         if unknowns.len() > LARGEST_SQUARE {
             let reason = format!(
@@ -637,8 +704,10 @@ impl Parts {
             };
             return PartRun { unknowns, run };
         }
-        let polynomials: Vec<Vec<Real>> =
-            used.iter().map(|&used| self.rights_of(used, rights)).collect();
+        let polynomials: Vec<Vec<Real>> = used
+            .iter()
+            .map(|&used| self.rights_of(used, rights))
+            .collect();
         let mut follower = match self.ready.remove(&blocks) {
             Some(mut follower) => {
                 let homotopy = follower.homotopy_mut();
@@ -700,7 +769,11 @@ impl Parts {
             }
         });
         let d = self.problem.dimension;
-        let coordinates = self.system.coordinates.iter().map(|u| local.get(u).copied());
+        let coordinates = self
+            .system
+            .coordinates
+            .iter()
+            .map(|u| local.get(u).copied());
         let coordinates: Vec<Option<usize>> = coordinates.collect();
         let is_here = |points: &&Vec<usize>| {
             let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
@@ -709,7 +782,10 @@ impl Parts {
         Homotopy::of_part(Part {
             dimension: d,
             unit: self.unit,
-            unknowns: unknowns.iter().map(|&u| self.system.unknowns[u].clone()).collect(),
+            unknowns: unknowns
+                .iter()
+                .map(|&u| self.system.unknowns[u].clone())
+                .collect(),
             equations: equations.collect(),
             followed: self.followed.iter().filter(is_here).cloned().collect(),
             coordinates,
@@ -740,16 +816,15 @@ impl Parts {
                     out.switched_on.push(remark.clone());
                 }
             }
-            out.orientations.extend(run.run.orientations.iter().cloned());
+            out.orientations
+                .extend(run.run.orientations.iter().cloned());
         }
         // Nothing is said of a piece of path beyond where all of it ends.
         for orientation in &mut out.orientations {
             orientation.lost = orientation.lost.filter(|lost| lost.0 <= t.1);
         }
         for (&u, polynomial) in exact {
-            if self.system.unknowns[u].role == Role::Positive
-                && !is_positive(polynomial)
-            {
+            if self.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
                 let name = &self.system.unknowns[u].name;
                 out.end = End::Stopped(format!("{name} does not stay positive"));
                 out.t = (0.0, 0.0);
@@ -763,7 +838,10 @@ impl Parts {
                 let right = enclosed(polynomial, scale);
                 figure[u] = Known::new(match time.inf() == 1.0 {
                     true => right.iter().fold(point(0.0), |sum, c| sum + *c),
-                    false => right.iter().rev().fold(point(0.0), |sum, c| sum * time + *c),
+                    false => right
+                        .iter()
+                        .rev()
+                        .fold(point(0.0), |sum, c| sum * time + *c),
                 });
             }
             figure
@@ -844,8 +922,7 @@ impl Parts {
                     Some(p) => p.iter().rev().fold(point(0.0), |sum, c| sum * time + *c),
                     None => self.figure[of[k]].enclosure(),
                 };
-                let determinant =
-                    (x(2) - x(0)) * (x(5) - x(1)) - (x(3) - x(1)) * (x(4) - x(0));
+                let determinant = (x(2) - x(0)) * (x(5) - x(1)) - (x(3) - x(1)) * (x(4) - x(0));
                 match (determinant.inf() > 0.0, determinant.sup() < 0.0) {
                     (true, _) => 1,
                     (_, true) => -1,
@@ -984,7 +1061,11 @@ fn is_positive(polynomial: &[Real]) -> bool {
     let step = 1.0 / f64::from(PIECES);
     (0..PIECES).all(|k| {
         let time = hull(f64::from(k) * step, f64::from(k + 1) * step);
-        c.iter().rev().fold(point(0.0), |sum, c| sum * time + *c).inf() > 0.0
+        c.iter()
+            .rev()
+            .fold(point(0.0), |sum, c| sum * time + *c)
+            .inf()
+            > 0.0
     })
 }
 

@@ -123,11 +123,7 @@ impl Session {
     pub fn decomposition(&self) -> Option<Decomposition> {
         match &self.way {
             Way::Whole(_) => None,
-            Way::Parts(parts) => Some(Decomposition {
-                merged: parts.merged(),
-                unknowns: parts.unknowns(),
-                blocks: parts.block_sizes(),
-            }),
+            Way::Parts(parts) => Some(parts.decomposition()),
         }
     }
 
@@ -166,6 +162,23 @@ pub struct Decomposition {
     pub merged: usize,
     /// How many unknowns are left.
     pub unknowns: usize,
-    /// The unknowns of each block that is not a single number known exactly once those before it are.
-    pub blocks: Vec<usize>,
+    /// The names of the unknowns of each block that has to be solved, in an order in which each needs only those before;
+    /// single numbers that are known exactly once those before are come in none of them.
+    pub blocks: Vec<Vec<String>>,
+    /// See [`Session::free`].
+    pub free: Vec<String>,
+    /// See [`Session::redundant`].
+    pub redundant: Vec<String>,
+}
+
+impl Decomposition {
+    /// How a problem in its own frame falls apart, as its sketch shows it; it need not be well constrained.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn of(problem: &Problem) -> Result<Self, String> {
+        Ok(Parts::assemble(problem, &Options::certified())?
+            .0
+            .decomposition())
+    }
 }

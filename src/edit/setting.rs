@@ -78,7 +78,10 @@ impl Setting {
             Measure::Length if !value.is_positive() => {
                 return Err(SettingError::NotPositive(name, value.to_string()));
             }
-            Measure::Degrees if !(value.is_positive() && *value.value() < BigRational::from_integer(180.into())) => {
+            Measure::Degrees
+                if !(value.is_positive()
+                    && *value.value() < BigRational::from_integer(180.into())) =>
+            {
                 return Err(SettingError::NotAnAngle(name, value.to_string()));
             }
             _ => {}
@@ -103,7 +106,10 @@ impl Setting {
 
     /// Gives the dimension of a problem this value.
     pub(super) fn apply(&self, problem: &mut Problem) {
-        match (self.index.checked_sub(problem.distances.len()), &self.target) {
+        match (
+            self.index.checked_sub(problem.distances.len()),
+            &self.target,
+        ) {
             (None, target) => problem.distances[self.index].target = target.clone(),
             (Some(c), Target::Length(value)) => problem.constraints[c].value = Some(value.clone()),
             (Some(_), Target::SquaredLength(_)) => {
@@ -193,7 +199,7 @@ impl Setting {
 }
 
 /// What the number of a dimension is.
-fn measure(problem: &Problem, index: usize) -> Measure {
+pub(super) fn measure(problem: &Problem, index: usize) -> Measure {
     match index.checked_sub(problem.distances.len()) {
         None => Measure::Length,
         Some(c) => constraint::kind(&problem.constraints[c].kind)
@@ -236,7 +242,10 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
     found.ok_or_else(|| {
         const SHOWN: usize = 12;
         let all: Vec<usize> = problem.dimensions().collect();
-        let names = all.iter().take(SHOWN).map(|&index| problem.dimension_name(index));
+        let names = all
+            .iter()
+            .take(SHOWN)
+            .map(|&index| problem.dimension_name(index));
         let mut known = names.collect::<Vec<_>>().join(", ");
         if all.len() > SHOWN {
             known += &format!(" and {} more", all.len() - SHOWN);

@@ -202,9 +202,7 @@ impl Drawing {
         let both = ends[0]
             .iter()
             .flat_map(|&a| ends[1].iter().map(move |&b| [a, b]));
-        let meet = both
-            .clone()
-            .find(|&[a, b]| self.root(a) == self.root(b));
+        let meet = both.clone().find(|&[a, b]| self.root(a) == self.root(b));
         meet.or_else(|| {
             let first = ends[0].iter().find(|&&a| on(a, edges[1]));
             let second = ends[1].iter().find(|&&b| on(b, edges[0]));
@@ -288,8 +286,7 @@ impl Drawing {
             },
             _ => None,
         };
-        let value_of =
-            |drawing: &Drawing, place: usize| drawing.places[place / 2].1[place % 2];
+        let value_of = |drawing: &Drawing, place: usize| drawing.places[place / 2].1[place % 2];
         for (constraint, _) in &self.constraints {
             let axes: &[usize] = match constraint.kind.as_str() {
                 "horizontal" => &[1],

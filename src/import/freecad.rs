@@ -43,7 +43,9 @@ fn sketches<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, String)> {
         .descendants()
         .filter(|n| n.has_tag_name("Object") && is_sketch(n.attribute("type")));
     let names: Vec<&str> = declared.filter_map(|n| n.attribute("name")).collect();
-    let data = document.descendants().filter(|n| n.has_tag_name("ObjectData"));
+    let data = document
+        .descendants()
+        .filter(|n| n.has_tag_name("ObjectData"));
     let objects = data.flat_map(|n| n.children().filter(|n| n.has_tag_name("Object")));
     objects
         .filter_map(|object| {
@@ -54,7 +56,10 @@ fn sketches<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, String)> {
 }
 
 fn is_sketch(kind: Option<&str>) -> bool {
-    matches!(kind, Some("Sketcher::SketchObject" | "Sketcher::SketchObjectPython"))
+    matches!(
+        kind,
+        Some("Sketcher::SketchObject" | "Sketcher::SketchObjectPython")
+    )
 }
 
 fn property<'a>(object: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
@@ -64,11 +69,15 @@ fn property<'a>(object: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
 }
 
 fn number(node: Node, key: &str) -> f64 {
-    node.attribute(key).and_then(|x| x.parse().ok()).unwrap_or(0.0)
+    node.attribute(key)
+        .and_then(|x| x.parse().ok())
+        .unwrap_or(0.0)
 }
 
 fn whole(node: Node, key: &str) -> i64 {
-    node.attribute(key).and_then(|x| x.parse().ok()).unwrap_or(0)
+    node.attribute(key)
+        .and_then(|x| x.parse().ok())
+        .unwrap_or(0)
 }
 
 fn constraints<'a>(object: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
@@ -90,21 +99,36 @@ fn is_driving(constraint: Node) -> bool {
 pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
     let text = document(bytes)?;
     let document = parse(&text)?;
-    let listed = sketches(&document).into_iter().map(|(object, name)| Listed {
-        name,
-        drawn: geometry(object, "Geometry").len(),
-        constraints: constraints(object).into_iter().filter(|c| is_driving(*c)).count(),
-    });
+    let listed = sketches(&document)
+        .into_iter()
+        .map(|(object, name)| Listed {
+            name,
+            drawn: geometry(object, "Geometry").len(),
+            constraints: constraints(object)
+                .into_iter()
+                .filter(|c| is_driving(*c))
+                .count(),
+        });
     Ok(listed.collect())
 }
 
 /// An edge, or what else is drawn.
 #[derive(Debug, Clone)]
 enum Drawn {
-    Line { ends: [usize; 2], object: Option<usize> },
+    Line {
+        ends: [usize; 2],
+        object: Option<usize>,
+    },
     Point(usize),
-    Circle { center: usize, object: Option<usize> },
-    Arc { center: usize, ends: [usize; 2], object: Option<usize> },
+    Circle {
+        center: usize,
+        object: Option<usize>,
+    },
+    Arc {
+        center: usize,
+        ends: [usize; 2],
+        object: Option<usize>,
+    },
     /// Of a kind that krawl does not have.
     Other,
 }
@@ -163,7 +187,10 @@ impl Reader {
         };
         let kind = geometry.attribute("type").unwrap_or("");
         let shape = geometry.children().find(|n| {
-            matches!(n.tag_name().name(), "LineSegment" | "Circle" | "ArcOfCircle" | "GeomPoint")
+            matches!(
+                n.tag_name().name(),
+                "LineSegment" | "Circle" | "ArcOfCircle" | "GeomPoint"
+            )
         });
         let Some(shape) = shape.filter(|_| kind.starts_with("Part::Geom")) else {
             self.edges.insert(id, Drawn::Other);
@@ -184,7 +211,10 @@ impl Reader {
                 keep(self, a, ["StartX", "StartY"]);
                 keep(self, b, ["EndX", "EndY"]);
                 let object = self.drawing.line(name, [a, b]);
-                Drawn::Line { ends: [a, b], object }
+                Drawn::Line {
+                    ends: [a, b],
+                    object,
+                }
             }
             "GeomPoint" => {
                 let p = self.point(name, at("X", "Y"), fixed);
@@ -213,7 +243,11 @@ impl Reader {
                 let clockwise = number(shape, "NormalZ") < 0.0;
                 let end = |key: &str| {
                     let angle = number(shape, key);
-                    let angle = if clockwise { turned - angle } else { turned + angle };
+                    let angle = if clockwise {
+                        turned - angle
+                    } else {
+                        turned + angle
+                    };
                     [x + radius * angle.cos(), y + radius * angle.sin()]
                 };
                 let ends = [end("StartAngle"), end("EndAngle")];
@@ -223,11 +257,23 @@ impl Reader {
                 keep(self, center, ["CenterX", "CenterY"]);
                 if !fixed {
                     self.place(shape, "Radius", Number::Apart(center, a));
-                    self.place(shape, "StartAngle", Number::Angle(center, a, turned, clockwise));
-                    self.place(shape, "EndAngle", Number::Angle(center, b, turned, clockwise));
+                    self.place(
+                        shape,
+                        "StartAngle",
+                        Number::Angle(center, a, turned, clockwise),
+                    );
+                    self.place(
+                        shape,
+                        "EndAngle",
+                        Number::Angle(center, b, turned, clockwise),
+                    );
                 }
                 let object = self.drawing.arc(name, [center, a, b]);
-                Drawn::Arc { center, ends: [a, b], object }
+                Drawn::Arc {
+                    center,
+                    ends: [a, b],
+                    object,
+                }
             }
         };
         self.edges.insert(id, drawn);
@@ -315,7 +361,8 @@ impl Reader {
             }
             4 => {
                 let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
-                self.drawing.constrain(source, "parallel", lines.map(Item::Object).to_vec(), None);
+                self.drawing
+                    .constrain(source, "parallel", lines.map(Item::Object).to_vec(), None);
             }
             5 if third.0 == NONE => return self.tangent(index, first, second),
             6 => match (first.1, second) {
@@ -343,7 +390,8 @@ impl Reader {
                 if first.1 != 0 && !has_second {
                     let p = self.point_of(first)?;
                     let key = if axis == 0 { "x" } else { "y" };
-                    self.drawing.constrain(source, key, vec![Item::Point(p)], Some(value));
+                    self.drawing
+                        .constrain(source, key, vec![Item::Point(p)], Some(value));
                     return Some(());
                 }
                 let ends = match (first.1, has_second) {
@@ -360,7 +408,11 @@ impl Reader {
                 let other = self.line_of(if has_second { second.0 } else { -1 })?;
                 let items = vec![Item::Object(one), Item::Object(other)];
                 let degrees = degrees(value).abs() % 360.0;
-                let degrees = if degrees > 180.0 { 360.0 - degrees } else { degrees };
+                let degrees = if degrees > 180.0 {
+                    360.0 - degrees
+                } else {
+                    degrees
+                };
                 let (kind, value) = match degrees {
                     0.0 | 180.0 => ("parallel", None),
                     _ => ("angles", Some(degrees)),
@@ -371,7 +423,8 @@ impl Reader {
             kind @ (11 | 18) => {
                 let round = self.round_of(first.0)?;
                 let key = if kind == 11 { "radii" } else { "diameters" };
-                self.drawing.constrain(source, key, vec![Item::Object(round)], Some(value));
+                self.drawing
+                    .constrain(source, key, vec![Item::Object(round)], Some(value));
             }
             12 => {
                 let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
@@ -379,7 +432,8 @@ impl Reader {
                 if lines[0] != lines[1] {
                     return None;
                 }
-                self.drawing.constrain(source, "equal", edges.map(Item::Object).to_vec(), None);
+                self.drawing
+                    .constrain(source, "equal", edges.map(Item::Object).to_vec(), None);
             }
             13 => {
                 let (p, edge) = (self.point_of(first)?, self.object_of(second.0)?);
@@ -404,7 +458,8 @@ impl Reader {
                     Drawn::Circle { .. } | Drawn::Arc { .. } | Drawn::Other => return None,
                 };
                 for p in points {
-                    self.drawing.constrain(source, "fixed", vec![Item::Point(p)], None);
+                    self.drawing
+                        .constrain(source, "fixed", vec![Item::Point(p)], None);
                 }
             }
             _ => return None,
@@ -427,7 +482,8 @@ impl Reader {
             (1.., 1..) => {
                 let points = [self.point_of(first)?, self.point_of(second)?];
                 let items = points.map(Item::Point).to_vec();
-                self.drawing.constrain(Some(index), "coincident", items, None);
+                self.drawing
+                    .constrain(Some(index), "coincident", items, None);
                 let sides = [(edges[0], points[0]), (edges[1], points[1])];
                 self.drawing.touch_at(index, sides).then_some(())
             }
@@ -439,7 +495,9 @@ impl Reader {
                 };
                 let items = vec![Item::Point(end), Item::Object(other)];
                 self.drawing.constrain(Some(index), "on", items, None);
-                self.drawing.touch_at(index, [(own, end), (other, end)]).then_some(())
+                self.drawing
+                    .touch_at(index, [(own, end), (other, end)])
+                    .then_some(())
             }
         }
     }
@@ -492,9 +550,26 @@ fn degrees(radians: f64) -> f64 {
 
 fn kind_name(kind: i64) -> String {
     let names = [
-        "None", "Coincident", "Horizontal", "Vertical", "Parallel", "Tangent", "Distance", "DistanceX",
-        "DistanceY", "Angle", "Perpendicular", "Radius", "Equal", "PointOnObject", "Symmetric",
-        "InternalAlignment", "SnellsLaw", "Block", "Diameter", "Weight",
+        "None",
+        "Coincident",
+        "Horizontal",
+        "Vertical",
+        "Parallel",
+        "Tangent",
+        "Distance",
+        "DistanceX",
+        "DistanceY",
+        "Angle",
+        "Perpendicular",
+        "Radius",
+        "Equal",
+        "PointOnObject",
+        "Symmetric",
+        "InternalAlignment",
+        "SnellsLaw",
+        "Block",
+        "Diameter",
+        "Weight",
     ];
     let name = usize::try_from(kind).ok().and_then(|k| names.get(k));
     name.map_or_else(|| format!("type {kind}"), |name| (*name).to_owned())
@@ -514,7 +589,10 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     for (id, geometry) in own.iter().enumerate() {
         reader.draw(id as i64, *geometry);
     }
-    let places = reader.numbers.iter().filter(|n| matches!(n.1, Number::Coordinate(..)));
+    let places = reader
+        .numbers
+        .iter()
+        .filter(|n| matches!(n.1, Number::Coordinate(..)));
     let far = places.fold(0.0f64, |max, n| max.max(n.2.abs()));
     if far > 0.0 {
         reader.size = 2f64.powi(far.log2().round() as i32);
@@ -525,7 +603,10 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     }
     let mut values = Vec::new();
     for (index, node) in constraints(object).into_iter().enumerate() {
-        values.push(node.attribute_node("Value").map_or(0..0, |value| value.range_value()));
+        values.push(
+            node.attribute_node("Value")
+                .map_or(0..0, |value| value.range_value()),
+        );
         if !is_driving(node) {
             continue;
         }
@@ -539,7 +620,9 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
             });
             let kind = kind_name(whole(node, "Type"));
             let kind = match external {
-                true => format!("{kind} (on geometry of another object, which the file does not store)"),
+                true => {
+                    format!("{kind} (on geometry of another object, which the file does not store)")
+                }
                 false => kind,
             };
             reader.drawing.refuse(&kind);
@@ -582,7 +665,11 @@ pub fn rewrite(
             Number::Angle(center, point, turned, clockwise) => {
                 let ([ax, ay, _], [bx, by, _]) = (figure.points[center], figure.points[point]);
                 let angle = (by - ay).atan2(bx - ax);
-                let angle = if clockwise { turned - angle } else { angle - turned };
+                let angle = if clockwise {
+                    turned - angle
+                } else {
+                    angle - turned
+                };
                 // As near as can be to what it was.
                 let turn = std::f64::consts::TAU;
                 angle + turn * ((before - angle) / turn).round()
@@ -598,7 +685,10 @@ pub fn rewrite(
             continue;
         };
         let range = places.values.get(source).cloned().unwrap_or(0..0);
-        let said: f64 = text.get(range.clone()).and_then(|x| x.parse().ok()).unwrap_or(f64::NAN);
+        let said: f64 = text
+            .get(range.clone())
+            .and_then(|x| x.parse().ok())
+            .unwrap_or(f64::NAN);
         let before = super::value(&imported.problem, index);
         let is_angle = index
             .checked_sub(problem.distances.len())
@@ -607,7 +697,11 @@ pub fn rewrite(
             // As far from the old one as the figure turns, in the file's own sense.
             let old = degrees(said);
             let folded = old.abs() % 360.0;
-            let sense = if folded > 180.0 { -old.signum() } else { old.signum() };
+            let sense = if folded > 180.0 {
+                -old.signum()
+            } else {
+                old.signum()
+            };
             (old + sense * (value - before)).to_radians()
         } else if said * before < 0.0 {
             -value
@@ -634,8 +728,8 @@ pub fn rewrite(
             to.raw_copy_file(part).map_err(failed)?;
             continue;
         }
-        let mut options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Deflated);
+        let mut options =
+            SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
         if let Some(time) = part.last_modified() {
             options = options.last_modified_time(time);
         }

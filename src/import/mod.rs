@@ -198,7 +198,10 @@ fn value(problem: &Problem, index: usize) -> f64 {
             Target::Length(x) => x.to_f64(),
             Target::SquaredLength(x) => x.to_f64().sqrt(),
         },
-        Some(c) => problem.constraints[c].value.as_ref().map_or(0.0, Decimal::to_f64),
+        Some(c) => problem.constraints[c]
+            .value
+            .as_ref()
+            .map_or(0.0, Decimal::to_f64),
     }
 }
 
@@ -206,9 +209,13 @@ fn value(problem: &Problem, index: usize) -> f64 {
 fn changed(before: &Problem, now: &Problem) -> Vec<(usize, f64)> {
     let head = before.distances.len();
     let lengths = before.distances.iter().zip(&now.distances);
-    let lengths = lengths.enumerate().filter(|(_, (a, b))| a.target != b.target);
+    let lengths = lengths
+        .enumerate()
+        .filter(|(_, (a, b))| a.target != b.target);
     let others = before.constraints.iter().zip(&now.constraints);
     let others = others.enumerate().filter(|(_, (a, b))| a.value != b.value);
-    let indices = lengths.map(|(index, _)| index).chain(others.map(|(index, _)| head + index));
+    let indices = lengths
+        .map(|(index, _)| index)
+        .chain(others.map(|(index, _)| head + index));
     indices.map(|index| (index, value(now, index))).collect()
 }

@@ -149,7 +149,10 @@ impl<'a> Contents<'a> {
         if entity & 0x8000_0000 != 0 {
             return None;
         }
-        let request = self.requests.get(&(entity >> 16)).map(|&i| &self.records[i]);
+        let request = self
+            .requests
+            .get(&(entity >> 16))
+            .map(|&i| &self.records[i]);
         request.filter(|request| request.hex("group.v") == group)
     }
 
@@ -163,9 +166,8 @@ impl<'a> Contents<'a> {
 
     fn place_in_space(&self, point: Handle) -> Option<[f64; 3]> {
         let point = self.entity(point)?;
-        matches!(point.whole("type"), 2000..=2012).then(|| {
-            ["actPoint.x", "actPoint.y", "actPoint.z"].map(|key| point.number(key))
-        })
+        matches!(point.whole("type"), 2000..=2012)
+            .then(|| ["actPoint.x", "actPoint.y", "actPoint.z"].map(|key| point.number(key)))
     }
 }
 
@@ -181,7 +183,8 @@ impl Plane {
     fn new(contents: &Contents, handle: Handle) -> Option<Self> {
         let plane = contents.entity(handle)?;
         let normal = contents.entity(plane.hex("normal.v"))?;
-        let [w, x, y, z] = ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
+        let [w, x, y, z] =
+            ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
         Some(Plane {
             origin: contents.place_in_space(plane.hex("point[0].v"))?,
             u: [
@@ -232,7 +235,11 @@ pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
             .filter(|c| c.whole("reference") == 0 && c.whole("type") != COMMENT);
         Listed {
             name,
-            drawn: contents.records.iter().filter(|r| of_group(r, "Request")).count(),
+            drawn: contents
+                .records
+                .iter()
+                .filter(|r| of_group(r, "Request"))
+                .count(),
             constraints: constraints.count(),
         }
     });
@@ -402,7 +409,8 @@ impl Reader<'_> {
         match kind {
             20 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                self.drawing.constrain(source, "coincident", vec![point(a), point(b)], None);
+                self.drawing
+                    .constrain(source, "coincident", vec![point(a), point(b)], None);
             }
             30 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
@@ -414,7 +422,8 @@ impl Reader<'_> {
                     0.0 => ("on", None),
                     _ => ("distances", Some(value.abs())),
                 };
-                self.drawing.constrain(source, kind, vec![point(p), object(l)], value);
+                self.drawing
+                    .constrain(source, kind, vec![point(p), object(l)], value);
             }
             34 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
@@ -434,26 +443,31 @@ impl Reader<'_> {
                     _ => return None,
                 };
                 let signed = Some(value * along.signum());
-                self.drawing.constrain(source, kind, vec![point(a), point(b)], signed);
+                self.drawing
+                    .constrain(source, kind, vec![point(a), point(b)], signed);
             }
             42 => {
                 let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
-                self.drawing.constrain(source, "on", vec![point(p), object(l)], None);
+                self.drawing
+                    .constrain(source, "on", vec![point(p), object(l)], None);
             }
             50 => {
                 let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                self.drawing.constrain(source, "equal", lines.map(object).to_vec(), None);
+                self.drawing
+                    .constrain(source, "equal", lines.map(object).to_vec(), None);
             }
             53 => {
                 let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
                 let (q, k) = (self.point(handle("ptB"))?, self.line(handle("entityB"))?);
                 let items = vec![point(p), object(l), point(q), object(k)];
-                self.drawing.constrain(source, "equal_distances", items, None);
+                self.drawing
+                    .constrain(source, "equal_distances", items, None);
             }
             61 | 62 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
                 let axis = Item::Axis(usize::from(kind == 61));
-                self.drawing.constrain(source, "symmetric", vec![point(a), point(b), axis], None);
+                self.drawing
+                    .constrain(source, "symmetric", vec![point(a), point(b), axis], None);
             }
             63 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
@@ -463,7 +477,8 @@ impl Reader<'_> {
             }
             70 => {
                 let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
-                self.drawing.constrain(source, "midpoint", vec![point(p), object(l)], None);
+                self.drawing
+                    .constrain(source, "midpoint", vec![point(p), object(l)], None);
             }
             80 | 81 => {
                 let key = if kind == 80 { "horizontal" } else { "vertical" };
@@ -478,11 +493,13 @@ impl Reader<'_> {
             }
             90 => {
                 let round = self.round(handle("entityA"))?;
-                self.drawing.constrain(source, "diameters", vec![object(round)], Some(value));
+                self.drawing
+                    .constrain(source, "diameters", vec![object(round)], Some(value));
             }
             100 => {
                 let (p, c) = (self.point(handle("ptA"))?, self.round(handle("entityA"))?);
-                self.drawing.constrain(source, "on", vec![point(p), object(c)], None);
+                self.drawing
+                    .constrain(source, "on", vec![point(p), object(c)], None);
             }
             120 => {
                 let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
@@ -496,18 +513,29 @@ impl Reader<'_> {
             }
             121 | 122 => {
                 let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                let kind = if kind == 121 { "parallel" } else { "perpendicular" };
-                self.drawing.constrain(source, kind, lines.map(object).to_vec(), None);
+                let kind = if kind == 121 {
+                    "parallel"
+                } else {
+                    "perpendicular"
+                };
+                self.drawing
+                    .constrain(source, kind, lines.map(object).to_vec(), None);
             }
             123 => {
-                let (arc, line) = (self.round(handle("entityA"))?, self.line(handle("entityB"))?);
+                let (arc, line) = (
+                    self.round(handle("entityA"))?,
+                    self.line(handle("entityB"))?,
+                );
                 let end = self.end(arc, record.whole("other") != 0)?;
                 if !self.drawing.touch_at(index, [(line, end), (arc, end)]) {
                     return None;
                 }
             }
             125 => {
-                let (a, b) = (self.round(handle("entityA"))?, self.round(handle("entityB"))?);
+                let (a, b) = (
+                    self.round(handle("entityA"))?,
+                    self.round(handle("entityB"))?,
+                );
                 let one = self.end(a, record.whole("other") != 0)?;
                 let other = self.end(b, record.whole("other2") != 0)?;
                 if !self.drawing.touch_at(index, [(a, one), (b, other)]) {
@@ -515,12 +543,17 @@ impl Reader<'_> {
                 }
             }
             130 => {
-                let rounds = [self.round(handle("entityA"))?, self.round(handle("entityB"))?];
-                self.drawing.constrain(source, "equal", rounds.map(object).to_vec(), None);
+                let rounds = [
+                    self.round(handle("entityA"))?,
+                    self.round(handle("entityB"))?,
+                ];
+                self.drawing
+                    .constrain(source, "equal", rounds.map(object).to_vec(), None);
             }
             200 => {
                 let p = self.point(handle("ptA"))?;
-                self.drawing.constrain(source, "fixed", vec![point(p)], None);
+                self.drawing
+                    .constrain(source, "fixed", vec![point(p)], None);
             }
             _ => return None,
         }
@@ -571,7 +604,9 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         if record.kind != "Constraint" || record.hex("group.v") != group.handle() || !is_driving {
             continue;
         }
-        reader.drawing.name(index, format!("c{:03x}", record.handle()));
+        reader
+            .drawing
+            .name(index, format!("c{:03x}", record.handle()));
         if reader.constraint(index).is_none() {
             reader.drawing.refuse(&kind_name(record.whole("type")));
         }
@@ -593,7 +628,9 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         places: AllPlaces::SolveSpace(Places {
             plane,
             points: places,
-            radii: (0..problem.objects.len()).map(|o| radii.get(&o).copied()).collect(),
+            radii: (0..problem.objects.len())
+                .map(|o| radii.get(&o).copied())
+                .collect(),
             sources,
         }),
         problem,
@@ -615,7 +652,10 @@ pub fn rewrite(
             continue;
         };
         for (param, value) in params.iter().zip([x, y]) {
-            let record = contents.params.get(param).ok_or_else(|| missing("a parameter"))?;
+            let record = contents
+                .params
+                .get(param)
+                .ok_or_else(|| missing("a parameter"))?;
             edits.number(&contents.records[*record], "val", value);
         }
         let record = contents.entity(*entity).ok_or_else(|| missing("a point"))?;
@@ -628,7 +668,10 @@ pub fn rewrite(
         let Some((param, entity)) = place else {
             continue;
         };
-        let record = contents.params.get(param).ok_or_else(|| missing("a radius"))?;
+        let record = contents
+            .params
+            .get(param)
+            .ok_or_else(|| missing("a radius"))?;
         edits.number(&contents.records[*record], "val", radius);
         if let Some(record) = contents.entity(*entity) {
             edits.number(record, "actDistance", radius);
@@ -638,10 +681,17 @@ pub fn rewrite(
         let Some(source) = places.sources.get(index).copied().flatten() else {
             continue;
         };
-        let record = contents.records.get(source).ok_or_else(|| missing("a constraint"))?;
+        let record = contents
+            .records
+            .get(source)
+            .ok_or_else(|| missing("a constraint"))?;
         // A distance from a line has a sign in the file, a projection that of its line.
         let before = super::value(&imported.problem, index);
-        let sign = if record.number("valA") * before < 0.0 { -1.0 } else { 1.0 };
+        let sign = if record.number("valA") * before < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
         edits.number(record, "valA", sign * value);
     }
     Ok(edits.apply(bytes))
@@ -675,7 +725,11 @@ impl Edits {
     fn apply(&self, bytes: &[u8]) -> Vec<u8> {
         let mut out = Vec::with_capacity(bytes.len() + 64);
         for (at, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
-            let end: &[u8] = if line.ends_with(b"\r\n") { b"\r\n" } else { b"\n" };
+            let end: &[u8] = if line.ends_with(b"\r\n") {
+                b"\r\n"
+            } else {
+                b"\n"
+            };
             for new in self.inserted.get(&at).into_iter().flatten() {
                 out.extend_from_slice(new.as_bytes());
                 out.extend_from_slice(end);

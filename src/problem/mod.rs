@@ -142,7 +142,11 @@ impl Problem {
             return self.distance_name(index);
         };
         let constraint = &self.constraints[c];
-        let items: Vec<&str> = constraint.items.iter().map(|&item| self.item_name(item)).collect();
+        let items: Vec<&str> = constraint
+            .items
+            .iter()
+            .map(|&item| self.item_name(item))
+            .collect();
         format!("{}:{}", constraint.kind, items.join("-"))
     }
 

@@ -20,7 +20,8 @@ pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
 pub use complete::{complete_to_json, complete_to_table, cover_theorem};
 pub use digits::certain_digits;
 pub use edit::{
-    edit_in_words, edit_to_json, edit_to_table, edit_to_value, figure_to_value, limit_in_words,
+    decomposition_in_words, edit_in_words, edit_to_json, edit_to_table, edit_to_value,
+    figure_to_value, freedom_in_words, limit_in_words,
 };
 pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
