@@ -17,10 +17,12 @@
 //! proved of all together is what would be proved of the whole: there is exactly one continuation.
 
 mod choose;
+mod clusters;
 mod decompose;
 mod merge;
 
 pub use choose::Choice;
+pub use clusters::clusters;
 pub use decompose::{Block, Blocks};
 pub use merge::{Row, System};
 

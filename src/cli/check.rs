@@ -22,7 +22,8 @@ Examples:
 
 Exit codes: 0 in order, 2 not in order, with the line and what to do.")]
 pub struct Arguments {
-    /// The problem file (TOML), `-` is standard input; or a file of SolveSpace (.slvs) or FreeCAD (.FCStd)
+    /// The problem file (TOML), `-` is standard input; or a file of SolveSpace (.slvs) or FreeCAD (.FCStd),
+    /// or a molecule (.xyz, .mol, .sdf)
     file: PathBuf,
     /// Which sketch of a .slvs or .FCStd file; left out, all are listed where there are several
     #[arg(long, value_name = "NAME")]
@@ -38,7 +39,12 @@ const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
-    if Format::of(&arguments.file.display().to_string()).is_some() {
+    let format = Format::of(&arguments.file.display().to_string());
+    let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf));
+    if format.is_some()
+        && !(is_molecule && arguments.sketch.is_some())
+        && !is_single(&arguments.file, is_molecule)
+    {
         return match describe_sketches(&arguments.file, arguments.sketch.as_deref()) {
             Ok(text) if output::print(&text) => CLOSED,
             Ok(_) => BAD_INPUT,
@@ -48,7 +54,7 @@ pub fn run(arguments: &Arguments) -> u8 {
             }
         };
     }
-    let problem = match input::read(&arguments.file) {
+    let problem = match input::read(&arguments.file, arguments.sketch.as_deref()) {
         Ok(problem) => problem,
         Err(message) => {
             output::complain(&message);
@@ -80,6 +86,13 @@ pub fn run(arguments: &Arguments) -> u8 {
     } else {
         BAD_INPUT
     }
+}
+
+/// Whether a file holds one molecule, which is described as a problem.
+fn is_single(file: &Path, is_molecule: bool) -> bool {
+    let name = file.display().to_string();
+    let listed = input::bytes(file).map(|bytes| import::list(&name, &bytes));
+    is_molecule && listed.is_ok_and(|listed| listed.is_ok_and(|listed| listed.len() == 1))
 }
 
 /// What a file of another program holds: its sketches, or the one of them.

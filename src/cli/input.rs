@@ -8,8 +8,23 @@ use std::path::Path;
 /// What `-` stands for, in messages.
 const STANDARD_INPUT: &str = "standard input";
 
-/// Reads a problem file, or standard input for `-`. The text of the error says what is wrong, and where.
-pub fn read(file: &Path) -> Result<Problem, String> {
+/// Reads a problem file, or standard input for `-`, or a file of another program, whose `sketch` may be named. The
+/// text of the error says what is wrong, and where.
+pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
+    let name = file.display().to_string();
+    match Format::of(&name) {
+        Some(Format::SolveSpace | Format::FreeCad) => {
+            let problem = load(file, sketch)?.problem;
+            return krawl::edit::completed(&problem).map_err(|e| format!("{name}: {e}"));
+        }
+        Some(Format::Xyz | Format::Sdf) => return Ok(import(file, sketch)?.0.problem),
+        None if sketch.is_some() => {
+            return Err(format!(
+                "{name}: --sketch is for files that hold several sketches or molecules"
+            ));
+        }
+        None => {}
+    }
     if file != Path::new("-") {
         return Problem::read(file).map_err(|error| error.to_string());
     }
@@ -44,7 +59,7 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     if Format::of(&name).is_none() {
         if sketch.is_some() {
             return Err(format!(
-                "{name}: --sketch is for .slvs and .FCStd files, which hold several"
+                "{name}: --sketch is for files that hold several sketches or molecules"
             ));
         }
         return match Problem::read(file) {

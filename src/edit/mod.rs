@@ -49,7 +49,7 @@ mod write;
 pub use ending::{Dimension, Edited, Ending, Limit, Lost, Orientations};
 pub use limits::{End, Range};
 pub use open::{Moved, OpenError};
-pub use session::{Decomposition, Session};
+pub use session::{Decomposition, Session, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use write::{WriteError, rewrite};

@@ -13,10 +13,10 @@ use super::setting::Setting;
 use super::whole::sine;
 use crate::blocks::{Block, Blocks, Choice, Row, System};
 use crate::constraint::{
-    Entry, Equation, Form, Lowered, Owner, Product, Record, Role, try_lower_all, value,
+    Entry, Equation, Form, KINDS, Lowered, Owner, Product, Record, Role, try_lower_all, value,
 };
 use crate::interval::{Interval, Real, hull, point};
-use crate::problem::{Decimal, Item, Problem, Shape};
+use crate::problem::{Constraint, Decimal, Item, Problem, Shape};
 use crate::system::{Homotopy, Part, Right, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
@@ -28,9 +28,9 @@ use std::time::Instant;
 /// Points are said to be on one line where the sine of the angle is at most this.
 const FLAT: f64 = 1e-9;
 
-/// A part is followed over so many tubes. Edits of real sketches take a few; one that takes thousands creeps up to a
-/// singular figure.
-const MOST_TUBES: usize = 2000;
+/// A part is followed over so many tubes. Edits of real sketches take a few; one that takes so many runs off
+/// to infinity, as where two lines become parallel.
+const MOST_TUBES: usize = 1000;
 
 /// An equation of the square system.
 #[derive(Debug, Clone, Copy)]
@@ -348,6 +348,73 @@ impl Parts {
             free: self.free(),
             redundant: self.redundant(),
         }
+    }
+
+    /// The sketch as a problem with as many equations as unknowns: what nothing determines is held by constraints on its
+    /// coordinates, and what follows from others at the figure is left out. It bends by default.
+    pub fn completed(&self) -> Result<Problem, String> {
+        let mut problem = self.problem.clone();
+        let (objects, all) = (problem.objects.len(), problem.constraints.len());
+        let head = problem.distances.len();
+        let out: BTreeSet<usize> = self
+            .redundant
+            .iter()
+            .filter_map(|&row| match self.owners[self.system.rows[row].index] {
+                owner if owner < objects => None,
+                owner if owner < objects + all => Some(head + owner - objects),
+                owner => Some(owner - objects - all - 1),
+            })
+            .collect();
+        let labels = std::mem::take(&mut problem.labels);
+        let label = |index: usize| labels.get(&index).cloned();
+        let distances = problem.distances.drain(..).enumerate();
+        let distances: Vec<_> = distances
+            .filter(|(index, _)| !out.contains(index))
+            .map(|(index, distance)| (distance, label(index)))
+            .collect();
+        let constraints = problem.constraints.drain(..).enumerate();
+        let mut constraints: Vec<_> = constraints
+            .filter(|(c, _)| !out.contains(&(head + c)))
+            .map(|(c, constraint)| (constraint, label(head + c)))
+            .collect();
+        let d = problem.dimension;
+        for &u in &self.free {
+            let place = self.system.coordinates.iter().position(|&c| c == u);
+            let round = self.radii.iter().position(|&r| r == Some(u));
+            let (kind, item, value) = match (place, round) {
+                (Some(place), _) => {
+                    let (p, axis) = (place / d, place % d);
+                    let at = problem.points[p].sketch[axis].clone();
+                    (["x", "y", "z"][axis], Item::Point(p), at)
+                }
+                (None, Some(o)) => match &problem.objects[o].shape {
+                    Shape::Round { radius, .. } => ("radii", Item::Object(o), radius.clone()),
+                    _ => unreachable!("only circles have radii of their own"),
+                },
+                _ => return Err(format!("{} is free", self.system.unknowns[u].name)),
+            };
+            let held = Constraint {
+                kind: kind.to_owned(),
+                items: vec![item],
+                value: Some(value),
+            };
+            constraints.push((held, None));
+        }
+        let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
+        constraints.sort_by_key(|(c, _)| order(&c.kind));
+        let named = distances
+            .iter()
+            .map(|d| &d.1)
+            .chain(constraints.iter().map(|c| &c.1));
+        let named = named.enumerate();
+        problem.labels = named
+            .filter_map(|(k, label)| Some((k, label.clone()?)))
+            .collect();
+        problem.distances = distances.into_iter().map(|d| d.0).collect();
+        problem.constraints = constraints.into_iter().map(|c| c.0).collect();
+        problem.bend_by_default();
+        problem.check().map_err(|error| error.to_string())?;
+        Ok(problem)
     }
 
     /// What people call the source of one of the problem's equations.

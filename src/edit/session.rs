@@ -155,6 +155,17 @@ impl Session {
     }
 }
 
+/// A problem in its own frame, which need not be well constrained, made so: coordinates that nothing determines are held
+/// where the sketch has them, and constraints that seem to follow from others there are left out.
+///
+/// # Errors
+/// If it cannot be made so, in words.
+pub fn completed(problem: &Problem) -> Result<Problem, String> {
+    Parts::assemble(problem, &Options::certified())?
+        .0
+        .completed()
+}
+
 /// How the equations of a sketch fall apart.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decomposition {

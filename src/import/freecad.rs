@@ -477,7 +477,7 @@ impl Reader {
                     return None;
                 }
                 self.drawing.touch(index, edges);
-                return Some(());
+                Some(())
             }
             (1.., 1..) => {
                 let points = [self.point_of(first)?, self.point_of(second)?];

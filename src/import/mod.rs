@@ -1,4 +1,5 @@
-//! Sketches of other programs: SolveSpace's `.slvs` and FreeCAD's `.FCStd`, in and out.
+//! Files of other programs, in and out: sketches of SolveSpace (`.slvs`) and FreeCAD (`.FCStd`), molecules (`.xyz`,
+//! `.mol`, `.sdf`).
 //!
 //! A file may hold several sketches; [`list`] says which, and [`read`] takes one. What it says becomes a
 //! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. A kind that krawl does not
@@ -25,6 +26,7 @@
 
 mod drawing;
 mod freecad;
+mod molecule;
 mod slvs;
 
 use crate::problem::{Decimal, Problem, Target};
@@ -40,6 +42,10 @@ pub enum Format {
     SolveSpace,
     /// FreeCAD's, `.FCStd`.
     FreeCad,
+    /// Atoms with their coordinates, `.xyz`.
+    Xyz,
+    /// MDL's molfiles, `.mol` and `.sdf`.
+    Sdf,
 }
 
 impl Format {
@@ -49,6 +55,8 @@ impl Format {
         match extension.as_str() {
             "slvs" => Some(Format::SolveSpace),
             "fcstd" => Some(Format::FreeCad),
+            "xyz" => Some(Format::Xyz),
+            "mol" | "sdf" => Some(Format::Sdf),
             _ => None,
         }
     }
@@ -80,6 +88,7 @@ pub struct Imported {
 enum Places {
     SolveSpace(slvs::Places),
     FreeCad(freecad::Places),
+    Molecule(molecule::Places),
 }
 
 /// The new numbers of a sketch.
@@ -95,7 +104,7 @@ pub struct Figure<'a> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ImportError {
     /// The extension tells no format.
-    #[error("{0}: is neither a .slvs nor a .FCStd file")]
+    #[error("{0}: is no .slvs, .FCStd, .xyz, .mol or .sdf file")]
     Format(String),
     /// It cannot be read as what its extension says.
     #[error("{file}: {what}")]
@@ -106,7 +115,7 @@ pub enum ImportError {
         what: String,
     },
     /// It holds no sketch at all.
-    #[error("{0}: there is no sketch in it (a group in a plane, or a sketch object)")]
+    #[error("{0}: there is no sketch in it (a group in a plane, a sketch object, or a molecule)")]
     NoSketch(String),
     /// No sketch has that name, or none was named and there are several.
     #[error("{file}: {what}; name one with --sketch: {names}")]
@@ -128,6 +137,7 @@ pub fn list(file: &str, bytes: &[u8]) -> Result<Vec<Listed>, ImportError> {
     match Format::of(file) {
         Some(Format::SolveSpace) => slvs::list(bytes),
         Some(Format::FreeCad) => freecad::list(bytes),
+        Some(format) => molecule::list(bytes, format),
         None => return Err(ImportError::Format(file.to_owned())),
     }
     .map_err(|what| broken(file, what))
@@ -159,7 +169,9 @@ pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, 
     })?;
     match Format::of(file) {
         Some(Format::SolveSpace) => slvs::read(bytes, index),
-        _ => freecad::read(bytes, index),
+        Some(Format::FreeCad) => freecad::read(bytes, index),
+        Some(format) => molecule::read(bytes, format, index),
+        None => return Err(ImportError::Format(file.to_owned())),
     }
     .map_err(|what| broken(file, what))
 }
@@ -181,6 +193,7 @@ pub fn rewrite(
     match &imported.places {
         Places::SolveSpace(places) => slvs::rewrite(imported, places, bytes, problem, figure),
         Places::FreeCad(places) => freecad::rewrite(imported, places, bytes, problem, figure),
+        Places::Molecule(places) => molecule::rewrite(places, bytes, figure),
     }
 }
 

@@ -437,12 +437,15 @@ impl Reader<'_> {
                 }
                 let [from, to] = ends.map(|p| self.drawing.at(p));
                 let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-                let (kind, along) = match (dx, dy) {
-                    (_, 0.0) => ("dx", dx),
-                    (0.0, _) => ("dy", dy),
+                let axis = match (dx, dy) {
+                    (_, 0.0) => 0,
+                    (0.0, _) => 1,
                     _ => return None,
                 };
-                let signed = Some(value * along.signum());
+                // The sign in the file goes by the line's direction; what it means is seen in the figure.
+                let now = self.drawing.at(b)[axis] - self.drawing.at(a)[axis];
+                let signed = Some(if now < 0.0 { -value.abs() } else { value.abs() });
+                let kind = ["dx", "dy"][axis];
                 self.drawing
                     .constrain(source, kind, vec![point(a), point(b)], signed);
             }

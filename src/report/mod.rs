@@ -27,7 +27,7 @@ pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
 pub use sweep::{ranges_to_json, ranges_to_table, sweep_in_words, sweep_to_csv, sweep_to_json};
-pub use table::{to_short_table, to_summary, to_table};
+pub use table::{to_first_table, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 
 #[cfg(test)]
