@@ -64,6 +64,7 @@
 //! - [`blocks`]: how the equations of a sketch fall apart
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
+//! - [`complex`]: all complex solutions, every path proved
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
@@ -84,6 +85,7 @@ pub mod blocks;
 pub mod certificate;
 pub mod compare;
 pub mod complete;
+pub mod complex;
 pub mod constraint;
 pub mod edit;
 pub mod generate;

@@ -207,8 +207,17 @@ fn blocks_are_cut_and_each_needs_those_before() {
     let (sketch, _) = read(BRACKET, None);
     let found = Decomposition::of(&sketch.problem).unwrap();
     // d by two circles, after b and c by one number each.
-    let at = |name: &str| found.blocks.iter().position(|block| block.iter().any(|u| u == name));
-    let d = found.blocks.iter().position(|b| b == &["x of r006.2", "y of r006.2"]).unwrap();
+    let at = |name: &str| {
+        found
+            .blocks
+            .iter()
+            .position(|block| block.iter().any(|u| u == name))
+    };
+    let d = found
+        .blocks
+        .iter()
+        .position(|b| b == &["x of r006.2", "y of r006.2"])
+        .unwrap();
     for before in ["x of r004.2", "y of r005.2"] {
         assert!(at(before).is_none_or(|k| k < d), "{found:?}");
     }

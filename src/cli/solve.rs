@@ -278,7 +278,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         )?;
         written &= well;
         if let (Status::Stopped(reason), false) = (&outcome.status, is_block)
-            && arguments.can_be_cut(&cancel)
+            && arguments.can_be_cut(cancel)
         {
             let blocks = clusters(problem);
             if !blocks.is_empty() {

@@ -764,6 +764,8 @@ impl Parts {
                 end: ArcEnd::Stopped(reason),
                 t: (0.0, 0.0),
                 orientations: Vec::new(),
+                alone_within: 0.0,
+                last: Vec::new(),
                 steps: 0,
                 rejected: 0,
                 length: 0.0,

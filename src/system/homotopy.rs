@@ -178,6 +178,25 @@ impl Homotopy {
         homotopy
     }
 
+    /// The homotopy of equations that are about no points: all its unknowns are those of `tail`.
+    ///
+    /// # Panics
+    /// If there are not as many equations as unknowns, or one of them is about a point.
+    pub fn of_equations(tail: Tail) -> Self {
+        assert_eq!(
+            tail.unknowns.len(),
+            tail.equations.len(),
+            "as many equations as unknowns"
+        );
+        let gauge = Gauge {
+            dimension: 2,
+            reference: Vec::new(),
+            place: Vec::new(),
+            variable: Vec::new(),
+        };
+        Self::without_distances(gauge, 1.0, tail)
+    }
+
     fn add_distances(&mut self, problem: &Problem) {
         let per_unit = point(1.0 / self.unit);
         for (index, distance) in problem.distances.iter().enumerate() {

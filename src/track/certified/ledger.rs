@@ -77,6 +77,16 @@ impl<const D: usize> Ledger<D> {
         self.t_range = (f64::INFINITY, f64::NEG_INFINITY);
     }
 
+    /// Proves a box around the solution near a point, beside the account.
+    pub fn prove_at_end(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut InverseMaker,
+        near: &[f64],
+    ) -> Result<&SolutionBox, Doubt> {
+        self.prover.prove(equations, inverter, near, (true, false))
+    }
+
     /// Where the account stands.
     pub fn mark(&self) -> Mark {
         Mark {
@@ -167,6 +177,30 @@ impl<const D: usize> Ledger<D> {
         self.last_stretch = (from, until, self.length);
         self.length += path_length(&tube.local, from, until, self.unit, &mut self.scratch);
         self.widen_t_range(&time, from, to);
+        Ok(())
+    }
+
+    /// Enters a linked tube in which the path meets t = 1 exactly once, rising, between two parameters. If it fails
+    /// nothing is changed.
+    pub fn enter_crossing<const N: usize, Y: Frame<D>>(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut InverseMaker,
+        tube: &Tube<D, N, Y>,
+        between: (f64, f64),
+        extended: bool,
+    ) -> Result<(), Doubt> {
+        if let Some(unknown) = self.not_positive(tube, between) {
+            return Err(Doubt::Sign(unknown));
+        }
+        let crossing = Crossing {
+            between,
+            rising: true,
+        };
+        let near = tube.time().zero_between(between);
+        self.prove_crossing(equations, inverter, tube, (crossing, near), extended)?;
+        let (from, to) = (between.0, self.last_crossing);
+        self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
         Ok(())
     }
 
