@@ -377,6 +377,8 @@ impl Arguments {
     fn can_be_cut(&self, cancel: &AtomicBool) -> bool {
         self.mode == Mode::Certified
             && self.cert.is_none()
+            // One document for each file.
+            && self.json.is_none()
             && self.pictures.files().next().is_none()
             && !cancel.load(Ordering::Relaxed)
     }

@@ -215,6 +215,7 @@ impl Parts {
             blocks,
             system,
         };
+        parts.drop_flat_triples();
         parts.find_exact();
         let rights: Vec<Vec<Real>> = lowered
             .tail
@@ -271,6 +272,20 @@ impl Parts {
             Some(what) => Err(failed(Ending::Stopped(what.clone()), what)),
             None => Ok(()),
         }
+    }
+
+    /// Triples of which two points are one and the same have no orientation.
+    fn drop_flat_triples(&mut self) {
+        let d = self.problem.dimension;
+        let coordinates = &self.system.coordinates;
+        let place = |p: usize| &coordinates[p * d..(p + 1) * d];
+        let differ = |points: &Vec<usize>| {
+            let mut places: Vec<&[usize]> = points.iter().map(|&p| place(p)).collect();
+            places.sort_unstable();
+            places.windows(2).all(|pair| pair[0] != pair[1])
+        };
+        self.senses.retain(differ);
+        self.followed.retain(differ);
     }
 
     fn find_exact(&mut self) {

@@ -337,5 +337,9 @@ pub fn decimal(x: f64) -> Option<Decimal> {
     if x.abs() < 1e-60 {
         return Some(Decimal::from(0));
     }
+    // Written as people do where that is not too long.
+    if (1e-9..1e15).contains(&x.abs()) {
+        return x.to_string().parse().ok();
+    }
     Decimal::try_from(x).ok()
 }
