@@ -193,6 +193,6 @@ mod tests {
             [5, 3],
         ];
         let number = number(&graph).unwrap();
-        assert!(number > 0 && number <= 56 && number % 2 == 0, "{number}");
+        assert!(number > 0 && number <= 56 && number.is_multiple_of(2), "{number}");
     }
 }
