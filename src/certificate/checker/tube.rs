@@ -8,7 +8,7 @@ use super::refute;
 use super::whole::{between, exact, size};
 use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
-use crate::interval::{Interval, point};
+use crate::interval::{Interval, hull, point};
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
 /// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ), φ' at
@@ -137,14 +137,29 @@ impl Tube {
         if !(advance.inf() > 0.0) {
             return Err(Fault::because("its cross-sections may turn back"));
         }
-        let least = |i: usize| {
-            let away = around(work.proof.distance * weight(work.at.u[i]));
-            (polynomial(&work.curve.z, i, around(point(1.0))) + away).inf()
+        let entry = |i: usize, s: Interval| match i < eq.m {
+            true => {
+                polynomial(&work.curve.z, i, s) + around(work.proof.distance * weight(work.at.u[i]))
+            }
+            false => ZERO,
         };
-        if !eq.positive.iter().all(|&i| least(i) > 0.0) {
+        let all = around(point(1.0));
+        if !eq.positive.iter().all(|&i| entry(i, all).inf() > 0.0) {
             return Err(Fault::because(
                 "a length or radius in it may not be positive",
             ));
+        }
+        const PIECES: i32 = 16;
+        let mut pieces = (-PIECES..PIECES).map(|k| {
+            let [low, high] = [k, k + 1].map(|k| f64::from(k) / f64::from(PIECES));
+            hull(low, high)
+        });
+        let is_nonzero = |s: Interval, vector: &Vec<[usize; 2]>| {
+            let mut coordinates = vector.iter().map(|&[i, j]| entry(i, s) - entry(j, s));
+            coordinates.any(|d| !d.contains(0.0))
+        };
+        if !pieces.all(|s| eq.nonzero.iter().all(|vector| is_nonzero(s, vector))) {
+            return Err(Fault::because("a vector in it may vanish"));
         }
         // A parameter in [−1, 1], whatever is rounded.
         let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);

@@ -71,6 +71,7 @@ fn run<const D: usize>(
     now.expand(equations);
     let direction = now.normal.clone();
 
+    let positive = homotopy.positive_unknowns();
     let longest = options.step_in(homotopy.unit).unwrap_or(f64::INFINITY);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations, tolerance);
@@ -101,6 +102,11 @@ fn run<const D: usize>(
             true if turned => Err("the path turns too much"),
             true => events.between(equations, &mut inverter, &now, &next, step, record),
         };
+        // Beyond zero there is no figure.
+        if let (Ok(()), Some(&i)) = (seen, positive.iter().find(|&&i| next.z[0][i] <= 0.0)) {
+            let name = &homotopy.tail.unknowns[i - homotopy.gauge.place.len()].name;
+            return Err(format!("{name} goes to zero {}", place(record, &now)));
+        }
         if let Err(reason) = seen {
             failure = reason;
             record.rejected += 1;
