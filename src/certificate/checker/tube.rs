@@ -149,16 +149,9 @@ impl Tube {
                 "a length or radius in it may not be positive",
             ));
         }
-        const PIECES: i32 = 16;
-        let mut pieces = (-PIECES..PIECES).map(|k| {
-            let [low, high] = [k, k + 1].map(|k| f64::from(k) / f64::from(PIECES));
-            hull(low, high)
-        });
-        let is_nonzero = |s: Interval, vector: &Vec<[usize; 2]>| {
-            let mut coordinates = vector.iter().map(|&[i, j]| entry(i, s) - entry(j, s));
-            coordinates.any(|d| !d.contains(0.0))
-        };
-        if !pieces.all(|s| eq.nonzero.iter().all(|vector| is_nonzero(s, vector))) {
+        let mut pieces = (-16..16).map(|k| hull(f64::from(k), f64::from(k + 1)) / point(16.0));
+        let off = |s, &[i, j]: &[usize; 2]| !(entry(i, s) - entry(j, s)).contains(0.0);
+        if !pieces.all(|s| eq.nonzero.iter().all(|v| v.iter().any(|d| off(s, d)))) {
             return Err(Fault::because("a vector in it may vanish"));
         }
         // A parameter in [−1, 1], whatever is rounded.

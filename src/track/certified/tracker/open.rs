@@ -39,7 +39,8 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             square += exit(i).sqr();
             outward += exit(i) * slope(i);
         }
-        if !(outward.inf() > 0.0) {
+        // Bounds that are not numbers prove nothing.
+        if outward.inf().is_nan() || outward.inf() <= 0.0 {
             return None;
         }
         // As far as floats tell: what is claimed is where the end is, and that the point moves away there.
