@@ -62,6 +62,7 @@
 //! - [`remarks`]: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
+//! - [`complex`]: all complex solutions, every path proved
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
@@ -81,6 +82,7 @@ pub(crate) use debug_in_words;
 pub mod certificate;
 pub mod compare;
 pub mod complete;
+pub mod complex;
 pub mod constraint;
 pub mod edit;
 pub mod generate;

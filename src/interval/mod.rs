@@ -8,6 +8,7 @@ mod double_double;
 mod enclosure;
 mod real;
 pub mod rounding;
+pub mod vector;
 
 pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};

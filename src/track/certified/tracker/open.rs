@@ -64,6 +64,22 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let (homotopy, tube, m) = (&self.homotopy, &self.now, self.equations.m);
         let (z, first) = (&tube.local.z[0], homotopy.gauge.place.len());
         let (from, to) = tube.exit_between;
+        // One that is given is a(t), of which floats tell enough: that a(t) > 0 up to there is proved at the end.
+        let t = tube.exit.centre[m];
+        let (_, (slow, fast)) = tube.time().bounds(from, to);
+        for (length, name) in homotopy.lengths.iter().zip(&homotopy.names) {
+            let now = length.value(t);
+            if now > SMALL * length.value(0.0).max(length.value(1.0)) {
+                continue;
+            }
+            let ahead = 1e-3 * now.abs() * (0.5 * (slow + fast)).signum();
+            let change = (length.value(t + ahead) - now) / ahead.abs();
+            let is_far = tube.proof.h * (0.5 * (slow + fast)).abs() * change.abs() < 1e-3 * now;
+            if change < 0.0 && is_far && (t - 1.0).abs() > -10.0 * now / change {
+                let now = now * homotopy.unit;
+                return Some(format!("the length of {name} goes to zero there ({now:.1e})"));
+            }
+        }
         let unknowns = homotopy.tail.unknowns.iter().enumerate();
         let lengths = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
         lengths.into_iter().find_map(|(k, unknown)| {
