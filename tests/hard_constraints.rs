@@ -153,7 +153,11 @@ fn in_short(outcome: &Outcome) -> String {
         Status::Open(_) => format!("open, {count}"),
         Status::Stopped(reason) => {
             let undecided = reason.contains("meets t = 1");
-            let why = if undecided { "t = 1 undecided" } else { "no tube proved" };
+            let why = if undecided {
+                "t = 1 undecided"
+            } else {
+                "no tube proved"
+            };
             format!("stopped: {why}")
         }
     }
@@ -170,7 +174,12 @@ fn certified_runs_are_right_or_stop() {
             let forward = run(&problem, Options::certified());
             let back = run(&problem, Options::certified().reversed());
             let float = run(&problem, Options::float(Space::Full));
-            println!("{k} {} {} {}", in_short(&forward), forward.steps, in_short(&float));
+            println!(
+                "{k} {} {} {}",
+                in_short(&forward),
+                forward.steps,
+                in_short(&float)
+            );
             for outcome in [forward, back] {
                 let found = outcome.solutions.len();
                 let stopped = matches!(outcome.status, Status::Stopped(_));
@@ -178,7 +187,10 @@ fn certified_runs_are_right_or_stop() {
                     || !stopped && found != family.solutions
                     || stopped && k <= family.proved
                 {
-                    wrong.push(format!("{} {k}: {found}, {:?}", family.name, outcome.status));
+                    wrong.push(format!(
+                        "{} {k}: {found}, {:?}",
+                        family.name, outcome.status
+                    ));
                 }
             }
         }

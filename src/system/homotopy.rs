@@ -182,6 +182,7 @@ impl Homotopy {
             rights: Vec::new(),
             bend: 0,
             names: Vec::new(),
+            point_names: Vec::new(),
             sketch_box: Vec::new(),
             sketch: Vec::new(),
             auxiliary: Vec::new(),

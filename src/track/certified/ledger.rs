@@ -198,9 +198,7 @@ impl<const D: usize> Ledger<D> {
         between: (f64, f64),
         extended: bool,
     ) -> Result<(), Doubt> {
-        if let Some(unknown) = self.not_positive(tube, between) {
-            return Err(Doubt::Sign(unknown));
-        }
+        self.is_defined(tube, between)?;
         let crossing = Crossing {
             between,
             rising: true,

@@ -77,7 +77,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             let is_far = tube.proof.h * (0.5 * (slow + fast)).abs() * change.abs() < 1e-3 * now;
             if change < 0.0 && is_far && (t - 1.0).abs() > -10.0 * now / change {
                 let now = now * homotopy.unit;
-                return Some(format!("the length of {name} goes to zero there ({now:.1e})"));
+                return Some(format!(
+                    "the length of {name} goes to zero there ({now:.1e})"
+                ));
             }
         }
         let unknowns = homotopy.tail.unknowns.iter().enumerate();
