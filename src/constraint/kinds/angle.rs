@@ -86,7 +86,7 @@ fn between(
     target: Real,
     either: bool,
 ) -> Result<(), Fault> {
-    if target.is_zero() {
+    if target.is_zero() && !low.is_editable() {
         orthogonal(name, low, u, v);
         return Ok(());
     }
@@ -94,7 +94,11 @@ fn between(
     let odd = u.axial != v.axial;
     let products = low.dot(1, &u.forms, &v.forms);
     let opposite = either && now.is_negative() == (target.enclose().inf() > 0.0) && !now.is_zero();
-    let then = if opposite { -&target } else { target };
+    let then = if low.sense(opposite) {
+        -&target
+    } else {
+        target
+    };
     low.measure(
         name,
         Measured {

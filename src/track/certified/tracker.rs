@@ -327,7 +327,10 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             if let Some(Away { point, distance }) = self.away {
                 return Err(format!(
                     "{} is {:.4} away and moves away, ever farther as far as one can see, {}",
-                    self.homotopy.point_names[point],
+                    self.homotopy
+                        .point_names
+                        .get(point)
+                        .map_or("a point", String::as_str),
                     distance.0,
                     self.place()
                 ));
