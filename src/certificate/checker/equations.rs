@@ -18,6 +18,8 @@ pub struct Equations {
     pub products: Vec<Vec<Product>>,
     /// The unknowns that have to be positive along the path: radii, and lengths that are unknown.
     pub positive: Vec<usize>,
+    /// The vectors that must not vanish along the path: differences of unknowns (from m on: of zero).
+    pub nonzero: Vec<Vec<[usize; 2]>>,
     /// Per equation the terms of all 2 ∂q_e/∂x_i: i, a factor, and the form that it multiplies.
     pub gradient: Vec<Vec<(usize, i64, usize)>>,
 }
@@ -57,6 +59,7 @@ impl Equations {
         }
         Equations {
             positive: homotopy.positive_unknowns(),
+            nonzero: homotopy.nonzero_vectors(),
             m,
             forms,
             products,
