@@ -66,6 +66,8 @@
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
 
+#![warn(missing_docs)]
+
 /// Lets errors print as words where programs print them with `{:?}`, as `main` does.
 macro_rules! debug_in_words {
     ($error:ty) => {
