@@ -7,7 +7,6 @@ mod congruence;
 mod control;
 mod ends;
 mod events;
-pub mod float;
 pub mod full;
 mod options;
 mod outcome;
@@ -104,8 +103,8 @@ pub fn solve(
             let longest = options.max_step.unwrap_or(
                 homotopy.unit
                     * match options.space {
-                        Space::Full => float::LARGEST_STEP_OF_PAPER,
-                        Space::Reduced => reduced::LARGEST_STEP_OF_PAPER,
+                        Space::Full => full::float::LARGEST_STEP_OF_PAPER,
+                        Space::Reduced => reduced::float::LARGEST_STEP_OF_PAPER,
                     },
             );
             *reason += &format!(
@@ -143,11 +142,13 @@ fn solve_in<const D: usize>(
     match (options.mode, options.space, options.preset) {
         (Mode::Certified, ..) => Ok(certified::track::<D>(homotopy, options, control)),
         (Mode::Float, Space::Full, Preset::Default) => {
-            Ok(float::track::<D>(homotopy, options, control))
+            Ok(full::float::track::<D>(homotopy, options, control))
         }
         (Mode::Float, Space::Full, Preset::Paper) => {
-            Ok(float::track_paper::<D>(homotopy, options, control))
+            Ok(full::float::track_paper::<D>(homotopy, options, control))
         }
-        (Mode::Float, Space::Reduced, _) => Ok(reduced::track::<D>(homotopy, options, control)),
+        (Mode::Float, Space::Reduced, _) => {
+            Ok(reduced::float::track::<D>(homotopy, options, control))
+        }
     }
 }

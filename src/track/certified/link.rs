@@ -1,6 +1,6 @@
 //! That two tubes hold the same piece of path, followed in the same direction.
 
-use super::norms::Proof;
+use super::proof::Proof;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::track::events::TimeAlong;

@@ -1,27 +1,21 @@
 //! Every step a theorem: tubes proved by a Krawczyk test, linked without a gap.
 //!
-//! From the bottom up: `shortfall` (which condition of the test fails), `low_orders` and `norms` (from
-//! bounds to the longest tube they prove), `precision`, `link` (tubes, and that one leads to the
-//! next), `tube`, `extended` and `exit` (the test in the full space), `reduced` (that through a
-//! construction plan), `solution` (boxes around points with t = 1), `reasons` (why runs stop), `ledger`
-//! (what has been proved so far), `trace` (the path, kept to be drawn), `tracker` (the chain of tubes, in whichever space).
+//! What both spaces have in common; their tests are in `full/certified` and `reduced/certified`. From the bottom
+//! up: `shortfall` (which condition of a test fails), `proof` (from a contraction to a tube), `link` (tubes, and
+//! that one leads to the next), `solution` (boxes around points with t = 1), `reasons` (why runs stop),
+//! `ledger` (what has been proved so far), `trace` (the path, kept to be drawn), `tracker` (the chain of
+//! tubes, in whichever space).
 
-mod exit;
-mod extended;
 mod fold;
 mod ledger;
-mod link;
-mod low_orders;
-mod norms;
+pub(in crate::track) mod link;
 mod orientation;
-mod precision;
+pub(in crate::track) mod proof;
 mod reasons;
-mod reduced;
-mod shortfall;
+pub(in crate::track) mod shortfall;
 mod solution;
 mod trace;
-mod tracker;
-mod tube;
+pub(in crate::track) mod tracker;
 #[cfg(test)]
 mod validation;
 
@@ -30,6 +24,8 @@ pub use trace::{Fold, Sample, Trace};
 use crate::system::Homotopy;
 use crate::track::arc::{ArcRun, Figure};
 use crate::track::full::ORDER;
+use crate::track::full::certified::KrawczykTest;
+use crate::track::reduced::certified::{COEFFICIENTS, ReducedTest};
 use crate::track::{Control, Options, Outcome, Space};
 
 /// A follower of arcs from t = 0 to t = 1 in one space, for problems in 2 or 3 dimensions.
@@ -72,14 +68,12 @@ pub fn arcs(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
 
 fn arcs_in<const D: usize>(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
     match options.space {
-        Space::Full => Box::new(
-            tracker::Arcs::<D, { ORDER + 1 }, tube::KrawczykTest<D>>::new(homotopy, options),
-        ),
-        Space::Reduced => Box::new(tracker::Arcs::<
-            D,
-            { reduced::COEFFICIENTS },
-            reduced::ReducedTest<D>,
-        >::new(homotopy, options)),
+        Space::Full => Box::new(tracker::Arcs::<D, { ORDER + 1 }, KrawczykTest<D>>::new(
+            homotopy, options,
+        )),
+        Space::Reduced => Box::new(tracker::Arcs::<D, { COEFFICIENTS }, ReducedTest<D>>::new(
+            homotopy, options,
+        )),
     }
 }
 
@@ -89,13 +83,11 @@ pub fn track<const D: usize>(
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
-    let full = tracker::track::<D, { ORDER + 1 }, tube::KrawczykTest<D>>;
+    let full = tracker::track::<D, { ORDER + 1 }, KrawczykTest<D>>;
     match (options.space, control.witness.is_some()) {
         (Space::Full, _) => full(homotopy, options, control),
         (Space::Reduced, false) => {
-            tracker::track::<D, { reduced::COEFFICIENTS }, reduced::ReducedTest<D>>(
-                homotopy, options, control,
-            )
+            tracker::track::<D, { COEFFICIENTS }, ReducedTest<D>>(homotopy, options, control)
         }
         // A certificate's tubes are boxes in the full space.
         (Space::Reduced, true) => {

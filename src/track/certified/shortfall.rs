@@ -4,7 +4,7 @@ use crate::interval::rounding::largest;
 use std::fmt;
 
 /// At most so much of the contraction may be used up by the length of the tube.
-pub(super) const MAX_CONTRACTION: f64 = 0.85;
+pub const MAX_CONTRACTION: f64 = 0.85;
 
 /// Which condition of Krawczyk's test fails.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,7 +7,7 @@ mod stride;
 
 use super::ledger::Ledger;
 use super::link::{Ball, Frame, Tube};
-use super::norms::Proof;
+use super::proof::Proof;
 use super::reasons::{
     Doubt, Rejection, no_direction, precision, undecided, unlinked, unproved, unrefined,
 };

@@ -1,10 +1,13 @@
 //! The path in all free coordinates (RR 8705, section 2.2: "tracking S").
 //!
 //! A point of the path is a vector z = (X, t) of n = m + 1 numbers. Around one, [`Local`] holds
-//! what both trackers need: a preconditioner, and the Taylor expansion of the path.
+//! what both trackers need: a preconditioner, and the Taylor expansion of the path. `float` follows it
+//! in plain floating point; `certified` has the test that proves tubes around it.
 
+pub mod certified;
 mod equations;
 mod extended;
+pub mod float;
 mod local;
 mod preconditioner;
 mod singular;

@@ -22,12 +22,12 @@ pub use faults::inject as inject_fault;
 use along::{at_sketch, check_entry, link_is_true, middle, sketch, slope};
 
 use super::link::Tube;
-use super::tube::KrawczykTest;
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Matrix, Vector};
 use crate::problem::{Decimal, Problem};
 use crate::system::Homotopy;
+use crate::track::full::certified::KrawczykTest;
 use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
 use nalgebra::DMatrix;
 

@@ -2,11 +2,11 @@
 //! bounds of `reduced/rounds.rs`, with A(s)⁻¹ from a dense verified solution.
 
 use super::super::link::{Ball, Frame};
-use super::super::reduced::{COEFFICIENTS, ReducedTest};
 use super::super::tracker::Test;
 use super::*;
 use crate::interval::rounding::round_up;
 use crate::linalg::LANE;
+use crate::track::reduced::certified::{COEFFICIENTS, ReducedTest};
 use crate::track::{Options, Space};
 
 pub type ReducedFrame<const D: usize> = <ReducedTest<D> as Test<D, COEFFICIENTS>>::Frame;

@@ -1,7 +1,7 @@
 //! What a contraction's bounds prove (`norms.rs`, `Contraction`), in exact numbers.
 
 use super::*;
-use crate::track::certified::norms::Contraction;
+use crate::track::certified::proof::Contraction;
 use crate::track::certified::shortfall::MAX_CONTRACTION;
 use proptest::prelude::*;
 

@@ -10,7 +10,7 @@ use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::track::Status;
 use crate::track::certified::link::Ball;
-use crate::track::certified::norms::Norms;
+use crate::track::full::certified::norms::Norms;
 
 /// Ỹ(s) of `tube.rs`, its matrices taken for exact.
 fn preconditioner<const D: usize>(sample: &Sample<D>, s: &Big) -> Rows {

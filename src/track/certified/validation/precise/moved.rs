@@ -8,7 +8,7 @@ use super::view::View;
 use super::*;
 use crate::generate::Family;
 use crate::linalg::LANE;
-use crate::track::certified::reduced::COEFFICIENTS;
+use crate::track::reduced::certified::COEFFICIENTS;
 
 /// What may be changed.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,8 +8,8 @@ use crate::generate::Family;
 use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Vector};
 use crate::track::certified::link::{Ball, Frame};
-use crate::track::certified::reduced::{Bounds, COEFFICIENTS};
 use crate::track::certified::tracker::Test;
+use crate::track::reduced::certified::{Bounds, COEFFICIENTS};
 
 /// What `ReducedTest::bounds` states for |s| ≤ H, at one s.
 pub fn check_bounds<const D: usize>(

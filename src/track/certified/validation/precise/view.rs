@@ -4,7 +4,7 @@ use super::super::reduced::ReducedTube;
 use super::big::{exact, horner, horner_slope};
 use super::*;
 use crate::linalg::LANE;
-use crate::track::certified::reduced::Block;
+use crate::track::reduced::certified::Block;
 
 /// A tube of the reduced space, its numbers taken for exact.
 pub struct View<'a, const D: usize> {

@@ -4,7 +4,7 @@ use crate::track::full::DEGREE;
 
 /// Bounds for |s| ≤ H, where they were taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum LowOrders {
+pub(in crate::track) enum LowOrders {
     /// All of it, whatever s is: enough where tubes are as long as their curvature lets them be.
     Whole(f64),
     /// Order 0 with its rounding apart from the rest, for the short tubes of extended precision.

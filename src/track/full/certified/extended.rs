@@ -5,18 +5,19 @@
 //! orders bear relative errors of 2⁻⁵³, as they multiply what is small.
 
 use super::exit::{MAX_STEPS, STAGNATION};
-use super::link::{Tube, from_middle};
 use super::low_orders::LowOrders;
-use super::norms::{Norms, powers_of};
+use super::norms::Norms;
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
+use crate::track::certified::link::{Tube, from_middle};
+use crate::track::certified::proof::powers_of;
 use crate::track::full::{DEGREE, Equations, Local, ORDER, shift};
 
 impl<const D: usize> KrawczykTest<D> {
     /// The bounds as they are in the precision of the point. `None`: out of range.
     #[inline(always)]
-    pub(super) fn in_precision(
+    pub(in crate::track) fn in_precision(
         &mut self,
         equations: &Equations<D>,
         local: &Local<D>,
@@ -98,7 +99,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// [`KrawczykTest::enclose`] in extended precision, of the point and of the residual there.
-    pub(super) fn enclose_extended(
+    pub(in crate::track) fn enclose_extended(
         &mut self,
         equations: &Equations<D>,
         tube: &mut Tube<D>,

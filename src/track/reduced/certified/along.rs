@@ -6,7 +6,7 @@ use super::series::SIGNED;
 use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
 use crate::linalg::{LANE, Vector};
-use crate::track::certified::norms::powers_of;
+use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};
 
 /// More roundings than any term of a coefficient of F along ẑ goes through: the differences and their

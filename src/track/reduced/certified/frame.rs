@@ -7,7 +7,7 @@ use super::resolvent::Resolvent;
 use crate::interval::rounding::{largest, round_up};
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::certified::link::{Frame, Tube};
-use crate::track::certified::norms::Proof;
+use crate::track::certified::proof::Proof;
 use crate::track::full::{Differences, Equations, Lengths, Local, Preconditioner};
 use std::cell::RefCell;
 

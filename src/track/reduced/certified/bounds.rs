@@ -1,7 +1,7 @@
 //! From bounds over a tube of reference length to the longest tube that they prove.
 
 use crate::interval::rounding::{in_range, round_up};
-use crate::track::certified::norms::{Contraction, Proof, longest};
+use crate::track::certified::proof::{Contraction, Proof, longest};
 use crate::track::certified::shortfall::Shortfall;
 
 /// Bounds in the norm |v|_ρ = max |v_i|/ρ_i of a box of size ρ, taken for |s| ≤ `h`.

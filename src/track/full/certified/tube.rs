@@ -16,15 +16,16 @@
 //! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
-use super::link::Tube;
 use super::low_orders::LowOrders;
-use super::norms::{Norms, Proof, powers_of};
+use super::norms::Norms;
 use super::precision::Precision;
-use super::shortfall::{MAX_CONTRACTION, Shortfall};
-use super::tracker::Test;
 use crate::interval::rounding::{gamma, in_range, largest, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::system::Homotopy;
+use crate::track::certified::link::Tube;
+use crate::track::certified::proof::{Proof, powers_of};
+use crate::track::certified::shortfall::{MAX_CONTRACTION, Shortfall};
+use crate::track::certified::tracker::Test;
 use crate::track::full::{
     DEGREE, Differences, Equations, InverseMaker, Lengths, Local, MAX_DEGREE, ORDER, RefineError,
 };
@@ -41,21 +42,21 @@ const STALE: f64 = 0.1;
 pub struct KrawczykTest<const D: usize> {
     /// Tubes are cut short where the path may be further than this from their middle.
     pub radius: f64,
-    pub(super) a: Matrix,
+    pub(in crate::track) a: Matrix,
     /// Values of the sparse matrices J₁, J₂ and [J₀; c].
     j1: Vec<f64>,
     j2: Vec<f64>,
     j0: Vec<f64>,
-    pub(super) bounds: [Vector; 5],
+    pub(in crate::track) bounds: [Vector; 5],
     /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
-    pub(super) near: Differences<D>,
-    pub(super) far: Differences<D>,
-    pub(super) sums: Differences<D>,
-    pub(super) coefficient: Vector,
-    pub(super) lengths: Lengths,
-    pub(super) v: Vector,
-    pub(super) f: Vector,
-    pub(super) u: Vector,
+    pub(in crate::track) near: Differences<D>,
+    pub(in crate::track) far: Differences<D>,
+    pub(in crate::track) sums: Differences<D>,
+    pub(in crate::track) coefficient: Vector,
+    pub(in crate::track) lengths: Lengths,
+    pub(in crate::track) v: Vector,
+    pub(in crate::track) f: Vector,
+    pub(in crate::track) u: Vector,
     square_u: Vector,
     /// Weights for the next proof, and those to return to if it is rejected.
     next_weights: Vector,
@@ -64,7 +65,7 @@ pub struct KrawczykTest<const D: usize> {
     /// |I − Y [J₀; c]|_u in the last proof that was tried.
     staleness: f64,
     /// Whether points and F at them are taken in extended precision, and what the last proof rested on.
-    pub(super) precision: Precision,
+    pub(in crate::track) precision: Precision,
 }
 
 impl<const D: usize> KrawczykTest<D> {
@@ -135,7 +136,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// The bounds that do not depend on the final h, and the others at the largest h worth trying.
-    pub(super) fn norms(
+    pub(in crate::track) fn norms(
         &mut self,
         equations: &Equations<D>,
         local: &Local<D>,
@@ -379,7 +380,11 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// Makes A ≈ Y J₁.
-    pub(super) fn make_moving_matrix(&mut self, equations: &Equations<D>, local: &Local<D>) {
+    pub(in crate::track) fn make_moving_matrix(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+    ) {
         self.derivative(equations, local, 1);
         local
             .y
@@ -424,7 +429,7 @@ impl<const D: usize> KrawczykTest<D> {
 }
 
 /// |v|_u: one division per entry, to be covered by the caller's `round_up`.
-pub(super) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
+pub(in crate::track) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
     let (v4, v1) = v[..n].as_chunks::<LANE>();
     let (u4, u1) = u[..n].as_chunks::<LANE>();
     let mut lane = [0.0; LANE];
@@ -440,12 +445,12 @@ pub(super) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
 #[cfg(test)]
 impl<const D: usize> KrawczykTest<D> {
     /// The weights of the last proof.
-    pub(super) fn weights(&self) -> &Vector {
+    pub(in crate::track) fn weights(&self) -> &Vector {
         &self.u
     }
 
     /// A of the last proof.
-    pub(super) fn moving_matrix(&self) -> &Matrix {
+    pub(in crate::track) fn moving_matrix(&self) -> &Matrix {
         &self.a
     }
 }

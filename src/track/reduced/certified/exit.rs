@@ -92,7 +92,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// The same with what is known of the path a little before the exit given: any numbers will do.
-    pub(in crate::track::certified) fn tie_to(
+    pub(in crate::track) fn tie_to(
         &mut self,
         equations: &Equations<D>,
         tube: &mut Tubes<D>,

@@ -1,11 +1,12 @@
 //! In which precision tubes are proved, and what their proofs rested on.
 
-use super::norms::{Norms, Proof};
-use super::shortfall::Shortfall;
+use super::norms::Norms;
+use crate::track::certified::proof::Proof;
+use crate::track::certified::shortfall::Shortfall;
 
 /// Whether extended precision is on, and what the last proof rested on.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Precision {
+pub(in crate::track) struct Precision {
     /// Whether points and F at them are taken in extended precision.
     pub extended: bool,
     /// The bounds of the last proof and u_t.

@@ -1,18 +1,18 @@
 //! Where the path leaves a tube.
 
-use super::link::{Tube, from_middle};
-use super::norms::Proof;
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
+use crate::track::certified::link::{Tube, from_middle};
+use crate::track::certified::proof::Proof;
 use crate::track::full::{Equations, Local, dot};
 
 /// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
 const ENOUGH: f64 = 2e-2;
 /// Steps that are more than enough where the contraction is that of a proved tube.
-pub(super) const MAX_STEPS: usize = 200;
+pub(in crate::track) const MAX_STEPS: usize = 200;
 /// Corrections that shrink by less than this are at the limit of floats.
-pub(super) const STAGNATION: f64 = 0.98;
+pub(in crate::track) const STAGNATION: f64 = 0.98;
 
 impl<const D: usize> KrawczykTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
@@ -89,7 +89,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// A bound on |Ỹ(s) g|_u / (1 − q) for any g within `bounds[0]` of `f`, entry by entry.
-    pub(super) fn radius_from_defect(
+    pub(in crate::track) fn radius_from_defect(
         &mut self,
         local: &Local<D>,
         proof: &Proof,
@@ -162,7 +162,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// Encloses the path's point at the exit, F at the middle of whose box, `f`, is known up to `bounds[0]`.
-    pub(super) fn conclude(&mut self, tube: &mut Tube<D>) -> Option<()> {
+    pub(in crate::track) fn conclude(&mut self, tube: &mut Tube<D>) -> Option<()> {
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let n = u.len() - 1;
         let (along, error, extent) = from_middle(local, &u[..n], s, &tube.exit, |_| 0.0);

@@ -1,0 +1,12 @@
+//! The Krawczyk test in all free coordinates: `tube` has the theorem, `norms` (with `low_orders`) the
+//! longest tube that its bounds prove, `exit` where the path leaves a tube, `extended` the test where 53 bits
+//! fail, `precision` in which of the two a run is.
+
+mod exit;
+mod extended;
+mod low_orders;
+pub(in crate::track) mod norms;
+mod precision;
+mod tube;
+
+pub use tube::KrawczykTest;
