@@ -109,6 +109,8 @@ pub mod linalg;
 #[doc(hidden)]
 pub mod plan;
 pub mod problem;
+#[cfg(feature = "python")]
+mod python;
 #[doc(hidden)]
 pub mod remarks;
 pub mod report;
