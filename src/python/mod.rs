@@ -43,7 +43,9 @@ fn space(name: Option<&str>) -> PyResult<Option<Space>> {
         None => Ok(None),
         Some("full") => Ok(Some(Space::Full)),
         Some("reduced") => Ok(Some(Space::Reduced)),
-        Some(other) => Err(bad(format!("space: {other:?} is neither \"full\" nor \"reduced\""))),
+        Some(other) => Err(bad(format!(
+            "space: {other:?} is neither \"full\" nor \"reduced\""
+        ))),
     }
 }
 
@@ -73,7 +75,9 @@ fn solve(
         }
     };
     if mode == "float" && (certificate.is_some() || samples > 0) {
-        return Err(bad("float mode proves nothing: it has no certificates and no samples"));
+        return Err(bad(
+            "float mode proves nothing: it has no certificates and no samples",
+        ));
     }
     let chosen = self::space(space)?;
     let options = Options {
@@ -138,7 +142,10 @@ fn complete_set(
 ) -> PyResult<String> {
     let problem = parse(text, name)?;
     let time = time
-        .map(|seconds| Duration::try_from_secs_f64(seconds).map_err(|_| bad("time: a number of seconds from 0 on")))
+        .map(|seconds| {
+            Duration::try_from_secs_f64(seconds)
+                .map_err(|_| bad("time: a number of seconds from 0 on"))
+        })
         .transpose()?;
     let result = interruptible(py, |cancel: &_| {
         let show = |now: complete::Progress| call(&progress, (now.share, now.boxes));
@@ -167,7 +174,9 @@ fn verify(
     path: PathBuf,
     problem: Option<(String, String)>,
 ) -> PyResult<(&'static str, String, bool)> {
-    let problem = problem.map(|(text, name)| parse(&text, &name)).transpose()?;
+    let problem = problem
+        .map(|(text, name)| parse(&text, &name))
+        .transpose()?;
     let problem = problem.as_ref();
     let bytes = fs::read(&path).map_err(|error| unwritten(&path, &error))?;
     let in_file = |error: &dyn std::fmt::Display| bad(format!("{}: {error}", path.display()));
