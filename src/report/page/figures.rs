@@ -138,7 +138,7 @@ impl Page {
     }
 }
 
-fn digits(problem: &Problem, points: &[[Interval; 3]]) -> Vec<Vec<String>> {
+pub(super) fn digits(problem: &Problem, points: &[[Interval; 3]]) -> Vec<Vec<String>> {
     let shown = |p: &[Interval; 3]| {
         let place = p.iter().take(problem.dimension);
         place.map(|&x| certain_digits(x)).collect()
