@@ -75,6 +75,7 @@
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
+//! - [`complex`]: all complex solutions, every path proved
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
@@ -100,6 +101,7 @@ pub(crate) use debug_in_words;
 pub mod certificate;
 pub mod compare;
 pub mod complete;
+pub mod complex;
 pub mod constraint;
 pub mod edit;
 pub mod generate;

@@ -45,10 +45,10 @@ pub struct Arguments {
     quiet: bool,
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x < 1e9 => Ok(x),
-        _ => Err("must be a number of seconds greater than 0".to_owned()),
+        _ => Err("must be a number greater than 0".to_owned()),
     }
 }
 

@@ -41,7 +41,8 @@ pub fn run(arguments: &Arguments) -> u8 {
     let mut text = describe(&problem);
     text += &remarks_in_words(&problem);
     if !problem.is_distances_only() {
-        text += "construction plan\n  none: plans are for distances between points alone\n";
+        text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
+                 unknowns and equations by itself\n";
         return if output::print(&text) {
             CLOSED
         } else {

@@ -3,6 +3,7 @@
 mod all;
 mod check;
 mod compare;
+mod complex;
 mod edit;
 mod generate;
 mod input;
@@ -16,6 +17,7 @@ mod shell;
 mod show;
 mod solve;
 mod sweep;
+mod template;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -54,13 +56,14 @@ Examples:
   krawl solve sketch.toml --html page.html  a page to look at
   krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
   krawl all sketch.toml                     every figure that there is
+  krawl complex sketch.toml                 every complex one
   krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
 
 `krawl VERB --help` has more of each verb. The README has the format of problem files.
 
 Exit codes: 0 closed, complete, verified or reached, 1 stopped or refuted, 2 bad input or results that
 could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's branches meet or
-an incomplete certificate, 5 open: a path with two ends, proved between them."
+an incomplete certificate, or complex solutions that are not proved to be all, 5 open: a path with two ends, proved between them."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -72,12 +75,14 @@ enum Verb {
     All(all::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Complex(complex::Arguments),
     Edit(edit::Arguments),
     Generate(generate::Arguments),
     Limits(limits::Arguments),
     Show(show::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
+    Template(template::Arguments),
     Verify(verify::Arguments),
     Completions(shell::Completions),
     Man(shell::Man),
@@ -93,12 +98,14 @@ pub fn run() -> ExitCode {
         Verb::All(arguments) => all::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
+        Verb::Complex(arguments) => complex::run(&arguments),
         Verb::Edit(arguments) => edit::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Limits(arguments) => limits::run(&arguments),
         Verb::Show(arguments) => show::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Sweep(arguments) => sweep::run(&arguments),
+        Verb::Template(arguments) => template::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Completions(arguments) => shell::completions(&arguments),
         Verb::Man(arguments) => shell::man(&arguments),

@@ -3,6 +3,7 @@
 use super::choose::NoPlan;
 use super::search::{Run, Search, different};
 use super::visit::{Found, Why};
+use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::Solution;
@@ -352,7 +353,7 @@ fn in_gauge(
     let unit = point(search.targets.unit);
     let same = reference == base.as_slice();
     let origin = place(reference[0]);
-    let from = |p: usize| sub(place(p), origin);
+    let from = |p: usize| minus(place(p), origin);
     let (e1, e2, e3);
     if same {
         e1 = [point(1.0), zero, zero];
@@ -392,25 +393,4 @@ fn in_gauge(
         place: None,
         mirror_of: None,
     })
-}
-
-fn sub(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [Interval; 3], b: [Interval; 3]) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn direction(v: [Interval; 3]) -> Option<[Interval; 3]> {
-    let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
-    (length.inf() > 0.0).then(|| v.map(|x| x / length))
 }

@@ -9,7 +9,8 @@
 use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower};
-use crate::problem::field::{PRIME, Residues, add, invert, mul, sub};
+use crate::problem::echelon::Echelon;
+use crate::problem::field::{PRIME, Residues, add, mul, sub};
 use crate::problem::{Problem, counted, list};
 
 /// Most names in one list of a message.
@@ -167,14 +168,14 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
     let system = System::new(problem).map_err(|(owner, fault)| (Some((owner, true)), fault))?;
     let found = system.eliminate();
     let (equations, unknowns) = (system.equations(), system.width);
-    if equations == unknowns && found.rank == unknowns {
+    if equations == unknowns && found.rows.rank == unknowns {
         return Ok(());
     }
     let mut parts = Vec::new();
     let mut place = None;
     if let Some(circuit) = &found.circuit {
         let names = system.names(circuit.iter().copied());
-        let to_spare = equations - found.rank;
+        let to_spare = equations - found.rows.rank;
         parts.push(match names.as_slice() {
             [one] => format!("over-constrained: {one} says the same twice"),
             _ => format!(
@@ -197,7 +198,7 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
                 _ => None,
             });
     }
-    if found.rank < unknowns {
+    if found.rows.rank < unknowns {
         let motion = found.motion();
         let movers = system.movers(|column| motion[column] != 0);
         let against = if problem.is_absolute() {
@@ -211,7 +212,7 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
         };
         parts.push(format!(
             "under-constrained ({}): {} can still move{against}",
-            match unknowns - found.rank {
+            match unknowns - found.rows.rank {
                 1 => "1 degree of freedom".to_owned(),
                 n => format!("{n} degrees of freedom"),
             },
@@ -230,11 +231,9 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
 }
 
 /// The Jacobian at random values modulo a prime, in row echelon form.
-struct Echelon {
-    rank: usize,
-    /// For each column the row that begins there, without its zeros; its first entry is 1. Columns are
-    /// in the order of elimination, auxiliary unknowns first.
-    pivots: Vec<Option<Vec<(usize, u64)>>>,
+struct Eliminated {
+    /// Columns are in the order of elimination, auxiliary unknowns first.
+    rows: Echelon,
     /// The equations that depend on each other, the last of which is the first that adds nothing.
     circuit: Option<Vec<usize>>,
     /// How many auxiliary unknowns there are.
@@ -242,28 +241,28 @@ struct Echelon {
 }
 
 impl System<'_> {
-    fn eliminate(&self) -> Echelon {
+    fn eliminate(&self) -> Eliminated {
         let plain = self.eliminate_with(false);
         if plain.circuit.is_none() {
             return plain;
         }
-        Echelon {
+        Eliminated {
             circuit: self.eliminate_with(true).circuit,
             ..plain
         }
     }
 
     /// With `combine`, stops at the first dependent row, having found what it depends on.
-    fn eliminate_with(&self, combine: bool) -> Echelon {
+    fn eliminate_with(&self, combine: bool) -> Eliminated {
         let mut residues = Residues::new(0x6b72_6177_6c00_0003);
         let at: Vec<u64> = (0..self.width).map(|_| residues.next()).collect();
         let (width, equations) = (self.width, self.equations());
         // Auxiliary unknowns first: they have pivots of their own.
         let auxiliary = self.lowered.tail.unknowns.len();
         let order = |column: usize| (column + auxiliary) % width.max(1);
-        let mut pivots: Vec<Option<Vec<(usize, u64)>>> = vec![None; width];
+        let mut rows = Echelon::new(width);
         let mut work = vec![0u64; width + if combine { equations } else { 0 }];
-        let (mut rank, mut circuit) = (0, None);
+        let mut circuit = None;
         for equation in 0..equations {
             work.fill(0);
             for (factor, sides) in self.products(equation) {
@@ -299,65 +298,28 @@ impl System<'_> {
             if combine {
                 work[width + equation] = 1;
             }
-            let mut lead = None;
-            for column in 0..width {
-                let factor = work[column];
-                if factor == 0 {
-                    continue;
+            if !rows.take(&mut work) && circuit.is_none() {
+                let members = (0..equations).filter(|&e| combine && work[width + e] != 0);
+                circuit = Some(members.collect());
+                if combine {
+                    break;
                 }
-                match &pivots[column] {
-                    Some(pivot) => {
-                        let factor = PRIME - factor;
-                        for &(at, entry) in pivot {
-                            work[at] = add(work[at], mul(factor, entry));
-                        }
-                    }
-                    None => {
-                        lead = Some(column);
-                        break;
-                    }
-                }
-            }
-            match lead {
-                Some(lead) => {
-                    let scale = invert(work[lead]);
-                    let entries = work.iter().enumerate().filter(|&(_, &entry)| entry != 0);
-                    pivots[lead] = Some(entries.map(|(at, &x)| (at, mul(scale, x))).collect());
-                    rank += 1;
-                }
-                None if circuit.is_none() => {
-                    let members = (0..equations).filter(|&e| combine && work[width + e] != 0);
-                    circuit = Some(members.collect());
-                    if combine {
-                        break;
-                    }
-                }
-                None => {}
             }
         }
-        Echelon {
-            rank,
-            pivots,
+        Eliminated {
+            rows,
             circuit,
             auxiliary,
         }
     }
 }
 
-impl Echelon {
+impl Eliminated {
     /// A random element of the null space, by column.
     fn motion(&self) -> Vec<u64> {
         let mut residues = Residues::new(0x6b72_6177_6c00_0004);
-        let width = self.pivots.len();
-        let mut eliminated = vec![0; width];
-        for (column, pivot) in self.pivots.iter().enumerate().rev() {
-            eliminated[column] = match pivot {
-                None => residues.next(),
-                Some(row) => row[1..]
-                    .iter()
-                    .fold(0, |sum, &(at, entry)| sub(sum, mul(entry, eliminated[at]))),
-            };
-        }
+        let eliminated = self.rows.null_vector(&mut residues);
+        let width = eliminated.len();
         (0..width)
             .map(|column| eliminated[(column + self.auxiliary) % width])
             .collect()

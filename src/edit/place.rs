@@ -1,6 +1,7 @@
 //! Where figures stand in the coordinates of the problem.
 
-use crate::interval::{Interval, point};
+use crate::interval::point;
+use crate::interval::vector::{Vector, cross, dot, minus, unit};
 use crate::problem::Problem;
 use crate::system::Placement;
 
@@ -16,8 +17,6 @@ pub(super) struct Stand {
     /// The gauge's frame in the sketch, for figures in which those points have no frame.
     gauge: Placement,
 }
-
-type Vector = [Interval; 3];
 
 impl Stand {
     /// For a problem with the placement of its gauge. Where constraints say where the figure is, it stays there.
@@ -42,7 +41,7 @@ impl Stand {
             // In space two points give no frame yet; a third on their line does not either.
             let is_begun = points.len() == 2
                 && problem.dimension == 3
-                && unit(sub(places[p], places[0])).is_some();
+                && unit(minus(places[p], places[0])).is_some();
             if frame.is_some() {
                 there = frame;
                 break;
@@ -64,7 +63,7 @@ impl Stand {
         let Some(Placement { origin, axes }) = frame else {
             return places.iter().map(|p| self.gauge.to_problem(p)).collect();
         };
-        let into = |p: &Vector| axes.map(|axis| dot(axis, sub(*p, origin)));
+        let into = |p: &Vector| axes.map(|axis| dot(axis, minus(*p, origin)));
         let put = |(index, p): (usize, &Vector)| {
             let mut inside = into(p);
             // Exactly where they are by choice.
@@ -102,36 +101,15 @@ fn frame(dimension: usize, points: &[usize], places: &[Vector]) -> Option<Placem
     let zero = point(0.0);
     let (&first, &second) = (points.first()?, points.get(1)?);
     let origin = places[first];
-    let e1 = unit(sub(places[second], origin))?;
+    let e1 = unit(minus(places[second], origin))?;
     let axes = if dimension == 2 {
         [e1, [-e1[1], e1[0], zero], [zero, zero, point(1.0)]]
     } else {
-        let third = sub(places[*points.get(2)?], origin);
+        let third = minus(places[*points.get(2)?], origin);
         let e3 = unit(cross(e1, third))?;
         [e1, cross(e3, e1), e3]
     };
     // Where that is known only roughly it is of no use.
     let is_known = axes.iter().flatten().all(|x| x.rad() < 1e-6);
     is_known.then_some(Placement { origin, axes })
-}
-
-fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn unit(v: Vector) -> Option<Vector> {
-    let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
-    (length.inf() > 0.0).then(|| v.map(|x| x / length))
 }

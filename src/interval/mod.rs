@@ -14,6 +14,7 @@ mod enclosure;
 mod portable;
 mod real;
 pub mod rounding;
+pub mod vector;
 
 pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};

@@ -19,8 +19,8 @@ mod vocabulary;
 mod write;
 
 pub use builder::ProblemBuilder;
-pub(crate) use check::field;
 pub use check::{Rigidity, rigidity};
+pub(crate) use check::{echelon, field};
 pub use decimal::{Decimal, DecimalError};
 pub(crate) use error::counted;
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};

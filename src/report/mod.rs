@@ -2,6 +2,7 @@
 
 mod comparison;
 mod complete;
+mod complex;
 mod digits;
 mod edit;
 mod json;
@@ -18,6 +19,7 @@ mod theorem;
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
 pub use complete::{complete_to_json, complete_to_table, cover_theorem};
+pub use complex::{complex_to_json, complex_to_table};
 pub use digits::certain_digits;
 pub use edit::{
     edit_in_words, edit_to_json, edit_to_table, edit_to_value, figure_to_value, limit_in_words,

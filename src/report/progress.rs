@@ -65,6 +65,13 @@ impl ProgressLine {
         }
     }
 
+    /// Shows where the search for complex solutions is: the text says.
+    pub fn show_text(&mut self, text: String) {
+        if let Some(line) = &self.line {
+            line.set_message(text);
+        }
+    }
+
     /// Takes the line away.
     pub fn clear(self) {
         if let Some(line) = &self.line {

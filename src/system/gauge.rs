@@ -1,5 +1,6 @@
 //! The reference: which coordinates are fixed, and the sketch seen from it.
 
+use crate::interval::vector::{cross, dot, minus, unit};
 use crate::interval::{Interval, enclose, point};
 use crate::problem::{Problem, free_coordinates};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -95,7 +96,7 @@ impl Gauge {
             });
         }
         let origin = coordinates(self.reference[0]);
-        let from_origin = |p: usize| sub(coordinates(p), origin);
+        let from_origin = |p: usize| minus(coordinates(p), origin);
 
         let along = from_origin(self.reference[1]);
         let e1 = unit(along).ok_or_else(|| GaugeError::Coincident(name(0), name(1)))?;
@@ -122,7 +123,7 @@ impl Gauge {
         let Placement { origin, axes } = self.placement(problem)?;
         Ok((0..problem.points.len())
             .map(|p| {
-                let v = sub(problem.points[p].sketch.each_ref().map(enclose), origin);
+                let v = minus(problem.points[p].sketch.each_ref().map(enclose), origin);
                 let mut out = axes.map(|axis| dot(axis, v));
                 for (axis, x) in out.iter_mut().enumerate() {
                     let fixed = axis >= self.dimension
@@ -206,25 +207,4 @@ impl Placement {
             self.origin[k].mid() + along
         })
     }
-}
-
-fn sub(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [Interval; 3], b: [Interval; 3]) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [Interval; 3], b: [Interval; 3]) -> [Interval; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn unit(v: [Interval; 3]) -> Option<[Interval; 3]> {
-    let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
-    (length.inf() > 0.0).then(|| v.map(|x| x / length))
 }

@@ -149,6 +149,44 @@ impl Homotopy {
         Ok(homotopy)
     }
 
+    /// The homotopy of equations that are about no points: all its unknowns are those of `tail`.
+    ///
+    /// # Panics
+    /// If there are not as many equations as unknowns, or one of them is about a point.
+    pub fn of_equations(tail: Tail) -> Self {
+        let equations = tail.unknowns.len();
+        assert_eq!(
+            equations,
+            tail.equations.len(),
+            "as many equations as unknowns"
+        );
+        let gauge = Gauge {
+            dimension: 2,
+            reference: Vec::new(),
+            place: Vec::new(),
+            variable: Vec::new(),
+        };
+        let mut homotopy = Homotopy {
+            dimension: gauge.dimension,
+            points: 0,
+            equations,
+            unit: 1.0,
+            gauge,
+            edges: Vec::new(),
+            lengths: Vec::new(),
+            tail,
+            terms: Vec::new(),
+            rights: Vec::new(),
+            bend: 0,
+            names: Vec::new(),
+            sketch_box: Vec::new(),
+            sketch: Vec::new(),
+            auxiliary: Vec::new(),
+        };
+        homotopy.add_constraints();
+        homotopy
+    }
+
     fn add_distances(&mut self, problem: &Problem) {
         let per_unit = point(1.0 / self.unit);
         for (index, distance) in problem.distances.iter().enumerate() {

@@ -70,6 +70,11 @@ pub struct ArcRun {
     pub t: (f64, f64),
     /// Orientations, in the same order each time.
     pub orientations: Vec<Orientation>,
+    /// Where it reached t = 1: within this distance of the figure's middle, in every entry, there is no other
+    /// zero of F(X, a(1)). Otherwise 0.
+    pub alone_within: f64,
+    /// The unknowns where the last tube ends, in floats: as far as the arc was proved.
+    pub last: Vec<f64>,
     /// Tubes.
     pub steps: usize,
     /// Tubes that were tried in vain.

@@ -32,7 +32,7 @@ pub fn solve_in_best_space(
     control: &mut Control,
 ) -> Result<Outcome, StartError> {
     let space = match options.mode {
-        // The reduced space is that of distances.
+        // Plans in closed form are for distances; without one the full space is faster at most sizes.
         _ if !problem.is_distances_only() => Space::Full,
         Mode::Float => Space::Reduced,
         // A certificate's tubes are those of the full space.

@@ -51,18 +51,12 @@ pub fn solve(
         Preset::Default => Homotopy::new(problem)?,
         Preset::Paper => Homotopy::for_the_paper(problem)?,
     };
-    if !homotopy.tail.is_empty() {
-        let what = match (options.preset, options.space) {
-            (Preset::Paper, _) => Some("the paper's preset follows"),
-            (_, Space::Reduced) => Some("the reduced space has"),
-            _ => None,
-        };
-        if let Some(what) = what {
-            return Err(StartError::Unsupported(format!(
-                "{what} distances between points only, and there are other constraints; \
-                 use --space full without a preset"
-            )));
-        }
+    if !homotopy.tail.is_empty() && options.preset == Preset::Paper {
+        return Err(StartError::Unsupported(
+            "the paper's preset follows distances between points only, and there are other constraints; \
+             leave out the preset"
+                .to_owned(),
+        ));
     }
     let (what, other) = match (options.mode, options.space) {
         (Mode::Float, Space::Full) => ("the full space keeps", "--space reduced"),

@@ -62,6 +62,37 @@ impl Turns {
         self.split(time, (from, to), 0, &mut seen);
     }
 
+    /// The same where bounds on dt/ds are known for the stretch, or for one that holds it: if they have one sign
+    /// there is nothing to look at.
+    pub fn follow_within<const N: usize>(
+        &mut self,
+        time: &TimeAlong<N>,
+        (from, to): (f64, f64),
+        (low, high): (f64, f64),
+        mut seen: impl FnMut(Stretch),
+    ) {
+        if low > 0.0 || high < 0.0 {
+            seen(self.be_certain(from, low > 0.0));
+        } else {
+            self.split(time, (from, to), 0, &mut seen);
+        }
+    }
+
+    /// The sign is certain from `a` on.
+    fn be_certain(&mut self, a: f64, rising: bool) -> Stretch {
+        let turned = self.rising.is_some_and(|before| before != rising);
+        self.rising = Some(rising);
+        self.first.get_or_insert(rising);
+        self.count += usize::from(turned);
+        self.may_hide |= self.is_open && !turned;
+        self.is_open = false;
+        if turned {
+            Stretch::Turned(a, rising)
+        } else {
+            Stretch::Same(a)
+        }
+    }
+
     fn split<const N: usize>(
         &mut self,
         time: &TimeAlong<N>,
@@ -71,18 +102,7 @@ impl Turns {
     ) {
         let (_, (low, high)) = time.bounds(a, b);
         if low > 0.0 || high < 0.0 {
-            let rising = low > 0.0;
-            let turned = self.rising.is_some_and(|before| before != rising);
-            self.rising = Some(rising);
-            self.first.get_or_insert(rising);
-            self.count += usize::from(turned);
-            self.may_hide |= self.is_open && !turned;
-            self.is_open = false;
-            seen(if turned {
-                Stretch::Turned(a, rising)
-            } else {
-                Stretch::Same(a)
-            });
+            seen(self.be_certain(a, low > 0.0));
         } else if depth == MAX_DEPTH || time.is_flat(a, b) {
             self.is_open = true;
             seen(Stretch::Open(a, b));

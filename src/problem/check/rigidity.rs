@@ -7,7 +7,8 @@
 //! *is* rigid, and a rank that is too small by bad luck has a probability below m / 2⁶⁰ for m
 //! rows (Schwartz, Zippel). One method serves the plane and space alike.
 
-use super::field::{PRIME, Residues, add, invert, mul, sub};
+use super::echelon::Echelon;
+use super::field::{Residues, add, mul, sub};
 
 /// What the graph of the distances fixes and what not.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,14 +32,14 @@ pub fn rigidity(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Rigidi
         Some(_) => matrix.eliminate(true).circuit,
         None => Vec::new(),
     };
-    let flexible = plain.rank < super::super::free_coordinates(dimension, points);
+    let flexible = plain.rows.rank < super::super::free_coordinates(dimension, points);
     let bodies = if flexible {
         matrix.bodies(&plain.random_motion())
     } else {
         Vec::new()
     };
     Rigidity {
-        rank: plain.rank,
+        rank: plain.rows.rank,
         circuit,
         bodies,
     }
@@ -54,15 +55,10 @@ struct Matrix<'a> {
     place: Vec<usize>,
 }
 
-/// A row without its zeros: columns, ascending, and entries. The first entry of a pivot row is 1.
-type Row = Vec<(usize, u64)>;
-
 /// The matrix in row echelon form.
-struct Echelon {
+struct Eliminated {
     dimension: usize,
-    rank: usize,
-    /// For each column the row that begins there.
-    pivots: Vec<Option<Row>>,
+    rows: Echelon,
     first_dependent: Option<usize>,
     circuit: Vec<usize>,
     place: Vec<usize>,
@@ -81,13 +77,13 @@ impl<'a> Matrix<'a> {
 
     /// Eliminates row by row, in the order of the edges. With `combine`, finds the circuit of the
     /// first dependent row and stops there.
-    fn eliminate(&self, combine: bool) -> Echelon {
+    fn eliminate(&self, combine: bool) -> Eliminated {
         let columns = self.coordinates.len();
-        let mut pivots: Vec<Option<Row>> = vec![None; columns];
+        let mut rows = Echelon::new(columns);
         // Beyond the columns of the matrix stand those of the identity, which record the
         // combination of edges that a row has become.
         let mut work = vec![0u64; columns + if combine { self.edges.len() } else { 0 }];
-        let (mut rank, mut first_dependent, mut circuit) = (0, None, Vec::new());
+        let (mut first_dependent, mut circuit) = (None, Vec::new());
         for (index, &[a, b]) in self.edges.iter().enumerate() {
             work.fill(0);
             for k in 0..self.dimension {
@@ -98,35 +94,7 @@ impl<'a> Matrix<'a> {
             if combine {
                 work[columns + index] = 1;
             }
-            let mut lead = None;
-            for column in 0..columns {
-                let factor = work[column];
-                if factor == 0 {
-                    continue;
-                }
-                match &pivots[column] {
-                    Some(pivot) => {
-                        let factor = PRIME - factor;
-                        for &(at, entry) in pivot {
-                            work[at] = add(work[at], mul(factor, entry));
-                        }
-                    }
-                    None => {
-                        lead = Some(column);
-                        break;
-                    }
-                }
-            }
-            if let Some(lead) = lead {
-                let scale = invert(work[lead]);
-                let row = work
-                    .iter()
-                    .enumerate()
-                    .filter(|&(_, &entry)| entry != 0)
-                    .map(|(at, &entry)| (at, mul(scale, entry)));
-                pivots[lead] = Some(row.collect());
-                rank += 1;
-            } else if first_dependent.is_none() {
+            if !rows.take(&mut work) && first_dependent.is_none() {
                 first_dependent = Some(index);
                 if combine {
                     circuit = (0..self.edges.len())
@@ -136,10 +104,9 @@ impl<'a> Matrix<'a> {
                 }
             }
         }
-        Echelon {
+        Eliminated {
             dimension: self.dimension,
-            rank,
-            pivots,
+            rows,
             first_dependent,
             circuit,
             place: self.place.clone(),
@@ -204,19 +171,11 @@ impl<'a> Matrix<'a> {
     }
 }
 
-impl Echelon {
+impl Eliminated {
     /// A random element of the null space, point by point.
     fn random_motion(&self) -> Vec<u64> {
         let mut residues = Residues::new(0x6b72_6177_6c00_0002);
-        let mut eliminated = vec![0; self.pivots.len()];
-        for (column, pivot) in self.pivots.iter().enumerate().rev() {
-            eliminated[column] = match pivot {
-                None => residues.next(),
-                Some(row) => row[1..]
-                    .iter()
-                    .fold(0, |sum, &(at, entry)| sub(sum, mul(entry, eliminated[at]))),
-            };
-        }
+        let eliminated = self.rows.null_vector(&mut residues);
         let d = self.dimension;
         self.place
             .iter()

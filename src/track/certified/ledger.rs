@@ -77,6 +77,16 @@ impl<const D: usize> Ledger<D> {
         self.t_range = (f64::INFINITY, f64::NEG_INFINITY);
     }
 
+    /// Proves a box around the solution near a point, beside the account.
+    pub fn prove_at_end(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut InverseMaker,
+        near: &[f64],
+    ) -> Result<&SolutionBox, Doubt> {
+        self.prover.prove(equations, inverter, near, (true, false))
+    }
+
     /// Where the account stands.
     pub fn mark(&self) -> Mark {
         Mark {
@@ -110,8 +120,10 @@ impl<const D: usize> Ledger<D> {
             return Err(Doubt::Sign(unknown));
         }
         self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
-        self.turns.follow(&tube.time(), (from, to), |_| {});
-        self.widen_t_range(&tube.time(), from, to);
+        let time = tube.time();
+        let (values, slopes) = time.bounds(from, to);
+        self.turns.follow_within(&time, (from, to), slopes, |_| {});
+        self.widen_t_range(&time, (from, to), values);
         Ok(())
     }
 
@@ -144,7 +156,14 @@ impl<const D: usize> Ledger<D> {
         }
         let mut crossings = std::mem::take(&mut self.crossings);
         let known = self.found.len();
-        let separated = time.crossings(from, to, &mut crossings);
+        // One look at all of it is enough for most tubes: t is not 1 there, and dt/ds has one sign.
+        let (values, slopes) = time.bounds(from, to);
+        let separated = if values.0 > 0.0 || values.1 < 0.0 {
+            crossings.clear();
+            Ok(())
+        } else {
+            time.crossings(from, to, &mut crossings)
+        };
         let all = separated.map_err(Doubt::Time).and_then(|()| {
             crossings.iter().try_for_each(|&crossing| {
                 let (a, b) = crossing.between;
@@ -163,10 +182,34 @@ impl<const D: usize> Ledger<D> {
             self.places.truncate(known);
             return all;
         }
-        self.place(tube, &time, (from, to), known);
+        self.place(tube, &time, (from, to), slopes, known);
         self.last_stretch = (from, until, self.length);
         self.length += path_length(&tube.local, from, until, self.unit, &mut self.scratch);
-        self.widen_t_range(&time, from, to);
+        self.widen_t_range(&time, (from, to), values);
+        Ok(())
+    }
+
+    /// Enters a linked tube in which the path meets t = 1 exactly once, rising, between two parameters. If it fails
+    /// nothing is changed.
+    pub fn enter_crossing<const N: usize, Y: Frame<D>>(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut InverseMaker,
+        tube: &Tube<D, N, Y>,
+        between: (f64, f64),
+        extended: bool,
+    ) -> Result<(), Doubt> {
+        if let Some(unknown) = self.not_positive(tube, between) {
+            return Err(Doubt::Sign(unknown));
+        }
+        let crossing = Crossing {
+            between,
+            rising: true,
+        };
+        let near = tube.time().zero_between(between);
+        self.prove_crossing(equations, inverter, tube, (crossing, near), extended)?;
+        let (from, to) = (between.0, self.last_crossing);
+        self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
         Ok(())
     }
 
@@ -235,12 +278,14 @@ impl<const D: usize> Ledger<D> {
         Ok(())
     }
 
-    /// Counts the folds in a tube, and places the solutions in it that were not `known` before.
+    /// Counts the folds in a tube, `slopes` bounding dt/ds in it, and places the solutions in it that were not
+    /// `known` before.
     fn place<const N: usize, Y: Frame<D>>(
         &mut self,
         tube: &Tube<D, N, Y>,
         time: &TimeAlong<N>,
         (from, to): (f64, f64),
+        slopes: (f64, f64),
         known: usize,
     ) {
         let before = self.turns.count();
@@ -249,15 +294,16 @@ impl<const D: usize> Ledger<D> {
         // From where the path is in this tube for certain, lest a fold be counted in two tubes.
         let start = tube.entry.1.max(from);
         let was_certain = self.turns.is_certain();
-        self.turns.follow(time, (start, to), |stretch| {
-            if let Stretch::Turned(at, _) = stretch {
-                let later = new
-                    .iter()
-                    .zip(&mut passed)
-                    .filter(|(place, _)| place.arc >= at);
-                later.for_each(|(_, passed)| *passed += 1);
-            }
-        });
+        self.turns
+            .follow_within(time, (start, to), slopes, |stretch| {
+                if let Stretch::Turned(at, _) = stretch {
+                    let later = new
+                        .iter()
+                        .zip(&mut passed)
+                        .filter(|(place, _)| place.arc >= at);
+                    later.for_each(|(_, passed)| *passed += 1);
+                }
+            });
         let first = self.turns.first();
         // What is hidden in this tube counts for all solutions in it.
         let is_certain = was_certain && self.turns.is_certain();
@@ -273,9 +319,15 @@ impl<const D: usize> Ledger<D> {
         }
     }
 
-    fn widen_t_range<const N: usize>(&mut self, time: &TimeAlong<N>, from: f64, to: f64) {
+    /// Takes the values of t between two parameters, `values` bounding t − 1 there.
+    fn widen_t_range<const N: usize>(
+        &mut self,
+        time: &TimeAlong<N>,
+        (from, to): (f64, f64),
+        values: (f64, f64),
+    ) {
         let shift = |(lo, hi): (f64, f64)| ((lo + 1.0).next_down(), (hi + 1.0).next_up());
-        let (lo, hi) = shift(time.bounds(from, to).0);
+        let (lo, hi) = shift(values);
         if lo >= self.t_range.0 && hi <= self.t_range.1 {
             return;
         }

@@ -39,6 +39,16 @@ pub trait FollowArcs: std::fmt::Debug + Send {
     /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the
     /// lengths at t = 0, proving every step and that t rises.
     fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun;
+
+    /// Says that the equations are those of the real and imaginary parts of complex ones in complex unknowns: then
+    /// a path that a tube proves to be regular cannot turn back in t, and no tube has to be so short as to show it.
+    ///
+    /// Proofs are wrong if the equations are not of this kind.
+    fn set_complex(&mut self);
+
+    /// Proves a box around the figure with t = 1 near a point (one entry per unknown): it holds exactly one,
+    /// and within the distance that comes with it from the box's middle, in every entry, there is no other.
+    fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String>;
 }
 
 impl<const D: usize, const N: usize, T: tracker::Test<D, N>> FollowArcs for tracker::Arcs<D, N, T>
@@ -55,6 +65,14 @@ where
 
     fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
         self.follow(start, control)
+    }
+
+    fn set_complex(&mut self) {
+        self.set_complex();
+    }
+
+    fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String> {
+        self.prove_at_end(near)
     }
 }
 

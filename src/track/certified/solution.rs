@@ -271,6 +271,9 @@ impl SolutionBox {
             let radii = self.reach(i) + other.reach(i) + slack;
             apart |= distance > round_up(radii, 8);
             inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
+            if apart && !inside {
+                break;
+            }
         }
         match (inside, apart) {
             // One solution within `alone_within` of the other's middle, so both are that one.

@@ -206,6 +206,13 @@ impl<const D: usize> Equations<D> {
         base + self.tail.longest.saturating_sub(3)
     }
 
+    /// How many roundings more than in the row of a distance there are in sums over a row of the Jacobian, at
+    /// three orders, and in its entries: each product of an equation has two differences of two unknowns,
+    /// so that its row has at most four entries for each product, of at most two parts for each.
+    pub fn row_roundings(&self) -> usize {
+        (3 * 4 + 2) * self.tail.longest
+    }
+
     /// p_i − p_j for the point `z`, per axis and distance, and the tail's forms.
     #[inline(always)]
     pub fn differences(&self, z: &[f64], out: &mut Differences<D>) {

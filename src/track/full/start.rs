@@ -1,6 +1,6 @@
 //! Setting out from the sketch, and measuring what was travelled.
 
-use super::{Equations, InverseMaker, Local, Preconditioner, dot};
+use super::{Equations, Local, ORDER, Preconditioner, dot};
 use crate::linalg::{Singular, Vector};
 
 /// A tangent larger than this in the coordinate that is held comes from rounding, not from the problem.
@@ -11,20 +11,23 @@ pub const LARGEST_TANGENT: f64 = 1e12;
 ///
 /// The tangent is the solution of [J; e_k] x = e_n, first with t for the k-th entry, and where
 /// that is singular, as at a fold of t, with each of the coordinates.
-pub fn first_normal<const D: usize>(
+pub fn first_normal<const D: usize, Y: Preconditioner<D>>(
     equations: &Equations<D>,
-    inverter: &mut InverseMaker,
-    local: &mut Local<D>,
+    inverter: &mut Y::Maker,
+    local: &mut Local<D, { ORDER + 1 }, Y>,
     reverse: bool,
 ) -> Result<(), Singular> {
     let (m, n) = (equations.m, equations.n());
+    let (mut last, mut tangent) = (vec![0.0; n], equations.vector());
+    last[m] = 1.0;
     for k in (0..n).rev() {
         local.normal.fill(0.0);
         local.normal[k] = 1.0;
         if local.precondition(equations, inverter).is_err() {
             continue;
         }
-        let tangent = local.y.column(m);
+        local.y.solve(equations, &last, &mut tangent);
+        let tangent = &tangent[..n];
         let size = dot(tangent, tangent).sqrt();
         if !(size.is_finite() && size < LARGEST_TANGENT) {
             continue;
@@ -34,7 +37,7 @@ pub fn first_normal<const D: usize>(
         } else {
             -1.0
         };
-        for (c, x) in local.normal[..n].iter_mut().zip(local.y.column(m)) {
+        for (c, x) in local.normal[..n].iter_mut().zip(tangent) {
             *c = sign * x / size;
         }
         return Ok(());

@@ -20,6 +20,47 @@ pub struct Tail {
     sources: Vec<Source>,
     /// Where each column's begin.
     columns: Vec<u32>,
+    /// The Jacobian row by row.
+    rows: Rows,
+}
+
+/// The tail's rows of the Jacobian, as compressed lists: for each entry its unknown and what it is made of.
+#[derive(Debug, Clone, Default)]
+struct Rows {
+    /// Where each equation's entries begin, and where the last one's end.
+    starts: Vec<u32>,
+    /// The unknown of each entry.
+    unknowns: Vec<u32>,
+    /// Where the parts of each entry begin, and where the last one's end.
+    parts_of: Vec<u32>,
+    /// Forms with their factors, entry by entry.
+    parts: Vec<(u32, f64)>,
+}
+
+impl Rows {
+    /// From parts by equation, unknown and form, in this order; the tail's equations begin at `first`.
+    fn new(parts: &[((u32, u32, u32), f64)], first: usize, equations: usize) -> Self {
+        let mut rows = Rows::default();
+        let mut last = None;
+        let mut counts = vec![0u32; equations];
+        for &((equation, unknown, form), factor) in parts {
+            if last != Some((equation, unknown)) {
+                last = Some((equation, unknown));
+                rows.unknowns.push(unknown);
+                rows.parts_of.push(rows.parts.len() as u32);
+                counts[equation as usize - first] += 1;
+            }
+            rows.parts.push((form, factor));
+        }
+        rows.parts_of.push(rows.parts.len() as u32);
+        rows.starts.push(0);
+        let mut end = 0;
+        for count in counts {
+            end += count;
+            rows.starts.push(end);
+        }
+        rows
+    }
 }
 
 /// `half · left · right`, added to an equation.
@@ -88,6 +129,12 @@ impl Tail {
             }
         }
         let mut parts: Vec<_> = parts.into_iter().collect();
+        parts.sort_by_key(|&((column, row, form), _)| (row, column, form));
+        let by_row: Vec<_> = parts
+            .iter()
+            .map(|&((column, row, form), factor)| ((row, column, form), factor))
+            .collect();
+        let rows = Rows::new(&by_row, first, m - first);
         parts.sort_by_key(|&(place, _)| place);
         let mut sources: Vec<Source> = Vec::with_capacity(parts.len());
         let mut columns = vec![0; m + 1];
@@ -119,6 +166,7 @@ impl Tail {
             longest,
             sources,
             columns,
+            rows,
         }
     }
 
@@ -131,6 +179,59 @@ impl Tail {
     /// The number of its equations, which are the last ones.
     pub fn equations(&self) -> usize {
         self.starts.len() - 1
+    }
+
+    /// The number of the first of its equations, as many as there are distances.
+    #[inline(always)]
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// The number of entries in all of its rows of the Jacobian, the column of t left out.
+    pub fn entries(&self) -> usize {
+        self.rows.unknowns.len()
+    }
+
+    /// Which of these are in the row of an equation; none for distances.
+    #[inline(always)]
+    pub fn row(&self, equation: usize) -> std::ops::Range<usize> {
+        match equation.checked_sub(self.first) {
+            None => 0..0,
+            Some(k) => self.rows.starts[k] as usize..self.rows.starts[k + 1] as usize,
+        }
+    }
+
+    /// The unknown of an entry.
+    #[inline(always)]
+    pub fn unknown(&self, entry: usize) -> usize {
+        self.rows.unknowns[entry] as usize
+    }
+
+    /// The entry of an unknown in an equation's row, if there is one.
+    pub fn entry(&self, equation: usize, unknown: usize) -> Option<usize> {
+        self.row(equation)
+            .find(|&entry| self.unknown(entry) == unknown)
+    }
+
+    fn parts(&self, entry: usize) -> &[(u32, f64)] {
+        let rows = &self.rows;
+        &rows.parts[rows.parts_of[entry] as usize..rows.parts_of[entry + 1] as usize]
+    }
+
+    /// The values of all entries from those of forms.
+    pub fn row_values(&self, forms: &[f64], out: &mut [f64]) {
+        for (entry, out) in out.iter_mut().enumerate() {
+            let value = |&(form, factor): &(u32, f64)| factor * forms[form as usize];
+            *out = self.parts(entry).iter().map(value).sum();
+        }
+    }
+
+    /// Bounds on all entries, and on the terms that they are sums of, from bounds on forms.
+    pub fn row_sizes(&self, forms: &[f64], out: &mut [f64]) {
+        for (entry, out) in out.iter_mut().enumerate() {
+            let size = |&(form, factor): &(u32, f64)| factor.abs() * forms[form as usize];
+            *out = self.parts(entry).iter().map(size).sum();
+        }
     }
 
     /// The number of forms.

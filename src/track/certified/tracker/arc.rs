@@ -7,7 +7,7 @@ use crate::track::certified::fold::{self, FoldProver};
 use crate::track::certified::ledger::Ledger;
 use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::orientation::Orientations;
-use crate::track::certified::reasons::{Doubt, Rejection};
+use crate::track::certified::reasons::{Doubt, Rejection, undecided};
 use crate::track::certified::solution::SolutionBox;
 use crate::track::events::Rise;
 use crate::track::full::{Equations, InverseMaker};
@@ -22,6 +22,8 @@ pub(super) const LONGEST: f64 = 4.0;
 pub(super) struct Arc<const D: usize> {
     orientations: Orientations,
     prover: FoldProver<D>,
+    /// Whether the equations are those of the real and imaginary parts of complex ones.
+    is_complex: bool,
     /// How it ended, once it has.
     end: Option<ArcEnd>,
 }
@@ -41,6 +43,7 @@ impl<const D: usize> Arc<D> {
         Arc {
             orientations: Orientations::new(homotopy, &equations.vector()),
             prover: FoldProver::new(equations),
+            is_complex: false,
             end: None,
         }
     }
@@ -59,6 +62,9 @@ impl<const D: usize> Arc<D> {
         inverter: &mut InverseMaker,
         ledger: &mut Ledger<D>,
     ) -> Result<bool, Rejection> {
+        if self.is_complex {
+            return self.enter_complex(joining, inverter, ledger);
+        }
         let Joining {
             equations,
             tube,
@@ -93,6 +99,52 @@ impl<const D: usize> Arc<D> {
         }
         self.end = Some(ArcEnd::Reached(figure_of(found)));
         self.orientations.follow(tube, (from, at));
+        Ok(true)
+    }
+
+    /// The same for the real and imaginary parts of complex equations G(Z, t) = 0: then dt/ds has the same sign all
+    /// along a chain of tubes, and it is enough that t has risen in the first.
+    ///
+    /// For if G_Z were singular at a point of a tube's path, the real Jacobian F_X would have a rank of at most
+    /// 2n − 2, and [F_X F_t] one of at most 2n − 1. But that of a tube has the rank 2n, as it is invertible with the
+    /// normal added. So F_X is invertible, and dt/ds, which is zero only where it is not, has no zero.
+    fn enter_complex<const N: usize, Y: Frame<D>>(
+        &mut self,
+        joining: &Joining<D, N, Y>,
+        inverter: &mut InverseMaker,
+        ledger: &mut Ledger<D>,
+    ) -> Result<bool, Rejection> {
+        let Joining {
+            equations,
+            tube,
+            is_first,
+            extended,
+            ..
+        } = *joining;
+        let time = tube.time();
+        let (from, h) = (tube.entry.0.max(-tube.proof.h), tube.proof.h);
+        let doubt = || Rejection::Undecided(Doubt::Time(time.undecided(from, h)));
+        // Of t − 1; the figure at the start has t = 0.
+        let ((low, high), _) = time.bounds(tube.exit_at, tube.exit_at);
+        if is_first && (low <= -1.0 || low.is_nan()) {
+            return Err(doubt());
+        }
+        if high < 0.0 {
+            ledger
+                .pass(tube, (from, tube.exit_at))
+                .map_err(Rejection::Undecided)?;
+            return Ok(false);
+        }
+        let ((low, _), _) = time.bounds(h, h);
+        if low <= 0.0 || low.is_nan() {
+            return Err(doubt());
+        }
+        // The chain has t < 1 up to the entry, and beyond it t rises: it is 1 once.
+        ledger
+            .enter_crossing(equations, inverter, tube, (from, h), extended)
+            .map_err(Rejection::Undecided)?;
+        let found = ledger.found().last().expect("it was just entered");
+        self.end = Some(ArcEnd::Reached(figure_of(found)));
         Ok(true)
     }
 
@@ -180,6 +232,32 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
         self.tracker.homotopy.to_mut()
     }
 
+    /// Says that the equations are those of the real and imaginary parts of complex ones.
+    pub fn set_complex(&mut self) {
+        self.tracker
+            .arc
+            .as_mut()
+            .expect("a run to t = 1")
+            .is_complex = true;
+    }
+
+    /// Proves a box around the zero of F(X, a(1)) near a point: there is exactly one zero in it, and no other
+    /// within a distance that comes with it.
+    pub fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String> {
+        let tracker = &mut self.tracker;
+        let m = tracker.equations.m;
+        tracker.equations.set_rights(&tracker.homotopy);
+        tracker.ledger.begin(&tracker.homotopy);
+        let mut guess = tracker.equations.vector();
+        guess[..m].copy_from_slice(near);
+        guess[m] = 1.0;
+        let (equations, inverter) = (&tracker.equations, &mut tracker.inverter);
+        match tracker.ledger.prove_at_end(equations, inverter, &guess) {
+            Ok(found) => Ok((figure_of(found), found.alone_within)),
+            Err(doubt) => Err(undecided(doubt, false, &tracker.homotopy)),
+        }
+    }
+
     /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the
     /// lengths at t = 0.
     pub fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
@@ -201,8 +279,22 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
             ArcEnd::Limit(fold) => (fold.t.inf(), fold.t.sup()),
             _ => t,
         };
+        let alone_within = match &end {
+            ArcEnd::Reached(_) => tracker
+                .ledger
+                .found()
+                .last()
+                .map_or(0.0, |found| found.alone_within),
+            _ => 0.0,
+        };
+        let last = match tracker.has_set_out {
+            true => &tracker.now.exit.centre,
+            false => &tracker.sketch.centre,
+        };
         ArcRun {
             t,
+            alone_within,
+            last: last[..tracker.equations.m].to_vec(),
             orientations: arc.orientations.account(),
             end,
             steps,

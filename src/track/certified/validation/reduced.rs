@@ -3,6 +3,7 @@
 
 use super::super::link::{Ball, Frame};
 use super::super::tracker::Test;
+use super::disguise::Disguised;
 use super::*;
 use crate::interval::rounding::round_up;
 use crate::linalg::LANE;
@@ -547,18 +548,15 @@ fn check_link<const D: usize>(
 }
 
 fn check_problem<const D: usize>(
-    problem: &Problem,
+    homotopy: &Homotopy,
     (alpha, max_h): (f64, f64),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     tally: &mut Tally,
 ) {
-    let Ok(homotopy) = Homotopy::new(problem) else {
-        return;
-    };
-    let exact = Exact::new(&homotopy);
-    let mut shop = Shop::<D>::new(&homotopy, alpha, max_h);
-    let chain = shop.chain(&homotopy, 600);
+    let exact = Exact::new(homotopy);
+    let mut shop = Shop::<D>::new(homotopy, alpha, max_h);
+    let chain = shop.chain(homotopy, 600);
     let stride = (chain.len() / tubes).max(1);
     for k in (0..chain.len()).step_by(stride) {
         for _ in 0..rounds {
@@ -573,10 +571,11 @@ fn reduced_proofs_hold_along_the_shipped_problems() {
     let mut tally = Tally::default();
     let mut random = Random::new(21);
     for problem in shipped() {
+        let homotopy = Homotopy::new(&problem).expect("a gauge");
         for how in [(0.1, f64::INFINITY), (0.4, f64::INFINITY), (0.1, 1e-3)] {
             match problem.dimension {
-                2 => check_problem::<2>(&problem, how, (10, 6), &mut random, &mut tally),
-                _ => check_problem::<3>(&problem, how, (10, 6), &mut random, &mut tally),
+                2 => check_problem::<2>(&homotopy, how, (10, 6), &mut random, &mut tally),
+                _ => check_problem::<3>(&homotopy, how, (10, 6), &mut random, &mut tally),
             }
         }
     }
@@ -597,9 +596,16 @@ fn reduced_proofs_hold_along_random_problems() {
         let problem = random_problem(&mut random, dimension, points, change);
         let alpha = [0.05, 0.1, 0.2, 0.4][random.below(4)];
         let how = (alpha, [f64::INFINITY, 1e-2][random.below(2)]);
+        // Every other problem in other words.
+        let homotopy = if round % 4 < 2 {
+            Homotopy::new(&problem).ok()
+        } else {
+            Disguised::new(&problem, 0.7, &mut random).homotopy()
+        };
+        let Some(homotopy) = homotopy else { continue };
         match dimension {
-            2 => check_problem::<2>(&problem, how, (8, 4), &mut random, &mut tally),
-            _ => check_problem::<3>(&problem, how, (8, 4), &mut random, &mut tally),
+            2 => check_problem::<2>(&homotopy, how, (8, 4), &mut random, &mut tally),
+            _ => check_problem::<3>(&homotopy, how, (8, 4), &mut random, &mut tally),
         }
     }
     println!("{tally:?}");

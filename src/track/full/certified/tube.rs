@@ -234,6 +234,7 @@ impl<const D: usize> KrawczykTest<D> {
         let reach: f64 = (1..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
         let t = local.z[0][m].abs() + reach;
         let t_higher: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
+        let of_right = gamma(coefficient_roundings(equations));
         let [rounding, higher, width, low, _] = &mut self.bounds;
         let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
@@ -263,7 +264,7 @@ impl<const D: usize> KrawczykTest<D> {
             low.lanes_mut()[l] = std::array::from_fn(|i| {
                 let length_size = e0[i] + t * (e1[i] + t * e2[i]);
                 let length_radius = r0[i] + t * (r1[i] + t * r2[i]);
-                gamma(200) * (size[i] + length_size) + length_radius
+                of_right * (size[i] + length_size) + length_radius
             });
         }
         for b in 0..equations.bends.len() {
@@ -326,8 +327,7 @@ impl<const D: usize> KrawczykTest<D> {
         per_entry: f64,
     ) {
         let tail = &equations.tail;
-        // A coefficient of F is a sum of at most six products of orders for each product of the equation.
-        let per_term = gamma(equations.roundings(200) + 6 * tail.longest);
+        let per_term = gamma(coefficient_roundings(equations));
         let [rounding, higher, width, low, _] = &mut self.bounds;
         let (near, far) = (&mut self.near.forms, &mut self.far.forms);
         for form in 0..tail.forms() {
@@ -365,7 +365,8 @@ impl<const D: usize> KrawczykTest<D> {
         let bend = &equations.bends[b];
         let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
         let cube = t * t * t;
-        low[at] += gamma(200) * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
+        let of_right = gamma(coefficient_roundings(equations));
+        low[at] += of_right * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
         let slope_size = t * t * (3.0 * e[3] + 4.0 * t * e[4]);
         let slope_radius = t * t * (3.0 * r[3] + 4.0 * t * r[4]);
         rounding[at] += per_entry * slope_size * ut + slope_radius * ut;
@@ -426,6 +427,12 @@ impl<const D: usize> KrawczykTest<D> {
         );
         [a, norm_of(&self.v, u, n), norm_of(&self.square_u, u, n), r0]
     }
+}
+
+/// More roundings than any term of a coefficient of F along ẑ goes through, right-hand sides included: it is a
+/// sum of at most six products of orders for each product of the equation.
+fn coefficient_roundings<const D: usize>(equations: &Equations<D>) -> usize {
+    equations.roundings(200) + (ORDER + 1) * equations.tail.longest
 }
 
 /// |v|_u: one division per entry, to be covered by the caller's `round_up`.

@@ -6,4 +6,4 @@ mod tracker;
 
 pub use paper::{LARGEST_STEP as LARGEST_STEP_OF_PAPER, track as track_paper};
 pub use record::Record;
-pub use tracker::track;
+pub use tracker::{follow, track};

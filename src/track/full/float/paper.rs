@@ -28,7 +28,7 @@ pub fn track<const D: usize>(
 ) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
-    let mut record = Record::new(&equations);
+    let mut record = Record::<D>::new(&equations);
     let status = match Paper::new(homotopy, &equations).run(options, control, &mut record) {
         Ok(()) => Status::Closed,
         Err(reason) => Status::Stopped(reason),

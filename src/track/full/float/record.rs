@@ -1,8 +1,8 @@
 //! What a float run in the full space has seen so far.
 
-use crate::linalg::Vector;
+use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
-use crate::track::full::{Equations, InverseMaker, Local};
+use crate::track::full::{Equations, Local, ORDER, Preconditioner};
 use crate::track::{Driving, Mode, Outcome, Space, Status, observed_solutions};
 
 /// Two figures are the same solution if no coordinate differs by more than this times the
@@ -11,11 +11,11 @@ const SAME_FIGURE: f64 = 1e-9;
 /// Lengths of congruent figures agree to that, relative to the figure's size.
 const SAME_LENGTH: f64 = 1e-9;
 
-/// Solutions and counters of a run.
+/// Solutions and counters of a run with some preconditioner.
 #[derive(Debug)]
-pub struct Record<const D: usize> {
+pub struct Record<const D: usize, Y = Matrix> {
     found: Vec<Vector>,
-    corrector: Local<D>,
+    corrector: Local<D, { ORDER + 1 }, Y>,
     /// Accepted and rejected steps.
     pub steps: usize,
     /// See `steps`.
@@ -26,7 +26,7 @@ pub struct Record<const D: usize> {
     pub t_range: (f64, f64),
 }
 
-impl<const D: usize> Record<D> {
+impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
     /// Nothing seen yet.
     pub fn new(equations: &Equations<D>) -> Self {
         Record {
@@ -49,7 +49,7 @@ impl<const D: usize> Record<D> {
     pub fn solution(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut InverseMaker,
+        inverter: &mut Y::Maker,
         guess: &[f64],
     ) -> Option<()> {
         let m = equations.m;

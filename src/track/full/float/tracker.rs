@@ -5,7 +5,7 @@ use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{
-    Equations, InverseMaker, Local, Meeting, ORDER, dot, first_normal, path_length,
+    Equations, Local, Meeting, ORDER, Preconditioner, dot, first_normal, path_length,
 };
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
@@ -37,36 +37,45 @@ pub fn track<const D: usize>(
 ) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
-    let mut record = Record::new(&equations);
-    let status = match run(homotopy, &equations, options, control, &mut record) {
+    let mut record = Record::<D>::new(&equations);
+    let mut maker = equations.inverter();
+    let status = match follow(
+        homotopy,
+        (&equations, &mut maker),
+        options,
+        control,
+        &mut record,
+    ) {
         Ok(()) => Status::Closed,
         Err(reason) => Status::Stopped(reason),
     };
     record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
 }
 
-fn run<const D: usize>(
+/// Follows the path with any preconditioner. The error: where and why it stopped.
+pub fn follow<const D: usize, Y: Preconditioner<D>>(
     homotopy: &Homotopy,
-    equations: &Equations<D>,
+    (equations, inverter): (&Equations<D>, &mut Y::Maker),
     options: &Options,
     control: &mut Control,
-    record: &mut Record<D>,
+    record: &mut Record<D, Y>,
 ) -> Result<(), String> {
     let (m, n) = (equations.m, equations.n());
     let tolerance = options
         .tolerance_in(homotopy.unit)
         .unwrap_or(POINT_TOLERANCE);
-    let mut inverter = equations.inverter();
-    let (mut now, mut next) = (Local::new(equations), Local::new(equations));
+    let (mut now, mut next) = (Path::<D, Y>::new(equations), Path::<D, Y>::new(equations));
     let mut sketch = equations.vector();
     for (x, exact) in sketch.iter_mut().zip(homotopy.sketch_of_unknowns()) {
         *x = exact.mid();
     }
     now.z[0].copy_from_slice(&sketch);
-    first_normal(equations, &mut inverter, &mut now, options.reverse)
-        .map_err(|_| "the sketch is a singular point of its path".to_owned())?;
+    first_normal(equations, inverter, &mut now, options.reverse).map_err(|_| {
+        let singular = || "the sketch is a singular point of its path".to_owned();
+        now.y.obstacle().unwrap_or_else(singular)
+    })?;
     now.z[0].copy_from_slice(&sketch);
-    now.refine(equations, &mut inverter, tolerance, 8)
+    now.refine(equations, inverter, tolerance, 8)
         .map_err(|_| "the sketch could not be corrected onto its path".to_owned())?;
     now.expand(equations);
     let direction = now.normal.clone();
@@ -77,7 +86,7 @@ fn run<const D: usize>(
     let mut step = FIRST_STEP.min(longest);
     let mut failure = "";
     loop {
-        let place = |record: &Record<D>, now: &Local<D>| {
+        let place = |record: &Record<D, Y>, now: &Path<D, Y>| {
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
@@ -89,7 +98,7 @@ fn run<const D: usize>(
             ));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
-        let refined = next.refine(equations, &mut inverter, tolerance, 6).is_ok()
+        let refined = next.refine(equations, inverter, tolerance, 6).is_ok()
             && next.contraction <= LARGEST_CONTRACTION
             && next.negative == now.negative;
         if refined {
@@ -99,7 +108,7 @@ fn run<const D: usize>(
         let seen = match refined {
             false => Err("the corrector fails"),
             true if turned => Err("the path turns too much"),
-            true => events.between(equations, &mut inverter, &now, &next, step, record),
+            true => events.between(equations, inverter, &now, &next, step, record),
         };
         if let Err(reason) = seen {
             failure = reason;
@@ -143,6 +152,9 @@ fn run<const D: usize>(
     }
 }
 
+/// A point of the path with its expansion.
+type Path<const D: usize, Y> = Local<D, { ORDER + 1 }, Y>;
+
 /// Finds what happens between two points of the path.
 struct Events<const D: usize> {
     tolerance: f64,
@@ -166,14 +178,14 @@ impl<const D: usize> Events<D> {
     /// Records the solutions between two points: the first half of the way is read off the
     /// expansion at one, the second off the other. The error is the reason, for people: these do not
     /// meet in the middle, or the solutions could not be separated.
-    fn between(
+    fn between<Y: Preconditioner<D>>(
         &mut self,
         equations: &Equations<D>,
-        inverter: &mut InverseMaker,
-        now: &Local<D>,
-        next: &Local<D>,
+        inverter: &mut Y::Maker,
+        now: &Path<D, Y>,
+        next: &Path<D, Y>,
         step: f64,
-        record: &mut Record<D>,
+        record: &mut Record<D, Y>,
     ) -> Result<(), &'static str> {
         const UNDECIDED: &str = "it cannot be told whether the path meets t = 1";
         // The expansions are off by 2^-(ORDER + 1) of the prediction's error at half the way, and
@@ -213,13 +225,25 @@ impl<const D: usize> Events<D> {
 
     /// The parameter at `next` of the point where the expansion at `now` is left for its own: the
     /// two have different normals, so it is not just the rest of the step.
-    fn middle(&mut self, now: &Local<D>, next: &Local<D>, half: f64) -> f64 {
+    fn middle<Y: Preconditioner<D>>(
+        &mut self,
+        now: &Path<D, Y>,
+        next: &Path<D, Y>,
+        half: f64,
+    ) -> f64 {
         now.at(half, &mut self.scratch);
         next.parameter_of(&self.scratch)
     }
 
     /// The path's length from `now` to the parameter `at` of `next`.
-    fn length(&mut self, now: &Local<D>, next: &Local<D>, step: f64, at: f64, unit: f64) -> f64 {
+    fn length<Y: Preconditioner<D>>(
+        &mut self,
+        now: &Path<D, Y>,
+        next: &Path<D, Y>,
+        step: f64,
+        at: f64,
+        unit: f64,
+    ) -> f64 {
         let back = self.middle(now, next, 0.5 * step);
         path_length(now, 0.0, 0.5 * step, unit, &mut self.scratch)
             + path_length(next, back, at, unit, &mut self.scratch)
@@ -227,16 +251,16 @@ impl<const D: usize> Events<D> {
 
     /// Whether the path, followed in `direction`, passed the sketch between two points: at which
     /// parameter of `next`, if so.
-    fn passes(
+    fn passes<Y: Preconditioner<D>>(
         &mut self,
         sketch: &[f64],
         direction: &[f64],
-        now: &Local<D>,
-        next: &Local<D>,
+        now: &Path<D, Y>,
+        next: &Path<D, Y>,
         step: f64,
     ) -> Option<f64> {
-        let n = next.y.rows();
-        let t = sketch.len() - 2;
+        let n = sketch.len() - 1;
+        let t = n - 1;
         // Far more than t can change in a step along the path.
         if next.z[0][t].abs() > 2.0 * step {
             return None;
@@ -261,7 +285,7 @@ impl<const D: usize> Events<D> {
 }
 
 /// The value of t where its slope vanishes, by bisection.
-fn extreme<const D: usize>(local: &Local<D>, from: f64, to: f64, t: usize) -> f64 {
+fn extreme<const D: usize, Y>(local: &Path<D, Y>, from: f64, to: f64, t: usize) -> f64 {
     let slope = |s: f64| {
         (1..=ORDER)
             .rev()

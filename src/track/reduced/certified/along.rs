@@ -1,19 +1,27 @@
 //! How large everything along a tube's polynomial ẑ(s) is for |s| ≤ h.
 
 use super::frame::Locals;
-use super::passes::Lane;
 use super::series::SIGNED;
+use super::tail::TailSizes;
 use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
 use crate::linalg::{LANE, Vector};
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};
+use crate::track::reduced::structure::passes::Lane;
 
-/// More roundings than any term of a coefficient of F along ẑ goes through: the differences and their
-/// sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
+/// More roundings than any term of a distance's coefficient of F along ẑ goes through: the differences and
+/// their sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
 const COEFFICIENT: usize = 100;
 /// The same for F(z₀): differences, their squares and sum (7), E of degree 4 (10).
 const POINT: usize = 20;
+
+/// The same for all equations, COEFFICIENT and POINT: each product of an equation is a sum over a and b, of
+/// COEFFICIENTS terms at most, and one at z₀.
+fn roundings<const D: usize>(equations: &Equations<D>) -> (usize, usize) {
+    let longest = equations.tail.longest;
+    (COEFFICIENT + (COEFFICIENTS + 1) * longest, POINT + longest)
+}
 
 /// Sizes over a tube of a length that was chosen last.
 #[derive(Debug)]
@@ -42,6 +50,8 @@ pub struct Along<const D: usize> {
     pub slope_size: Vector,
     pub slope_radius: Vector,
     pub curvature: Vector,
+    /// The same for what is no distance.
+    pub tail: TailSizes,
     /// What the bend's E' adds above s^SIGNED.
     bend_tails: Vec<f64>,
     coefficient: Vector,
@@ -67,16 +77,26 @@ impl<const D: usize> Along<D> {
             slope_size: equations.per_edge(),
             slope_radius: equations.per_edge(),
             curvature: equations.per_edge(),
+            tail: TailSizes::new(equations),
             bend_tails: vec![0.0; equations.bends.len()],
             coefficient: equations.per_edge(),
         }
     }
 
-    /// Measures all but F.
-    pub fn measure(&mut self, equations: &Equations<D>, local: &Locals<D>, h: f64) {
+    /// Measures all but F, with the values of the tail's entries order by order.
+    pub fn measure(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Locals<D>,
+        entries: &[Vec<f64>; COEFFICIENTS],
+        h: f64,
+    ) {
         self.powers = powers_of(h);
         self.measure_time(equations, local);
         let hs = &self.powers;
+        if !equations.tail.is_empty() {
+            self.tail.measure(equations, local, entries, hs);
+        }
         for axis in 0..D {
             let d: [&[Lane]; COEFFICIENTS] = std::array::from_fn(|k| local.d[k][axis].lanes());
             let lanes = d[0].len();
@@ -145,7 +165,8 @@ impl<const D: usize> Along<D> {
                 self.high[bend.edge] += excess * hs[k] * (k as f64 / COEFFICIENTS as f64);
             }
         }
-        let (t, at_point, rounding) = (self.time.t, gamma(POINT), gamma(COEFFICIENT));
+        let (of_coefficient, of_point) = roundings(equations);
+        let (t, at_point, rounding) = (self.time.t, gamma(of_point), gamma(of_coefficient));
         let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
         // Rounding in F(z₀) is at most γ(POINT) times ½ Σ d₀² + |E|(|t₀|). Rounding in the coefficient of
@@ -178,6 +199,11 @@ impl<const D: usize> Along<D> {
                 low[i] += at_point * at_0 + rounding * beyond + radius;
                 slope[i] += rounding * turned + radii[l][i] * self.time.speed;
             }
+        }
+        for e in equations.tail.first()..equations.m {
+            let (at_0, beyond, turned) = self.tail.terms(equations, e);
+            self.low[e] += at_point * at_0 + rounding * beyond;
+            self.low_slope[e] += rounding * turned;
         }
         // Up to t² the bend's coefficients are among the others.
         let beyond = |c: [f64; 5], t: f64| t * t * t * (c[3] + t * c[4]);

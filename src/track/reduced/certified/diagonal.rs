@@ -1,7 +1,7 @@
 //! What bounds the inverse of one diagonal block of A(s) X.
 
-use super::passes::by_adjugate;
 use crate::interval::rounding::round_up;
+use crate::track::reduced::structure::passes::by_adjugate;
 
 /// How much more: far above rounding where R is not larger than this.
 const MORE: f64 = 1e-9;

@@ -1,14 +1,14 @@
 //! The frame of a tube in the reduced space: which box was proved, and in which coordinates.
 
 use super::COEFFICIENTS;
-use super::elimination::{Elimination, MAX_KEYS, Maker};
-use super::passes::{Lane, with_width};
 use super::resolvent::Resolvent;
 use crate::interval::rounding::{largest, round_up};
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::proof::Proof;
 use crate::track::full::{Differences, Equations, Lengths, Local, Preconditioner};
+use crate::track::reduced::structure::elimination::{Elimination, MAX_KEYS, Maker};
+use crate::track::reduced::structure::passes::{Lane, with_width};
 use std::cell::RefCell;
 
 /// The degree of K(s), Z(s) in s.
@@ -70,13 +70,7 @@ impl<const D: usize> Preconditioner<D> for Reduction<D> {
     }
 
     fn obstacle(&self) -> Option<String> {
-        let keys = self.elimination.layout.keys();
-        (keys > MAX_KEYS).then(|| {
-            format!(
-                "the construction plan has {keys} key unknowns, more than the {MAX_KEYS} that the reduced \
-                 space has room for"
-            )
-        })
+        self.elimination.obstacle()
     }
 
     fn solve(&self, equations: &Equations<D>, f: &[f64], out: &mut Vector) {

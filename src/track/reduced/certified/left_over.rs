@@ -4,10 +4,10 @@
 
 use super::along::Along;
 use super::frame::{Reduction, SERIES};
-use super::passes::{Row, add};
 use super::series::{SIGNED, Series, add_product};
 use crate::linalg::LANE;
 use crate::track::full::Equations;
+use crate::track::reduced::structure::passes::{Row, add};
 
 /// The two parts of a bound by key unknown.
 pub type Parts<const W: usize> = [Row<W>; 2];
@@ -49,6 +49,14 @@ pub fn of_z<const D: usize, const W: usize>(
         }
         for (q, (z, tail)) in zs.iter().zip(tails).enumerate() {
             let size = z[e].map(|lane| lane.map(f64::abs));
+            add(&mut cubic, hs[q] * tail, &size);
+        }
+    }
+    for e in equations.tail.first()..equations.m {
+        let [_, from2, from3, from4, _] = &along.tail.entries;
+        for (q, (z, from)) in zs.iter().zip([from4, from3, from2]).enumerate() {
+            let size = z[e].map(|lane| lane.map(f64::abs));
+            let tail = along.tail.times(equations, e, from, rho_a);
             add(&mut cubic, hs[q] * tail, &size);
         }
     }

@@ -3,25 +3,23 @@
 mod along;
 mod bounds;
 mod diagonal;
-mod elimination;
 mod exit;
 mod frame;
-mod layout;
 mod left_over;
-mod passes;
 mod resolvent;
 mod rounds;
 mod series;
 mod shape;
 mod sides;
 mod speed;
+mod tail;
 mod test;
 
 use crate::track::full::MAX_DEGREE;
 
 pub use test::ReducedTest;
 #[cfg(test)]
-pub use {bounds::Bounds, layout::Block};
+pub use {crate::track::reduced::structure::layout::Block, bounds::Bounds};
 
 /// The tubes' polynomials have so many coefficients.
 pub const COEFFICIENTS: usize = 9;

@@ -13,11 +13,11 @@
 //! (docs/reduced.md).
 
 use super::diagonal::bound_on_inverse;
-use super::layout::{Block, Layout};
-use super::passes::{Inverse, Lane};
 use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
+use crate::track::reduced::structure::layout::{Block, Layout};
+use crate::track::reduced::structure::passes::{Inverse, Lane};
 
 /// See above.
 #[derive(Debug, Clone)]
@@ -27,8 +27,9 @@ pub struct Resolvent<const D: usize> {
     rows: Vec<(usize, usize)>,
     x: Vec<Lane>,
     n: Vec<Lane>,
-    /// Â by axis and distance.
+    /// Â by axis and distance, and by entry of the tail's rows.
     spread: [Vector; D],
+    spread_of_tail: Vec<f64>,
     /// R for each block.
     diagonal: Vec<[[f64; 3]; 3]>,
     /// The position in A of each unknown of A; otherwise too large.
@@ -45,6 +46,7 @@ impl<const D: usize> Resolvent<D> {
             x: Vec::new(),
             n: Vec::new(),
             spread: std::array::from_fn(|_| equations.per_edge()),
+            spread_of_tail: vec![0.0; equations.tail.entries()],
             diagonal: Vec::new(),
             position: Vec::new(),
             roundings: 0,
@@ -52,8 +54,8 @@ impl<const D: usize> Resolvent<D> {
     }
 
     /// Â, to be filled before [`Resolvent::make`].
-    pub fn spread_mut(&mut self) -> &mut [Vector; D] {
-        &mut self.spread
+    pub fn spread_mut(&mut self) -> (&mut [Vector; D], &mut [f64]) {
+        (&mut self.spread, &mut self.spread_of_tail)
     }
 
     /// More roundings than any number in a bound goes through.
@@ -61,16 +63,17 @@ impl<const D: usize> Resolvent<D> {
         self.roundings
     }
 
-    /// Computes X and N for |s| ≤ `h`, the differences of order 0 and 1 being given. False: the bound
-    /// does not exist for such a long tube.
+    /// Computes X and N for |s| ≤ `h`, the differences of order 0 and 1 and the values of the tail's entries
+    /// being given. False: the bound does not exist for such a long tube.
     pub fn make(
         &mut self,
         equations: &Equations<D>,
         layout: &Layout,
         inverses: &[Inverse],
-        d: [&[Vector; D]; 2],
+        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
     ) -> bool {
+        let tail = &equations.tail;
         self.lay_out(equations, layout);
         self.diagonal.clear();
         for (block, inverse) in layout.blocks.iter().zip(inverses) {
@@ -96,6 +99,10 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
             }
+            if block.has_tail(tail.first()) {
+                let given = (&self.position[..], &self.rows[..]);
+                subtract_tails(equations, block, entries[0], given, before, n);
+            }
             for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
                 for (l, x) in x.iter_mut().enumerate() {
                     let mut sum = [0.0; LANE];
@@ -110,13 +117,17 @@ impl<const D: usize> Resolvent<D> {
             for r in 0..size {
                 self.make_row(equations, block, r, d, h);
             }
+            if block.has_tail(tail.first()) {
+                self.make_tail_rows(equations, block, entries, h);
+            }
+            let spreads = self.spreads(equations, block);
             let mut b = [[0.0; 3]; 3];
             for r in 0..size {
                 for j in start..start + size {
                     let (l, i) = (j / LANE, j % LANE);
                     let mut entry = self.n[first + r * lanes + l][i];
                     for c in 0..size {
-                        let spread = self.spread[block.axes[c] as usize][block.rows[r] as usize];
+                        let spread = spreads[r][c];
                         entry += spread * self.x[first + c * lanes + l][i].abs();
                     }
                     b[r][j - start] = round_up(entry, self.roundings);
@@ -157,22 +168,86 @@ impl<const D: usize> Resolvent<D> {
                 add(row, d.map(|d| -sign * d[axis][e]));
             }
         }
-        let one = block.start + r;
-        for (l, n) in self.n[at..end].iter_mut().enumerate() {
-            let mut sums = [[0.0; LANE]; 2];
-            for (x, [a0, a1]) in &terms[..count] {
-                if let Some(x) = x.get(l) {
-                    for i in 0..LANE {
-                        sums[0][i] = x[i].mul_add(*a0, sums[0][i]);
-                        sums[1][i] = x[i].mul_add(*a1, sums[1][i]);
-                    }
+        sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
+    }
+
+    /// The same for rows of the tail.
+    #[cold]
+    #[inline(never)]
+    fn make_tail_rows(
+        &mut self,
+        equations: &Equations<D>,
+        block: &Block,
+        entries: [&[f64]; 2],
+        h: f64,
+    ) {
+        let tail = &equations.tail;
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            if e < tail.first() {
+                continue;
+            }
+            let (at, end) = self.rows[block.start + r];
+            let terms = tail.row(e).filter_map(|entry| {
+                let position = self.position[tail.unknown(entry)];
+                let &(from, to) = self.rows.get(position as usize)?;
+                Some((&self.x[from..to], entries.map(|entries| entries[entry])))
+            });
+            let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
+            sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+        }
+    }
+
+    /// Â in a block.
+    #[inline(always)]
+    fn spreads(&self, equations: &Equations<D>, block: &Block) -> [[f64; 3]; 3] {
+        let mut out = [[0.0; 3]; 3];
+        for r in 0..block.size {
+            for c in 0..block.size {
+                out[r][c] = self.spread[block.axes[c] as usize][block.rows[r] as usize];
+            }
+        }
+        if block.has_tail(equations.tail.first()) {
+            self.set_tail_spreads(equations, block, &mut out);
+        }
+        out
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn set_tail_spreads(&self, equations: &Equations<D>, block: &Block, out: &mut [[f64; 3]; 3]) {
+        let tail = &equations.tail;
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            if e >= tail.first() {
+                for c in 0..block.size {
+                    let entry = tail.entry(e, block.unknowns[c] as usize);
+                    out[r][c] = entry.map_or(0.0, |entry| self.spread_of_tail[entry]);
                 }
             }
-            if l == one / LANE {
-                sums[0][one % LANE] -= 1.0;
-            }
-            for i in 0..LANE {
-                n[i] = sums[0][i].abs() + h * sums[1][i].abs();
+        }
+    }
+
+    /// Adds Â v for the tail's rows in a block, of v from blocks before it.
+    #[cold]
+    #[inline(never)]
+    fn add_tail_spreads(
+        &self,
+        equations: &Equations<D>,
+        block: &Block,
+        v: &[Lane],
+        rest: &mut [Lane; 3],
+    ) {
+        let tail = &equations.tail;
+        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
+            for entry in tail.row(e as usize) {
+                let from = self.position[tail.unknown(entry)] as usize;
+                // Neither key nor of this block.
+                if from < block.start {
+                    for i in 0..LANE {
+                        rest[i] = v[from][i].mul_add(self.spread_of_tail[entry], rest[i]);
+                    }
+                }
             }
         }
     }
@@ -194,7 +269,8 @@ impl<const D: usize> Resolvent<D> {
         // All of them are computed.
         self.x.resize(at, [0.0; LANE]);
         self.n.resize(at, [0.0; LANE]);
-        let largest = layout.order + D + 10;
+        // A row of the tail has more entries than that of a distance.
+        let largest = layout.order + D + 10 + equations.row_roundings();
         self.roundings = (layout.blocks.len() + 4) * 2 * largest + 200;
     }
 
@@ -225,6 +301,10 @@ impl<const D: usize> Resolvent<D> {
                 }
                 (rest[r], near[r]) = (sum, through);
             }
+            let spreads = self.spreads(equations, block);
+            if block.has_tail(equations.tail.first()) {
+                self.add_tail_spreads(equations, block, v, &mut rest);
+            }
             for r in 0..size {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);
                 for axis in 0..D {
@@ -236,7 +316,7 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
                 for c in 0..size {
-                    let spread = self.spread[block.axes[c] as usize][e];
+                    let spread = spreads[r][c];
                     for i in 0..LANE {
                         rest[r][i] = near[c][i].mul_add(spread, rest[r][i]);
                     }
@@ -262,6 +342,57 @@ impl<const D: usize> Resolvent<D> {
                 }
                 v[start + c] = near[c];
             }
+        }
+    }
+}
+
+/// Subtracts the tail's rows in a block, times the rows of X before it, from rows of I.
+#[cold]
+#[inline(never)]
+fn subtract_tails<const D: usize>(
+    equations: &Equations<D>,
+    block: &Block,
+    entries: &[f64],
+    (position, rows): (&[u32], &[(usize, usize)]),
+    before: &[Lane],
+    n: &mut [Lane],
+) {
+    let tail = &equations.tail;
+    let lanes = n.len() / block.size;
+    for (n, &e) in n.chunks_exact_mut(lanes).zip(&block.rows) {
+        for entry in tail.row(e as usize) {
+            let row = position[tail.unknown(entry)] as usize;
+            // Neither key nor of this block.
+            if row < block.start {
+                let (from, to) = rows[row];
+                for (sum, x) in n.iter_mut().zip(&before[from..to]) {
+                    for i in 0..LANE {
+                        sum[i] = x[i].mul_add(-entries[entry], sum[i]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// |Σ a₀ x − 1| + H |Σ a₁ x| over rows x of X, the 1 in one place.
+#[inline(always)]
+fn sum_row(n: &mut [Lane], terms: &[(&[Lane], [f64; 2])], one: usize, h: f64) {
+    for (l, n) in n.iter_mut().enumerate() {
+        let mut sums = [[0.0; LANE]; 2];
+        for (x, [a0, a1]) in terms {
+            if let Some(x) = x.get(l) {
+                for i in 0..LANE {
+                    sums[0][i] = x[i].mul_add(*a0, sums[0][i]);
+                    sums[1][i] = x[i].mul_add(*a1, sums[1][i]);
+                }
+            }
+        }
+        if l == one / LANE {
+            sums[0][one % LANE] -= 1.0;
+        }
+        for i in 0..LANE {
+            n[i] = sums[0][i].abs() + h * sums[1][i].abs();
         }
     }
 }

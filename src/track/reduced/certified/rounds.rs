@@ -3,17 +3,17 @@
 
 use super::along::Along;
 use super::bounds::Bounds;
-use super::elimination::MAX_KEYS;
 use super::frame::{Locals, Reduction, Tubes};
-use super::layout::Layout;
 use super::left_over;
-use super::passes::Row;
 use super::sides::weigh;
 use super::speed::speed;
 use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
 use crate::track::full::Equations;
+use crate::track::reduced::structure::elimination::MAX_KEYS;
+use crate::track::reduced::structure::layout::Layout;
+use crate::track::reduced::structure::passes::Row;
 
 /// The contraction that comes with the reference length may be that at most.
 const TOO_LONG: f64 = 0.8;
@@ -61,9 +61,12 @@ impl<const D: usize> ReducedTest<D> {
         // Differences and the powers of t(s), sums over the normal or the distances of a point (m
         // each, the latter at three orders), over A's rows at two orders and key unknowns at three:
         // in all fewer roundings than this.
-        let per_entry = gamma(4 * m + 4 * MAX_KEYS + 200);
-        self.along.measure(equations, &tube.local, h);
-        if !bound_inverse(equations, &mut tube.local, &self.along, per_entry, h) {
+        let per_entry = gamma(4 * m + 4 * MAX_KEYS + 200 + equations.row_roundings());
+        let entries = &self.series.entries;
+        self.along.measure(equations, &tube.local, entries, h);
+        let entries = [&entries[0][..], &entries[1]];
+        let local = &mut tube.local;
+        if !bound_inverse(equations, local, (&self.along, entries), per_entry, h) {
             return None;
         }
         let layout = tube.local.y.elimination.layout.clone();
@@ -77,7 +80,7 @@ impl<const D: usize> ReducedTest<D> {
             kappa,
             scale: 0.0,
             per_entry,
-            roundings: tube.local.y.resolvent.roundings() + 4 * m + 200,
+            roundings: tube.local.y.resolvent.roundings() + 4 * m + 200 + equations.row_roundings(),
         };
         let left = self.first_round(&mut place)?;
         self.shape.fill(&layout, &self.sides, place.scale);
@@ -114,10 +117,15 @@ impl<const D: usize> ReducedTest<D> {
         place: &mut Place<D, W>,
     ) -> Option<left_over::Parts<W>> {
         let (equations, layout, y) = (place.equations, place.layout, &place.local.y);
-        let (along, sides) = (&self.along, &mut self.sides);
+        let (along, sides) = (&mut self.along, &mut self.sides);
         let t = equations.m;
         let [moved0, moved1, moved2] = self.shape.moved.each_ref().map(|moved| &moved[..]);
         let omega = &self.shape.omega[..];
+        let first = equations.tail.first();
+        if first < equations.m {
+            along.tail.set_sums(equations, omega);
+        }
+        let along = &*along;
         for e in 0..equations.m {
             let (mut cubic, mut width) = (along.slope_tail(equations, e) * omega[t], 0.0);
             for axis in 0..D {
@@ -129,6 +137,12 @@ impl<const D: usize> ReducedTest<D> {
             }
             width += along.curvature[e] * (omega[t] * omega[t]);
             sides.g[e] = [along.low[e], cubic, width, along.high[e]];
+        }
+        for e in first..equations.m {
+            let [_, _, from3, from4, from5] = &along.tail.entries;
+            let times = |entries, moved| along.tail.times(equations, e, entries, moved);
+            sides.g[e][1] += times(from5, moved0) + times(from4, moved1) + times(from3, moved2);
+            sides.g[e][2] += along.tail.width(equations, e);
         }
         sides.g[t] = [0.0; LANE];
         sides.gather(y);
@@ -204,10 +218,15 @@ impl<const D: usize> ReducedTest<D> {
     /// get smaller.
     fn second_round<const W: usize>(&mut self, place: &Place<D, W>) {
         let (equations, layout, local) = (place.equations, place.layout, place.local);
-        let (along, sides) = (&self.along, &mut self.sides);
+        let (along, sides) = (&mut self.along, &mut self.sides);
         let (m, n) = (equations.m, equations.n());
         let omega = &self.shape.omega[..];
         let ut = omega[m];
+        let first = equations.tail.first();
+        if first < m {
+            along.tail.set_sums(equations, omega);
+        }
+        let along = &*along;
         for e in 0..m {
             let (mut rounding, mut width, mut turn) = (0.0, 0.0, 0.0);
             for axis in 0..D {
@@ -222,6 +241,12 @@ impl<const D: usize> ReducedTest<D> {
             let constant = place.per_entry * (rounding + along.slope_size[e] * ut)
                 + along.slope_radius[e] * ut;
             sides.g[e] = [constant, width, turn, along.low_slope[e]];
+        }
+        for e in first..m {
+            let [all, ..] = &along.tail.entries;
+            sides.g[e][0] += place.per_entry * along.tail.times(equations, e, all, omega);
+            sides.g[e][1] += along.tail.width(equations, e);
+            sides.g[e][2] += along.tail.turn(equations, e);
         }
         sides.g[m] = [
             place.per_entry * sum_of_sizes(&local.normal[..n], omega),
@@ -270,11 +295,11 @@ impl<const D: usize> ReducedTest<D> {
     }
 }
 
-/// |A(s)⁻¹| for |s| ≤ h, into the frame. False: no bound was found.
+/// |A(s)⁻¹| for |s| ≤ h, into the frame, with the values of the tail's entries at orders 0 and 1. False: no bound was found.
 fn bound_inverse<const D: usize>(
     equations: &Equations<D>,
     local: &mut Locals<D>,
-    along: &Along<D>,
+    (along, entries): (&Along<D>, [&[f64]; 2]),
     per_entry: f64,
     h: f64,
 ) -> bool {
@@ -283,14 +308,20 @@ fn bound_inverse<const D: usize>(
         resolvent,
         ..
     } = &mut local.y;
-    for (axis, spread) in resolvent.spread_mut().iter_mut().enumerate() {
+    let (spreads, spread_of_tail) = resolvent.spread_mut();
+    let [all, from2, ..] = &along.tail.entries;
+    for (spread, (from2, all)) in spread_of_tail.iter_mut().zip(from2.iter().zip(all)) {
+        *spread = from2 + per_entry * all;
+    }
+    for (axis, spread) in spreads.iter_mut().enumerate() {
         let terms = along.from2[axis].iter().zip(along.all[axis].iter());
         for (spread, (from2, all)) in spread.iter_mut().zip(terms) {
             *spread = from2 + per_entry * all;
         }
     }
-    let d = [&local.d[0].axes, &local.d[1].axes];
-    resolvent.make(equations, &elimination.layout, &elimination.inverses, d, h)
+    let values = ([&local.d[0].axes, &local.d[1].axes], entries);
+    let layout = &elimination.layout;
+    resolvent.make(equations, layout, &elimination.inverses, values, h)
 }
 
 #[inline(always)]

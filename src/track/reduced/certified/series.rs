@@ -1,10 +1,11 @@
 //! K(s) and Z(s): the eliminating transformation and the preconditioner along the path, as
 //! polynomials; and what they leave over.
 
+use super::COEFFICIENTS;
 use super::frame::{Locals, SERIES};
-use super::passes::{Derivative, Lane, Row, add, slices};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
+use crate::track::reduced::structure::passes::{Derivative, Lane, Row, add, slices};
 
 /// Orders of J K that are looked at with their signs: two more than the series have.
 pub const SIGNED: usize = SERIES + 2;
@@ -20,6 +21,8 @@ pub struct Series<const D: usize> {
     pub zj: [Vec<Lane>; SIGNED_LEFT + 1],
     /// Slopes of the lengths' half squares at s⁰ … s⁴.
     pub slopes: [Vector; SIGNED + 1],
+    /// Values of the tail's entries at every order.
+    pub entries: [Vec<f64>; COEFFICIENTS],
     t: Vec<Lane>,
 }
 
@@ -28,6 +31,7 @@ impl<const D: usize> Series<D> {
     pub fn new(equations: &Equations<D>) -> Self {
         Series {
             slopes: std::array::from_fn(|_| equations.per_edge()),
+            entries: std::array::from_fn(|_| vec![0.0; equations.tail.entries()]),
             ..Series::default()
         }
     }
@@ -36,6 +40,9 @@ impl<const D: usize> Series<D> {
     pub fn make<const W: usize>(&mut self, equations: &Equations<D>, local: &mut Locals<D>) {
         let (m, n) = (equations.m, equations.n());
         self.set_slopes(equations, local);
+        for (entries, d) in self.entries.iter_mut().zip(&local.d) {
+            equations.tail.row_values(&d.forms, entries);
+        }
         let (d, y) = (&local.d, &mut local.y);
         let normal = &local.normal[..n];
         let jacobians: [Derivative<D>; SIGNED + 1] = std::array::from_fn(|q| Derivative {
@@ -43,6 +50,8 @@ impl<const D: usize> Series<D> {
             d: slices(&d[q]),
             slope: &self.slopes[q],
             t: m,
+            tail: &equations.tail,
+            entries: &self.entries[q],
         });
         let layout = y.elimination.layout.clone();
         let inverses = &y.elimination.inverses;

@@ -1,13 +1,13 @@
 //! The box |v| ≤ ρ in which a tube is proved, and |w| = |T(s) v| in it.
 
-use super::elimination::MAX_KEYS;
 use super::frame::{Reduction, SERIES};
-use super::layout::Layout;
-use super::passes::{Lane, Row};
 use super::sides::{PerKey, Sides, row_of, weigh};
 use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
+use crate::track::reduced::structure::elimination::MAX_KEYS;
+use crate::track::reduced::structure::layout::Layout;
+use crate::track::reduced::structure::passes::{Lane, Row};
 
 /// The box of A's unknowns is so much larger than what was found to be needed.
 const ROOM: f64 = 2.5;

@@ -1,10 +1,10 @@
 //! Right-hand sides, four at once, and what the preconditioner makes of them at most.
 
-use super::elimination::MAX_KEYS;
 use super::frame::Reduction;
-use super::passes::{Lane, Row, with_width};
 use crate::linalg::LANE;
 use crate::track::full::Equations;
+use crate::track::reduced::structure::elimination::MAX_KEYS;
+use crate::track::reduced::structure::passes::{Lane, Row, with_width};
 
 /// One number per key unknown.
 pub type PerKey = [f64; MAX_KEYS];

@@ -32,10 +32,7 @@
 
 use super::along::Along;
 use super::bounds::Bounds;
-use super::elimination::{Elimination, Maker};
 use super::frame::{Locals, Reduction, Tubes};
-use super::layout::{Layout, Order};
-use super::passes::with_width;
 use super::series::Series;
 use super::shape::Shape;
 use super::sides::Sides;
@@ -46,6 +43,9 @@ use crate::track::certified::link::Tube;
 use crate::track::certified::shortfall::Shortfall;
 use crate::track::certified::tracker::Test;
 use crate::track::full::{Differences, Equations, Lengths, RefineError};
+use crate::track::reduced::structure::elimination::{Elimination, Maker};
+use crate::track::reduced::structure::layout::{Layout, Order};
+use crate::track::reduced::structure::passes::with_width;
 use crate::track::{Driving, Options, Space};
 use std::sync::Arc;
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! equations are the removed constraints. Prediction looks at the figures, whose path is smooth
 //! whatever the plan: it is the cubic through the last two stations, seen by the plan through
 //! ϕ' (RR 8705, (4)). So a change of plan costs no history, and the step control measures what
-//! happens to the figure.
+//! happens to the figure. That is for distances; `structured` is for other constraints.
 
 mod corrector;
 mod cubic;
@@ -13,6 +13,7 @@ mod events;
 mod paper;
 mod station;
 mod steps;
+mod structured;
 #[cfg(test)]
 mod tests;
 
@@ -46,6 +47,9 @@ pub fn track<const D: usize>(
     control: &mut Control,
 ) -> Outcome {
     debug_assert_eq!(homotopy.dimension, D);
+    if !homotopy.tail.is_empty() {
+        return structured::track::<D>(homotopy, options, control);
+    }
     Tracker::<D>::new(homotopy, options).run(control)
 }
 

@@ -1,6 +1,5 @@
 //! Bounds of the full space: along certified runs, and with numbers changed on purpose.
 
-use super::super::disguise::{Disguised, run};
 use super::big::exact;
 use super::moved::lengthen;
 use super::reduced::{check_time, within};
@@ -8,7 +7,6 @@ use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
-use crate::track::Status;
 use crate::track::certified::link::Ball;
 use crate::track::full::certified::norms::Norms;
 
@@ -338,23 +336,9 @@ fn full_bounds_dominate_exact_values_of_small_problems() {
     check_all(&[], &list, (4, 2), 45);
 }
 
-/// Distances written as other equations, with products of all kinds, several of degree 4 in t.
 #[test]
 fn full_bounds_dominate_exact_values_of_tails() {
-    let mut random = Random::new(48);
-    let list: Vec<(Problem, Homotopy)> = (0..24)
-        .filter_map(|round| {
-            let dimension = 2 + round % 2;
-            let points = dimension + 1 + random.below(4);
-            let plain = random_problem(&mut random, dimension, points, 0.3);
-            let disguised = Disguised::new(&plain, 0.8, &mut random);
-            let homotopy = disguised.homotopy()?;
-            let closes = run(&homotopy, false).status == Status::Closed;
-            closes.then_some((disguised.rest, homotopy))
-        })
-        .collect();
-    assert!(list.len() > 15);
-    check_homotopies(list.into_iter(), (4, 2), 49);
+    check_homotopies(tails(48, 24).into_iter(), (4, 2), 49);
 }
 
 /// See the test of the same name in the reduced space: t moves alone, with the highest order that ẑ

@@ -17,7 +17,9 @@ mod reduced;
 mod shears;
 mod view;
 
+use super::disguise::{Disguised, run};
 use super::*;
+use crate::track::Status;
 use big::{Big, Rows, dot, exact, horner, horner_slope, solve};
 use figure::Figure;
 use std::collections::BTreeMap;
@@ -97,6 +99,25 @@ pub fn generated(family: crate::generate::Family, size: usize) -> Problem {
     crate::generate::Recipe::new(family, size)
         .problem()
         .expect("a recipe")
+}
+
+/// Random problems of distances written as other equations, with products of all kinds, several of degree 4 in
+/// t: those whose paths close.
+pub fn tails(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
+    let mut random = Random::new(seed);
+    let list: Vec<(Problem, Homotopy)> = (0..count)
+        .filter_map(|round| {
+            let dimension = 2 + round % 2;
+            let points = dimension + 1 + random.below(4);
+            let plain = random_problem(&mut random, dimension, points, 0.3);
+            let disguised = Disguised::new(&plain, 0.8, &mut random);
+            let homotopy = disguised.homotopy()?;
+            let closes = run(&homotopy, false).status == Status::Closed;
+            closes.then_some((disguised.rest, homotopy))
+        })
+        .collect();
+    assert!(3 * list.len() > 2 * count - 2);
+    list
 }
 
 /// A triangle that is its own target, one side of which grows from 1 to 2 and back as t goes from 0 to 1.

@@ -143,16 +143,15 @@ struct Seen {
 }
 
 fn check_problem<const D: usize>(
-    problem: &Problem,
+    (problem, homotopy): (&Problem, &Homotopy),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut [Ratios; CHANGES.len()],
     seen: &mut Seen,
 ) {
-    let homotopy = Homotopy::new(problem).expect("a gauge");
-    let true_figure = Figure::new(problem, &homotopy);
-    let mut shop = Shop::<D>::new(&homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
-    let chain = shop.chain(&homotopy, 40);
+    let true_figure = Figure::new(problem, homotopy);
+    let mut shop = Shop::<D>::new(homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
+    let chain = shop.chain(homotopy, 40);
     let stride = (chain.len() / tubes).max(1);
     for sample in chain.iter().step_by(stride) {
         for round in 0..rounds {
@@ -164,7 +163,7 @@ fn check_problem<const D: usize>(
             let kept = shop.equations.clone();
             let other = (what == Change::Lengths).then(|| {
                 let size = 10f64.powf(random.between(-12.0, -3.0));
-                lengthen(&mut shop.equations, &homotopy, size, random)
+                lengthen(&mut shop.equations, homotopy, size, random)
             });
             let figure = other.as_ref().unwrap_or(&true_figure);
             let part = [1.5, 1.0, 1.0, 0.1, 1e-2, 1e-4][random.below(6)];
@@ -201,8 +200,7 @@ fn check_problem<const D: usize>(
 
 #[test]
 fn reduced_bounds_hold_whatever_the_numbers_kept() {
-    let mut ratios: [Ratios; CHANGES.len()] = Default::default();
-    let (mut seen, mut random) = (Seen::default(), Random::new(33));
+    let mut random = Random::new(33);
     let mut list = problems(&[
         "octahedron",
         "k33",
@@ -217,11 +215,27 @@ fn reduced_bounds_hold_whatever_the_numbers_kept() {
             list.push(random_problem(&mut random, dimension, points, 0.3));
         }
     }
-    for problem in &list {
+    let list = list.into_iter().map(|problem| {
+        let homotopy = Homotopy::new(&problem).expect("a gauge");
+        (problem, homotopy)
+    });
+    check_all(list, &mut random);
+}
+
+#[test]
+fn reduced_bounds_of_tails_hold_whatever_the_numbers_kept() {
+    check_all(tails(53, 16).into_iter(), &mut Random::new(54));
+}
+
+fn check_all(list: impl Iterator<Item = (Problem, Homotopy)>, random: &mut Random) {
+    let mut ratios: [Ratios; CHANGES.len()] = Default::default();
+    let mut seen = Seen::default();
+    for (problem, homotopy) in list {
+        let given = (&problem, &homotopy);
         let counts = (effort(4), 2 * CHANGES.len());
         match problem.dimension {
-            2 => check_problem::<2>(problem, counts, &mut random, &mut ratios, &mut seen),
-            _ => check_problem::<3>(problem, counts, &mut random, &mut ratios, &mut seen),
+            2 => check_problem::<2>(given, counts, random, &mut ratios, &mut seen),
+            _ => check_problem::<3>(given, counts, random, &mut ratios, &mut seen),
         }
     }
     println!("{seen:?}");

@@ -11,16 +11,15 @@ use crate::track::certified::tracker::Test;
 
 /// |T v| from |v|, and |𝒴 g|_ρ / (1 − q) from g.
 fn check_problem<const D: usize>(
-    problem: &Problem,
+    (problem, homotopy): (&Problem, &Homotopy),
     tubes: usize,
     random: &mut Random,
     ratios: &mut Ratios,
 ) {
-    let homotopy = Homotopy::new(problem).expect("a gauge");
-    let figure = Figure::new(problem, &homotopy);
+    let figure = Figure::new(problem, homotopy);
     let (n, m) = (figure.n, figure.m);
-    let mut shop = Shop::<D>::new(&homotopy, 0.1, f64::INFINITY);
-    let chain = shop.chain(&homotopy, 100);
+    let mut shop = Shop::<D>::new(homotopy, 0.1, f64::INFINITY);
+    let chain = shop.chain(homotopy, 100);
     let stride = (chain.len() / tubes).max(1);
     for sample in chain.iter().step_by(stride) {
         let mut tube = sample.tube.clone();
@@ -119,10 +118,16 @@ fn check_problem<const D: usize>(
 #[test]
 fn what_is_taken_along_and_radii_from_defects_are_bounded() {
     let (mut ratios, mut random) = (Ratios::default(), Random::new(34));
-    for problem in problems(&["octahedron", "disulfide", "k33", "dodecagon"]) {
+    let shipped = problems(&["octahedron", "disulfide", "k33", "dodecagon"]).into_iter();
+    let shipped = shipped.map(|problem| {
+        let homotopy = Homotopy::new(&problem).expect("a gauge");
+        (problem, homotopy)
+    });
+    for (problem, homotopy) in shipped.chain(tails(55, 6)) {
+        let given = (&problem, &homotopy);
         match problem.dimension {
-            2 => check_problem::<2>(&problem, effort(12), &mut random, &mut ratios),
-            _ => check_problem::<3>(&problem, effort(12), &mut random, &mut ratios),
+            2 => check_problem::<2>(given, effort(12), &mut random, &mut ratios),
+            _ => check_problem::<3>(given, effort(12), &mut random, &mut ratios),
         }
     }
     ratios.come_near(&[("radius from a defect", 0.5), ("T v", 0.99)]);

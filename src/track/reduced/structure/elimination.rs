@@ -50,6 +50,10 @@ pub struct Elimination<const D: usize> {
     d: [Vector; D],
     slope: Vector,
     normal: Vector,
+    /// Values of the tail's entries.
+    entries: Vec<f64>,
+    /// Whether det S₀ is negative.
+    schur_is_negative: bool,
 }
 
 impl<const D: usize> Elimination<D> {
@@ -64,6 +68,8 @@ impl<const D: usize> Elimination<D> {
             d: std::array::from_fn(|_| equations.per_edge()),
             slope: equations.per_edge(),
             normal: equations.vector(),
+            entries: vec![0.0; equations.tail.entries()],
+            schur_is_negative: false,
         }
     }
 
@@ -79,7 +85,9 @@ impl<const D: usize> Elimination<D> {
             let layout = self.layout.clone();
             return self.make_like(&layout, equations, at);
         }
-        maker.order.choose(at.0, maker.alpha, &mut maker.candidate);
+        maker
+            .order
+            .choose(equations, at.0, maker.alpha, &mut maker.candidate);
         if maker.candidate != *maker.layout {
             maker.layout = Arc::new(maker.candidate.clone());
         }
@@ -94,17 +102,19 @@ impl<const D: usize> Elimination<D> {
         (d, lengths, normal): (&Differences<D>, &Lengths, &Vector),
     ) -> Result<(), Singular> {
         self.layout = layout.clone();
-        let entries = slices(d);
-        self.inverses.clear();
-        let inverses = layout.blocks.iter().map(|block| invert(block, &entries));
-        self.inverses.extend(inverses);
-        let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
-        self.width = width.ok_or(Singular)?;
         for (kept, d) in self.d.iter_mut().zip(&d.axes) {
             kept.copy_from_slice(d);
         }
         self.slope.copy_from_slice(&lengths.terms[1]);
         self.normal.copy_from_slice(normal);
+        equations.tail.row_values(&d.forms, &mut self.entries);
+        let mut inverses = std::mem::take(&mut self.inverses);
+        inverses.clear();
+        let jacobian = self.jacobian(equations);
+        inverses.extend(layout.blocks.iter().map(|block| invert(block, &jacobian)));
+        self.inverses = inverses;
+        let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
+        self.width = width.ok_or(Singular)?;
         with_width!(self.width, self.eliminate(equations))
     }
 
@@ -123,7 +133,7 @@ impl<const D: usize> Elimination<D> {
         let mut schur = [[[[0.0; LANE]; W]; LANE]; W];
         let s = schur.as_flattened_mut();
         for (s, &e) in s.iter_mut().zip(&self.layout.ignored) {
-            *s = jacobian.row(e as usize, rows);
+            *s = jacobian.any_row(e as usize, rows);
         }
         for (c, row) in self.normal[..n].iter().zip(rows.iter()) {
             add(&mut s[keys - 1], *c, row);
@@ -131,7 +141,36 @@ impl<const D: usize> Elimination<D> {
         self.k = k;
         self.p.resize(keys * W, [0.0; LANE]);
         let inverted = invert_transposed(&mut s[..keys], self.p.as_chunks_mut::<W>().0);
-        inverted.then_some(()).ok_or(Singular)
+        self.schur_is_negative = inverted.ok_or(Singular)?;
+        Ok(())
+    }
+
+    /// Why none could be made last, where that is not because the matrix is singular.
+    pub fn obstacle(&self) -> Option<String> {
+        let keys = self.layout.keys();
+        (keys > MAX_KEYS).then(|| {
+            format!(
+                "the construction plan has {keys} key unknowns, more than the {MAX_KEYS} that the reduced \
+                 space has room for"
+            )
+        })
+    }
+
+    /// Whether det [J; c] is negative, as floats see it: A's blocks times S₀, and the order of rows and
+    /// columns.
+    pub fn is_negative(&self, equations: &Equations<D>) -> bool {
+        let layout = &*self.layout;
+        let mut negative = self.schur_is_negative;
+        for (block, inverse) in layout.blocks.iter().zip(&self.inverses) {
+            negative ^= determinant(inverse, block.size) < 0.0;
+        }
+        let blocks = || layout.blocks.iter();
+        let rows = blocks().flat_map(|b| b.rows[..b.size].iter().copied());
+        let rows = rows.chain(layout.ignored.iter().copied());
+        let columns = blocks().flat_map(|b| b.unknowns[..b.size].iter().copied());
+        let columns = columns.chain(layout.keys.iter().copied());
+        let normal = equations.m as u32;
+        negative ^ is_odd(rows.chain([normal])) ^ is_odd(columns)
     }
 
     /// The Jacobian at this point.
@@ -141,6 +180,8 @@ impl<const D: usize> Elimination<D> {
             d: slices(&self.d),
             slope: &self.slope,
             t: equations.m,
+            tail: &equations.tail,
+            entries: &self.entries,
         }
     }
 
@@ -158,7 +199,7 @@ impl<const D: usize> Elimination<D> {
         let (rows, last) = self.p.as_chunks::<W>().0.split_at(self.layout.keys() - 1);
         for (row, &e) in rows.iter().zip(&self.layout.ignored) {
             let e = e as usize;
-            add(&mut values, f[e] - jacobian.row_of(e, x), row);
+            add(&mut values, f[e] - jacobian.any_row_of(e, x), row);
         }
         let rest = f.get(m).copied().unwrap_or(0.0) - dot(&self.normal[..n], &x[..n]);
         add(&mut values, rest, &last[0]);
@@ -179,9 +220,10 @@ impl<const D: usize> Elimination<D> {
 pub const MAX_KEYS: usize = 8 * LANE;
 
 /// The inverse's transpose of the square matrix with these rows, padded with zeros to whole lanes.
-/// They are overwritten. False: singular.
-fn invert_transposed<const W: usize>(a: &mut [Row<W>], out: &mut [Row<W>]) -> bool {
+/// They are overwritten. Tells whether the determinant is negative; `None`: singular.
+fn invert_transposed<const W: usize>(a: &mut [Row<W>], out: &mut [Row<W>]) -> Option<bool> {
     let n = a.len();
+    let mut negative = false;
     // Gauss and Jordan in place; `from[k]` is the row that became row k.
     let mut from: [usize; MAX_KEYS] = std::array::from_fn(|k| k);
     for k in 0..n {
@@ -193,8 +235,9 @@ fn invert_transposed<const W: usize>(a: &mut [Row<W>], out: &mut [Row<W>]) -> bo
         from.swap(k, best);
         let pivot = a[k][w][l];
         if pivot == 0.0 || !pivot.is_finite() {
-            return false;
+            return None;
         }
+        negative ^= (best != k) != (pivot < 0.0);
         let scale = 1.0 / pivot;
         a[k][w][l] = 1.0;
         for lane in &mut a[k] {
@@ -215,5 +258,44 @@ fn invert_transposed<const W: usize>(a: &mut [Row<W>], out: &mut [Row<W>]) -> bo
             out[from][i / LANE][i % LANE] = *a;
         }
     }
-    true
+    Some(negative)
+}
+
+/// Of a diagonal block's inverse.
+fn determinant(a: &Inverse, size: usize) -> f64 {
+    let minor = |r: usize, c: usize| a[1][r] * a[2][c] - a[1][c] * a[2][r];
+    match size {
+        1 => a[0][0],
+        2 => a[0][0] * a[1][1] - a[0][1] * a[1][0],
+        _ => a[0][0] * minor(1, 2) - a[0][1] * minor(0, 2) + a[0][2] * minor(0, 1),
+    }
+}
+
+/// Whether a permutation of 0, 1, … is odd.
+fn is_odd(permutation: impl Iterator<Item = u32>) -> bool {
+    let mut next: Vec<u32> = permutation.collect();
+    let mut odd = false;
+    for k in 0..next.len() {
+        // Each exchange brings one number to its place.
+        while next[k] as usize != k {
+            let to = next[k] as usize;
+            next.swap(k, to);
+            odd = !odd;
+        }
+    }
+    odd
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn permutations_are_even_or_odd() {
+        assert!(!is_odd([0, 1, 2, 3].into_iter()));
+        assert!(is_odd([1, 0, 2, 3].into_iter()));
+        assert!(!is_odd([1, 2, 0, 3].into_iter()));
+        assert!(is_odd([1, 2, 3, 0].into_iter()));
+        assert!(!is_odd([1, 0, 3, 2].into_iter()));
+    }
 }

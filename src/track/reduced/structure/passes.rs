@@ -1,18 +1,22 @@
 //! Products with the Jacobian and substitution through its blocks, for all key unknowns at once.
 //!
 //! A row holds one number per key unknown, in W lanes. Unknowns have one row each, and a row of
-//! zeros for fixed coordinates; equations have one row per distance, and one for the normal.
+//! zeros for fixed coordinates; equations have one row each, distances first, and one for the normal.
+//!
+//! Rows of the Jacobian are differences per axis for distances, and compressed lists of entries for
+//! other equations, whose differences are zero; one comparison per row tells them apart.
 
 use super::layout::{Block, Layout};
 use crate::linalg::{LANE, Vector};
+use crate::track::full::Tail;
 
 /// Four numbers in one register.
 pub type Lane = [f64; LANE];
 /// The numbers of one row.
 pub type Row<const W: usize> = [Lane; W];
 
-/// A derivative of the Jacobian along the path: differences per axis, and the slopes of the
-/// lengths' half squares.
+/// A derivative of the Jacobian along the path: differences per axis, the slopes of the right-hand sides,
+/// and the entries of the tail's rows.
 #[derive(Debug, Clone, Copy)]
 pub struct Derivative<'a, const D: usize> {
     /// The ends of the distances, see [`crate::track::full::Equations::ends`].
@@ -21,6 +25,9 @@ pub struct Derivative<'a, const D: usize> {
     pub slope: &'a [f64],
     /// Which unknown t is.
     pub t: usize,
+    pub tail: &'a Tail,
+    /// Values of the tail's entries.
+    pub entries: &'a [f64],
 }
 
 #[inline(always)]
@@ -33,9 +40,9 @@ pub fn add<const W: usize>(sum: &mut Row<W>, factor: f64, row: &Row<W>) {
 }
 
 impl<const D: usize> Derivative<'_, D> {
-    /// Row e of J K.
+    /// Row e of J K, but for the tail's entries.
     #[inline(always)]
-    pub fn row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
+    fn row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
         let mut sum = [[0.0; LANE]; W];
         for axis in 0..D {
             let [i, j] = self.ends[axis][e];
@@ -48,6 +55,74 @@ impl<const D: usize> Derivative<'_, D> {
         }
         add(&mut sum, -self.slope[e], &k[self.t]);
         sum
+    }
+
+    /// Row e of J K for any equation.
+    pub fn any_row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
+        let mut sum = self.row(e, k);
+        if e >= self.tail.first() {
+            self.add_tail(e, k, &mut sum);
+        }
+        sum
+    }
+
+    /// Adds the tail's entries in a row of J, times K.
+    #[cold]
+    #[inline(never)]
+    fn add_tail<const W: usize>(&self, e: usize, k: &[Row<W>], sum: &mut Row<W>) {
+        for entry in self.tail.row(e) {
+            add(sum, self.entries[entry], &k[self.tail.unknown(entry)]);
+        }
+    }
+
+    /// Adds the tail's entries in a row of J, times a row, to the rows of their unknowns.
+    #[cold]
+    #[inline(never)]
+    fn add_tail_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
+        for entry in self.tail.row(e) {
+            add(&mut out[self.tail.unknown(entry)], self.entries[entry], z);
+        }
+    }
+
+    /// Whether a block has rows of the tail: the last of its rows is one then.
+    #[inline(always)]
+    fn has_tail(&self, block: &Block) -> bool {
+        block.has_tail(self.tail.first())
+    }
+
+    /// Adds the tail's entries of a block's rows in J K.
+    #[cold]
+    #[inline(never)]
+    fn add_tails<const W: usize>(&self, block: &Block, k: &[Row<W>], sums: &mut [Row<W>; 3]) {
+        for (sum, &e) in sums.iter_mut().zip(&block.rows[..block.size]) {
+            self.add_tail(e as usize, k, sum);
+        }
+    }
+
+    /// Subtracts the tail's entries of a block's rows in J x.
+    #[cold]
+    #[inline(never)]
+    fn subtract_tails(&self, block: &Block, x: &[f64], rest: &mut [f64; 3]) {
+        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
+            for entry in self.tail.row(e as usize) {
+                *rest -= self.entries[entry] * x[self.tail.unknown(entry)];
+            }
+        }
+    }
+
+    /// Sets the tail's entries of a diagonal block.
+    #[cold]
+    #[inline(never)]
+    fn set_tail_entries(&self, block: &Block, out: &mut Inverse) {
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            if e >= self.tail.first() {
+                for c in 0..block.size {
+                    let entry = self.tail.entry(e, block.unknowns[c] as usize);
+                    out[r][c] = entry.map_or(0.0, |entry| self.entries[entry]);
+                }
+            }
+        }
     }
 
     /// `out += J K`.
@@ -72,6 +147,9 @@ impl<const D: usize> Derivative<'_, D> {
             add(&mut sum, -slope, &last);
             *out = sum;
         }
+        for e in self.tail.first()..m {
+            self.add_tail(e, k, &mut out[e]);
+        }
     }
 
     /// `out += Zᵀ J`, without t: rows per equation times J, one row per unknown.
@@ -83,6 +161,9 @@ impl<const D: usize> Derivative<'_, D> {
                 add(&mut out[j], -*d, z);
             }
         }
+        for e in self.tail.first()..z.len() {
+            self.add_tail_left(e, &z[e], out);
+        }
     }
 
     /// `out += Zᵀ J` for one equation.
@@ -92,6 +173,9 @@ impl<const D: usize> Derivative<'_, D> {
             let [i, j] = self.ends[axis][e].map(|end| end as usize);
             add(&mut out[i], self.d[axis][e], z);
             add(&mut out[j], -self.d[axis][e], z);
+        }
+        if e >= self.tail.first() {
+            self.add_tail_left(e, z, out);
         }
     }
 
@@ -132,6 +216,9 @@ impl<const D: usize> Derivative<'_, D> {
                 sums[r] = self.row(e, k);
                 known(e, &mut sums[r]);
             }
+            if self.has_tail(block) {
+                self.add_tails(block, k, &mut sums);
+            }
             for c in 0..block.size {
                 let row = &mut k[block.unknowns[c] as usize];
                 for r in 0..block.size {
@@ -164,6 +251,12 @@ impl<const D: usize> Derivative<'_, D> {
                     add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
                 }
             }
+            if self.has_tail(block) {
+                // Those of its own block are not looked at again.
+                for &e in &block.rows[..block.size] {
+                    self.add_tail_left(e as usize, &z[e as usize], t);
+                }
+            }
         }
     }
 
@@ -175,6 +268,9 @@ impl<const D: usize> Derivative<'_, D> {
                 let e = block.rows[r] as usize;
                 rest[r] = f[e] - self.row_of(e, x);
             }
+            if self.has_tail(block) {
+                self.subtract_tails(block, x, &mut rest);
+            }
             for c in 0..block.size {
                 x[block.unknowns[c] as usize] =
                     (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
@@ -182,15 +278,22 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// Row e of J x.
+    /// Row e of J x, but for the tail's entries.
     #[inline(always)]
-    pub fn row_of(&self, e: usize, x: &[f64]) -> f64 {
+    fn row_of(&self, e: usize, x: &[f64]) -> f64 {
         let mut sum = -self.slope[e] * x[self.t];
         for axis in 0..D {
             let [i, j] = self.ends[axis][e];
             sum = self.d[axis][e].mul_add(x[i as usize] - x[j as usize], sum);
         }
         sum
+    }
+
+    /// Row e of J x for any equation.
+    pub fn any_row_of(&self, e: usize, x: &[f64]) -> f64 {
+        let tail = self.tail.row(e);
+        let terms = tail.map(|entry| self.entries[entry] * x[self.tail.unknown(entry)]);
+        self.row_of(e, x) + terms.sum::<f64>()
     }
 }
 
@@ -217,20 +320,24 @@ pub fn by_adjugate(a: &[[f64; 3]; 3]) -> Inverse {
 }
 
 /// The entries of a diagonal block: `entries[row][column]`.
-pub fn entries<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
+pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
     let mut out = [[0.0; 3]; 3];
     for r in 0..block.size {
+        let e = block.rows[r] as usize;
         for c in 0..block.size {
             let axis = block.axes[c] as usize;
-            out[r][c] = block.signs[r] * d[axis][block.rows[r] as usize];
+            out[r][c] = block.signs[r] * j.d[axis][e];
         }
+    }
+    if j.has_tail(block) {
+        j.set_tail_entries(block, &mut out);
     }
     out
 }
 
 /// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
-pub fn invert<const D: usize>(block: &Block, d: &[&[f64]; D]) -> Inverse {
-    let a = entries(block, d);
+pub fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
+    let a = entries(block, j);
     let mut out = [[0.0; 3]; 3];
     match block.size {
         1 => out[0][0] = 1.0 / a[0][0],
@@ -260,7 +367,7 @@ macro_rules! with_width {
         }
     };
 }
-pub(super) use with_width;
+pub(in crate::track::reduced) use with_width;
 
 /// Lanes for so many key unknowns; `None`: too many.
 pub fn width_for(keys: usize) -> Option<usize> {

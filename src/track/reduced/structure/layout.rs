@@ -1,19 +1,24 @@
 //! Which unknowns are key and which equations ignored at a point of the path.
 
 use super::elimination::MAX_KEYS;
-use crate::linalg::Vector;
+use super::sequence::groups_in_order;
 use crate::plan::Plan;
 use crate::system::Homotopy;
-use crate::track::full::Equations;
+use crate::track::full::{Differences, Equations};
 
 /// The points in the order of a construction plan, each with its coordinates and the distances to
-/// points before it.
+/// points before it. Where there are other equations than distances, groups of unknowns in an order of their
+/// own, each with its unknowns and the equations that have others only from groups before it.
 #[derive(Debug, Clone)]
 pub struct Order<const D: usize> {
     points: Vec<Placed<D>>,
+    /// Equations without any unknown.
+    left: Vec<u32>,
     t: u32,
     /// Work space.
     rows: Vec<Candidate<D>>,
+    /// Values of the tail's entries.
+    entries: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -22,18 +27,31 @@ struct Placed<const D: usize> {
     unknowns: [u32; D],
     /// Distances to points before it, and on which end it is: 1 for the first, −1 for the second.
     distances: Vec<(u32, f64)>,
+    /// Equations that are no distances, with their entries for these unknowns.
+    others: Vec<(u32, [Option<u32>; D])>,
 }
 
-/// One diagonal block of A: the coordinates of a point that are not key, and as many distances.
+impl<const D: usize> Placed<D> {
+    /// One of its equations, and the sign that its unknowns have in it if it is a distance.
+    fn equation(&self, index: usize) -> (u32, f64) {
+        match index.checked_sub(self.distances.len()) {
+            None => self.distances[index],
+            Some(k) => (self.others[k].0, 1.0),
+        }
+    }
+}
+
+/// One diagonal block of A: the coordinates of a point that are not key, and as many distances (or
+/// unknowns and equations of other kinds).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
     /// The position of its first row and column in A, and how many there are.
     pub start: usize,
     pub size: usize,
-    /// Its columns: unknowns and their axes.
+    /// Its columns: unknowns and their axes (places in their group).
     pub unknowns: [u32; 3],
     pub axes: [u8; 3],
-    /// Its rows: distances, with the sign that the point's coordinates have in them.
+    /// Its rows: equations, with the sign that the point's coordinates have in distances.
     pub rows: [u32; 3],
     pub signs: [f64; 3],
 }
@@ -46,13 +64,75 @@ pub struct Layout {
     pub order: usize,
     /// The key unknowns; t, the last, is one of them.
     pub keys: Vec<u32>,
-    /// The ignored distances.
+    /// The ignored equations.
     pub ignored: Vec<u32>,
 }
 
 impl<const D: usize> Order<D> {
-    /// The order of the plan that is derived for a problem.
+    /// The order of the plan that is derived for a problem of distances, or one like it for others.
     pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+        if equations.tail.is_empty() {
+            Self::of_plan(homotopy, equations)
+        } else {
+            Self::of_groups(&groups_in_order(homotopy, equations), equations)
+        }
+    }
+
+    /// Each equation goes to the last group that it has unknowns of.
+    fn of_groups(groups: &[[u32; D]], equations: &Equations<D>) -> Self {
+        let (m, spare) = (equations.m, equations.n());
+        let mut rank = vec![0; spare + 1];
+        for (k, group) in groups.iter().enumerate() {
+            let free = group.iter().filter(|&&i| i as usize != spare);
+            free.for_each(|&i| rank[i as usize] = k + 1);
+        }
+        let mut points: Vec<Placed<D>> = groups
+            .iter()
+            .map(|&unknowns| Placed {
+                unknowns,
+                distances: Vec::new(),
+                others: Vec::new(),
+            })
+            .collect();
+        let mut left = Vec::new();
+        let tail = &equations.tail;
+        for e in 0..tail.first() {
+            let of_end = |end: usize| {
+                let ranks = equations
+                    .ends
+                    .iter()
+                    .map(|ends| rank[ends[e][end] as usize]);
+                ranks.max().unwrap_or(0)
+            };
+            let [first, second] = [0, 1].map(of_end);
+            match (first.max(second), first > second) {
+                (0, _) => left.push(e as u32),
+                (k, later) => {
+                    let sign = if later { 1.0 } else { -1.0 };
+                    points[k - 1].distances.push((e as u32, sign));
+                }
+            }
+        }
+        for e in tail.first()..m {
+            match tail.row(e).map(|entry| rank[tail.unknown(entry)]).max() {
+                None | Some(0) => left.push(e as u32),
+                Some(k) => {
+                    let entry = |i: u32| tail.entry(e, i as usize).map(|entry| entry as u32);
+                    let own = points[k - 1].unknowns.map(entry);
+                    points[k - 1].others.push((e as u32, own));
+                }
+            }
+        }
+        Order {
+            points,
+            left,
+            t: m as u32,
+            rows: Vec::new(),
+            entries: vec![0.0; tail.entries()],
+        }
+    }
+
+    fn of_plan(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
         let plan = Plan::derive(homotopy);
         let constructed: Vec<usize> = plan.instructions.iter().map(|i| i.point).collect();
         let mut rank = vec![0; homotopy.points];
@@ -76,23 +156,38 @@ impl<const D: usize> Order<D> {
                 free => free as u32,
             }),
             distances: std::mem::take(&mut distances[point]),
+            others: Vec::new(),
         };
         Order {
             points: constructed.iter().map(placed).collect(),
+            left: Vec::new(),
             t: equations.m as u32,
             rows: Vec::new(),
+            entries: Vec::new(),
         }
     }
 
     /// The structure at a point of the path with the differences `d`, into `layout`: each point keeps
     /// the distances whose directions are farthest from depending on each other, by the sine of the
     /// angle between each and those taken before it, as long as that is at least `alpha`; for what
-    /// is missing then, coordinates become key.
-    pub fn choose(&mut self, d: &[Vector; D], alpha: f64, layout: &mut Layout) {
+    /// is missing then, coordinates become key. Rows of other equations are as long as what they have
+    /// before their group, if that is more: unknowns that hardly matter in them are not found by them.
+    pub fn choose(
+        &mut self,
+        equations: &Equations<D>,
+        d: &Differences<D>,
+        alpha: f64,
+        layout: &mut Layout,
+    ) {
         layout.blocks.clear();
         layout.keys.clear();
         layout.ignored.clear();
+        layout.ignored.extend(&self.left);
         layout.order = 0;
+        let tail = &equations.tail;
+        if !tail.is_empty() {
+            tail.row_values(&d.forms, &mut self.entries);
+        }
         let rows = &mut self.rows;
         for point in &self.points {
             let free = point.unknowns.map(|unknown| unknown <= self.t);
@@ -107,6 +202,20 @@ impl<const D: usize> Order<D> {
                     taken: false,
                 }
             }));
+            for (e, own) in &point.others {
+                let row = own.map(|entry| entry.map_or(0.0, |entry| self.entries[entry as usize]));
+                let all = tail.row(*e as usize).map(|entry| self.entries[entry]);
+                let others = all.map(|x| x * x).sum::<f64>() - dot(&row, &row);
+                let size = dot(&row, &row).max(others).sqrt();
+                rows.push(Candidate {
+                    row: if size > 0.0 {
+                        row.map(|x| x / size)
+                    } else {
+                        row
+                    },
+                    taken: false,
+                });
+            }
             let mut open = free;
             let mut block = Block {
                 start: layout.order,
@@ -130,8 +239,7 @@ impl<const D: usize> Order<D> {
                 let direction = scaled(rows[best].row);
                 rows[best].taken = true;
                 open[axis] = false;
-                let (edge, sign) = point.distances[best];
-                block.insert((axis as u8, point.unknowns[axis]), (edge, sign));
+                block.insert((axis as u8, point.unknowns[axis]), point.equation(best));
                 for Candidate { row, .. } in rows.iter_mut() {
                     let along = dot(row, &direction);
                     for k in 0..D {
@@ -139,9 +247,9 @@ impl<const D: usize> Order<D> {
                     }
                 }
             }
-            for (candidate, (edge, _)) in rows.iter().zip(&point.distances) {
+            for (index, candidate) in rows.iter().enumerate() {
                 if !candidate.taken {
-                    layout.ignored.push(*edge);
+                    layout.ignored.push(point.equation(index).0);
                 }
             }
             for axis in (0..D).filter(|&axis| open[axis]) {
@@ -182,6 +290,12 @@ impl<const D: usize> Candidate<D> {
 }
 
 impl Block {
+    /// Whether rows of the tail are among its rows, which are in order; the tail's begin at `first`.
+    #[inline(always)]
+    pub fn has_tail(&self, first: usize) -> bool {
+        self.size > 0 && self.rows[self.size - 1] as usize >= first
+    }
+
     /// Adds a column (axis and unknown) and a row (distance and sign): both are kept in the order of
     /// axes and distances, as it does not matter which pivot came first.
     fn insert(&mut self, (axis, unknown): (u8, u32), (row, sign): (u32, f64)) {
@@ -206,8 +320,8 @@ impl Layout {
         self.keys.len()
     }
 
-    /// The rows of S in matrices with a row per distance and the normal's, the `m`-th: the ignored
-    /// distances, then the normal. What comes after [`Layout::keys`] of them is the normal again.
+    /// The rows of S in matrices with a row per equation and the normal's, the `m`-th: the ignored
+    /// equations, then the normal. What comes after [`Layout::keys`] of them is the normal again.
     pub fn rows_of_s(&self, m: usize) -> [usize; MAX_KEYS] {
         std::array::from_fn(|l| self.ignored.get(l).map_or(m, |&e| e as usize))
     }

@@ -1,0 +1,166 @@
+//! What a certified tube costs where constraints are no distances, beside one of distances with as many
+//! unknowns: `cargo bench --bench tails`.
+//!
+//! Problems of distances are measured beside the same with as many of their distances as possible replaced by
+//! angles: in a triangle all of whose sides are given, one side becomes the angle opposite to it. The figures
+//! wanted are the same, and so is the number of unknowns; the paths differ. Shipped problems with other
+//! constraints stand beside a generated strip or chain of about as many unknowns. The times are those of following the
+//! path over all tubes tried, medians of several runs that take turns. The goal is 1.3 times at most, by the
+//! median of all ratios.
+
+use krawl::generate::{Family, Recipe};
+use krawl::problem::{Problem, Target};
+use krawl::system::Homotopy;
+use krawl::track::{Control, Options, Outcome, Space, Status, solve};
+use std::time::Instant;
+
+/// The cost of a tube among other constraints may be so many times that among distances.
+const GOAL: f64 = 1.3;
+/// Runs of each problem.
+const RUNS: usize = 9;
+
+fn main() {
+    let mut pairs: Vec<(String, Problem, Problem)> = Vec::new();
+    let shipped = ["octahedron", "disulfide", "icosahedron-c1", "dodecagon"];
+    for name in shipped {
+        let plain = Problem::read(format!("problems/{name}.toml")).expect("a shipped problem");
+        pairs.extend(with_angles(&plain).map(|other| (name.to_owned(), plain, other)));
+    }
+    for (family, size) in [
+        (Family::Strip, 30),
+        (Family::Strip, 60),
+        (Family::Tetrahedra, 30),
+        (Family::Tetrahedra, 60),
+        (Family::Chain, 36),
+    ] {
+        let plain = Recipe::new(family, size).problem().expect("a recipe");
+        let name = format!("{} {size}", family.name());
+        pairs.extend(with_angles(&plain).map(|other| (name, plain, other)));
+    }
+    for name in ["pentahedron", "3p3l", "3p3l-orthogonal"] {
+        let file = format!("problems/constraints/{name}.toml");
+        let other = Problem::read(file).expect("a shipped problem");
+        let unknowns = Homotopy::new(&other).expect("a gauge").equations;
+        let family = if unknowns < 24 {
+            Family::Strip
+        } else {
+            Family::Chain
+        };
+        let plain = Recipe::new(family, unknowns).problem().expect("a recipe");
+        pairs.push((name.to_owned(), plain, other));
+    }
+    println!(
+        "{:<16} {:<8} {:>9} {:>9} {:>13} {:>13} {:>7}  outcome",
+        "problem", "space", "unknowns", "tail", "distances, µs", "others, µs", "ratio"
+    );
+    for space in [Space::Full, Space::Reduced] {
+        let mut ratios = Vec::new();
+        for (name, plain, other) in &pairs {
+            let options = Options {
+                space,
+                ..Options::certified()
+            };
+            let (mut times, mut outcome) = ([Vec::new(), Vec::new()], None);
+            for _ in 0..RUNS {
+                for (times, problem) in times.iter_mut().zip([plain, other]) {
+                    let clock = Instant::now();
+                    let seen = solve(problem, &options, &mut Control::default()).expect("a run");
+                    times.push(per_tube(&seen, clock.elapsed().as_secs_f64()));
+                    outcome = Some(seen);
+                }
+            }
+            let [before, after] = times.map(median);
+            let homotopy = Homotopy::new(other).expect("a gauge");
+            let ratio = after / before;
+            println!(
+                "{name:<16} {:<8} {:>4}, {:>3} {:>9} {before:>13.2} {after:>13.2} {ratio:>7.2}  {}",
+                if space == Space::Full {
+                    "full"
+                } else {
+                    "reduced"
+                },
+                Homotopy::new(plain).expect("a gauge").equations,
+                homotopy.equations,
+                homotopy.equations - homotopy.edges.len(),
+                match outcome.map(|seen| seen.status) {
+                    Some(Status::Closed) => "closed",
+                    Some(Status::Open(_)) => "open",
+                    _ => "stopped",
+                }
+            );
+            ratios.push(ratio);
+        }
+        let middle = median(ratios);
+        println!(
+            "{:?}: {middle:.2} times by the median, goal {GOAL}: {}",
+            space,
+            if middle <= GOAL { "met" } else { "MISSED" }
+        );
+    }
+}
+
+/// Microseconds for each tube that was tried.
+fn per_tube(outcome: &Outcome, seconds: f64) -> f64 {
+    1e6 * seconds / (outcome.steps + outcome.rejected) as f64
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// The same problem with angles in the place of distances; `None` if there is no triangle for one.
+fn with_angles(problem: &Problem) -> Option<Problem> {
+    let length = |d: usize| match &problem.distances[d].target {
+        Target::Length(length) => length.to_f64(),
+        Target::SquaredLength(square) => square.to_f64().sqrt(),
+    };
+    let between = |a: usize, b: usize| {
+        let joins = |ends: [usize; 2]| ends == [a, b] || ends == [b, a];
+        problem.distances.iter().position(|d| joins(d.points))
+    };
+    // Legs stay distances.
+    let mut is_leg = vec![false; problem.distances.len()];
+    let mut angles: Vec<Option<(usize, f64)>> = vec![None; problem.distances.len()];
+    for (d, distance) in problem.distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        if is_leg[d] || d == problem.homotopy.bend {
+            continue;
+        }
+        let legs = (0..problem.points.len()).find_map(|p| {
+            let legs = [between(a, p)?, between(b, p)?];
+            let free = legs.iter().all(|&leg| angles[leg].is_none());
+            let [x, y, z] = [length(legs[0]), length(legs[1]), length(d)];
+            let cosine = (x * x + y * y - z * z) / (2.0 * x * y);
+            (free && cosine.abs() < 0.99).then_some((p, legs, cosine))
+        });
+        if let Some((p, legs, cosine)) = legs {
+            legs.into_iter().for_each(|leg| is_leg[leg] = true);
+            angles[d] = Some((p, cosine.acos().to_degrees()));
+        }
+    }
+    angles.iter().any(Option::is_some).then_some(())?;
+    let name = |p: usize| problem.points[p].name.clone();
+    let mut builder = Problem::build(&problem.name, problem.dimension);
+    for point in &problem.points {
+        let sketch = point.sketch.iter().take(problem.dimension).cloned();
+        builder = builder.point(&point.name, sketch);
+    }
+    for (distance, angle) in problem.distances.iter().zip(&angles) {
+        let [a, b] = distance.points.map(name);
+        builder = match (angle, &distance.target) {
+            (Some((p, degrees)), _) => builder.dimension("angles", [a, name(*p), b], *degrees),
+            (None, Target::Length(length)) => builder.distance(&a, &b, length.clone()),
+            (None, Target::SquaredLength(square)) => {
+                builder.squared_distance(&a, &b, square.clone())
+            }
+        };
+    }
+    let homotopy = &problem.homotopy;
+    builder
+        .reference(homotopy.reference.iter().map(|&p| name(p)))
+        .bend(problem.distances[homotopy.bend].points.map(name))
+        .bend_coefficient(homotopy.bend_coefficient.clone())
+        .finish()
+        .ok()
+}

@@ -1,0 +1,129 @@
+//! `krawl complex`: all complex solutions of a problem.
+
+use super::output::{self, Destination};
+use super::template::Search;
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
+use krawl::complex::{Status, Template, Ways, lower, solve};
+use krawl::problem::Problem;
+use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Find all complex solutions, every path proved
+///
+/// Each box holds exactly one; which are real is proved. "Complete" claims that there is no other isolated solution, and
+/// is claimed only where their number meets a proved bound. Without a template one is made first.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl complex problems/octahedron.toml
+  krawl complex problems/disulfide.toml --template problems/disulfide.krawl-template --json -
+
+Exit codes: 0 complete, by a proved bound, 4 all paths were followed, and that there are no other solutions is
+not proved, 1 paths stopped, 2 bad input.")]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+    /// The solutions of a generic instance, by `krawl template`
+    #[arg(long, value_name = "FILE")]
+    template: Option<PathBuf>,
+    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// A path is taken to go to infinity where an unknown is so many typical lengths
+    #[arg(long, value_name = "R", default_value_t = 1000.0, value_parser = super::all::seconds)]
+    radius: f64,
+    /// List all solutions, not the real ones only
+    #[arg(long)]
+    all: bool,
+    #[command(flatten)]
+    search: Search,
+    /// Print no table and no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let file = arguments.file.display();
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let lowered = lower(&problem).map_err(|error| format!("{file}: {error}"))?;
+    for given in [Some(&arguments.file), arguments.template.as_ref()]
+        .into_iter()
+        .flatten()
+    {
+        if arguments
+            .json
+            .as_ref()
+            .is_some_and(|json| output::is_same_file(json, given))
+        {
+            return Err(format!(
+                "{}: is read; name another file for the results",
+                given.display()
+            ));
+        }
+    }
+    let json = arguments
+        .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
+    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let tell = |done: usize, all: usize| {
+        if let Ok(mut line) = line.lock() {
+            line.show_text(format!("{done} of {all} paths"));
+        }
+    };
+    let time = arguments.search.time;
+    let ways = Ways {
+        radius: arguments.radius,
+        cancel: Some(interrupt::flag()),
+        deadline: time.map(|s| Instant::now() + Duration::from_secs_f64(s)),
+        progress: Some(&tell),
+        ..Ways::default()
+    };
+    let result = arguments.search.in_pool(|| {
+        let template = match &arguments.template {
+            Some(path) => {
+                let at = |error: String| format!("{}: {error}", path.display());
+                let text = std::fs::read_to_string(path).map_err(|e| at(e.to_string()))?;
+                Template::read(&text, &lowered.system).map_err(|e| at(e.to_string()))?
+            }
+            None => {
+                let fibre = arguments.search.fill(&lowered, &line);
+                Template::new(
+                    &problem.name,
+                    fibre.map_err(|error| format!("{file}: {error}"))?,
+                )
+            }
+        };
+        Ok::<_, String>(solve(&lowered, &template, &ways))
+    });
+    if let Ok(line) = line.into_inner() {
+        line.clear();
+    }
+    let result = result??;
+    let mut written = true;
+    if let Some(json) = &json {
+        written &= json.write(&(complex_to_json(&problem, &lowered, &result) + "\n"));
+    }
+    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+        written &= output::print(&complex_to_table(
+            &problem,
+            &lowered,
+            &result,
+            arguments.all,
+        ));
+    }
+    Ok(match result.status {
+        _ if !written => BAD_INPUT,
+        Status::Complete => CLOSED,
+        Status::Found => INCOMPLETE,
+        Status::Partial => STOPPED,
+    })
+}

@@ -1,0 +1,162 @@
+//! `krawl template`: fills a generic instance of a problem's equations with its complex solutions.
+
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, interrupt};
+use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower};
+use krawl::problem::Problem;
+use krawl::report::ProgressLine;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Find the complex solutions of a random instance, to be used for all instances
+///
+/// A random complex figure with the same constraints has dimensions of its own. Loops of complex dimensions make other
+/// figures with the same dimensions of it, every path proved, until there are as many as a proved bound allows or no
+/// loop finds another one. `krawl complex FILE --template T` then takes them to any dimensions.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl template problems/octahedron.toml --out octahedron.krawl-template
+  krawl complex problems/octahedron.toml --template octahedron.krawl-template
+
+Exit codes: 0 full, by a proved bound, 4 written, and that it is full is not proved, 2 bad input.")]
+pub struct Arguments {
+    /// The problem file (TOML); its dimensions play no part
+    file: PathBuf,
+    /// Where the template goes
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    #[command(flatten)]
+    search: Search,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// How to fill a template.
+#[derive(clap::Args)]
+pub struct Search {
+    /// Of the random numbers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Stop after so many ways in a row that find nothing new
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    patience: usize,
+    /// Stop looking after so many seconds
+    #[arg(long, value_name = "S", value_parser = super::all::seconds)]
+    pub time: Option<f64>,
+    /// Threads to use [default: one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+impl Search {
+    /// Runs what follows with the number of threads asked for.
+    pub fn in_pool<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, String> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.unwrap_or(0).into())
+            .build()
+            .map_err(|error| format!("threads cannot be started: {error}"))?;
+        Ok(pool.install(work))
+    }
+
+    /// Fills a fibre.
+    pub fn fill(&self, lowered: &Lowered, line: &Mutex<ProgressLine>) -> Result<Fibre, String> {
+        let tell = |found: usize, effort: &Effort| {
+            if let Ok(mut line) = line.lock() {
+                let paths = effort.paths;
+                line.show_text(format!("template: {found} solutions   {paths} paths"));
+            }
+        };
+        let plain = Filling::default();
+        let filling = Filling {
+            seed: self.seed,
+            enough: lowered.enough(),
+            patience: self.patience,
+            progress: Some(&tell),
+            ways: Ways {
+                cancel: Some(interrupt::flag()),
+                deadline: self
+                    .time
+                    .map(|s| Instant::now() + Duration::from_secs_f64(s)),
+                ..plain.ways
+            },
+        };
+        fill(&lowered.system, &filling)
+    }
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let file = arguments.file.display();
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let lowered = lower(&problem).map_err(|error| format!("{file}: {error}"))?;
+    if output::is_same_file(&arguments.out, &arguments.file) {
+        return Err(format!(
+            "{file}: is the problem itself; name another file for the template"
+        ));
+    }
+    let out = Destination::new(&arguments.out)?;
+    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let begin = Instant::now();
+    let fibre = arguments
+        .search
+        .in_pool(|| arguments.search.fill(&lowered, &line))?;
+    if let Ok(line) = line.into_inner() {
+        line.clear();
+    }
+    let fibre = fibre.map_err(|error| format!("{file}: {error}"))?;
+    let is_full = lowered.enough() == Some(fibre.solutions.len());
+    let text = summary(&problem, &lowered, &fibre, begin.elapsed().as_secs_f64());
+    let template = Template::new(&problem.name, fibre);
+    let mut written = out.write(&template.write(&lowered.system));
+    if !arguments.quiet && out != Destination::StandardOutput {
+        written &= output::print(&text);
+    }
+    Ok(match is_full {
+        _ if !written => BAD_INPUT,
+        true => CLOSED,
+        false => INCOMPLETE,
+    })
+}
+
+/// What was found, in words.
+fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) -> String {
+    let count = krawl::complex::count_generic(&fibre.solutions, &lowered.system);
+    let found = format!(
+        "{} solutions up to signs of axes, {} up to rotation, {} in the gauge",
+        count.isometry, count.rotation, count.gauge
+    );
+    let full = match (&lowered.bound, lowered.enough()) {
+        (Some(bound), Some(enough)) if enough == fibre.solutions.len() => {
+            format!(
+                "Full, proved: {found}; {} is {}.",
+                bound.source, bound.count
+            )
+        }
+        (Some(bound), _) => format!(
+            "{found}, each proved. That these are all is not proved: {} is {} up to rotation; the last {} ways found \
+             nothing new.",
+            bound.source, bound.count, fibre.idle
+        ),
+        (None, _) => format!(
+            "{found}, each proved. That these are all is not proved: no bound is known; the last {} ways found \
+             nothing new.",
+            fibre.idle
+        ),
+    };
+    let mut text = format!("{}: {full}\n", problem.name);
+    text += &format!(
+        "{} ways between random instances, {} paths, {} tubes, {seconds:.2} s\n",
+        fibre.ways, fibre.effort.paths, fibre.effort.tubes
+    );
+    if let (failed, Some(reason)) = &fibre.failed {
+        text += &format!("{failed} paths were given up, the last because {reason}\n");
+    }
+    text
+}

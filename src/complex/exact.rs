@@ -1,0 +1,171 @@
+//! Complex numbers that are exact, and random ones.
+
+use crate::interval::Real;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+/// A complex number whose parts are ratios.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exact {
+    /// The real part.
+    pub re: BigRational,
+    /// The imaginary part.
+    pub im: BigRational,
+}
+
+impl Exact {
+    /// Zero.
+    pub fn zero() -> Self {
+        Exact {
+            re: BigRational::zero(),
+            im: BigRational::zero(),
+        }
+    }
+
+    /// A whole number.
+    pub fn whole(value: i64) -> Self {
+        Exact {
+            re: BigRational::from_integer(BigInt::from(value)),
+            im: BigRational::zero(),
+        }
+    }
+
+    /// Whether it is zero.
+    pub fn is_zero(&self) -> bool {
+        self.re.is_zero() && self.im.is_zero()
+    }
+
+    /// The sum.
+    pub fn plus(&self, other: &Self) -> Self {
+        Exact {
+            re: &self.re + &other.re,
+            im: &self.im + &other.im,
+        }
+    }
+
+    /// The difference.
+    pub fn minus(&self, other: &Self) -> Self {
+        Exact {
+            re: &self.re - &other.re,
+            im: &self.im - &other.im,
+        }
+    }
+
+    /// The product.
+    pub fn times(&self, other: &Self) -> Self {
+        Exact {
+            re: &self.re * &other.re - &self.im * &other.im,
+            im: &self.re * &other.im + &self.im * &other.re,
+        }
+    }
+
+    /// The quotient; `None` where the other is zero.
+    pub fn over(&self, other: &Self) -> Option<Self> {
+        let size = &other.re * &other.re + &other.im * &other.im;
+        if size.is_zero() {
+            return None;
+        }
+        let conjugate = Exact {
+            re: other.re.clone(),
+            im: -&other.im,
+        };
+        let above = self.times(&conjugate);
+        Some(Exact {
+            re: above.re / &size,
+            im: above.im / &size,
+        })
+    }
+
+    /// The parts as exact reals.
+    pub fn parts(&self) -> Parameter {
+        [self.re.clone().into(), self.im.clone().into()]
+    }
+}
+
+/// The right-hand side of a complex equation: real part, imaginary part.
+pub type Parameter = [Real; 2];
+
+/// A parameter that is zero.
+pub fn zero() -> Parameter {
+    [Real::zero(), Real::zero()]
+}
+
+/// Numbers that look random and are the same everywhere (Steele, Lea, Flood, *Fast splittable
+/// pseudorandom number generators*, 2014).
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+/// Random numbers are whole multiples of 2 to minus this.
+const BITS: u32 = 10;
+
+impl Random {
+    /// The sequence of a seed.
+    pub fn new(seed: u64) -> Self {
+        Random(seed)
+    }
+
+    /// 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Between −1 and 1.
+    fn ratio(&mut self) -> BigRational {
+        let range = 1u64 << (BITS + 1);
+        let drawn = (self.bits() % (range + 1)) as i64 - (1 << BITS);
+        BigRational::new(drawn.into(), BigInt::from(1u64 << BITS))
+    }
+
+    /// A complex number, both parts between −1 and 1.
+    pub fn complex(&mut self) -> Exact {
+        Exact {
+            re: self.ratio(),
+            im: self.ratio(),
+        }
+    }
+
+    /// A real number between −¼ and ¼.
+    pub fn nearly_whole(&mut self) -> Exact {
+        Exact {
+            re: self.ratio() / BigRational::from_integer(4.into()),
+            im: BigRational::zero(),
+        }
+    }
+
+    /// A complex number like [`Random::complex`] with an imaginary part between −½ and ½: squares of such numbers are seldom near zero.
+    pub fn nearly_real(&mut self) -> Exact {
+        let Exact { re, im } = self.complex();
+        Exact {
+            re,
+            im: im / BigRational::from_integer(2.into()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arithmetic_is_that_of_complex_numbers() {
+        let mut random = Random::new(3);
+        for _ in 0..50 {
+            let (a, b) = (random.complex(), random.complex());
+            if b.is_zero() {
+                continue;
+            }
+            assert_eq!(a.times(&b).over(&b).unwrap(), a);
+            assert_eq!(a.plus(&b).minus(&b), a);
+        }
+        let i = Exact {
+            re: BigRational::zero(),
+            im: BigRational::from_integer(1.into()),
+        };
+        assert_eq!(i.times(&i), Exact::whole(-1));
+        assert!(i.over(&Exact::zero()).is_none());
+    }
+}

@@ -1,0 +1,211 @@
+//! Following solutions while the parameters move from one place to another.
+
+use super::boxes::SolutionBox;
+use super::system::System;
+use crate::system::{Homotopy, Right};
+use crate::track::arc::ArcEnd;
+use crate::track::certified::{FollowArcs, arcs};
+use crate::track::{Control, Limit, Options, Space};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// How a path ended.
+#[derive(Debug, Clone)]
+pub enum PathEnd {
+    /// At t = 1, in a box with exactly one solution, which is the continuation of the one at t = 0.
+    Reached(SolutionBox),
+    /// It was followed up to this t < 1, where an unknown is larger than the radius allowed.
+    Beyond(f64),
+    /// It could not be followed to its end: why.
+    Stopped(String),
+}
+
+/// What all paths took together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// Paths followed.
+    pub paths: usize,
+    /// Tubes proved.
+    pub tubes: usize,
+    /// Tubes tried in vain.
+    pub rejected: usize,
+}
+
+impl Effort {
+    /// Adds what others took.
+    pub fn add(&mut self, other: Effort) {
+        self.paths += other.paths;
+        self.tubes += other.tubes;
+        self.rejected += other.rejected;
+    }
+}
+
+/// How to follow paths.
+#[derive(Clone, Copy)]
+pub struct Ways<'a> {
+    /// Beyond this size of an unknown, in units of the typical length, a path is given up as one to infinity.
+    pub radius: f64,
+    /// A path that takes more tubes is given up.
+    pub most_tubes: usize,
+    /// Whether extended precision may be switched on, which takes long.
+    pub extended: bool,
+    /// Set from outside to end all paths.
+    pub cancel: Option<&'a AtomicBool>,
+    /// When to give up.
+    pub deadline: Option<Instant>,
+    /// Called now and then with the number of paths done, of how many.
+    pub progress: Option<&'a (dyn Fn(usize, usize) + Sync)>,
+}
+
+impl Default for Ways<'_> {
+    fn default() -> Self {
+        Ways {
+            radius: 1000.0,
+            most_tubes: 20_000,
+            extended: true,
+            cancel: None,
+            deadline: None,
+            progress: None,
+        }
+    }
+}
+
+impl std::fmt::Debug for Ways<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Ways {{ radius: {:?} }}", self.radius)
+    }
+}
+
+impl Ways<'_> {
+    /// Whether the time is over, or somebody asked to stop.
+    pub fn is_over(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+            || self.deadline.is_some_and(|end| Instant::now() > end)
+    }
+}
+
+/// Follows paths of one system, one after the other, setting nothing up twice.
+#[derive(Debug)]
+pub struct Follower {
+    arcs: Box<dyn FollowArcs>,
+}
+
+/// A path that is longer than so many radii is given up.
+const LONGEST: f64 = 20.0;
+
+impl Follower {
+    /// For a homotopy made by [`System::homotopy`].
+    pub fn new(mut homotopy: Homotopy, rights: &[Right], ways: &Ways) -> Self {
+        homotopy.rights = rights.to_vec();
+        let options = Options {
+            space: Space::Full,
+            max_steps: ways.most_tubes,
+            extended: ways.extended,
+            ..Options::certified()
+        };
+        let mut arcs = arcs(homotopy, &options);
+        arcs.set_complex();
+        Follower { arcs }
+    }
+
+    /// Takes other right-hand sides.
+    pub fn set_rights(&mut self, rights: &[Right]) {
+        self.arcs.homotopy_mut().rights = rights.to_vec();
+    }
+
+    /// Follows the path of one solution, proving every step.
+    pub fn follow(&mut self, start: &SolutionBox, ways: &Ways, effort: &mut Effort) -> PathEnd {
+        let far = Instant::now() + Duration::from_secs(1_000_000);
+        let mut control = Control {
+            cancel: ways.cancel,
+            limit: Some(Limit {
+                length: LONGEST * ways.radius,
+                deadline: ways.deadline.unwrap_or(far),
+            }),
+            ..Control::default()
+        };
+        let run = self.arcs.follow(&start.figure, &mut control);
+        effort.add(Effort {
+            paths: 1,
+            tubes: run.steps,
+            rejected: run.rejected,
+        });
+        let size = run.last.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+        match run.end {
+            ArcEnd::Reached(figure) => PathEnd::Reached(SolutionBox::new(figure, run.alone_within)),
+            _ if size > ways.radius => PathEnd::Beyond(run.t.0),
+            ArcEnd::Limit(_) => PathEnd::Stopped("the path turns back in t".to_owned()),
+            ArcEnd::Passes(reason) | ArcEnd::Stopped(reason) => PathEnd::Stopped(reason),
+        }
+    }
+
+    /// Proves a box around the solution near a point, for the parameters at t = 1.
+    pub fn prove(&mut self, near: &[f64]) -> Result<SolutionBox, String> {
+        let (figure, alone_within) = self.arcs.prove_at_end(near)?;
+        Ok(SolutionBox::new(figure, alone_within))
+    }
+}
+
+/// Follows the paths of many solutions on all threads of the pool. Results come in the solutions' order.
+pub fn follow_all(
+    system: &System,
+    rights: &[Right],
+    starts: &[&SolutionBox],
+    ways: &Ways,
+) -> (Vec<PathEnd>, Effort) {
+    let homotopy = system.homotopy();
+    let done = AtomicUsize::new(0);
+    // One follower for each piece of work: setting it up costs as much as a few tubes.
+    let piece = starts
+        .len()
+        .div_ceil(4 * rayon::current_num_threads())
+        .max(1);
+    let results: Vec<(Vec<PathEnd>, Effort)> = starts
+        .par_chunks(piece)
+        .map(|starts| {
+            let mut follower = Follower::new(homotopy.clone(), rights, ways);
+            let mut effort = Effort::default();
+            let ends = starts.iter().map(|start| {
+                if ways.is_over() {
+                    return PathEnd::Stopped("the time was over, or it was interrupted".to_owned());
+                }
+                let end = follower.follow(start, ways, &mut effort);
+                let count = done.fetch_add(1, Ordering::Relaxed) + 1;
+                if let Some(progress) = ways.progress {
+                    progress(count, starts.len());
+                }
+                end
+            });
+            (ends.collect(), effort)
+        })
+        .collect();
+    let mut effort = Effort::default();
+    let mut ends = Vec::with_capacity(starts.len());
+    for (some, took) in results {
+        ends.extend(some);
+        effort.add(took);
+    }
+    (ends, effort)
+}
+
+/// Proves boxes around many points, for the parameters at t = 1, on all threads.
+pub fn prove_all(
+    system: &System,
+    rights: &[Right],
+    points: &[Vec<f64>],
+) -> Vec<Result<SolutionBox, String>> {
+    let homotopy = system.homotopy();
+    let piece = points
+        .len()
+        .div_ceil(4 * rayon::current_num_threads())
+        .max(1);
+    points
+        .par_chunks(piece)
+        .flat_map_iter(|points| {
+            let mut follower = Follower::new(homotopy.clone(), rights, &Ways::default());
+            let proved: Vec<_> = points.iter().map(|point| follower.prove(point)).collect();
+            proved
+        })
+        .collect()
+}

@@ -1,0 +1,304 @@
+//! Three lines with the angles between any two, and points with their distances from each other and from the lines
+//! (Durand, Hoffmann, *Variational Constraints in 3D*: three points, three lines).
+//!
+//! The angles fix the directions of the lines up to a mirror image. With the first line for the x axis, the second
+//! through (0, 0, h) with the direction (c₂, s₂, 0), and the third through (f, g, 0) with the direction (c₃, a, b), what is
+//! left are h, f, g and the points: a point at p has |p − q|² − ((p − q)·u)² = d² from the line through q with the unit
+//! direction u. Nothing spurious: no unit tangents on both sides, no closest points.
+//!
+//! Where the lines are orthogonal their directions are the axes, and all equations have whole numbers for
+//! coefficients. Otherwise c₂, s₂, c₃, a, b are unknowns with c₂ and c₃ the cosines wanted and |u₂|² = |u₃|² = 1, and so is
+//! (p − q)·u for each point and line: a change of the angles then moves the directions along.
+
+use super::exact::{Exact, Random};
+use super::lower::{half_square, in_unit};
+use super::system::{Equation, Kind, Start, System, Unknown};
+use crate::interval::Real;
+use crate::problem::{Item, Problem, Shape, Target};
+use crate::system::Term;
+
+/// Where the unknowns stand: coordinates of points first, then these.
+const HEIGHT: usize = 0;
+const FOOT: [usize; 2] = [1, 2];
+/// c₂, s₂, c₃, a, b.
+const DIRECTIONS: [usize; 5] = [3, 4, 5, 6, 7];
+
+/// The unknown that stands for zero.
+const ZERO: usize = usize::MAX;
+
+fn value(of: usize) -> Option<[usize; 2]> {
+    Some([of, ZERO])
+}
+
+fn times(factor: i32, left: Option<[usize; 2]>, right: Option<[usize; 2]>) -> Term {
+    Term {
+        factor,
+        left,
+        right,
+    }
+}
+
+/// What the constraints say, if they are of these kinds.
+struct Given {
+    lines: [usize; 3],
+    /// The cosines of the angles between lines 0 and 1, 0 and 2, 1 and 2; `None` for right angles.
+    cosines: [Option<Real>; 3],
+    /// Half the squared distances of points from lines, with their names.
+    distances: Vec<(usize, usize, Real, String)>,
+}
+
+fn given(problem: &Problem) -> Option<Given> {
+    let lines: Vec<usize> = (0..problem.objects.len()).collect();
+    let are_lines = problem
+        .objects
+        .iter()
+        .all(|o| matches!(o.shape, Shape::FreeLine { .. }));
+    let lines: [usize; 3] = lines.try_into().ok()?;
+    if problem.dimension != 3 || !are_lines {
+        return None;
+    }
+    let mut cosines: [Option<Option<Real>>; 3] = [None, None, None];
+    let mut distances = Vec::new();
+    for (index, constraint) in problem.constraints.iter().enumerate() {
+        match (constraint.kind.as_str(), constraint.items.as_slice()) {
+            ("angles" | "perpendicular", &[Item::Object(a), Item::Object(b)]) => {
+                let slot = match (a.min(b), a.max(b)) {
+                    (0, 1) => 0,
+                    (0, 2) => 1,
+                    (1, 2) => 2,
+                    _ => return None,
+                };
+                let cosine = constraint.value.as_ref().map(|degrees| {
+                    // The lines have directions: which of the two angles is meant does not matter, as another
+                    // direction of one of the lines makes the other one of it.
+                    Real::cosine_of_degrees(degrees.value().clone())
+                });
+                let cosine = cosine.filter(|cosine| !cosine.is_zero());
+                if cosines[slot].replace(cosine).is_some() {
+                    return None;
+                }
+            }
+            ("distances", items) => {
+                let (point, line) = match *items {
+                    [Item::Point(p), Item::Object(l)] | [Item::Object(l), Item::Point(p)] => (p, l),
+                    _ => return None,
+                };
+                let target = Target::Length(constraint.value.clone()?);
+                let name = problem.constraint_name(index);
+                distances.push((point, line, half_square(&target), name));
+            }
+            _ => return None,
+        }
+    }
+    let [Some(a), Some(b), Some(c)] = cosines else {
+        return None;
+    };
+    let unknowns = 3 * problem.points.len() + 3;
+    (problem.distances.len() + distances.len() == unknowns).then_some(Given {
+        lines,
+        cosines: [a, b, c],
+        distances,
+    })
+}
+
+/// The system of a problem of this kind; `None` if it is another.
+pub fn lower(problem: &Problem) -> Option<System> {
+    let given = given(problem)?;
+    let points = problem.points.len();
+    let first = 3 * points;
+    let are_orthogonal = given.cosines.iter().all(Option::is_none);
+    let unit = unit(problem);
+    let name = |k: usize| problem.objects[given.lines[k]].name.as_str();
+
+    let mut unknowns = Vec::new();
+    let mut push = |name: String, power: i32, flips: [bool; 3]| {
+        unknowns.push(Unknown { name, power, flips });
+    };
+    let along = |axis: usize| std::array::from_fn(|k| k == axis);
+    for point in &problem.points {
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+            push(format!("{letter} of {}", point.name), 1, along(axis));
+        }
+    }
+    push(format!("height of {}", name(1)), 1, along(2));
+    push(format!("x of {} at height 0", name(2)), 1, along(0));
+    push(format!("y of {} at height 0", name(2)), 1, along(1));
+    if !are_orthogonal {
+        // Reversing the x axis and the directions of all lines: s₂, a and b change their signs, not c₂ and c₃.
+        let (c, s) = ([false; 3], [true, true, false]);
+        push(format!("x of the direction of {}", name(1)), 0, c);
+        push(format!("y of the direction of {}", name(1)), 0, s);
+        push(format!("x of the direction of {}", name(2)), 0, c);
+        push(format!("y of the direction of {}", name(2)), 0, s);
+        push(
+            format!("z of the direction of {}", name(2)),
+            0,
+            [true, false, true],
+        );
+    }
+    let height = first + HEIGHT;
+    let foot = FOOT.map(|k| first + k);
+    let directions = DIRECTIONS.map(|k| first + k);
+    let coordinate = |p: usize, axis: usize| 3 * p + axis;
+
+    let mut equations: Vec<Equation> = Vec::new();
+    for (index, distance) in problem.distances.iter().enumerate() {
+        let [a, b] = distance.points;
+        let square = |axis: usize| {
+            let form = Some([coordinate(a, axis), coordinate(b, axis)]);
+            times(1, form, form)
+        };
+        equations.push(Equation {
+            name: problem.distance_name(index),
+            terms: (0..3).map(square).collect(),
+            power: 2,
+            right: Kind::Parameter([half_square(&distance.target), Real::zero()]),
+            bows: true,
+        });
+    }
+    for (point, line, half, constraint) in &given.distances {
+        let [x, y, z] = [0, 1, 2].map(|axis| coordinate(*point, axis));
+        let which = given.lines.iter().position(|l| l == line)?;
+        // The differences of the point from the line's place.
+        let from = match which {
+            0 => [value(x), value(y), value(z)],
+            1 => [value(x), value(y), Some([z, height])],
+            _ => [Some([x, foot[0]]), Some([y, foot[1]]), value(z)],
+        };
+        let square = |form: Option<[usize; 2]>| times(1, form, form);
+        let mut terms: Vec<Term> = match (which, are_orthogonal) {
+            (0, _) => vec![square(from[1]), square(from[2])],
+            (1, true) => vec![square(from[0]), square(from[2])],
+            (_, true) => vec![square(from[0]), square(from[1])],
+            _ => from.into_iter().map(square).collect(),
+        };
+        if which > 0 && !are_orthogonal {
+            let shadow = unknowns.len();
+            unknowns.push(Unknown {
+                name: format!("{} along {}", problem.points[*point].name, name(which)),
+                power: 1,
+                // As x does, which is multiplied by what does not change.
+                flips: [true, false, false],
+            });
+            terms.push(times(-1, value(shadow), value(shadow)));
+            let [c2, s2, c3, a, b] = directions.map(value);
+            let of = match which {
+                1 => vec![(c2, from[0]), (s2, from[1])],
+                _ => vec![(c3, from[0]), (a, from[1]), (b, from[2])],
+            };
+            let mut defined = vec![times(2, value(shadow), None)];
+            defined.extend(of.into_iter().map(|(u, v)| times(-2, u, v)));
+            equations.push(Equation {
+                name: format!("{} along {}", problem.points[*point].name, name(which)),
+                terms: defined,
+                power: 1,
+                right: Kind::Fixed(Exact::zero()),
+                bows: false,
+            });
+        }
+        equations.push(Equation {
+            name: constraint.clone(),
+            terms,
+            power: 2,
+            right: Kind::Parameter([half.clone(), Real::zero()]),
+            bows: true,
+        });
+    }
+    if !are_orthogonal {
+        let [c2, s2, c3, a, b] = directions.map(value);
+        let wanted = |k: usize| given.cosines[k].clone().unwrap_or_else(Real::zero);
+        let mut add = |what: String, terms: Vec<Term>, right: Kind| {
+            equations.push(Equation {
+                name: what,
+                terms,
+                power: 0,
+                right,
+                bows: false,
+            });
+        };
+        let angle = |a: usize, b: usize| format!("angle of {} and {}", name(a), name(b));
+        let parameter = |k: usize| Kind::Parameter([wanted(k), Real::zero()]);
+        let half = Exact::whole(1).over(&Exact::whole(2))?;
+        add(angle(0, 1), vec![times(2, c2, None)], parameter(0));
+        add(angle(0, 2), vec![times(2, c3, None)], parameter(1));
+        add(
+            angle(1, 2),
+            vec![times(2, c2, c3), times(2, s2, a)],
+            parameter(2),
+        );
+        add(
+            format!("length of the direction of {}", name(1)),
+            vec![times(1, c2, c2), times(1, s2, s2)],
+            Kind::Fixed(half.clone()),
+        );
+        add(
+            format!("length of the direction of {}", name(2)),
+            vec![times(1, c3, c3), times(1, a, a), times(1, b, b)],
+            Kind::Fixed(half),
+        );
+    }
+    debug_assert_eq!(unknowns.len(), equations.len());
+    for equation in &mut equations {
+        let right = std::mem::replace(&mut equation.right, Kind::Fixed(Exact::zero()));
+        equation.right = in_unit(right, unit, equation.power);
+    }
+    let system = System {
+        dimension: 3,
+        unknowns,
+        equations,
+        points: (0..points)
+            .map(|p| [0, 1, 2].map(|axis| Some(coordinate(p, axis))))
+            .collect(),
+        unit,
+        group: Vec::new(),
+        group_of_instance: Vec::new(),
+        start: if are_orthogonal {
+            Start::Any
+        } else {
+            Start::Lines
+        },
+        positions: 1,
+        gauge: format!(
+            "{} is the x axis, {} meets the z axis at a right angle",
+            name(0),
+            name(1)
+        ),
+    };
+    Some(system.with_groups())
+}
+
+/// The power of two nearest to the mean length.
+fn unit(problem: &Problem) -> f64 {
+    let between = problem.distances.iter().map(|d| match &d.target {
+        Target::Length(length) => length.to_f64(),
+        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+    });
+    let from_lines = problem.constraints.iter().filter(|c| c.kind == "distances");
+    let from_lines = from_lines.filter_map(|c| Some(c.value.as_ref()?.to_f64()));
+    let all: Vec<f64> = between.chain(from_lines).collect();
+    let mean = all.iter().sum::<f64>() / all.len().max(1) as f64;
+    2f64.powi(mean.log2().round() as i32)
+}
+
+/// Draws the directions of the lines, exactly of length 1: rational points on the circle and on the sphere.
+pub fn draw(system: &System, random: &mut Random, values: &mut [Option<Exact>]) -> Option<()> {
+    let first = 3 * system.points.len();
+    let one = Exact::whole(1);
+    // Real directions, about at right angles: real figures' cosines are then reached along a straight way on
+    // which the directions stay real and independent, as convex sums of positive definite matrices are so.
+    let m = one.plus(&random.nearly_whole());
+    let square = m.times(&m);
+    let below = one.plus(&square);
+    let c2 = one.minus(&square).over(&below)?;
+    let s2 = m.plus(&m).over(&below)?;
+    let (p, q) = (random.nearly_whole(), random.nearly_whole());
+    let square = p.times(&p).plus(&q.times(&q));
+    let below = one.plus(&square);
+    let b = one.minus(&square).over(&below)?;
+    let c3 = p.plus(&p).over(&below)?;
+    let a = q.plus(&q).over(&below)?;
+    for (k, direction) in DIRECTIONS.into_iter().zip([c2, s2, c3, a, b]) {
+        values[first + k] = Some(direction);
+    }
+    Some(())
+}

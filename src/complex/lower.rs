@@ -1,0 +1,312 @@
+//! The complex system of a problem.
+
+use super::bound::{self, Bound};
+use super::exact::{Exact, zero};
+use super::lines;
+use super::system::{Equation, Kind, Start, System, Unknown};
+use crate::constraint::MAX_DEGREE;
+use crate::interval::Real;
+use crate::problem::{Problem, Target, list};
+use crate::system::{GaugeError, Homotopy, Term};
+use num_rational::BigRational;
+use num_traits::Signed;
+
+/// Why a problem has no complex system.
+#[derive(Clone, PartialEq, thiserror::Error)]
+pub enum Unserved {
+    /// The sketch cannot be seen from the reference.
+    #[error(transparent)]
+    Gauge(#[from] GaugeError),
+    /// Something else, in words.
+    #[error("{0}")]
+    Other(String),
+}
+
+crate::debug_in_words!(Unserved);
+
+/// A problem's complex system, and a bound on the number of its solutions up to rotation where one is known.
+#[derive(Debug, Clone)]
+pub struct Lowered {
+    /// The system.
+    pub system: System,
+    /// The bound.
+    pub bound: Option<Bound>,
+}
+
+impl Lowered {
+    /// The number of orbits under the system's group that the bound allows, for instances of which no solution is
+    /// its own image.
+    pub fn enough(&self) -> Option<usize> {
+        let bound = usize::try_from(self.bound.as_ref()?.count).ok()?;
+        match self.system.group.iter().any(|signs| signs.mirrors) {
+            true => (bound % 2 == 0).then_some(bound / 2),
+            false => Some(bound),
+        }
+    }
+}
+
+/// Most real unknowns: the trackers keep square matrices of them.
+const MOST: usize = 400;
+
+/// Makes the complex system of a checked problem.
+pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
+    if problem.is_absolute() {
+        return Err(Unserved::Other(
+            "the problem is in a frame of its own (fixed places, coordinates or directions): complex solutions are \
+             searched for figures up to motions only"
+                .to_owned(),
+        ));
+    }
+    let lowered = match lines::lower(problem) {
+        Some(system) => Lowered {
+            system,
+            bound: None,
+        },
+        None => general(problem)?,
+    };
+    let unknowns = 2 * lowered.system.unknowns.len();
+    if unknowns > MOST {
+        return Err(Unserved::Other(format!(
+            "there are {unknowns} real unknowns, and at most {MOST} are served"
+        )));
+    }
+    Ok(lowered)
+}
+
+/// From the equations that real paths follow.
+fn general(problem: &Problem) -> Result<Lowered, Unserved> {
+    let mut problem = problem.clone();
+    let mut bound = None;
+    if problem.is_distances_only() {
+        let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
+        bound = bound::bound(problem.dimension, problem.points.len(), &edges);
+        // The figure stands on what the bound holds fixed.
+        if let Some(bound) = &bound {
+            let mut placed = problem.clone();
+            placed.homotopy.reference = bound.fixed.clone();
+            if Homotopy::new(&placed).is_ok() {
+                problem = placed;
+            }
+        }
+    }
+    let homotopy = Homotopy::new(&problem)?;
+    if let Some(name) = constrained_sign(&homotopy) {
+        return Err(Unserved::Other(format!(
+            "complex solutions have no signs, and {name} must be positive"
+        )));
+    }
+    let n = homotopy.equations;
+    let places = homotopy.gauge.place.len();
+    let d = homotopy.dimension;
+    let unknowns = (0..n).map(|k| {
+        let (name, power) = match homotopy.gauge.place.get(k) {
+            Some(place) => {
+                let axis = ["x", "y", "z"][place % d];
+                (format!("{axis} of {}", problem.points[place / d].name), 1)
+            }
+            None => {
+                let unknown = &homotopy.tail.unknowns[k - places];
+                (unknown.name.clone(), unknown.power)
+            }
+        };
+        Unknown {
+            name,
+            power,
+            flips: std::array::from_fn(|axis| axis < d && homotopy.flips(k, axis)),
+        }
+    });
+    let unknowns = unknowns.collect();
+    let head = homotopy.edges.len();
+    let equations = (0..n).map(|e| {
+        let (power, right) = match problem.distances.get(e) {
+            Some(distance) if e < head => (
+                2,
+                Kind::Parameter([half_square(&distance.target), Real::zero()]),
+            ),
+            _ => {
+                let equation = &homotopy.tail.equations[e - head];
+                (equation.power, right_of(&equation.right))
+            }
+        };
+        Equation {
+            name: homotopy.names[e].clone(),
+            terms: homotopy.terms(e),
+            power,
+            right: in_unit(right, homotopy.unit, power),
+            bows: true,
+        }
+    });
+    let mut equations: Vec<Equation> = equations.collect();
+    let points = (0..problem.points.len())
+        .map(|p| std::array::from_fn(|axis| homotopy.coordinate(p, axis)))
+        .collect();
+    let (mut start, mut positions) = (Start::Any, 1);
+    if let Some(bound) = bound
+        .as_ref()
+        .filter(|bound| bound.fixed == problem.homotopy.reference)
+        && let Some(unknowns) = place(&problem, &homotopy, &bound.fixed, &mut equations)
+    {
+        start = Start::Placed(unknowns, if d == 2 { 1 } else { 3 });
+        // The signs of the reference's coordinates.
+        positions = if d == 2 { 2 } else { 4 };
+    }
+    let names = problem
+        .homotopy
+        .reference
+        .iter()
+        .map(|&p| problem.points[p].name.as_str());
+    let names: Vec<&str> = names.collect();
+    let system = System {
+        dimension: d,
+        unknowns,
+        equations,
+        points,
+        unit: homotopy.unit,
+        group: Vec::new(),
+        group_of_instance: Vec::new(),
+        start,
+        positions,
+        gauge: match d {
+            2 => format!("{} at the origin, {} on the x axis", names[0], names[1]),
+            _ => format!(
+                "{} at the origin, {} on the x axis, {} in the xy plane",
+                names[0], names[1], names[2]
+            ),
+        },
+    };
+    // The bound is about figures that stand on what it holds fixed.
+    let bound = bound.filter(|bound| {
+        bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed)
+    });
+    Ok(Lowered {
+        system: system.with_groups(),
+        bound,
+    })
+}
+
+/// Makes the distances in the reference equations that say where it stands, instead of equations for squares: lengths
+/// may then go anywhere and the figure never comes to a place where the gauge is singular. Returns the unknowns that
+/// are the reference's coordinates.
+///
+/// `None`, and nothing is changed, where the reference is no proper triangle with real coordinates.
+fn place(
+    problem: &Problem,
+    homotopy: &Homotopy,
+    fixed: &[usize],
+    equations: &mut [Equation],
+) -> Option<[usize; 3]> {
+    let edge = |a: usize, b: usize| {
+        let joins = |d: &crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
+        problem.distances.iter().position(joins)
+    };
+    let squared = |e: usize| square(&problem.distances[e].target);
+    let mut put = |e: usize, unknown: usize, value: Real| {
+        let per_unit = BigRational::from_float(1.0 / homotopy.unit).expect("a power of two");
+        let equation = &mut equations[e];
+        equation.terms = vec![Term {
+            factor: 2,
+            left: Some([unknown, homotopy.equations + 1]),
+            right: None,
+        }];
+        equation.power = 1;
+        equation.right = Kind::Parameter([&value * &Real::from(per_unit), Real::zero()]);
+        equation.bows = false;
+    };
+    match *fixed {
+        [a, b] => {
+            let ab = edge(a, b)?;
+            let x = homotopy.coordinate(b, 0)?;
+            put(ab, x, Real::from(squared(ab)).sqrt());
+            Some([x; 3])
+        }
+        [a, b, c] => {
+            let (ab, ac, bc) = (edge(a, b)?, edge(a, c)?, edge(b, c)?);
+            let (u, v, w) = (squared(ab), squared(ac), squared(bc));
+            let twice = &u + &v - &w;
+            // Sixteen times the squared area.
+            let area = BigRational::from_integer(4.into()) * &u * &v - &twice * &twice;
+            if !area.is_positive() || !u.is_positive() {
+                return None;
+            }
+            let unknowns = [
+                homotopy.coordinate(b, 0)?,
+                homotopy.coordinate(c, 0)?,
+                homotopy.coordinate(c, 1)?,
+            ];
+            let length = Real::from(u).sqrt();
+            let below = &length * &Real::whole(2);
+            put(ab, unknowns[0], length);
+            put(ac, unknowns[1], &Real::from(twice) / &below);
+            put(bc, unknowns[2], &Real::from(area).sqrt() / &below);
+            Some(unknowns)
+        }
+        _ => None,
+    }
+}
+
+/// The name of an unknown that is a length or a radius.
+fn constrained_sign(homotopy: &Homotopy) -> Option<String> {
+    let positive = homotopy.positive_unknowns();
+    let places = homotopy.gauge.place.len();
+    let names: Vec<&str> = positive
+        .iter()
+        .map(|&u| homotopy.tail.unknowns[u - places].name.as_str())
+        .collect();
+    (!names.is_empty()).then(|| list(&names, 3))
+}
+
+/// Whether a triangle with these sides is no degenerate one: no complex figure of it is isotropic.
+fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
+    let squared = |a: usize, b: usize| -> Option<BigRational> {
+        let joins = |d: &&crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
+        let distance = problem.distances.iter().find(joins)?;
+        Some(square(&distance.target))
+    };
+    let zero = BigRational::from_integer(0.into());
+    match *fixed {
+        [a, b] => squared(a, b).is_some_and(|s| s != zero),
+        [a, b, c] => {
+            let (Some(u), Some(v), Some(w)) = (squared(a, b), squared(a, c), squared(b, c)) else {
+                return false;
+            };
+            // Sixteen times the squared area.
+            let twice = &u + &v - &w;
+            let four = BigRational::from_integer(4.into());
+            u != zero && four * &u * &v != &twice * &twice
+        }
+        _ => false,
+    }
+}
+
+/// The square of a target.
+fn square(target: &Target) -> BigRational {
+    match target {
+        Target::Length(length) => length.value() * length.value(),
+        Target::SquaredLength(squared) => squared.value().clone(),
+    }
+}
+
+/// Half the square of a target.
+pub(super) fn half_square(target: &Target) -> Real {
+    (square(target) / BigRational::from_integer(2.into())).into()
+}
+
+/// What a right-hand side is: zero throughout, or a dimension.
+fn right_of(coefficients: &[Real]) -> Kind {
+    debug_assert!(coefficients.len() <= MAX_DEGREE + 1);
+    if coefficients.iter().all(Real::is_zero) {
+        return Kind::Fixed(Exact::zero());
+    }
+    let at_target = coefficients.iter().fold(Real::zero(), |sum, c| &sum + c);
+    Kind::Parameter([at_target, zero()[1].clone()])
+}
+
+/// The same in the system's unit.
+pub(super) fn in_unit(right: Kind, unit: f64, power: i32) -> Kind {
+    let Kind::Parameter(value) = right else {
+        return right;
+    };
+    let per_unit = BigRational::from_float(unit.powi(-power)).expect("a unit is a power of two");
+    let per_unit = Real::from(per_unit);
+    Kind::Parameter(value.map(|part| &part * &per_unit))
+}

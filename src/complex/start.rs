@@ -1,0 +1,130 @@
+//! Start figures: random complex coordinates, and the parameters that they have (Imbach, Schreck, Mathis,
+//! *Leading a continuation method by geometry*, 2.4).
+
+use super::exact::{Exact, Parameter, Random};
+use super::lines;
+use super::system::{Kind, Start, System};
+
+/// A figure and its parameters, exactly.
+#[derive(Debug, Clone)]
+pub struct StartFigure {
+    /// The unknowns.
+    pub values: Vec<Exact>,
+    /// The right-hand sides of all equations.
+    pub parameters: Vec<Parameter>,
+}
+
+/// Draws a figure. `None` where the equations that define auxiliary unknowns cannot be solved for them one after
+/// the other.
+pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
+    let n = system.unknowns.len();
+    let mut values: Vec<Option<Exact>> = vec![None; n];
+    match system.start {
+        Start::Any => {}
+        Start::Lines => lines::draw(system, random, &mut values)?,
+        Start::Placed(unknowns, count) => {
+            for (k, &unknown) in unknowns[..count].iter().enumerate() {
+                // The second reference point around (1, 0, 0), the third around (0, 1, 0).
+                let from = Exact::whole(if k == 1 { 0 } else { 1 });
+                values[unknown] = Some(from.plus(&random.nearly_whole()));
+            }
+        }
+    }
+    // An unknown that a fixed equation defines is not drawn: the last that stands in it alone.
+    let mut defined: Vec<Option<usize>> = vec![None; n];
+    for (e, equation) in system.equations.iter().enumerate() {
+        if let Kind::Fixed(_) = equation.right {
+            let alone = (0..n)
+                .rev()
+                .find(|&u| defined[u].is_none() && values[u].is_none() && is_linear(system, e, u));
+            if let Some(unknown) = alone {
+                defined[unknown] = Some(e);
+            }
+        }
+    }
+    for (value, defined) in values.iter_mut().zip(&defined) {
+        if value.is_none() && defined.is_none() {
+            *value = Some(random.nearly_real());
+        }
+    }
+    loop {
+        let open = (0..n).filter(|&u| values[u].is_none());
+        let ready = open.clone().find(|&u| {
+            defined[u].is_some_and(|e| {
+                unknowns_of(system, e).all(|other| other == u || values[other].is_some())
+            })
+        });
+        let Some(unknown) = ready else {
+            if open.count() > 0 {
+                return None;
+            }
+            break;
+        };
+        let equation = defined[unknown]?;
+        values[unknown] = Some(solve(system, equation, unknown, &values)?);
+    }
+    let values: Vec<Exact> = values.into_iter().collect::<Option<_>>()?;
+    let half = Exact::whole(1).over(&Exact::whole(2))?;
+    let mut parameters = Vec::with_capacity(n);
+    for (e, equation) in system.equations.iter().enumerate() {
+        let value = system.evaluate(e, &values).times(&half);
+        if let Kind::Fixed(wanted) = &equation.right
+            && *wanted != value
+        {
+            return None;
+        }
+        parameters.push(value.parts());
+    }
+    Some(StartFigure { values, parameters })
+}
+
+fn unknowns_of(system: &System, equation: usize) -> impl Iterator<Item = usize> + '_ {
+    let n = system.unknowns.len();
+    let terms = system.equations[equation].terms.iter();
+    let ends = terms.flat_map(|t| t.left.into_iter().chain(t.right).flatten());
+    ends.filter(move |&i| i < n)
+}
+
+/// Whether an unknown stands in an equation, times the number 1 only.
+fn is_linear(system: &System, equation: usize, unknown: usize) -> bool {
+    let stands = |form: Option<[usize; 2]>| form.is_some_and(|ends| ends.contains(&unknown));
+    let mut found = false;
+    for term in &system.equations[equation].terms {
+        match (stands(term.left), stands(term.right)) {
+            (true, true) => return false,
+            (true, false) if term.right.is_none() => found = true,
+            (false, true) if term.left.is_none() => found = true,
+            (false, false) => {}
+            _ => return false,
+        }
+    }
+    found
+}
+
+/// The value of the unknown that stands alone in an equation, all others being known.
+fn solve(
+    system: &System,
+    equation: usize,
+    unknown: usize,
+    values: &[Option<Exact>],
+) -> Option<Exact> {
+    let at = |x: Exact| -> Vec<Exact> {
+        let known = values.iter().enumerate();
+        known
+            .map(|(u, value)| match value {
+                _ if u == unknown => x.clone(),
+                Some(value) => value.clone(),
+                // It does not stand in this equation.
+                None => Exact::zero(),
+            })
+            .collect()
+    };
+    let at_zero = system.evaluate(equation, &at(Exact::zero()));
+    let slope = system
+        .evaluate(equation, &at(Exact::whole(1)))
+        .minus(&at_zero);
+    let Kind::Fixed(right) = &system.equations[equation].right else {
+        return None;
+    };
+    right.times(&Exact::whole(2)).minus(&at_zero).over(&slope)
+}

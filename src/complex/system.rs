@@ -1,0 +1,305 @@
+//! Complex quadratic equations with parameters, and the real ones that they stand for.
+
+use super::exact::{Exact, Parameter, zero};
+use crate::constraint::{self, Entry, Form, Role, Tail};
+use crate::interval::point;
+use crate::system::{Homotopy, Right, Term};
+use sha2::{Digest, Sha256};
+
+/// A complex unknown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// What people call it.
+    pub name: String,
+    /// The power of the unit of length that it has.
+    pub power: i32,
+    /// For each axis whether it changes its sign where that axis is reversed.
+    pub flips: [bool; 3],
+}
+
+/// `½ Σ factor · left · right = E`, with E a parameter, or zero for all figures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equation {
+    /// What people call it.
+    pub name: String,
+    /// The terms of twice the left-hand side. Indices from the number of unknowns on stand for zero.
+    pub terms: Vec<Term>,
+    /// The power of the unit of length that it has.
+    pub power: i32,
+    /// What stands on the right-hand side.
+    pub right: Kind,
+    /// Whether loops of parameters lead this one around; otherwise it goes straight.
+    pub bows: bool,
+}
+
+/// What a right-hand side is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// A dimension, which is another one in another figure: where the target has it.
+    Parameter(Parameter),
+    /// The same in all figures, as where an auxiliary unknown is defined.
+    Fixed(Exact),
+}
+
+/// A change of signs of unknowns that takes solutions to solutions.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Signs {
+    /// For each unknown whether its sign changes.
+    pub changes: Vec<bool>,
+    /// Whether it takes a figure to its mirror image; otherwise it moves it.
+    pub mirrors: bool,
+}
+
+/// Where the unknowns of a start figure are drawn from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// Any figure: unknowns that a fixed equation defines are computed from the others.
+    Any,
+    /// The same with the reference standing on real places: its coordinates that are not zero are the first of
+    /// these unknowns, so many.
+    Placed([usize; 3], usize),
+    /// Three lines in general directions: see `lines`.
+    Lines,
+}
+
+/// n complex quadratic equations in n complex unknowns, with the parameters of one instance.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// The unknowns.
+    pub unknowns: Vec<Unknown>,
+    /// The equations.
+    pub equations: Vec<Equation>,
+    /// For each point of the problem the unknowns that its coordinates are; `None` where one is zero.
+    pub points: Vec<[Option<usize>; 3]>,
+    /// The unit of length: a power of two. Parameters are in it.
+    pub unit: f64,
+    /// Which changes of sign take the solutions of every instance to solutions: a group, the first being
+    /// the one that changes nothing.
+    pub group: Vec<Signs>,
+    /// The same for the solutions of this one.
+    pub group_of_instance: Vec<Signs>,
+    /// How start figures are drawn.
+    pub start: Start,
+    /// How often each solution of these equations stands in the gauge, turned or mirrored: by signs that the
+    /// equations leave out.
+    pub positions: usize,
+    /// How the figure is placed, in words.
+    pub gauge: String,
+}
+
+/// The index of the real part of a complex unknown; the imaginary part comes next.
+pub fn real_part(unknown: usize) -> usize {
+    2 * unknown
+}
+
+impl System {
+    /// Adds the groups to what has been set up.
+    pub(super) fn with_groups(mut self) -> Self {
+        self.group = self.signs(|equation| equation.is_zero_always());
+        self.group_of_instance = self.signs(|equation| equation.is_zero());
+        self
+    }
+
+    /// The parameters of the instance, one for each equation.
+    pub fn target(&self) -> Vec<Parameter> {
+        let of = |equation: &Equation| match &equation.right {
+            Kind::Parameter(value) => value.clone(),
+            Kind::Fixed(value) => value.parts(),
+        };
+        self.equations.iter().map(of).collect()
+    }
+
+    /// Twice the left-hand side of an equation, less the first power of the unit, at a point.
+    pub(super) fn evaluate(&self, equation: usize, at: &[Exact]) -> Exact {
+        let form = |form: Option<[usize; 2]>| match form {
+            None => Exact::whole(1),
+            Some([a, b]) => {
+                let entry = |i: usize| at.get(i).cloned().unwrap_or_else(Exact::zero);
+                entry(a).minus(&entry(b))
+            }
+        };
+        let terms = self.equations[equation].terms.iter();
+        terms.fold(Exact::zero(), |sum, term| {
+            let product = form(term.left).times(&form(term.right));
+            sum.plus(&product.times(&Exact::whole(term.factor.into())))
+        })
+    }
+
+    /// The equations of the real and imaginary parts: two real unknowns and equations for each complex one.
+    pub fn real(&self) -> Tail {
+        let n = self.unknowns.len();
+        let unknowns = (0..2 * n).map(|i| {
+            let part = if i % 2 == 0 { "Re" } else { "Im" };
+            constraint::Unknown {
+                name: format!("{part} {}", self.unknowns[i / 2].name),
+                role: Role::Free,
+                power: 0,
+                flips: [false; 3],
+                sketch: point(0.0),
+            }
+        });
+        let mut equations = Vec::with_capacity(2 * n);
+        for equation in &self.equations {
+            let [re, im] = parts(equation, n);
+            for (part, products) in [("Re", re), ("Im", im)] {
+                equations.push(constraint::Equation {
+                    name: format!("{part} {}", equation.name),
+                    products,
+                    right: vec![crate::interval::Real::zero()],
+                    power: 0,
+                });
+            }
+        }
+        Tail {
+            unknowns: unknowns.collect(),
+            equations,
+            mirrors: false,
+        }
+    }
+
+    /// The real homotopy, whose right-hand sides are to be set.
+    pub fn homotopy(&self) -> Homotopy {
+        Homotopy::of_equations(self.real())
+    }
+
+    /// The changes of sign by axes that leave every equation as it is, or reverse one that `vanishes`.
+    fn signs(&self, vanishes: impl Fn(&Equation) -> bool) -> Vec<Signs> {
+        let mut group = Vec::new();
+        for axes in 0..1usize << self.dimension {
+            let changes: Vec<bool> = self
+                .unknowns
+                .iter()
+                .map(|u| {
+                    let reversed =
+                        (0..self.dimension).filter(|&k| axes >> k & 1 == 1 && u.flips[k]);
+                    reversed.count() % 2 == 1
+                })
+                .collect();
+            let is_symmetry =
+                self.equations
+                    .iter()
+                    .all(|equation| match sign_of(equation, &changes) {
+                        Some(reversed) => !reversed || vanishes(equation),
+                        None => false,
+                    });
+            // Two sets of axes may change the same signs.
+            if is_symmetry && !group.iter().any(|s: &Signs| s.changes == changes) {
+                group.push(Signs {
+                    changes,
+                    mirrors: axes.count_ones() % 2 == 1,
+                });
+            }
+        }
+        group
+    }
+
+    /// A text that is the same for all instances of one template, and for no others: hashed.
+    pub fn structure(&self) -> String {
+        let mut text = format!("{} {:?}\n", self.unknowns.len(), self.start);
+        let n = self.unknowns.len();
+        let end = |i: usize| {
+            if i < n {
+                format!("z{i}")
+            } else {
+                "0".to_owned()
+            }
+        };
+        for equation in &self.equations {
+            for term in &equation.terms {
+                let form = |form: Option<[usize; 2]>| match form {
+                    None => "1".to_owned(),
+                    Some([a, b]) => format!("({}-{})", end(a), end(b)),
+                };
+                let (left, right) = (form(term.left), form(term.right));
+                text += &format!("{} {left} {right};", term.factor);
+            }
+            match &equation.right {
+                Kind::Parameter(_) => text += " p\n",
+                Kind::Fixed(value) => text += &format!(" {} {}\n", value.re, value.im),
+            }
+        }
+        let hash = Sha256::digest(text.as_bytes());
+        hash.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl Equation {
+    fn is_zero_always(&self) -> bool {
+        matches!(&self.right, Kind::Fixed(value) if value.is_zero())
+    }
+
+    fn is_zero(&self) -> bool {
+        match &self.right {
+            Kind::Fixed(value) => value.is_zero(),
+            Kind::Parameter(value) => value.iter().all(|part| part.is_zero()),
+        }
+    }
+}
+
+/// Whether a change of signs reverses the left-hand side (`Some(true)`), leaves it, or does neither.
+fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
+    let n = changes.len();
+    let form = |form: Option<[usize; 2]>| match form {
+        None => Some(false),
+        Some([a, b]) if a < n && b < n => (changes[a] == changes[b]).then_some(changes[a]),
+        Some([a, b]) => Some([a, b].iter().any(|&i| i < n && changes[i])),
+    };
+    let mut sign = None;
+    for term in &equation.terms {
+        let this = form(term.left)? ^ form(term.right)?;
+        if sign.is_some_and(|sign| sign != this) {
+            return None;
+        }
+        sign = Some(this);
+    }
+    sign
+}
+
+/// The products of the real and the imaginary part of a complex equation in n unknowns:
+/// (a + ib)(c + id) = (ac − bd) + i(ad + bc).
+fn parts(equation: &Equation, n: usize) -> [Vec<constraint::Product>; 2] {
+    let entry = |i: usize, part: usize| match i < n {
+        true => Entry::Unknown(real_part(i) + part),
+        false => Entry::Zero,
+    };
+    let form = |form: Option<[usize; 2]>, part: usize| match (form, part) {
+        (None, 0) => Some(Form::One),
+        // The number 1 has no imaginary part, and zero has none.
+        (None, _) => None,
+        (Some([a, b]), part) => {
+            (a < n || b < n).then(|| Form::Difference(entry(a, part), entry(b, part)))
+        }
+    };
+    let (mut re, mut im) = (Vec::new(), Vec::new());
+    for term in &equation.terms {
+        for left in 0..2 {
+            for right in 0..2 {
+                let (Some(l), Some(r)) = (form(term.left, left), form(term.right, right)) else {
+                    continue;
+                };
+                let sign = if left + right == 2 { -1 } else { 1 };
+                let part = if left + right == 1 { &mut im } else { &mut re };
+                part.push(constraint::product(sign * term.factor, l, r));
+            }
+        }
+    }
+    [re, im]
+}
+
+/// The right-hand sides of the real equations for parameters that go from one place to another as t goes from 0
+/// to 1, along a + (b − a) t + c t (1 − t): straight where c is zero, otherwise along a bow.
+pub fn segment(from: &[Parameter], to: &[Parameter], bow: Option<&[Parameter]>) -> Vec<Right> {
+    let none = zero();
+    let mut rights = Vec::with_capacity(2 * from.len());
+    for (k, (a, b)) in from.iter().zip(to).enumerate() {
+        let c = bow.map_or(&none, |bow| &bow[k]);
+        for part in 0..2 {
+            let (a, b, c) = (&a[part], &b[part], &c[part]);
+            let coefficients = [a.clone(), &(b - a) + c, -c];
+            rights.push(Right::polynomial(&coefficients, 1.0));
+        }
+    }
+    rights
+}

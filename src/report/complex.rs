@@ -1,0 +1,276 @@
+//! Complex solutions, as text and for programs.
+
+use super::{JSON_VERSION, certain_digits};
+use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
+use crate::interval::{Interval, point};
+use crate::problem::{Problem, counted};
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// The real and imaginary part of an unknown, in the problem's unit.
+fn parts(lowered: &Lowered, one: &SolutionBox, unknown: usize) -> [Interval; 2] {
+    let system = &lowered.system;
+    // A power of two: exact.
+    let unit = point(system.unit.powi(system.unknowns[unknown].power));
+    [2 * unknown, 2 * unknown + 1].map(|i| one.parts[i] * unit)
+}
+
+/// A coordinate; zero where the gauge fixes it. Of a real solution the imaginary part is zero.
+fn coordinate(
+    lowered: &Lowered,
+    one: &SolutionBox,
+    nature: Nature,
+    unknown: Option<usize>,
+) -> [Interval; 2] {
+    let zero = point(0.0);
+    let Some(unknown) = unknown else {
+        return [zero; 2];
+    };
+    let [re, im] = parts(lowered, one, unknown);
+    match nature {
+        Nature::Real => [re, zero],
+        _ => [re, im],
+    }
+}
+
+/// The unknowns that are no coordinates of points.
+fn others(lowered: &Lowered) -> Vec<usize> {
+    let system = &lowered.system;
+    let is_coordinate = |u: &usize| system.points.iter().flatten().any(|c| *c == Some(*u));
+    (0..system.unknowns.len())
+        .filter(|u| !is_coordinate(u))
+        .collect()
+}
+
+fn name(nature: Nature) -> &'static str {
+    match nature {
+        Nature::Real => "real",
+        Nature::SelfConjugate => "self-conjugate",
+        Nature::Pair(_) => "pair",
+        Nature::Alone => "alone",
+        Nature::Unknown => "unknown",
+    }
+}
+
+/// The name of a status in files.
+fn status(status: &Status) -> &'static str {
+    match status {
+        Status::Complete => "complete",
+        Status::Found => "found",
+        Status::Partial => "partial",
+    }
+}
+
+/// The result for programs.
+pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions) -> String {
+    let d = problem.dimension;
+    let pair = |parts: [Interval; 2]| -> Value {
+        parts.iter().map(|x| json!([x.inf(), x.sup()])).collect()
+    };
+    let others = others(lowered);
+    let solutions = result
+        .boxes
+        .boxes()
+        .iter()
+        .zip(&result.natures)
+        .map(|(one, &nature)| {
+            let points = problem
+                .points
+                .iter()
+                .zip(&lowered.system.points)
+                .map(|(p, unknowns)| {
+                    let place = unknowns[..d].iter();
+                    let place = place.map(|&u| pair(coordinate(lowered, one, nature, u)));
+                    (p.name.clone(), place.collect::<Value>())
+                });
+            let unknowns = others.iter().map(|&u| {
+                let name = lowered.system.unknowns[u].name.clone();
+                (name, pair(coordinate(lowered, one, nature, Some(u))))
+            });
+            json!({
+                "kind": name(nature),
+                "conjugate": match nature {
+                    Nature::Pair(other) => json!(other),
+                    _ => Value::Null,
+                },
+                "points": points.collect::<Map<String, Value>>(),
+                "unknowns": unknowns.collect::<Map<String, Value>>(),
+            })
+        });
+    let counts = result.counts;
+    let value = json!({
+        "version": JSON_VERSION,
+        "problem": problem.name,
+        "status": status(&result.status),
+        "bound": lowered.bound.as_ref().map(|bound| json!({
+            "count": bound.count as f64,
+            "source": bound.source,
+        })),
+        "gauge": lowered.system.gauge,
+        "counts": {
+            "gauge": counts.gauge,
+            "rotation": counts.rotation,
+            "isometry": counts.isometry,
+            "certain": counts.certain,
+        },
+        "real": result.real().collect::<Vec<_>>(),
+        "infinite": result.infinite.len(),
+        "stopped": result.stopped,
+        "repeated": result.repeated,
+        "paths": result.effort.paths,
+        "tubes": result.effort.tubes,
+        "seconds": result.seconds,
+        "solutions": solutions.collect::<Value>(),
+    });
+    value.to_string()
+}
+
+/// The result for people: what was found and what that means, then solutions, the real ones only unless `all`.
+pub fn complex_to_table(
+    problem: &Problem,
+    lowered: &Lowered,
+    result: &Solutions,
+    all: bool,
+) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_table(&mut out, problem, lowered, result, all);
+    out
+}
+
+/// Solutions are listed in full as long as there are no more.
+const MOST: usize = 20;
+
+fn write_table(
+    out: &mut String,
+    problem: &Problem,
+    lowered: &Lowered,
+    result: &Solutions,
+    all: bool,
+) -> std::fmt::Result {
+    writeln!(out, "{}: {}", problem.name, verdict(lowered, result))?;
+    writeln!(
+        out,
+        "Each box holds exactly one solution; no two are congruent. {}",
+        natures(result)
+    )?;
+    if !result.infinite.is_empty() {
+        let paths = counted(result.infinite.len(), "path");
+        writeln!(
+            out,
+            "{paths} went beyond the radius before t = 1, as to a solution at infinity."
+        )?;
+    }
+    if result.repeated > 0 {
+        let paths = counted(result.repeated, "path");
+        writeln!(
+            out,
+            "{paths} came to a solution or a mirror image of one to which another had come: these dimensions have \
+             symmetries that others do not have."
+        )?;
+    }
+    if let Some(reason) = result.stopped.first() {
+        let paths = counted(result.stopped.len(), "path");
+        writeln!(out, "{paths} stopped, the first because {reason}")?;
+    }
+    let d = problem.dimension;
+    let others = others(lowered);
+    let listed: Vec<usize> = (0..result.natures.len())
+        .filter(|&k| all || result.natures[k] == Nature::Real)
+        .collect();
+    let most = if all { usize::MAX } else { MOST };
+    for &k in listed.iter().take(most) {
+        let (one, nature) = (&result.boxes.boxes()[k], result.natures[k]);
+        let what = match nature {
+            Nature::Pair(other) => format!("its conjugate is congruent to solution {}", other + 1),
+            Nature::Real => "real, proved".to_owned(),
+            Nature::SelfConjugate => "congruent to its conjugate, not real".to_owned(),
+            Nature::Alone => "its conjugate was not found".to_owned(),
+            Nature::Unknown => "it could not be told whether it is real".to_owned(),
+        };
+        let width = one.relative_width();
+        writeln!(
+            out,
+            "\nSolution {}, {what}, relative width {width:.1e}",
+            k + 1
+        )?;
+        let show = |out: &mut String, [re, im]: [Interval; 2]| match nature {
+            Nature::Real => write!(out, "  {:>18}", certain_digits(re)),
+            _ => write!(
+                out,
+                "  {:>18} + {:>18} i",
+                certain_digits(re),
+                certain_digits(im)
+            ),
+        };
+        for (p, unknowns) in problem.points.iter().zip(&lowered.system.points) {
+            write!(out, "  {}", p.name)?;
+            for &unknown in &unknowns[..d] {
+                show(out, coordinate(lowered, one, nature, unknown))?;
+            }
+            writeln!(out)?;
+        }
+        for &unknown in &others {
+            write!(out, "  {}", lowered.system.unknowns[unknown].name)?;
+            show(out, coordinate(lowered, one, nature, Some(unknown)))?;
+            writeln!(out)?;
+        }
+    }
+    if listed.len() > most {
+        writeln!(
+            out,
+            "\n{} more: `--all` lists every one, `--json` writes them",
+            listed.len() - most
+        )?;
+    } else if !all && listed.len() < result.natures.len() {
+        writeln!(out, "\nReal ones are listed; `--all` lists the others too.")?;
+    }
+    writeln!(out, "\ngauge      {}", lowered.system.gauge)?;
+    let effort = result.effort;
+    writeln!(
+        out,
+        "paths      {}, {} tubes, {} rejected",
+        effort.paths, effort.tubes, effort.rejected
+    )?;
+    writeln!(out, "seconds    {:.4}", result.seconds)
+}
+
+/// How many are real, and so on.
+fn natures(result: &Solutions) -> String {
+    let number = |pick: &dyn Fn(&Nature) -> bool| result.natures.iter().filter(|n| pick(n)).count();
+    let real = number(&|n| *n == Nature::Real);
+    let own = number(&|n| *n == Nature::SelfConjugate);
+    let pairs = number(&|n| matches!(n, Nature::Pair(_)));
+    let rest = result.natures.len() - real - own - pairs;
+    let mut text = format!("Up to isometry {real} are real, {pairs} in pairs of conjugates");
+    if own > 0 {
+        text += &format!(", {own} congruent to their conjugates without being real");
+    }
+    if rest > 0 {
+        text += &format!(", {rest} of which that is not known");
+    }
+    text + "."
+}
+
+/// What was found, in words that claim no more than was proved.
+fn verdict(lowered: &Lowered, result: &Solutions) -> String {
+    let counts = result.counts_in_words();
+    match (&result.status, &lowered.bound) {
+        (Status::Complete, Some(bound)) => format!(
+            "Complete, proved: {counts}. There is no other isolated complex solution: {} is {}.",
+            bound.source, bound.count
+        ),
+        (Status::Complete, None) | (Status::Found, _) => {
+            let bound = match &lowered.bound {
+                Some(bound) => format!("; {} is {} up to rotation", bound.source, bound.count),
+                None => String::new(),
+            };
+            format!("Found, each proved: {counts}. That there are no others is not proved{bound}.")
+        }
+        (Status::Partial, _) => {
+            format!(
+                "Partial: {counts}, each proved; some paths could not be followed, and there may be more."
+            )
+        }
+    }
+}

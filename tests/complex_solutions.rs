@@ -1,0 +1,256 @@
+//! All complex solutions: known counts, agreement with complete real sets, loops, files, sabotage.
+
+use krawl::complete::{self, all};
+use krawl::complex::monodromy::bow;
+use krawl::complex::system::segment;
+use krawl::complex::{
+    Effort, Filling, Follower, Found, Lowered, Nature, PathEnd, Random, SolutionBox, SolutionSet,
+    Solutions, Status, Template, Ways, draw, fill, lower, solve,
+};
+use krawl::problem::Problem;
+
+fn shipped(name: &str) -> (Problem, Lowered) {
+    let problem = Problem::read(format!("problems/{name}.toml")).unwrap();
+    let lowered = lower(&problem).unwrap();
+    (problem, lowered)
+}
+
+/// The shipped template of a problem, proved again.
+fn template(name: &str, lowered: &Lowered) -> Template {
+    let text = std::fs::read_to_string(format!("problems/{name}.krawl-template")).unwrap();
+    Template::read(&text, &lowered.system).unwrap()
+}
+
+fn solved(name: &str) -> (Problem, Lowered, Solutions) {
+    let (problem, lowered) = shipped(name);
+    let template = template(name, &lowered);
+    let solutions = solve(&lowered, &template, &Ways::default());
+    (problem, lowered, solutions)
+}
+
+/// Gauge, rotation, isometry, real ones.
+fn counts(solutions: &Solutions) -> [usize; 4] {
+    let counts = solutions.counts;
+    assert!(counts.certain);
+    [
+        counts.gauge,
+        counts.rotation,
+        counts.isometry,
+        solutions.real().count(),
+    ]
+}
+
+#[test]
+fn known_counts_and_what_is_proved_of_them() {
+    for (name, expected, status) in [
+        ("octahedron", [64, 16, 8, 4], Status::Complete),
+        ("k33", [32, 16, 8, 8], Status::Complete),
+        ("prism", [48, 24, 12, 12], Status::Complete),
+        // The bound of the graph is 128.
+        ("disulfide", [256, 64, 32, 18], Status::Found),
+        (
+            "constraints/3p3l-orthogonal",
+            [960, 240, 120, 4],
+            Status::Found,
+        ),
+    ] {
+        let (_, lowered, solutions) = solved(name);
+        assert_eq!(counts(&solutions), expected, "{name}");
+        assert_eq!(solutions.status, status, "{name}: {:?}", lowered.bound);
+        assert!(solutions.stopped.is_empty() && solutions.infinite.is_empty());
+        // Conjugates come in pairs, each naming the other.
+        for (k, nature) in solutions.natures.iter().enumerate() {
+            match nature {
+                Nature::Pair(other) => assert_eq!(solutions.natures[*other], Nature::Pair(k)),
+                Nature::Real | Nature::SelfConjugate => {}
+                _ => panic!("{name}: {nature:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn the_real_ones_are_the_complete_real_set() {
+    for name in ["octahedron", "k33", "prism", "disulfide"] {
+        let (problem, lowered, solutions) = solved(name);
+        let set = all(&problem, &complete::Options::default()).unwrap();
+        assert_eq!(set.status, complete::Status::Complete);
+        let d = problem.dimension;
+        // Squared distances of all pairs of points, in enclosures: the same for congruent figures.
+        let pairs = |points: &[[krawl::interval::Interval; 3]]| {
+            let mut out = Vec::new();
+            for a in 0..points.len() {
+                for b in 0..a {
+                    let terms = (0..d).map(|k| (points[a][k] - points[b][k]).sqr());
+                    out.push(terms.fold(krawl::interval::point(0.0), |sum, x| sum + x));
+                }
+            }
+            out
+        };
+        let unit = krawl::interval::point(lowered.system.unit);
+        let mut met = vec![0; set.solutions.len()];
+        for k in solutions.real() {
+            let one = &solutions.boxes.boxes()[k];
+            let points: Vec<[krawl::interval::Interval; 3]> = lowered
+                .system
+                .points
+                .iter()
+                .map(|p| {
+                    p.map(|u| u.map_or(krawl::interval::point(0.0), |u| one.parts[2 * u] * unit))
+                })
+                .collect();
+            let mine = pairs(&points);
+            for (other, met) in set.solutions.iter().zip(&mut met) {
+                let theirs = pairs(&other.points);
+                *met += usize::from(mine.iter().zip(&theirs).all(|(a, b)| !a.disjoint(*b)));
+            }
+        }
+        assert!(met.iter().all(|&n| n == 1), "{name}: {met:?}");
+        assert_eq!(solutions.real().count(), met.len(), "{name}");
+    }
+}
+
+#[test]
+fn a_template_is_filled_from_one_random_figure() {
+    for (name, count) in [("octahedron", 8), ("k33", 8), ("prism", 12)] {
+        let (_, lowered) = shipped(name);
+        assert_eq!(lowered.enough(), Some(count));
+        for seed in [5, 6] {
+            let filling = Filling {
+                seed,
+                enough: lowered.enough(),
+                patience: 20,
+                ..Filling::default()
+            };
+            let fibre = fill(&lowered.system, &filling).unwrap();
+            assert_eq!(
+                fibre.solutions.len(),
+                count,
+                "{name} {seed}: {:?}",
+                fibre.failed
+            );
+        }
+    }
+}
+
+/// Where each solution of a template goes along a bow from its parameters to those of another random figure, and the
+/// boxes there.
+fn along(
+    lowered: &Lowered,
+    template: &Template,
+    other: &[krawl::complex::Parameter],
+    random: &mut Random,
+) -> Vec<(SolutionBox, SolutionBox)> {
+    let system = &lowered.system;
+    let bow = bow(system, random);
+    let there = segment(&template.parameters, other, Some(&bow));
+    let back = segment(other, &template.parameters, Some(&bow));
+    let ways = Ways::default();
+    let mut effort = Effort::default();
+    let mut out = Follower::new(system.homotopy(), &there, &ways);
+    let mut home = Follower::new(system.homotopy(), &back, &ways);
+    let mut pairs = Vec::new();
+    for one in template.solutions.boxes() {
+        let PathEnd::Reached(far) = out.follow(one, &ways, &mut effort) else {
+            continue;
+        };
+        if let PathEnd::Reached(again) = home.follow(&far, &ways, &mut effort) {
+            pairs.push((far, again));
+        }
+    }
+    pairs
+}
+
+#[test]
+fn there_and_back_is_the_identity_and_loops_are_permutations() {
+    for (name, count) in [("octahedron", 8), ("prism", 12)] {
+        let (_, lowered) = shipped(name);
+        let template = template(name, &lowered);
+        let system = &lowered.system;
+        let mut random = Random::new(11);
+        let other = draw(system, &mut random).unwrap();
+        let pairs = along(&lowered, &template, &other.parameters, &mut random);
+        assert_eq!(pairs.len(), count, "{name}");
+        let mut far = SolutionSet::default();
+        for (k, (there, again)) in pairs.iter().enumerate() {
+            // Home again, in the same box.
+            let only_itself = &system.group[..1];
+            assert_eq!(
+                template.solutions.find(again, only_itself, false),
+                Found::Old(k)
+            );
+            // No two came to the same place.
+            assert_eq!(
+                far.find(there, &system.group, false),
+                Found::New,
+                "{name} {k}"
+            );
+            far.push(there.clone());
+        }
+        // Another way back makes a permutation.
+        let bow = bow(system, &mut random);
+        let rights = segment(&other.parameters, &template.parameters, Some(&bow));
+        let mut home = Follower::new(system.homotopy(), &rights, &Ways::default());
+        let mut hit = vec![false; count];
+        for (there, _) in &pairs {
+            let mut effort = Effort::default();
+            let PathEnd::Reached(end) = home.follow(there, &Ways::default(), &mut effort) else {
+                panic!("{name}: a path stopped");
+            };
+            let Found::Old(k) = template.solutions.find(&end, &system.group, false) else {
+                panic!("{name}: a full fibre has no other solution");
+            };
+            assert!(
+                !std::mem::replace(&mut hit[k], true),
+                "{name}: two came to {k}"
+            );
+        }
+    }
+}
+
+#[test]
+fn damaged_templates_are_refused() {
+    let (_, lowered) = shipped("octahedron");
+    let text = std::fs::read_to_string("problems/octahedron.krawl-template").unwrap();
+    let whole: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let read = |value: &serde_json::Value| Template::read(&value.to_string(), &lowered.system);
+    assert_eq!(read(&whole).unwrap().solutions.len(), 8);
+
+    let mut twice = whole.clone();
+    twice["solutions"][3] = whole["solutions"][5].clone();
+    let error = read(&twice).unwrap_err().to_string();
+    assert!(
+        error.contains("solution 6") && error.contains("again"),
+        "{error}"
+    );
+
+    let mut moved = whole.clone();
+    for part in moved["solutions"][2].as_array_mut().unwrap() {
+        *part = serde_json::json!(part.as_f64().unwrap() + 50.0);
+    }
+    assert!(read(&moved).is_err());
+
+    let mut short = whole.clone();
+    short["solutions"][0].as_array_mut().unwrap().pop();
+    assert!(read(&short).is_err());
+    let mut bad = whole.clone();
+    bad["parameters"][0][0] = serde_json::json!("1/0");
+    assert!(read(&bad).unwrap_err().to_string().contains("1/0"));
+
+    // Of another graph.
+    let (_, other) = shipped("prism");
+    let error = Template::read(&text, &other.system)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("octahedron"), "{error}");
+
+    // A path that is dropped is missed: nothing is called complete.
+    let mut dropped = whole.clone();
+    dropped["solutions"].as_array_mut().unwrap().pop();
+    let template = read(&dropped).unwrap();
+    let solutions = solve(&lowered, &template, &Ways::default());
+    assert_eq!(
+        (solutions.boxes.len(), solutions.status),
+        (7, Status::Found)
+    );
+}
