@@ -69,10 +69,12 @@
 //!
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
 //! - [`generate`]: large problems made to measure
+//! - [`import`]: sketches of SolveSpace and FreeCAD, in and out
 //! - [`constraint`]: what each kind of constraint means, and its equations
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0, and where figures lie
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
+//! - [`blocks`]: how the equations of a sketch fall apart
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`complex`]: all complex solutions, every path proved
@@ -98,6 +100,7 @@ macro_rules! debug_in_words {
 }
 pub(crate) use debug_in_words;
 
+pub mod blocks;
 pub mod certificate;
 pub mod compare;
 pub mod complete;
@@ -105,6 +108,7 @@ pub mod complex;
 pub mod constraint;
 pub mod edit;
 pub mod generate;
+pub mod import;
 pub mod interval;
 #[doc(hidden)]
 pub mod linalg;

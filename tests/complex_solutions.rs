@@ -4,8 +4,8 @@ use krawl::complete::{self, all};
 use krawl::complex::monodromy::bow;
 use krawl::complex::system::segment;
 use krawl::complex::{
-    Effort, Filling, Follower, Found, Lowered, Nature, PathEnd, Random, SolutionBox, SolutionSet,
-    Solutions, Status, Template, Ways, draw, fill, lower, solve,
+    Effort, Export, Filling, Follower, Found, Lowered, Nature, PathEnd, Random, SolutionBox,
+    SolutionSet, Solutions, Status, Template, Ways, draw, export, fill, lower, solve,
 };
 use krawl::problem::Problem;
 
@@ -252,5 +252,64 @@ fn damaged_templates_are_refused() {
     assert_eq!(
         (solutions.boxes.len(), solutions.status),
         (7, Status::Found)
+    );
+}
+
+#[test]
+fn exported_systems_are_what_other_programs_read() {
+    let (problem, _) = shipped("octahedron");
+    let system = krawl::complex::lower_in_squares(&problem).unwrap().system;
+    let phc = export(&system, Export::PhcPack, 1.0).unwrap();
+    let mut lines = phc.lines();
+    assert_eq!(lines.next(), Some("12"));
+    assert_eq!(lines.filter(|line| line.ends_with(';')).count(), 12);
+    let msolve = export(&system, Export::Msolve, 1.0).unwrap();
+    let first = "x2, x3, y3, x4, y4, z4, x5, y5, z5, x6, y6, z6";
+    assert!(msolve.starts_with(&format!("{first}\n0\n")), "{msolve}");
+    // The first distance, 1.12, is that of p1 and p2.
+    assert!(msolve.contains("-784/625+x2^2,"), "{msolve}");
+    for (way, sign) in [
+        (Export::Macaulay2, "QQ[x2, "),
+        (Export::HomotopyContinuation, "@var x2 "),
+        (Export::Ibex, "x2 in ["),
+        (Export::RealPaver, "x2 in ["),
+    ] {
+        assert!(export(&system, way, 20.0).unwrap().contains(sign));
+    }
+    // A cosine that is no ratio.
+    let (problem, _) = shipped("constraints/3p3l");
+    let system = krawl::complex::lower_in_squares(&problem).unwrap().system;
+    assert!(
+        export(&system, Export::Msolve, 1.0)
+            .unwrap_err()
+            .contains("ratio")
+    );
+    assert!(export(&system, Export::PhcPack, 1.0).is_ok());
+}
+
+/// All complex solutions of the true icosahedron: 27136 up to isometry, by the bound. Hours on a few cores:
+///
+/// ```sh
+/// cargo test --release --test complex_solutions -- --ignored icosahedron
+/// ```
+#[test]
+#[ignore = "hours"]
+fn the_true_icosahedron() {
+    let (_, lowered) = shipped("complex/icosahedron-graph");
+    assert_eq!(lowered.enough(), Some(27_136));
+    let filling = Filling {
+        enough: lowered.enough(),
+        patience: 30,
+        ..Filling::default()
+    };
+    let fibre = fill(&lowered.system, &filling).unwrap();
+    assert_eq!(fibre.solutions.len(), 27_136);
+    let template = Template::new("icosahedron-graph", fibre);
+    let solutions = solve(&lowered, &template, &Ways::default());
+    assert_eq!(solutions.status, Status::Complete);
+    eprintln!(
+        "{}, {} real",
+        solutions.counts_in_words(),
+        solutions.real().count()
     );
 }

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod complex;
 mod edit;
+mod export;
 mod generate;
 mod input;
 mod interrupt;
@@ -77,6 +78,7 @@ enum Verb {
     Compare(compare::Arguments),
     Complex(complex::Arguments),
     Edit(edit::Arguments),
+    Export(export::Arguments),
     Generate(generate::Arguments),
     Limits(limits::Arguments),
     Show(show::Arguments),
@@ -100,6 +102,7 @@ pub fn run() -> ExitCode {
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Complex(arguments) => complex::run(&arguments),
         Verb::Edit(arguments) => edit::run(&arguments),
+        Verb::Export(arguments) => export::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Limits(arguments) => limits::run(&arguments),
         Verb::Show(arguments) => show::run(&arguments),

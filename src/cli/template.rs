@@ -43,6 +43,9 @@ pub struct Search {
     /// Stop after so many ways in a row that find nothing new
     #[arg(long, value_name = "N", default_value_t = 10)]
     patience: usize,
+    /// Stop when there are so many, up to signs of axes: a number that you know from elsewhere, nothing is proved by it
+    #[arg(long, value_name = "N")]
+    enough: Option<usize>,
     /// Stop looking after so many seconds
     #[arg(long, value_name = "S", value_parser = super::all::seconds)]
     pub time: Option<f64>,
@@ -72,7 +75,7 @@ impl Search {
         let plain = Filling::default();
         let filling = Filling {
             seed: self.seed,
-            enough: lowered.enough(),
+            enough: self.enough.or(lowered.enough()),
             patience: self.patience,
             progress: Some(&tell),
             ways: Ways {

@@ -50,6 +50,16 @@ const MOST: usize = 400;
 
 /// Makes the complex system of a checked problem.
 pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
+    lower_with(problem, true)
+}
+
+/// The same with an equation for the square of every distance, those of the reference too: then all coefficients of
+/// a problem of distances are ratios.
+pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
+    lower_with(problem, false)
+}
+
+fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     if problem.is_absolute() {
         return Err(Unserved::Other(
             "the problem is in a frame of its own (fixed places, coordinates or directions): complex solutions are \
@@ -62,7 +72,7 @@ pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
             system,
             bound: None,
         },
-        None => general(problem)?,
+        None => general(problem, placed)?,
     };
     let unknowns = 2 * lowered.system.unknowns.len();
     if unknowns > MOST {
@@ -74,7 +84,7 @@ pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
 }
 
 /// From the equations that real paths follow.
-fn general(problem: &Problem) -> Result<Lowered, Unserved> {
+fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     let mut problem = problem.clone();
     let mut bound = None;
     if problem.is_distances_only() {
@@ -144,6 +154,7 @@ fn general(problem: &Problem) -> Result<Lowered, Unserved> {
     if let Some(bound) = bound
         .as_ref()
         .filter(|bound| bound.fixed == problem.homotopy.reference)
+        && placed
         && let Some(unknowns) = place(&problem, &homotopy, &bound.fixed, &mut equations)
     {
         start = Start::Placed(unknowns, if d == 2 { 1 } else { 3 });

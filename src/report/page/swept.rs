@@ -11,7 +11,7 @@ impl Page {
     /// the one before.
     pub fn of_sweep(problem: &Problem, index: usize, sweep: &Sweep) -> Page {
         let mut page = Page::of_sketch(problem);
-        let name = problem.distance_name(index);
+        let name = problem.dimension_name(index);
         page.figures[0].name = "In the file".into();
         page.figures[0].note = "the figure that the sweep sets out from".into();
         let end = match &sweep.approach.ending {
@@ -27,8 +27,8 @@ impl Page {
             .trim_start_matches(&format!("{}: ", problem.name))
             .to_owned();
         // The dimension that is driven has no one length.
-        let ends = problem.distances[index].points;
-        for bar in page.bars.iter_mut().filter(|bar| bar.ends == ends) {
+        let ends = problem.distances.get(index).map(|distance| distance.points);
+        for bar in page.bars.iter_mut().filter(|bar| Some(bar.ends) == ends) {
             bar.target = None;
             bar.label = name.clone();
         }

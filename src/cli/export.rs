@@ -1,0 +1,88 @@
+//! `krawl export`: the polynomial system of a problem, for other programs.
+
+use super::CLOSED;
+use super::output::{self, Destination};
+use krawl::complex::{Export, export, lower_in_squares};
+use krawl::problem::{Problem, Target};
+use std::path::PathBuf;
+
+/// Write the polynomial system of a problem for another program
+///
+/// The gauge is krawl's: one reference point at the origin, one on the x axis, one in the xy plane. x4 is the first
+/// coordinate of the fourth point; what is zero in the gauge is left out. Numbers are exact where they are ratios.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl export problems/octahedron.toml --to phcpack --out octahedron.phc && phc -b octahedron.phc out
+  krawl export problems/octahedron.toml --to msolve --out octahedron.ms && msolve -f octahedron.ms
+
+Exit codes: 0 written, 2 bad input.")]
+pub struct Arguments {
+    /// The problem file (TOML)
+    file: PathBuf,
+    /// The program that is to read it
+    #[arg(long, value_enum)]
+    to: Program,
+    /// Where it goes [default: standard output]
+    #[arg(
+        long,
+        value_name = "FILE",
+        default_value = "-",
+        hide_default_value = true
+    )]
+    out: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Program {
+    /// PHCpack
+    Phcpack,
+    /// Macaulay2
+    Macaulay2,
+    /// msolve
+    Msolve,
+    /// HomotopyContinuation.jl
+    Hc,
+    /// ibexsolve
+    Ibex,
+    /// RealPaver
+    Realpaver,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let file = arguments.file.display();
+    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    if output::is_same_file(&arguments.out, &arguments.file) {
+        return Err(format!("{file}: is the problem itself; name another file"));
+    }
+    let to = match arguments.to {
+        Program::Phcpack => Export::PhcPack,
+        Program::Macaulay2 => Export::Macaulay2,
+        Program::Msolve => Export::Msolve,
+        Program::Hc => Export::HomotopyContinuation,
+        Program::Ibex => Export::Ibex,
+        Program::Realpaver => Export::RealPaver,
+    };
+    if matches!(to, Export::Ibex | Export::RealPaver) && !problem.is_distances_only() {
+        return Err(format!(
+            "{file}: a box that holds all solutions is known for distances only, and this program needs one"
+        ));
+    }
+    let lowered = lower_in_squares(&problem).map_err(|error| format!("{file}: {error}"))?;
+    // Points that bars join are no further apart than all bars together.
+    let lengths = problem.distances.iter().map(|d| match &d.target {
+        Target::Length(length) => length.to_f64(),
+        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+    });
+    let reach = (1.0 + lengths.sum::<f64>()).ceil();
+    let text = export(&lowered.system, to, reach).map_err(|error| format!("{file}: {error}"))?;
+    match Destination::new(&arguments.out)?.write(&text) {
+        true => Ok(CLOSED),
+        false => Ok(super::BAD_INPUT),
+    }
+}
