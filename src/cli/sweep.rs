@@ -2,9 +2,11 @@
 
 use super::edit::{beside, exit_code, open};
 use super::output::{self, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
 use krawl::edit::{Ending, Setting};
 use krawl::problem::Decimal;
+use krawl::report::page::Page;
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_json};
 use krawl::track::Control;
 use std::path::PathBuf;
@@ -17,6 +19,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --frames 100 --csv leg.csv
+  krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --html leg.html
 
 Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are written;
 2 bad input, or results that could not be written.")]
@@ -44,6 +47,8 @@ pub struct Arguments {
     /// Write the frames as CSV: the value, then the coordinates of all points; `-` likewise
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print no summary
     #[arg(long)]
     quiet: bool,
@@ -68,6 +73,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let ((index, from), (_, to)) = (from?, to?);
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places()?;
     let mut control = Control {
         cancel: Some(interrupt::flag()),
         ..Control::default()
@@ -78,15 +84,19 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
     let mut written = true;
+    if !pictures.is_empty() {
+        written &= pictures.write(&Page::of_sweep(&problem, index, &sweep));
+    }
     if let Some(json) = &json {
         written &= json.write(&(sweep_to_json(&problem, index, &sweep) + "\n"));
     }
     if let Some(csv) = &csv {
         written &= csv.write(&sweep_to_csv(&problem, index, &sweep));
     }
-    let is_piped = [&json, &csv]
-        .iter()
-        .any(|d| **d == Some(Destination::StandardOutput));
+    let is_piped = pictures.use_standard_output()
+        || [&json, &csv]
+            .iter()
+            .any(|d| **d == Some(Destination::StandardOutput));
     if !arguments.quiet && !is_piped {
         written &= output::print(&(sweep_in_words(&problem, index, &sweep) + "\n"));
     }

@@ -1,16 +1,16 @@
 //! Following the path: predictor, corrector, step control, events.
 
 pub mod arc;
-pub mod certified;
+pub(crate) mod certified;
 mod choice;
 mod congruence;
 mod control;
 mod ends;
 mod events;
-pub mod full;
+pub(crate) mod full;
 mod options;
 mod outcome;
-pub mod reduced;
+pub(crate) mod reduced;
 mod turns;
 mod witness;
 

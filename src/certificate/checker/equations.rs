@@ -27,7 +27,7 @@ pub struct Equations {
 /// No equation has a larger sum of factors, so that its sums of products fit into an `i128`.
 const MAX_FACTORS: i64 = 1 << 12;
 
-pub const ZERO: Interval = inari::const_interval!(0.0, 0.0);
+pub use crate::interval::ZERO;
 
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
