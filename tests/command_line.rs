@@ -449,8 +449,11 @@ fn a_path_without_solutions_comes_with_advice() {
     };
     let (code, out, _) = output_of(&["check", "-"], Some(&text(200)));
     assert_eq!(code, Some(0));
-    let words = "no figure has these lengths: a-b is longer than a-c and c-b together";
+    // Said once.
+    let words = "no figure has these target lengths: a-b is 200, and a-c-b is only 160 long";
     assert!(out.contains(words), "{out}");
+    assert_eq!(out.matches("no figure").count(), 1, "{out}");
+    let words = "no figure has these lengths: a-b is longer than a-c and c-b together";
     let (_, out, _) = output_of(&["solve", "-"], Some(&text(200)));
     assert!(out.contains(words) && !out.contains("Other paths"), "{out}");
     let (_, out, _) = output_of(&["check", "-"], Some(&text(120)));

@@ -1,7 +1,7 @@
 //! Shipped problems with other constraints than distances: what their paths provably hold.
 
 use krawl::problem::Problem;
-use krawl::track::{Control, Options, Outcome, Space, Status, solve};
+use krawl::track::{Control, EndKind, Options, Outcome, PathEnd, Space, Status, solve};
 
 fn shipped(name: &str) -> Problem {
     Problem::read(format!("problems/constraints/{name}.toml")).unwrap()
@@ -67,6 +67,65 @@ fn points_and_lines() {
             assert_eq!(outcome.status, Status::Closed, "{name}");
             assert_eq!(outcome.solutions.len(), 4, "{name}");
         }
+    }
+}
+
+/// The ends of a path that does not close, either way round the same.
+fn ends(problem: &Problem, solutions: usize) -> [PathEnd; 2] {
+    let options = Options::certified();
+    let [one, back] = [options.clone(), options.reversed()].map(|options| {
+        let outcome = run(problem, &options);
+        assert_eq!(outcome.solutions.len(), solutions, "{}", problem.name);
+        match outcome.status {
+            Status::Open(ends) => *ends,
+            status => panic!("{}: {status:?}", problem.name),
+        }
+    });
+    for (end, same) in one.iter().zip(back.iter().rev()) {
+        assert_eq!(end.kind, same.kind);
+        assert!((end.t.0 - same.t.0).abs() < 1e-4);
+    }
+    one
+}
+
+/// The paper's first valuation closes, with four solutions.
+#[test]
+fn angles_and_faces_close() {
+    let problem = shipped("6p7d3a2c-closed");
+    for options in [Options::certified(), Options::float(Space::Full)] {
+        let outcome = run(&problem, &options);
+        assert_eq!(outcome.status, Status::Closed);
+        assert_eq!(outcome.solutions.len(), 4);
+    }
+}
+
+/// The second goes to infinity where the cosine, linear in t, becomes 1.
+#[test]
+fn angles_and_faces_go_to_infinity() {
+    let at = 0.4 / (23f64.to_radians().cos() - 0.6);
+    for end in ends(&shipped("6p7d3a2c-infinite"), 2) {
+        assert_eq!(end.kind, EndKind::Infinite);
+        let away = end.away.expect("a point goes away");
+        assert!(away.point == 3 && away.distance.0 > 100.0);
+        assert!(away.distance.0 <= away.distance.1 && away.distance.1 < 1.001 * away.distance.0);
+        let [x, y, z] = end.points[3];
+        let distance = (x * x + y * y + z * z).sqrt();
+        assert!((distance / away.distance.0 - 1.0).abs() < 0.1);
+        assert!(end.t.0 <= end.t.1 && (end.t.1 - at).abs() < 1e-3, "{end:?}");
+        let legs = "the legs of the angle at p3 between p2 and p0 become parallel";
+        assert!(end.reason.contains(legs), "{}", end.reason);
+    }
+}
+
+/// The third ends where p3 falls on p2: the angle at p0 has then become that of p1, p0, p2.
+#[test]
+fn angles_and_faces_lose_a_leg() {
+    for end in ends(&shipped("6p7d3a2c-undefined"), 0) {
+        assert_eq!(end.kind, EndKind::Undefined);
+        assert!(end.reason.contains("the length of p3-p2"), "{}", end.reason);
+        assert!((end.t.0 - 0.90325).abs() < 1e-4, "{end:?}");
+        let [p2, p3] = [2, 3].map(|p: usize| end.points[p]);
+        assert!((0..3).all(|k| (p2[k] - p3[k]).abs() < 1e-2));
     }
 }
 

@@ -6,7 +6,11 @@ use serde_json::Value;
 use std::fs;
 
 fn schema() -> Validator {
-    let text = fs::read_to_string("docs/schema/result.schema.json").unwrap();
+    schema_of("result")
+}
+
+fn schema_of(kind: &str) -> Validator {
+    let text = fs::read_to_string(format!("docs/schema/{kind}.schema.json")).unwrap();
     let schema: Value = serde_json::from_str(&text).unwrap();
     jsonschema::meta::validate(&schema).expect("the schema itself is in order");
     jsonschema::validator_for(&schema).unwrap()
@@ -69,6 +73,75 @@ fn all_shipped_problems_meet_the_schema() {
             }
         }
     }
+}
+
+/// The JSON that a command line writes, and what its schema has against it.
+fn written(kind: &str, arguments: &[&str]) -> (Value, Vec<String>) {
+    let run = Command::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(arguments)
+        .args(["--json", "-", "--quiet"])
+        .output()
+        .unwrap();
+    let document: Value = serde_json::from_slice(&run.stdout).unwrap();
+    let complaints = complain(&schema_of(kind), &document);
+    (document, complaints)
+}
+
+#[test]
+fn results_of_other_verbs_meet_their_schemas() {
+    let plate = "docs/examples/plate.toml";
+    let bar = "problems/mechanisms/four-bar.toml";
+    for (kind, status, arguments) in [
+        ("edit", "reached", &["edit", plate, "--set", "C-D=40"][..]),
+        ("edit", "limit", &["edit", plate, "--set", "C-D=200"]),
+        (
+            "sweep",
+            "reached",
+            &[
+                "sweep", bar, "--vary", "B-D", "--from", "5", "--to", "5.5", "--frames", "4",
+            ],
+        ),
+        (
+            "sweep",
+            "limit",
+            &[
+                "sweep", bar, "--vary", "B-D", "--from", "5", "--to", "50", "--frames", "4",
+            ],
+        ),
+        ("complete", "complete", &["all", "problems/prism.toml"]),
+        (
+            "complete",
+            "partial",
+            &["all", "problems/icosahedron.toml", "--time", "0.2"],
+        ),
+    ] {
+        let (document, complaints) = written(kind, arguments);
+        assert_eq!(complaints, [""; 0], "{arguments:?}");
+        assert_eq!(document["status"], status, "{arguments:?}");
+    }
+    let (limits, complaints) = written("limits", &["limits", bar]);
+    assert_eq!(complaints, [""; 0]);
+    assert!(limits["ranges"].as_object().unwrap().len() > 3);
+}
+
+#[test]
+fn the_schemas_of_other_verbs_refuse_others() {
+    let (edit, _) = written(
+        "edit",
+        &["edit", "docs/examples/plate.toml", "--set", "C-D=40"],
+    );
+    let (mut all, _) = written("complete", &["all", "problems/octahedron.toml"]);
+    for key in ["version", "status", "points", "kept", "t"] {
+        let mut without = edit.clone();
+        without.as_object_mut().unwrap().remove(key);
+        assert!(!schema_of("edit").is_valid(&without), "{key}");
+    }
+    for kind in ["complete", "sweep", "limits"] {
+        assert!(!schema_of(kind).is_valid(&edit), "{kind}");
+    }
+    // A complete result has no undecided parts.
+    all["undecided"] = serde_json::json!([{"reason": "?", "parts": 1, "share": 0.5}]);
+    assert!(!schema_of("complete").is_valid(&all));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
-use krawl::track::{Control, EndKind, Options, Outcome, Status, solve};
+use krawl::track::{Control, EndKind, Options, Outcome, Space, Status, solve};
 
 fn parse(text: &str) -> Problem {
     Problem::parse(text, "test.toml").unwrap()
@@ -64,6 +64,87 @@ fn a_path_whose_angle_loses_its_leg_is_open_both_ways() {
         let (sin, cos) = 95f64.to_radians().sin_cos();
         let d = solution.points[3];
         assert!((d[0].mid() - 2.9 * cos).abs() < 1e-12 && (d[1].mid() - 2.9 * sin).abs() < 1e-12);
+    }
+}
+
+/// b is on the line a-e and sees a and c under a right angle: at the foot of c, but where b falls on a the equation
+/// holds as well, and there is no angle. The path goes through both. The second was once called a solution.
+const FOOT: &str = r#"
+dimension = 2
+[points]
+a = [0, 0]
+e = [4, 0]
+c = [2, 2.5]
+b = [1.1, 0]
+[lines]
+l = ["a", "e"]
+[constraints]
+distances = [["a", "e", 4.2], ["a", "c", 3.3], ["c", "e", 3.1]]
+angles = [["a", "b", "c", 90]]
+on = [["b", "l"]]
+[homotopy]
+bend = ["a", "e"]
+bend_coefficient = 2
+"#;
+
+#[test]
+fn where_a_leg_vanishes_there_is_no_right_angle() {
+    let by_name = FOOT.replace(
+        r#"angles = [["a", "b", "c", 90]]"#,
+        r#"perpendicular = [["a", "b", "b", "c"]]"#,
+    );
+    for text in [FOOT.to_owned(), by_name] {
+        let problem = parse(&text);
+        for options in [Options::certified(), Options::certified().reversed()] {
+            let outcome = run(&problem, &options);
+            let Status::Open(ends) = &outcome.status else {
+                panic!("{:?}", outcome.status);
+            };
+            for end in ends.iter() {
+                assert_eq!(end.kind, EndKind::Undefined, "{}", end.reason);
+                assert!((end.t.0 - 1.0).abs() < 1e-6);
+            }
+            assert_eq!(outcome.solutions.len(), 2);
+            for solution in &outcome.solutions {
+                let [a, b, c] = ["a", "b", "c"].map(|p| *solution.point(&problem, p).unwrap());
+                assert!((0..2).any(|k| (a[k] - b[k]).mig() > 0.1));
+                let product = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]);
+                assert!(product.contains(0.0));
+            }
+        }
+        // Floats observe no such figure either.
+        let observed = run(&problem, &Options::float(Space::Full));
+        assert!(observed.solutions.len() <= 2);
+    }
+}
+
+/// A line of its own is the same line with its direction reversed: solutions that differ in nothing else are congruent.
+#[test]
+fn a_reversed_line_is_the_same_line() {
+    let problem = parse(
+        r#"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [4, 0]
+        c = [2, 2.5]
+        [lines]
+        l = { point = [1, 1], direction = [1, 0.2] }
+        [constraints]
+        distances = [["a", "b", 4.2], ["b", "c", 3.3], ["a", "c", 3.1]]
+        on = [["a", "l"], ["c", "l"]]
+        [homotopy]
+        bend = ["a", "b"]
+        bend_coefficient = 2
+        "#,
+    );
+    for options in [Options::certified(), Options::float(Space::Full)] {
+        let outcome = run(&problem, &options);
+        // One triangle and its mirror image.
+        for solution in &outcome.solutions {
+            assert_eq!(solution.class, 0, "{:?}", outcome.solutions);
+        }
+        assert!(!outcome.solutions.is_empty());
     }
 }
 

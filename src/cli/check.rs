@@ -282,7 +282,10 @@ fn describe(problem: &Problem) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {label:<20}{value}");
     }
-    if let Some(message) = problem.impossible_triangle() {
+    // With distances only a warning says it.
+    if !problem.is_distances_only()
+        && let Some(message) = problem.impossible_triangle()
+    {
         let _ = writeln!(text, "  {:<20}{message}", "but");
     }
     text

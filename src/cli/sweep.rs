@@ -2,10 +2,12 @@
 
 use super::edit::{beside, commit, exit_code, open};
 use super::output::{self, Beside, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
 use krawl::certificate::Writer;
 use krawl::edit::{Ending, Setting};
 use krawl::problem::Decimal;
+use krawl::report::page::Page;
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_json};
 use krawl::track::{Control, Witness};
 use std::io::BufWriter;
@@ -19,6 +21,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --frames 100 --csv leg.csv
+  krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --html leg.html
 
 Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are written;
 2 bad input, or results that could not be written.")]
@@ -53,6 +56,8 @@ pub struct Arguments {
     /// Do not check the certificate that was written
     #[arg(long, requires = "cert")]
     no_verify: bool,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print no summary
     #[arg(long)]
     quiet: bool,
@@ -77,6 +82,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let ((index, from), (_, to)) = (from?, to?);
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places()?;
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
@@ -96,15 +102,19 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         arguments.cert.as_deref().filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
+    if !pictures.is_empty() {
+        written &= pictures.write(&Page::of_sweep(&problem, index, &sweep));
+    }
     if let Some(json) = &json {
         written &= json.write(&(sweep_to_json(&problem, index, &sweep) + "\n"));
     }
     if let Some(csv) = &csv {
         written &= csv.write(&sweep_to_csv(&problem, index, &sweep));
     }
-    let is_piped = [&json, &csv]
-        .iter()
-        .any(|d| **d == Some(Destination::StandardOutput));
+    let is_piped = pictures.use_standard_output()
+        || [&json, &csv]
+            .iter()
+            .any(|d| **d == Some(Destination::StandardOutput));
     if !arguments.quiet && !is_piped {
         written &= output::print(&(sweep_in_words(&problem, index, &sweep) + "\n"));
     }

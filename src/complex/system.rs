@@ -156,6 +156,7 @@ impl System {
             unknowns: unknowns.collect(),
             equations,
             mirrors: false,
+            ..Tail::default()
         }
     }
 

@@ -4,11 +4,11 @@
 use super::frame::{Frame, Vector, cross, dot, length, minus, vector};
 use super::polynomial::{Polynomial, multiply, ramp};
 use super::quadratic::{
-    Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, coordinate, difference,
-    product, value,
+    Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
+    difference, product, value,
 };
 use crate::interval::Real;
-use crate::problem::{Problem, Target};
+use crate::problem::{Problem, Shape, Target};
 use num_rational::BigRational;
 use num_traits::Zero;
 use std::collections::HashMap;
@@ -172,6 +172,7 @@ impl<'a> Lowering<'a> {
 
     /// The result.
     pub fn finish(mut self) -> Lowered {
+        self.tail.twins = super::twins::twins(&self.tail, &self.vanishing, &self.same_sign());
         self.tail.mirrors = !self.problem.is_absolute()
             && (0..self.problem.dimension).all(|axis| self.is_symmetric(axis));
         Lowered {
@@ -184,6 +185,25 @@ impl<'a> Lowering<'a> {
                 .map(|object| self.objects.remove(&object).unwrap_or_default())
                 .collect(),
         }
+    }
+
+    /// Unknowns of lines and planes of their own that must change their signs together, if the object is to be the
+    /// same with them: the direction; the normal and the level; and by itself, as it must not change, the
+    /// base (with `Entry::Zero`).
+    fn same_sign(&self) -> Vec<[Entry; 2]> {
+        let mut pairs = Vec::new();
+        for (&object, entries) in &self.objects {
+            match &self.problem.objects[object].shape {
+                Shape::FreeLine { .. } => {
+                    let (base, along) = entries.split_at(self.dimension());
+                    pairs.extend(base.iter().map(|&e| [e, Entry::Zero]));
+                    pairs.extend(along.iter().map(|&e| [e, along[0]]));
+                }
+                Shape::FreePlane { .. } => pairs.extend(entries.iter().map(|&e| [e, entries[0]])),
+                _ => {}
+            }
+        }
+        pairs
     }
 
     /// Whether what satisfies the equations at t = 1 still does with an axis reversed: every equation
@@ -493,6 +513,18 @@ impl<'a> Lowering<'a> {
         };
         self.lengths.insert(of.forms, entry);
         entry
+    }
+
+    /// Says that a vector must not vanish along the path. Where its length is known, that is proved positive anyway.
+    pub fn nonzero(&mut self, of: &Arrow) {
+        let mut others = self.tail.nonzero.iter();
+        if of.known.is_some() || others.any(|other| other.forms == of.forms) {
+            return;
+        }
+        self.tail.nonzero.push(Nonzero {
+            name: of.name.clone(),
+            forms: of.forms,
+        });
     }
 
     /// The cross product of two vectors in space, as unknowns. Where the vectors are parallel in the

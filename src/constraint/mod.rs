@@ -36,12 +36,13 @@ mod structure;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod twins;
 
 pub use kind::{Fixes, Kind, Measure};
 pub use kinds::KINDS;
 pub use quadratic::{
-    Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, coordinate, difference,
-    product, value,
+    Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
+    difference, product, value,
 };
 pub(crate) use structure::check_structure;
 pub use structure::size;

@@ -89,6 +89,16 @@ pub struct Unknown {
     pub sketch: Interval,
 }
 
+/// A vector that must not vanish along the path, as an equation that holds trivially where it does would say
+/// nothing there: the leg of a right angle, the normal of a plane that a point is on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nonzero {
+    /// What people call it, as in "a-b".
+    pub name: String,
+    /// Its coordinates.
+    pub forms: [Form; 3],
+}
+
 /// All unknowns and equations beyond coordinates of points and distances. There are as many unknowns
 /// and equations in all as the problem has free coordinates and distances, and these.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,6 +107,12 @@ pub struct Tail {
     pub unknowns: Vec<Unknown>,
     /// The equations.
     pub equations: Vec<Equation>,
+    /// The vectors that must not vanish.
+    pub nonzero: Vec<Nonzero>,
+    /// Changes of sign of auxiliary unknowns that leave the figure as it is, and the equations at t = 1 true: a line
+    /// is the same line with its direction reversed. Per change the unknowns concerned; all sums of changes
+    /// are such changes too.
+    pub twins: Vec<Vec<bool>>,
     /// Whether the mirror image of a solution is a solution too. It is not where a constraint says
     /// which way round a figure is.
     pub mirrors: bool,
@@ -107,6 +123,8 @@ impl Default for Tail {
         Tail {
             unknowns: Vec::new(),
             equations: Vec::new(),
+            nonzero: Vec::new(),
+            twins: Vec::new(),
             mirrors: true,
         }
     }

@@ -17,6 +17,11 @@ pub(super) fn default_coefficient(distances: &[Distance]) -> Decimal {
         return Decimal::from(0);
     }
     let text = format!("{:.5e}", PART * mean);
+    // As people write it, where that is not long: the digits stay the same.
+    let text = match text.parse::<f64>() {
+        Ok(c) if (1e-4..1e6).contains(&c) => c.to_string(),
+        _ => text,
+    };
     text.parse().unwrap_or_else(|_| Decimal::from(0))
 }
 

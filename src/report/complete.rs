@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// One JSON object on one line:
 ///
 /// ```json
-/// {"problem": "octahedron", "status": "complete" | "partial" | "flexible", "reason": null,
+/// {"version": 1, "problem": "octahedron", "status": "complete" | "partial" | "flexible", "reason": null,
 ///  "reference": ["p1", "p2", "p3"],
 ///  "solutions": [{"points": {"p1": [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]}, "class": 0, "width": 1e-14}],
 ///  "undecided": [{"reason": "...", "parts": 1, "share": 1e-9}],
@@ -28,6 +28,7 @@ pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
             .collect()
     };
     let document = Document {
+        version: super::JSON_VERSION,
         problem: &problem.name,
         status: result.status.name(),
         reason: result.reason.as_deref(),
@@ -60,6 +61,7 @@ pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
 
 #[derive(serde::Serialize)]
 struct Document<'a> {
+    version: u32,
     problem: &'a str,
     status: &'static str,
     reason: Option<&'a str>,

@@ -1,5 +1,6 @@
 //! Edits in words and tables, for people, and as JSON, for programs.
 
+use super::JSON_VERSION;
 use super::certain_digits;
 use crate::edit::{Decomposition, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
@@ -290,6 +291,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         .map(|lost| json!({"points": names(&lost.points), "t": [lost.t.0, lost.t.1]}));
     let flat = orientations.flat.iter().map(|points| names(points));
     json!({
+        "version": JSON_VERSION,
         "problem": problem.name,
         "status": edited.ending.name(),
         "words": edit_in_words(problem, edited),

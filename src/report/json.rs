@@ -197,7 +197,7 @@ impl<'a> Document<'a> {
             status,
             reason,
             verdict: verdict(problem, outcome),
-            ends: ends(&outcome.status),
+            ends: ends(problem, &outcome.status),
             solutions: outcome
                 .solutions
                 .iter()
@@ -245,9 +245,18 @@ struct End<'a> {
     t: [f64; 2],
     kind: &'static str,
     reason: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    away: Option<WrittenAway<'a>>,
 }
 
-fn ends(status: &Status) -> Option<Vec<End<'_>>> {
+/// A point that goes to infinity.
+#[derive(Serialize)]
+struct WrittenAway<'a> {
+    point: &'a str,
+    distance: [f64; 2],
+}
+
+fn ends<'a>(problem: &'a Problem, status: &'a Status) -> Option<Vec<End<'a>>> {
     let Status::Open(ends) = status else {
         return None;
     };
@@ -255,6 +264,10 @@ fn ends(status: &Status) -> Option<Vec<End<'_>>> {
         t: [end.t.0, end.t.1],
         kind: end.kind.name(),
         reason: &end.reason,
+        away: end.away.map(|away| WrittenAway {
+            point: &problem.points[away.point].name,
+            distance: [away.distance.0, away.distance.1],
+        }),
     });
     Some(all.collect())
 }

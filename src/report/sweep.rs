@@ -1,5 +1,6 @@
 //! Ranges and sweeps, for people and for programs.
 
+use super::JSON_VERSION;
 use super::certain_digits;
 use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
@@ -111,7 +112,7 @@ pub fn ranges_to_json(problem: &Problem, ranges: &[Range], moved: Moved) -> Stri
         (problem.dimension_name(range.index), value)
     });
     let ranges: Map<String, Value> = ranges.collect();
-    json!({"problem": problem.name, "moved": moved.distance, "ranges": ranges}).to_string()
+    json!({"version": JSON_VERSION, "problem": problem.name, "moved": moved.distance, "ranges": ranges}).to_string()
 }
 
 fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
@@ -152,6 +153,7 @@ pub fn sweep_to_json(problem: &Problem, index: usize, sweep: &Sweep) -> String {
     });
     let end = obstacle(sweep);
     json!({
+        "version": JSON_VERSION,
         "problem": problem.name,
         "dimension": problem.dimension_name(index),
         "status": end.map_or("reached", |edited| edited.ending.name()),

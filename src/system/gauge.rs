@@ -3,6 +3,7 @@
 use crate::interval::vector::{cross, dot, minus, unit};
 use crate::interval::{Interval, enclose, point};
 use crate::problem::{Problem, free_coordinates};
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 /// The coordinates that rigid motions leave: the first reference point at the origin, the second
 /// on the x axis, the third (in space) in the xy plane (RR 8705, sections 2.1 and 6).
@@ -144,15 +145,22 @@ impl Gauge {
 ///
 /// ```
 /// use krawl::problem::Problem;
-/// use krawl::system::Homotopy;
-/// use krawl::track::{Control, Options, solve};
+/// use krawl::system::Placement;
+/// use krawl::track::prove;
 ///
 /// let problem = Problem::read("problems/k33.toml")?;
-/// let placement = Homotopy::new(&problem)?.gauge.placement(&problem)?;
-/// let outcome = solve(&problem, &Options::certified(), &mut Control::default())?;
+/// let outcome = prove(&problem)?;
+/// let placement = Placement::of(&problem)?;
+///
+/// // With proof: an enclosure.
 /// let first = outcome.solutions[0].point(&problem, "p4").unwrap();
 /// let there = placement.to_problem(first);
 /// assert!(there[0].wid() < 1e-12);
+///
+/// // As a float motion, for what draws or computes on.
+/// let motion: krawl::nalgebra::Isometry3<f64> = placement.motion();
+/// let p4 = motion * outcome.solutions[0].nearest(&problem, "p4").unwrap();
+/// assert!((p4.x - there[0].mid()).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,6 +172,26 @@ pub struct Placement {
 }
 
 impl Placement {
+    /// The placement of a problem's gauge.
+    ///
+    /// # Errors
+    /// If the sketch has the reference points in one place, or three of them on one line.
+    pub fn of(problem: &Problem) -> Result<Self, GaugeError> {
+        Gauge::new(problem).placement(problem)
+    }
+
+    /// The motion from the gauge to the coordinates of the problem, in floats: in the plane a turn about
+    /// the z axis.
+    pub fn motion(&self) -> Isometry3<f64> {
+        let axes = self.axes.map(|axis| Vector3::from(axis.map(|x| x.mid())));
+        // Columns are perpendicular and of length 1 but for rounding.
+        let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&axes));
+        Isometry3::from_parts(
+            Translation3::from(self.origin.map(|x| x.mid())),
+            UnitQuaternion::from_rotation_matrix(&rotation),
+        )
+    }
+
     /// A point of the gauge in the coordinates of the problem: an enclosure.
     pub fn to_problem(&self, p: &[Interval; 3]) -> [Interval; 3] {
         std::array::from_fn(|k| {

@@ -57,6 +57,8 @@ pub struct Homotopy {
     pub bend: usize,
     /// What people call the equations.
     pub names: Vec<String>,
+    /// What they call the points.
+    pub point_names: Vec<String>,
     /// An enclosure of the sketch, all places.
     pub sketch_box: Vec<Interval>,
     /// Its middle.
@@ -140,6 +142,7 @@ impl Homotopy {
             names: (0..problem.distances.len())
                 .map(|d| problem.distance_name(d))
                 .collect(),
+            point_names: problem.points.iter().map(|p| p.name.clone()).collect(),
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
             auxiliary: Vec::new(),
@@ -167,6 +170,7 @@ impl Homotopy {
             rights: Vec::new(),
             bend: 0,
             names: Vec::new(),
+            point_names: Vec::new(),
             sketch: vec![0.0; places],
             sketch_box: vec![point(0.0); places],
             auxiliary: Vec::new(),
@@ -312,6 +316,55 @@ impl Homotopy {
         let unknowns = self.tail.unknowns.iter().enumerate();
         let positive = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
         positive.map(|(k, _)| first + k).collect()
+    }
+
+    /// The vectors that must not vanish along the path: per coordinate the unknowns of which it is the difference,
+    /// where m + 1 stands for zero.
+    pub fn nonzero_vectors(&self) -> Vec<Vec<[usize; 2]>> {
+        let form = |form: &Form| match *form {
+            Form::One => unreachable!("a coordinate of a vector is a difference"),
+            Form::Difference(from, to) => [self.entry(from), self.entry(to)],
+        };
+        let vectors = self.tail.nonzero.iter();
+        vectors
+            .map(|vector| vector.forms[..self.dimension].iter().map(form).collect())
+            .collect()
+    }
+
+    /// Whether in a figure, given by all unknowns in floats, the lengths and radii among them are positive and no
+    /// vector vanishes that must not.
+    pub fn is_proper(&self, x: &[f64]) -> bool {
+        let size = x.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+        let at = |i: usize| if i > self.equations { 0.0 } else { x[i] };
+        let is_there = |vector: &Vec<[usize; 2]>| {
+            let mut coordinates = vector.iter().map(|&[i, j]| at(i) - at(j));
+            // Far above what Newton's method leaves of zero.
+            coordinates.any(|d| d.abs() > 1e-13 * size)
+        };
+        self.positive_unknowns().iter().all(|&i| x[i] > 0.0)
+            && self.nonzero_vectors().iter().all(is_there)
+    }
+
+    /// All changes of sign of unknowns with which a figure stays as it is: sums of those of the tail, beginning with
+    /// none. `None`: there are too many.
+    pub fn twins(&self) -> Option<Vec<Vec<bool>>> {
+        const LARGEST: usize = 10;
+        let basis = &self.tail.twins;
+        if basis.len() > LARGEST {
+            return None;
+        }
+        let first = self.gauge.place.len();
+        let sum = |mask: usize| {
+            let mut changes = vec![false; self.equations];
+            for (k, change) in basis.iter().enumerate() {
+                if mask >> k & 1 == 1 {
+                    let pairs = changes[first..].iter_mut().zip(change);
+                    pairs.for_each(|(x, y)| *x ^= y);
+                }
+            }
+            changes
+        };
+        Some((0..1 << basis.len()).map(sum).collect())
     }
 
     /// Whether an unknown changes its sign where an axis is reversed.

@@ -40,6 +40,7 @@ impl Homotopy {
             unknowns: part.unknowns,
             equations: part.equations,
             mirrors: false,
+            ..Tail::default()
         };
         let mut homotopy = Homotopy::without_distances(gauge, part.unit, tail);
         homotopy.followed = part.followed;

@@ -2,6 +2,7 @@
 
 use crate::constraint::Tail;
 use crate::problem::{Item, Problem, Shape};
+use crate::system::Homotopy;
 
 /// One end of an open path: as far as it was proved.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,14 +13,27 @@ pub struct PathEnd {
     pub kind: EndKind,
     /// The same in words: what the figure does there, and what stopped the proof.
     pub reason: String,
+    /// At an end at infinity: which point goes there, and how far it was followed.
+    pub away: Option<Away>,
     /// The figure near the end, point by point, in floats and in the problem's unit.
     pub points: Vec<[f64; 3]>,
+}
+
+/// A point that goes away. In certified mode it is proved that at the path's last point it is so far away, and that it
+/// goes on moving away there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Away {
+    /// The point, by index.
+    pub point: usize,
+    /// Its distance from the first point of the reference (in a frame of the user's own: from the origin), between
+    /// these, in the problem's unit.
+    pub distance: (f64, f64),
 }
 
 /// What happens to the figure where a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndKind {
-    /// Points go beyond any bound, as far as one can see.
+    /// Points go away, ever farther as far as one can see: see [`PathEnd::away`].
     Infinite,
     /// A length that must be positive goes to zero: an angle loses its leg, a radius its circle.
     Undefined,
@@ -39,18 +53,56 @@ impl EndKind {
     }
 }
 
-/// A path is taken to go to infinity where a coordinate has become so many times the typical length.
-pub const FAR: f64 = 1e4;
+/// A path is taken to go to infinity where a point has come so many times as far as any is in the sketch, moves away,
+/// and t settles.
+pub const FAR: f64 = 30.0;
+
+/// t settles: it changes by less than this while the distance grows by a factor of e, and 1 is ten times as far as
+/// that. (Where t has a limit at infinity it nears that like a negative power of the distance.)
+pub const SETTLED: f64 = 1e-2;
+
+/// A length or radius has nearly vanished where it is this part of what it was in the sketch.
+pub const SMALL: f64 = 1e-3;
 
 /// Planes are called parallel, and points on one line, where the sine of the angle is below this.
 const NEARLY: f64 = 1e-2;
+/// And legs of an angle, which are long where an end is at infinity.
+const LEGS: f64 = 5e-2;
 
-/// What there is to see in a figure at the end of a path: planes that have become parallel or fallen into
-/// one another.
+/// What there is to see in a figure at the end of a path: legs of an angle that have become parallel, planes that have
+/// become so or fallen into one another.
 pub fn remarks(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
-    if problem.dimension == 2 {
-        return Vec::new();
+    let mut remarks = parallel_legs(problem, figure);
+    if problem.dimension == 3 {
+        remarks.extend(parallel_planes(problem, figure));
     }
+    remarks
+}
+
+/// Angles at a point of which the legs have become parallel.
+fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
+    let mut remarks = Vec::new();
+    for constraint in problem.constraints.iter().filter(|c| c.kind == "angles") {
+        let [Item::Point(a), Item::Point(b), Item::Point(c)] = constraint.items[..] else {
+            continue;
+        };
+        let leg =
+            |end: usize| -> [f64; 3] { std::array::from_fn(|k| figure[end][k] - figure[b][k]) };
+        let (u, v) = (leg(a), leg(c));
+        let size = |x: [f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // Legs that vanish have no direction.
+        let sine = size(cross(u, v)) / (size(u) * size(v));
+        if sine < LEGS && size(u).min(size(v)) > NEARLY * size(u).max(size(v)) {
+            let [a, b, c] = [a, b, c].map(|p| problem.points[p].name.as_str());
+            remarks.push(format!(
+                "the legs of the angle at {b} between {a} and {c} become parallel"
+            ));
+        }
+    }
+    remarks
+}
+
+fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     let name = |p: usize| problem.points[p].name.as_str();
     let mut planes: Vec<(String, [f64; 3])> = Vec::new();
     for object in &problem.objects {
@@ -107,13 +159,26 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     })
 }
 
+/// The name of a vector that must not vanish and has nearly done so: all its coordinates are small beside `size`.
+/// `z` are all unknowns.
+pub fn vanishing_vector<'h>(homotopy: &'h Homotopy, z: &[f64], size: f64) -> Option<&'h str> {
+    let at = |i: usize| if i < homotopy.equations { z[i] } else { 0.0 };
+    let vectors = homotopy.nonzero_vectors().into_iter();
+    let mut small = vectors.zip(&homotopy.tail.nonzero).filter(|(vector, _)| {
+        vector
+            .iter()
+            .all(|&[i, j]| (at(i) - at(j)).abs() < SMALL * size)
+    });
+    small.next().map(|(_, vector)| vector.name.as_str())
+}
+
 /// The name of an auxiliary unknown that must be positive and has become small beside what it was in the
 /// sketch. `values` are those of the auxiliary unknowns, `sketch` what they were.
 pub fn vanishing<'t>(tail: &'t Tail, values: &[f64], sketch: &[f64]) -> Option<&'t str> {
     use crate::constraint::Role;
     let unknowns = tail.unknowns.iter().zip(values).zip(sketch);
     let mut small = unknowns.filter(|((unknown, now), before)| {
-        unknown.role == Role::Positive && **now < 1e-3 * **before
+        unknown.role == Role::Positive && **now < SMALL * **before
     });
     small.next().map(|((unknown, _), _)| unknown.name.as_str())
 }

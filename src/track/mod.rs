@@ -1,16 +1,16 @@
 //! Following the path: predictor, corrector, step control, events.
 
 pub mod arc;
-pub mod certified;
+pub(crate) mod certified;
 mod choice;
 mod congruence;
 mod control;
 mod ends;
 mod events;
-pub mod full;
+pub(crate) mod full;
 mod options;
 mod outcome;
-pub mod reduced;
+pub(crate) mod reduced;
 mod turns;
 mod witness;
 
@@ -18,7 +18,7 @@ pub use certified::{Fold, Sample, Trace};
 pub use choice::{prove, solve_in_best_space, trace_path};
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};
-pub use ends::{EndKind, PathEnd};
+pub use ends::{Away, EndKind, PathEnd};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
 pub use witness::{TubeSeen, Witness};

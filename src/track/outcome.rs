@@ -3,6 +3,7 @@
 use super::PathEnd;
 use crate::interval::Interval;
 use crate::problem::Problem;
+use nalgebra::Point3;
 
 /// Whether steps are proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -82,6 +83,10 @@ pub struct Solution {
     pub mirror_of: Option<usize>,
 }
 
+fn middle(place: &[Interval; 3]) -> Point3<f64> {
+    Point3::from(place.map(|x| x.mid()))
+}
+
 impl Solution {
     /// The coordinates of a point by its name, in the gauge and the units of the problem, the third
     /// being zero in the plane. `None`: there is no such point.
@@ -89,6 +94,17 @@ impl Solution {
         let mut points = problem.points.iter();
         self.points
             .get(points.position(|point| point.name == name)?)
+    }
+
+    /// The middle of a point's box, the third coordinate being zero in the plane: floats, for what draws or
+    /// computes on. `None`: there is no such point.
+    pub fn nearest(&self, problem: &Problem, name: &str) -> Option<Point3<f64>> {
+        Some(middle(self.point(problem, name)?))
+    }
+
+    /// The same for all points, in the order of the problem.
+    pub fn figure(&self) -> Vec<Point3<f64>> {
+        self.points.iter().map(middle).collect()
     }
 }
 

@@ -8,6 +8,7 @@ pub mod certificate;
 pub mod edits;
 pub mod exact;
 pub mod hard;
+pub mod mixed;
 pub mod moves;
 pub mod random;
 

@@ -20,6 +20,8 @@ pub struct Equations {
     pub products: Vec<Vec<Product>>,
     /// The unknowns that have to be positive along the path: radii, and lengths that are unknown.
     pub positive: Vec<usize>,
+    /// The vectors that must not vanish along the path: differences of unknowns (from m on: of zero).
+    pub nonzero: Vec<Vec<[usize; 2]>>,
     /// Per equation the terms of all 2 ∂q_e/∂x_i: i, a factor, and the form that it multiplies.
     pub gradient: Vec<Vec<(usize, i64, usize)>>,
     doubles: OnceLock<Vec<Doubles>>,
@@ -31,7 +33,7 @@ type Doubles = [(DoubleDouble, f64); 5];
 /// No equation has a larger sum of factors, so that its sums of products fit into an `i128`.
 const MAX_FACTORS: i64 = 1 << 12;
 
-pub const ZERO: Interval = inari::const_interval!(0.0, 0.0);
+pub use crate::interval::ZERO;
 
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
@@ -74,6 +76,7 @@ impl Equations {
         });
         Equations {
             positive: homotopy.positive_unknowns(),
+            nonzero: homotopy.nonzero_vectors(),
             m,
             gradient: gradient.collect(),
             forms,

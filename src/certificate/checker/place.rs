@@ -161,6 +161,7 @@ impl Place {
     /// its frame, no isometry is left.
     pub fn is_congruent(&self, other: &Place, eq: &Equations) -> Option<bool> {
         let (gauge, d) = (&eq.homotopy.gauge, eq.homotopy.dimension);
+        let twins = eq.homotopy.twins()?;
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * d + axis];
@@ -170,25 +171,34 @@ impl Place {
             }
             turned[axis] = sides.sup() < 0.0;
         }
-        for last in [false, true].into_iter().take(2 * gauge.reference.len()) {
+        for last in [false, true].into_iter().take(1 + gauge.reference.len()) {
             turned[d - 1] = last;
             let axes: Vec<usize> = (0..d).filter(|&axis| turned[axis]).collect();
-            // Without any change of sign they differ: their boxes are disjoint.
-            if axes.is_empty() || axes.len() % 2 == 1 && !eq.homotopy.tail.mirrors {
+            if axes.len() % 2 == 1 && !eq.homotopy.tail.mirrors {
                 continue;
             }
-            let image = (0..eq.m).map(|i| {
-                let flips = axes.iter().filter(|&&axis| eq.homotopy.flips(i, axis));
-                let x = self.spot.at(i);
-                if flips.count() % 2 == 1 { -x } else { x }
-            });
-            let image: Vec<Interval> = image.collect();
-            // The image is a solution too.
-            if other.covers(&image) {
-                return Some(true);
-            }
-            if !(0..eq.m).any(|i| image[i].disjoint(other.spot.at(i))) {
-                return None;
+            for twin in &twins {
+                // Without any change of sign they differ: their boxes are disjoint.
+                if axes.is_empty() && !twin.contains(&true) {
+                    continue;
+                }
+                let image = (0..eq.m).map(|i| {
+                    let flips = axes.iter().filter(|&&axis| eq.homotopy.flips(i, axis));
+                    let x = self.spot.at(i);
+                    if (flips.count() % 2 == 1) ^ twin[i] {
+                        -x
+                    } else {
+                        x
+                    }
+                });
+                let image: Vec<Interval> = image.collect();
+                // The image is a solution too.
+                if other.covers(&image) {
+                    return Some(true);
+                }
+                if !(0..eq.m).any(|i| image[i].disjoint(other.spot.at(i))) {
+                    return None;
+                }
             }
         }
         Some(false)

@@ -8,7 +8,7 @@ use super::refute;
 use super::whole::{between, exact, size};
 use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
-use crate::interval::{Interval, point};
+use crate::interval::{Interval, hull, point};
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
 /// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ),
@@ -150,14 +150,23 @@ impl Tube {
         if !(advance.inf() > 0.0) {
             return Err(Fault::because("its cross-sections may turn back"));
         }
-        let least = |i: usize| {
-            let away = around(work.proof.distance * weight(work.at.u[i]));
-            (polynomial(&work.curve.z, i, around(point(1.0))) + work.curve.low_of(i) + away).inf()
+        let entry = |i: usize, s: Interval| match i < eq.m {
+            true => {
+                let away = around(work.proof.distance * weight(work.at.u[i]));
+                polynomial(&work.curve.z, i, s) + work.curve.low_of(i) + away
+            }
+            false => ZERO,
         };
-        if !eq.positive.iter().all(|&i| least(i) > 0.0) {
+        let all = around(point(1.0));
+        if !eq.positive.iter().all(|&i| entry(i, all).inf() > 0.0) {
             return Err(Fault::because(
                 "a length or radius in it may not be positive",
             ));
+        }
+        let mut pieces = (-16..16).map(|k| hull(f64::from(k), f64::from(k + 1)) / point(16.0));
+        let off = |s, &[i, j]: &[usize; 2]| !(entry(i, s) - entry(j, s)).contains(0.0);
+        if !pieces.all(|s| eq.nonzero.iter().all(|v| v.iter().any(|d| off(s, d)))) {
+            return Err(Fault::because("a vector in it may vanish"));
         }
         // A parameter in [−1, 1], whatever is rounded.
         let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);

@@ -70,7 +70,7 @@ pub fn split(x: Interval) -> Option<(i64, Interval)> {
 
 /// From a to b; everything where that is no interval.
 pub fn between(a: f64, b: f64) -> Interval {
-    inari::interval!(a, b).unwrap_or(Interval::ENTIRE)
+    crate::interval::checked(a, b).unwrap_or(Interval::ENTIRE)
 }
 
 /// At least x 2^−bits: the conversion rounds to nearest, and one step up covers it.

@@ -1,13 +1,12 @@
 //! Functions of up to six symbols u ∈ [−1, 1], enclosed by quadratic polynomials with interval coefficients and an
-//! interval for the rest. Every operation is one of inari's, so that all roundings are enclosed.
+//! interval for the rest. Every operation is an interval operation, so that all roundings are enclosed.
 
 use super::format::MAX_SYMBOLS;
 use crate::interval::{Interval, hull, point};
 
 /// Coefficients of 1, u_i, u_i u_j.
 const MOST: usize = (MAX_SYMBOLS + 1) * (MAX_SYMBOLS + 2) / 2;
-const ZERO: Interval = inari::const_interval!(0.0, 0.0);
-const ONE: Interval = inari::const_interval!(-1.0, 1.0);
+use crate::interval::{UNIT as ONE, ZERO};
 
 /// An enclosure of a function.
 #[derive(Debug, Clone, Copy)]

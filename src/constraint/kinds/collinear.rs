@@ -35,6 +35,10 @@ impl Kind for Collinear {
         }
         let along = low.span(*a, *b)?;
         let base = low.place(*a);
+        // Where a and b are one point, cross products with b − a say nothing of two others.
+        if low.dimension() == 2 && rest.len() > 1 {
+            low.nonzero(&along);
+        }
         for &point in rest {
             let across = low.between(&base, &low.place(point));
             low.align(of.name, &along, &across);

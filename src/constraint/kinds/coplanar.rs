@@ -52,6 +52,13 @@ impl Kind for Coplanar {
         });
         points.swap(2, off.unwrap_or(2));
         let plane = low.plane(PlaneName::Points([points[0], points[1], points[2]]))?;
+        // Where three points are in line any fourth is in one plane with them, but not any two.
+        if points.len() > 4 {
+            if is_zero(&plane.normal.at) {
+                return Err("its points are on one line in the sketch: move one of them".to_owned());
+            }
+            low.nonzero(&plane.normal);
+        }
         for &point in &points[3..] {
             let place = low.place(point);
             let products = plane.height(low, 1, &place);

@@ -11,7 +11,6 @@ mod level;
 mod midpoint;
 mod on;
 mod parallel;
-mod perpendicular;
 mod position;
 mod radius;
 mod same_distance;
@@ -40,8 +39,8 @@ pub const KINDS: &[&dyn Kind] = &[
     &midpoint::Midpoint,
     &collinear::Collinear,
     &coplanar::Coplanar,
-    &parallel::Parallel,
-    &perpendicular::Perpendicular,
+    &parallel::PARALLEL,
+    &parallel::PERPENDICULAR,
     &tangent::Tangent,
     &equal::Equal,
     &same_distance::EqualDistances,
@@ -84,8 +83,10 @@ mod prelude {
         }
     }
 
-    /// Leads the product of two vectors to zero.
+    /// Leads the product of two vectors, neither of which may vanish, to zero.
     pub fn orthogonal(name: &str, low: &mut Lowering, u: &Arrow, v: &Arrow) {
+        low.nonzero(u);
+        low.nonzero(v);
         let products = low.dot(1, &u.forms, &v.forms);
         let start = Real::from(dot(&u.at, &v.at));
         low.vanish(name, products, start, u.power + v.power);

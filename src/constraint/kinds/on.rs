@@ -47,7 +47,8 @@ impl Kind for On {
                 {
                     return Err("the plane is one through the point anyway: remove this".to_owned());
                 }
-                let plane = low.plane(plane)?;
+                let plane = low.proper_plane(plane)?;
+                low.nonzero(&plane.normal);
                 let products = plane.height(low, 1, &place);
                 let now = plane.height_in_sketch(low, &place);
                 low.vanish(of.name, products, now.into(), plane.normal.power + 1);
@@ -62,6 +63,7 @@ impl Kind for On {
                 }
                 let line = low.line(line)?;
                 let across = low.between(&line.base, &place);
+                low.nonzero(&line.along);
                 low.align(of.name, &line.along, &across);
             }
         }

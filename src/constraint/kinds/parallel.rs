@@ -1,20 +1,38 @@
-//! `parallel`: two lines, two planes, or a line and a plane.
+//! `parallel`: lines, planes, or a line and a plane. `perpendicular`: the same at a right angle, lines also in space,
+//! where they need not meet.
 //!
-//! In the plane the cross product of two directions is led to zero; in space `v = k u` with an unknown k, for
-//! directions or normals; for a line and a plane the product of direction and normal.
+//! Of two directions, or two normals, that are parallel one is a multiple of the other ([`Lowering::align`]), and of
+//! two that are at a right angle the product is led to zero; with a line and a plane it is the other way round.
+//! Neither vector may vanish.
 
 use super::prelude::*;
 
-/// See the module.
-pub struct Parallel;
+/// Parallel, or with `right` at a right angle.
+pub struct Parallel {
+    right: bool,
+}
+
+/// Parallel.
+pub const PARALLEL: Parallel = Parallel { right: false };
+
+/// At a right angle.
+pub const PERPENDICULAR: Parallel = Parallel { right: true };
 
 impl Kind for Parallel {
     fn key(&self) -> &'static str {
-        "parallel"
+        if self.right {
+            "perpendicular"
+        } else {
+            "parallel"
+        }
     }
 
     fn meaning(&self) -> &'static str {
-        "two lines, two planes, or a line and a plane are parallel"
+        if self.right {
+            "two lines (which need not meet), two planes, or a line and a plane are at a right angle"
+        } else {
+            "two lines, two planes, or a line and a plane are parallel"
+        }
     }
 
     fn takes(&self) -> &'static str {
@@ -29,10 +47,12 @@ impl Kind for Parallel {
         let first = super::angle::direction(&mut of.items, low)?;
         let second = super::angle::direction(&mut of.items, low)?;
         of.items.end()?;
-        if first.1 == second.1 {
-            low.align(of.name, &first.0, &second.0);
-        } else {
+        if (first.1 == second.1) == self.right {
             orthogonal(of.name, low, &first.0, &second.0);
+        } else {
+            low.nonzero(&first.0);
+            low.nonzero(&second.0);
+            low.align(of.name, &first.0, &second.0);
         }
         Ok(())
     }

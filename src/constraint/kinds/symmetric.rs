@@ -67,7 +67,11 @@ impl Kind for Symmetric {
                 of.items.end()?;
                 let line = low.line(line)?;
                 let [u, v] = [&p, &q].map(|at| low.between(&line.base, at));
-                orthogonal(of.name, low, &line.along, &across);
+                // The two points may be one, on the line.
+                low.nonzero(&line.along);
+                let products = low.dot(1, &line.along.forms, &across.forms);
+                let start = Real::from(dot(&line.along.at, &across.at));
+                low.vanish(of.name, products, start, line.along.power + 1);
                 let mut products = low.cross_in_plane(1, &line.along.forms, &u.forms);
                 products.extend(low.cross_in_plane(1, &line.along.forms, &v.forms));
                 let start = cross_in_plane(&line.along.at, &plus(&u.at, &v.at));
@@ -77,6 +81,7 @@ impl Kind for Symmetric {
                 let plane = of.items.plane()?;
                 of.items.end()?;
                 let plane = low.proper_plane(plane)?;
+                low.nonzero(&plane.normal);
                 low.align(of.name, &plane.normal, &across);
                 let mut products = plane.height(low, 1, &p);
                 products.extend(plane.height(low, 1, &q));

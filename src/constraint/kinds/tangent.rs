@@ -49,7 +49,11 @@ impl Kind for Tangent {
                     && let Some((_, end)) = shared_end(low, &points, &ends(low, object))
                 {
                     let radius = low.between(&round.center, &low.place(end));
-                    orthogonal(of.name, low, &line.along, &radius);
+                    // The radius vanishes no more than the circle does.
+                    low.nonzero(&line.along);
+                    let products = low.dot(1, &line.along.forms, &radius.forms);
+                    let start = Real::from(dot(&line.along.at, &radius.at));
+                    low.vanish(of.name, products, start, line.along.power + 1);
                     return Ok(());
                 }
                 let across = low.between(&line.base, &round.center);

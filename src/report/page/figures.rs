@@ -105,8 +105,10 @@ impl Page {
         (page.badge, page.tone) = (badge.into(), tone);
         page.verdict = edit_in_words(problem, edited);
         for dimension in &edited.dimensions {
-            let ends = problem.distances[dimension.index].points;
-            for bar in page.bars.iter_mut().filter(|bar| bar.ends == ends) {
+            // Other dimensions than distances have no bar to stand on.
+            let distance = problem.distances.get(dimension.index);
+            let ends = distance.map(|distance| distance.points);
+            for bar in page.bars.iter_mut().filter(|bar| Some(bar.ends) == ends) {
                 bar.target = Some(dimension.value.mid());
                 bar.label = certain_digits(dimension.value).chars().take(8).collect();
             }
@@ -138,7 +140,7 @@ impl Page {
     }
 }
 
-fn digits(problem: &Problem, points: &[[Interval; 3]]) -> Vec<Vec<String>> {
+pub(super) fn digits(problem: &Problem, points: &[[Interval; 3]]) -> Vec<Vec<String>> {
     let shown = |p: &[Interval; 3]| {
         let place = p.iter().take(problem.dimension);
         place.map(|&x| certain_digits(x)).collect()

@@ -9,6 +9,7 @@ mod moving;
 mod projection;
 mod result;
 mod still;
+mod swept;
 
 pub use result::ShowError;
 

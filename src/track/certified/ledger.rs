@@ -19,6 +19,8 @@ pub struct Ledger<const D: usize> {
     unit: f64,
     /// The auxiliary unknowns that must stay positive.
     positive: Vec<usize>,
+    /// The vectors that must not vanish: see [`Homotopy::nonzero_vectors`].
+    nonzero: Vec<Vec<[usize; 2]>>,
     prover: SolutionProver<D>,
     found: Vec<SolutionBox>,
     /// Where on the path each of them is.
@@ -53,6 +55,7 @@ impl<const D: usize> Ledger<D> {
         Ledger {
             unit: homotopy.unit,
             positive: homotopy.positive_unknowns(),
+            nonzero: homotopy.nonzero_vectors(),
             prover: SolutionProver::new(homotopy, equations),
             found: Vec::new(),
             places: Vec::new(),
@@ -116,9 +119,7 @@ impl<const D: usize> Ledger<D> {
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
     ) -> Result<(), Doubt> {
-        if let Some(unknown) = self.not_positive(tube, (from, to)) {
-            return Err(Doubt::Sign(unknown));
-        }
+        self.is_defined(tube, (from, to))?;
         self.length += path_length(&tube.local, from, to, self.unit, &mut self.scratch);
         let time = tube.time();
         let (values, slopes) = time.bounds(from, to);
@@ -151,9 +152,7 @@ impl<const D: usize> Ledger<D> {
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
         let to = to.min(tube.proof.h);
-        if let Some(unknown) = self.not_positive(tube, (from, to)) {
-            return Err(Doubt::Sign(unknown));
-        }
+        self.is_defined(tube, (from, to))?;
         let mut crossings = std::mem::take(&mut self.crossings);
         let known = self.found.len();
         // One look at all of it is enough for most tubes: t is not 1 there, and dt/ds has one sign.
@@ -199,9 +198,7 @@ impl<const D: usize> Ledger<D> {
         between: (f64, f64),
         extended: bool,
     ) -> Result<(), Doubt> {
-        if let Some(unknown) = self.not_positive(tube, between) {
-            return Err(Doubt::Sign(unknown));
-        }
+        self.is_defined(tube, between)?;
         let crossing = Crossing {
             between,
             rising: true,
@@ -213,19 +210,29 @@ impl<const D: usize> Ledger<D> {
         Ok(())
     }
 
-    /// Proves that the auxiliary unknowns which are lengths or radii are positive on a stretch of a tube.
-    /// Otherwise names the first for which that could not be proved.
-    fn not_positive<const N: usize, Y: Frame<D>>(
+    /// Proves that the auxiliary unknowns which are lengths or radii are positive on a stretch of a tube, and that no
+    /// vector vanishes there that must not. Otherwise names the first for which that could not be proved.
+    fn is_defined<const N: usize, Y: Frame<D>>(
         &self,
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
-    ) -> Option<usize> {
+    ) -> Result<(), Doubt> {
         let fails = |&&entry: &&usize| {
             let ((low, _), _) = tube.entry_along(entry).bounds(from, to);
             // Bounds are of the unknown minus 1.
             (low + 1.0).next_down() <= 0.0 || low.is_nan()
         };
-        self.positive.iter().find(fails).copied()
+        if let Some(&unknown) = self.positive.iter().find(fails) {
+            return Err(Doubt::Sign(unknown));
+        }
+        // Pieces of a stretch are cut in two no more often than that.
+        const DEPTH: usize = 8;
+        let zero = tube.weights.len() - 2;
+        let mut vectors = self.nonzero.iter();
+        match vectors.position(|vector| !is_nonzero(tube, vector, zero, (from, to), DEPTH)) {
+            Some(vector) => Err(Doubt::Vanishes(vector)),
+            None => Ok(()),
+        }
     }
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
@@ -482,7 +489,8 @@ impl<const D: usize> Ledger<D> {
     /// The isometries that keep the gauge change the signs of coordinates. The second reference
     /// point's first coordinate and the third's second one tell which signs they must change;
     /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
-    /// constraints fix the figure in its frame no isometry is left, and different solutions are not congruent.
+    /// constraints fix the figure in its frame no isometry is left. Each of them goes with the changes of
+    /// sign that leave a figure as it is, of the directions of lines of their own.
     fn is_congruent(
         &self,
         homotopy: &Homotopy,
@@ -490,9 +498,6 @@ impl<const D: usize> Ledger<D> {
         other: &SolutionBox,
     ) -> (Same, bool) {
         let gauge = &homotopy.gauge;
-        if gauge.reference.is_empty() {
-            return (Same::No, false);
-        }
         let mut turned = [false; 3];
         for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
             let i = gauge.variable[p * D + axis];
@@ -505,27 +510,72 @@ impl<const D: usize> Ledger<D> {
                 _ => return (Same::Unknown, false),
             }
         }
+        let twins = homotopy.twins();
         // A motion first: a flat figure in space is its own mirror image.
         let odd = turned.iter().filter(|&&turned| turned).count() % 2 == 1;
-        for last in [odd, !odd] {
+        let last = match gauge.reference.is_empty() {
+            true => &[false][..],
+            false => &[odd, !odd][..],
+        };
+        for &last in last {
             turned[D - 1] = last;
-            // Without any change of sign they are known to differ.
             let reversed = turned.iter().filter(|&&turned| turned).count();
-            if reversed == 0 || reversed % 2 == 1 && !homotopy.tail.mirrors {
+            if reversed % 2 == 1 && !homotopy.tail.mirrors {
                 continue;
             }
-            let signs = |i: usize| {
+            let flips = |i: usize| {
                 let flips = (0..D).filter(|&axis| turned[axis] && homotopy.flips(i, axis));
                 flips.count() % 2 == 1
             };
-            match one.is_same(other, signs) {
-                Same::No => {}
-                // The determinant of the diagonal matrix of signs tells motions from reflections.
-                decided => return (decided, reversed % 2 == 1),
+            let Some(twins) = &twins else {
+                // They are too many to try all: figures differ where points do.
+                if one.may_be(other, flips, gauge.place.len()) {
+                    return (Same::Unknown, false);
+                }
+                continue;
+            };
+            for twin in twins {
+                // Without any change of sign they are known to differ.
+                if reversed == 0 && !twin.contains(&true) {
+                    continue;
+                }
+                match one.is_same(other, |i| flips(i) ^ twin[i]) {
+                    Same::No => {}
+                    decided => return (decided, reversed % 2 == 1),
+                }
             }
         }
         (Same::No, false)
     }
+}
+
+/// Proves that a vector, of which each coordinate is the difference of two unknowns (from `zero` on: of none), does not
+/// vanish on a stretch of a tube: on each piece one coordinate has one sign.
+fn is_nonzero<const D: usize, const N: usize, Y: Frame<D>>(
+    tube: &Tube<D, N, Y>,
+    vector: &[[usize; 2]],
+    zero: usize,
+    (from, to): (f64, f64),
+    depth: usize,
+) -> bool {
+    let bounds = |i: usize| match i < zero {
+        // Of the unknown minus 1.
+        true => tube.entry_along(i).bounds(from, to).0,
+        false => (-1.0, -1.0),
+    };
+    let has_sign = |&[i, j]: &[usize; 2]| {
+        let (a, b) = (bounds(i), bounds(j));
+        a.0 > b.1 || a.1 < b.0
+    };
+    if vector.iter().any(has_sign) {
+        return true;
+    }
+    let middle = 0.5 * (from + to);
+    depth > 0
+        && from < middle
+        && middle < to
+        && is_nonzero(tube, vector, zero, (from, middle), depth - 1)
+        && is_nonzero(tube, vector, zero, (middle, to), depth - 1)
 }
 
 /// Pieces of the range of t on which lengths are bounded.

@@ -50,6 +50,8 @@ pub enum Doubt {
     Singular(f64),
     /// Whether an auxiliary unknown, of this number, is positive.
     Sign(usize),
+    /// Whether a vector of the tail's list, of this number, is not zero.
+    Vanishes(usize),
     /// Whether there is exactly one: |I − Y J| at its middle is this.
     Contraction(f64),
     /// Nor here: it may be `radius` away, and is alone within `alone`.
@@ -212,6 +214,10 @@ pub fn undecided(doubt: Doubt, is_extended: bool, homotopy: &Homotopy) -> String
         Doubt::Sign(unknown) => format!(
             "{} could not be proved to stay positive; the figure degenerates there, or nearly so",
             homotopy.tail.unknowns[unknown - homotopy.gauge.place.len()].name
+        ),
+        Doubt::Vanishes(vector) => format!(
+            "{} could not be proved not to vanish; the figure degenerates there, or nearly so",
+            homotopy.tail.nonzero[vector].name
         ),
         Doubt::Singular(pivots) => format!(
             "{WHETHER}: the Jacobian of a figure there is singular in 53 bits (its smallest pivot is {pivots:.1e} \

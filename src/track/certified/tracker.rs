@@ -16,7 +16,7 @@ use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::arc::Figure;
-use crate::track::ends::{EndKind, FAR, PathEnd, vanishing};
+use crate::track::ends::{Away, EndKind, PathEnd};
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use arc::{Arc, Joining};
@@ -225,8 +225,10 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     has_set_out: bool,
     /// Whether the run is stuck near a place where the Jacobian loses rank.
     is_singular: bool,
-    /// Whether it ended because points are far away.
-    is_beyond: bool,
+    /// The point that goes to infinity, if the run ended because of one.
+    away: Option<Away>,
+    /// Whether it ended because a length goes to zero.
+    loses: bool,
     /// Whether it ended because no step could be proved, however short.
     is_stuck: bool,
     /// How many of the solutions were found the other way from the sketch: the first ones.
@@ -268,7 +270,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             arc: None,
             has_set_out: false,
             is_singular: false,
-            is_beyond: false,
+            away: None,
+            loses: false,
             is_stuck: false,
             behind: 0,
             size_of_sketch,
@@ -336,13 +339,21 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     }
                 }
             }
-            if self.is_far() {
-                self.is_beyond = true;
+            self.away = self.goes_away();
+            if let Some(Away { point, distance }) = self.away {
                 return Err(format!(
-                    "points go beyond {:.0e}, {}",
-                    FAR * self.homotopy.unit,
+                    "{} is {:.4} away and moves away, ever farther as far as one can see, {}",
+                    self.homotopy
+                        .point_names
+                        .get(point)
+                        .map_or("a point", String::as_str),
+                    distance.0,
                     self.place()
                 ));
+            }
+            if let Some(what) = self.loses_leg() {
+                self.loses = true;
+                return Err(format!("{what}, {}", self.place()));
             }
             if self.steps >= options.max_steps {
                 return Err(format!(
@@ -504,7 +515,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         }
         (self.steps, self.rejected, self.shortened) = (0, 0, 0);
         (self.has_previous, self.has_set_out) = (false, false);
-        (self.is_singular, self.is_beyond, self.is_stuck) = (false, false, false);
+        (self.is_singular, self.is_stuck) = (false, false);
+        (self.away, self.loses) = (None, false);
         self.typical = f64::NAN;
     }
 

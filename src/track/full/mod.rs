@@ -16,7 +16,7 @@ mod start;
 mod tail;
 
 pub use equations::{Differences, Equations, Lengths, MAX_DEGREE};
-pub use extended::{Extended, shift};
+pub use extended::shift;
 pub use local::{DEGREE, Local, Meeting, ORDER, RefineError, condition, dot};
 pub use preconditioner::{InverseMaker, Preconditioner};
 pub use start::{LARGEST_TANGENT, first_normal, path_length};

@@ -298,14 +298,6 @@ impl Tail {
         products.map(size).sum()
     }
 
-    /// The same added for all equations.
-    pub fn add_half_products_abs(&self, x: &[f64], y: &[f64], out: &mut [f64]) {
-        for p in &self.products {
-            let size = (x[p.left as usize] * y[p.right as usize]).abs();
-            out[p.equation as usize] += p.half.abs() * size;
-        }
-    }
-
     fn products_of(&self, equation: usize) -> &[Product] {
         match equation.checked_sub(self.first) {
             None => &[],

@@ -1,18 +1,109 @@
 //! Paths that do not come back to the sketch: both ways from it to their two ends.
 
-use super::{EndKind, FAR, PathEnd, Test, Tracker, vanishing};
+use super::{EndKind, PathEnd, Test, Tracker};
+use crate::constraint::Role;
+use crate::interval::rounding::round_up;
+use crate::interval::{hull, point};
+use crate::track::ends::{Away, FAR, SETTLED, SMALL, vanishing, vanishing_vector};
 use crate::track::{Control, Options, Status};
 
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
-    /// Whether a point of a problem with other constraints than distances is far from the others. Distances alone
-    /// cannot let a figure grow beyond bounds while t does not.
-    pub(super) fn is_far(&self) -> bool {
+    /// The point that goes away, if one is far from the others, moves away at the last point that is proved, and t
+    /// settles. Distances alone cannot let a figure grow beyond bounds while t does not.
+    ///
+    /// With X(s) the point along the tube, R² = |X|² is enclosed in the exit's box, and X·X' > 0 there by bounds of
+    /// X' over the parameters between which the exit is: so dR/ds > 0.
+    pub(super) fn goes_away(&self) -> Option<Away> {
         if self.homotopy.tail.is_empty() || self.arc.is_some() {
-            return false;
+            return None;
         }
-        let coordinates = &self.now.local.z[0][..self.homotopy.gauge.place.len()];
-        let near = |x: &f64| x.abs() <= FAR * self.size_of_sketch;
-        !coordinates.iter().all(near)
+        let (homotopy, tube, m) = (&self.homotopy, &self.now, self.equations.m);
+        let places = homotopy.gauge.place.len();
+        let far = FAR * self.size_of_sketch;
+        let coordinates = tube.local.z[0][..places].iter().enumerate();
+        let (farthest, _) = coordinates
+            .filter(|(_, x)| x.abs() > far)
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let p = homotopy.gauge.place[farthest] / D;
+        let exit = |i: usize| {
+            let [x, low] = [&tube.exit.centre, &tube.exit.low].map(|v| point(v[i]));
+            x + low + hull(-tube.exit.radius[i], tube.exit.radius[i])
+        };
+        let (from, to) = tube.exit_between;
+        let slope = |i: usize| {
+            let (_, (low, high)) = tube.entry_along(i).bounds(from, to);
+            hull(low, high)
+        };
+        let (mut square, mut outward) = (point(0.0), point(0.0));
+        for i in (0..D).filter_map(|axis| homotopy.coordinate(p, axis)) {
+            square += exit(i).sqr();
+            outward += exit(i) * slope(i);
+        }
+        // Bounds that are not numbers prove nothing.
+        if outward.inf().is_nan() || outward.inf() <= 0.0 {
+            return None;
+        }
+        // As far as floats tell: what is claimed is where the end is, and that the point moves away there.
+        let (_, (low, high)) = tube.time().bounds(from, to);
+        let change = (0.5 * (low + high)).abs() * square.mid() / outward.mid();
+        let from_one = (tube.exit.centre[m] - 1.0).abs();
+        let distance = square.sqrt() * point(homotopy.unit);
+        (change < SETTLED && from_one > 10.0 * change).then_some(Away {
+            point: p,
+            distance: (distance.inf(), distance.sup()),
+        })
+    }
+
+    /// A length or radius that goes to zero, in words, if one is small beside what it was in the sketch, proved to shrink
+    /// at the last point, and if tubes have become so short that it would take a hundred to get to zero: near there the
+    /// Jacobian loses rank, and tubes shrink like the square of the length.
+    pub(super) fn loses_leg(&self) -> Option<String> {
+        if self.homotopy.tail.is_empty() || self.arc.is_some() {
+            return None;
+        }
+        let (homotopy, tube, m) = (&self.homotopy, &self.now, self.equations.m);
+        let (z, first) = (&tube.local.z[0], homotopy.gauge.place.len());
+        let (from, to) = tube.exit_between;
+        // One that is given is a(t), of which floats tell enough: that a(t) > 0 up to there is proved at the end.
+        let t = tube.exit.centre[m];
+        let (_, (slow, fast)) = tube.time().bounds(from, to);
+        for (length, name) in homotopy.lengths.iter().zip(&homotopy.names) {
+            let now = length.value(t);
+            if now > SMALL * length.value(0.0).max(length.value(1.0)) {
+                continue;
+            }
+            let ahead = 1e-3 * now.abs() * (0.5 * (slow + fast)).signum();
+            let change = (length.value(t + ahead) - now) / ahead.abs();
+            let is_far = tube.proof.h * (0.5 * (slow + fast)).abs() * change.abs() < 1e-3 * now;
+            if change < 0.0 && is_far && (t - 1.0).abs() > -10.0 * now / change {
+                let now = now * homotopy.unit;
+                return Some(format!(
+                    "the length of {name} goes to zero there ({now:.1e})"
+                ));
+            }
+        }
+        let unknowns = homotopy.tail.unknowns.iter().enumerate();
+        let lengths = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
+        lengths.into_iter().find_map(|(k, unknown)| {
+            let i = first + k;
+            if z[i] > SMALL * self.sketch.centre[i] {
+                return None;
+            }
+            let (_, (low, high)) = tube.entry_along(i).bounds(from, to);
+            let most = round_up(
+                tube.exit.centre[i] + tube.exit.low[i] + tube.exit.radius[i],
+                3,
+            );
+            let is_shrinking = high < 0.0;
+            let is_far = tube.proof.h * low.abs() < 1e-2 * most;
+            let (_, (slow, fast)) = tube.time().bounds(from, to);
+            let change = (0.5 * (slow + fast)).abs() * most / high.abs();
+            let from_one = (tube.exit.centre[m] - 1.0).abs();
+            (is_shrinking && is_far && from_one > 10.0 * change).then(|| {
+                let most = most * homotopy.unit.powi(unknown.power);
+                format!("{} is at most {most:.1e} and shrinks", unknown.name)
+            })
+        })
     }
 
     /// The end of the path, if that is where the run ended; otherwise the reason again.
@@ -24,12 +115,16 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let first = self.homotopy.gauge.place.len();
         let (values, before) = (&z[first..], &self.sketch.centre[first..]);
         let leg = self.homotopy.remark_on_lengths(t.0);
-        let (kind, reason) = if self.is_beyond {
+        let (kind, reason) = if self.away.is_some() {
             (EndKind::Infinite, reason)
+        } else if self.loses {
+            (EndKind::Undefined, reason)
         } else if !self.is_stuck {
             // Interrupted, or at the limit of steps.
             return Err(reason);
         } else if let Some(name) = vanishing(&self.homotopy.tail, values, before) {
+            (EndKind::Undefined, format!("{name} goes to zero: {reason}"))
+        } else if let Some(name) = vanishing_vector(&self.homotopy, z, self.size_of_sketch) {
             (EndKind::Undefined, format!("{name} goes to zero: {reason}"))
         } else if !leg.is_empty() {
             let what = leg.trim_start_matches("; ");
@@ -50,6 +145,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             t,
             kind,
             reason,
+            away: self.away,
             points: points.collect(),
         })
     }

@@ -277,3 +277,26 @@ fn no_fault_leads_to_a_false_claim_near_singular_places() {
         "{tally:?}"
     );
 }
+
+/// Constraints of other kinds, each with auxiliary unknowns of its own.
+#[test]
+fn no_fault_leads_to_a_false_claim_with_other_constraints() {
+    let (mut random, mut tally) = (Random::new(17), Tally::default());
+    let names = [
+        "constraints/3p3l",
+        "constraints/3p3l-orthogonal",
+        "constraints/6p7d3a2c-closed",
+        "constraints/pentahedron",
+    ];
+    for problem in precise::problems(&names) {
+        for _ in 0..effort(3) {
+            let how = (-4.0, &[Space::Full][..]);
+            let sound = try_faults(&problem, how, 1000, &mut random, &mut tally);
+            assert!(sound, "{}", problem.name);
+        }
+    }
+    println!("{tally:?}");
+    let injected = tally.injected;
+    assert!(injected.iter().all(|&count| count > 20), "{injected:?}");
+    assert!(tally.closed > 5, "{tally:?}");
+}

@@ -71,9 +71,13 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
         self.t_range = (self.t_range.0.min(t), self.t_range.1.max(t));
     }
 
-    /// The run's result.
-    pub fn into_outcome(self, homotopy: &Homotopy, status: Status, seconds: f64) -> Outcome {
+    /// The run's result. Where a length or radius is not positive, or a leg has vanished, there is no figure.
+    pub fn into_outcome(mut self, homotopy: &Homotopy, status: Status, seconds: f64) -> Outcome {
         let d = homotopy.dimension;
+        if !homotopy.tail.is_empty() {
+            self.found
+                .retain(|x| homotopy.is_proper(&x[..homotopy.equations]));
+        }
         let figures: Vec<Vec<[f64; 3]>> = self
             .found
             .iter()
@@ -119,22 +123,29 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
 /// only those that do not mirror it count, and without a reference there are none.
 fn classes(homotopy: &Homotopy, found: &[Vector]) -> Vec<usize> {
     let (m, d) = (homotopy.equations, homotopy.dimension);
-    let turns: Vec<usize> = (1..1usize << d)
-        .filter(|_| !homotopy.gauge.reference.is_empty())
+    let turns: Vec<usize> = (0..1usize << d)
+        .filter(|&turn| turn == 0 || !homotopy.gauge.reference.is_empty())
         .filter(|turn| homotopy.tail.mirrors || turn.count_ones() % 2 == 0)
         .collect();
-    let is_image = |one: &Vector, other: &Vector, turn: usize| {
+    let none = || vec![vec![false; m]];
+    let twins = homotopy.twins().unwrap_or_else(none);
+    let is_image = |one: &Vector, other: &Vector, turn: usize, twin: &[bool]| {
         let size = one[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         (0..m).all(|i| {
             let flips = (0..d).filter(|&axis| turn >> axis & 1 == 1 && homotopy.flips(i, axis));
-            let sign = if flips.count() % 2 == 1 { -1.0 } else { 1.0 };
+            let sign = if (flips.count() % 2 == 1) ^ twin[i] {
+                -1.0
+            } else {
+                1.0
+            };
             (sign * one[i] - other[i]).abs() <= SAME_FIGURE * size
         })
     };
     let mut classes: Vec<usize> = Vec::new();
     for (k, x) in found.iter().enumerate() {
         let mut before = found[..k].iter();
-        let same = before.position(|y| turns.iter().any(|&turn| is_image(x, y, turn)));
+        let is_same = |y: &Vector, turn: usize| twins.iter().any(|twin| is_image(x, y, turn, twin));
+        let same = before.position(|y| turns.iter().any(|&turn| is_same(y, turn)));
         let next = classes.iter().max().map_or(0, |c| c + 1);
         classes.push(same.map_or(next, |j| classes[j]));
     }

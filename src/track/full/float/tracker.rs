@@ -80,6 +80,7 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
     now.expand(equations);
     let direction = now.normal.clone();
 
+    let positive = homotopy.positive_unknowns();
     let longest = options.step_in(homotopy.unit).unwrap_or(f64::INFINITY);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations, tolerance);
@@ -110,6 +111,11 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             true if turned => Err("the path turns too much"),
             true => events.between(equations, inverter, &now, &next, step, record),
         };
+        // Beyond zero there is no figure.
+        if let (Ok(()), Some(&i)) = (seen, positive.iter().find(|&&i| next.z[0][i] <= 0.0)) {
+            let name = &homotopy.tail.unknowns[i - homotopy.gauge.place.len()].name;
+            return Err(format!("{name} goes to zero {}", place(record, &now)));
+        }
         if let Err(reason) = seen {
             failure = reason;
             record.rejected += 1;

@@ -1,0 +1,84 @@
+//! Changes of sign that leave a figure as it is.
+//!
+//! A line of its own is a point and a direction, and the same line with the direction reversed; a plane likewise. What
+//! follows from such a direction (the projection of a point, a cross product) changes its sign too. All such changes
+//! are the solutions of linear equations modulo 2, one bit for each auxiliary unknown: the coordinates of points
+//! keep their signs, both ends of a difference change together, and so do all products of an equation, with
+//! which it stays as it is, or changes its sign and has zero on the right at t = 1.
+
+use super::quadratic::{Entry, Form, Tail};
+
+/// A basis of the changes, per change the unknowns concerned. `vanishing`: for each equation whether its right-hand
+/// side is zero at t = 1. `same_sign`: pairs of entries that have to change together, so that objects stay what they are.
+pub fn twins(tail: &Tail, vanishing: &[bool], same_sign: &[[Entry; 2]]) -> Vec<Vec<bool>> {
+    let n = tail.unknowns.len();
+    let mut rows: Vec<Vec<bool>> = Vec::new();
+    let entry = |row: &mut Vec<bool>, e: &Entry| {
+        if let Entry::Unknown(u) = *e {
+            row[u] ^= true;
+        }
+    };
+    for pair in same_sign {
+        let mut together = vec![false; n];
+        pair.iter().for_each(|e| entry(&mut together, e));
+        rows.push(together);
+    }
+    for (equation, &vanishing) in tail.equations.iter().zip(vanishing) {
+        let mut first: Option<Vec<bool>> = None;
+        for product in &equation.products {
+            let mut parity = vec![false; n];
+            for form in [&product.left, &product.right] {
+                match form {
+                    Form::One => {}
+                    Form::Difference(Entry::Zero, e) | Form::Difference(e, Entry::Zero) => {
+                        entry(&mut parity, e);
+                    }
+                    Form::Difference(a, b) => {
+                        entry(&mut parity, a);
+                        let mut together = vec![false; n];
+                        entry(&mut together, a);
+                        entry(&mut together, b);
+                        rows.push(together);
+                    }
+                }
+            }
+            match (&first, vanishing) {
+                (None, true) => first = Some(parity),
+                (Some(first), true) => {
+                    rows.push(first.iter().zip(&parity).map(|(a, b)| a ^ b).collect());
+                }
+                (_, false) => rows.push(parity),
+            }
+        }
+    }
+    null_space(rows, n)
+}
+
+/// A basis of the vectors that are orthogonal to all rows, modulo 2.
+fn null_space(mut rows: Vec<Vec<bool>>, n: usize) -> Vec<Vec<bool>> {
+    let mut pivots = Vec::new();
+    for column in 0..n {
+        let rank = pivots.len();
+        let Some(k) = (rank..rows.len()).find(|&k| rows[k][column]) else {
+            continue;
+        };
+        rows.swap(rank, k);
+        let pivot = rows[rank].clone();
+        for (k, row) in rows.iter_mut().enumerate() {
+            if k != rank && row[column] {
+                row.iter_mut().zip(&pivot).for_each(|(x, y)| *x ^= y);
+            }
+        }
+        pivots.push(column);
+    }
+    let free = (0..n).filter(|column| !pivots.contains(column));
+    free.map(|column| {
+        let mut vector = vec![false; n];
+        vector[column] = true;
+        for (row, &pivot) in rows.iter().zip(&pivots) {
+            vector[pivot] = row[column];
+        }
+        vector
+    })
+    .collect()
+}

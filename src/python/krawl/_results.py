@@ -1,0 +1,143 @@
+"""What the verbs give back. `data` of each is the JSON that the command line writes (docs/json.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Optional
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Points, each in a box."""
+
+    #: The points' names, in the order of the rows.
+    names: tuple
+    #: Lower ends of the coordinates: an array of as many rows as points, and 2 or 3 columns.
+    lower: np.ndarray = field(repr=False)
+    #: Upper ends.
+    upper: np.ndarray = field(repr=False)
+
+    @property
+    def points(self) -> np.ndarray:
+        """The middles of the boxes."""
+        return self.lower + 0.5 * (self.upper - self.lower)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """The middle of a point's box, by the point's name."""
+        row = self.names.index(name)
+        return self.lower[row] + 0.5 * (self.upper[row] - self.lower[row])
+
+
+@dataclass(frozen=True)
+class Solution(Figure):
+    """A figure that meets the dimensions: its boxes hold exactly one. (Of a float run: an observation.)"""
+
+    data: dict = field(repr=False)
+
+    @property
+    def congruence_class(self) -> int:
+        """Solutions of the same class are the same figure moved, or its mirror image."""
+        return self.data["class"]
+
+    @property
+    def folds(self) -> Optional[int]:
+        """How often the path is proved to turn back before this solution; 0 is exact."""
+        return self.data.get("folds")
+
+
+@dataclass(frozen=True)
+class Run:
+    """What following the path through the sketch gave."""
+
+    #: "closed", "open" or "stopped".
+    status: str
+    #: What is proved, or observed, in words.
+    verdict: str
+    solutions: list
+    data: dict = field(repr=False)
+
+    @property
+    def reason(self) -> Optional[str]:
+        """Why the run stopped."""
+        return self.data.get("reason")
+
+    @property
+    def frame(self) -> Optional[tuple]:
+        """Origin and axes (rows) of the coordinates of the solutions, in those of the sketch."""
+        frame = self.data.get("frame")
+        return frame and (np.array(frame["origin"]), np.array(frame["axes"]))
+
+    def in_sketch(self, points: np.ndarray) -> np.ndarray:
+        """Points of a solution (rows) where the sketch is drawn."""
+        frame = self.frame
+        if frame is None:
+            return points
+        origin, axes = frame
+        size = points.shape[1]
+        return origin[:size] + points @ axes[:size, :size]
+
+
+@dataclass(frozen=True)
+class Complete:
+    """All figures with the dimensions."""
+
+    #: "complete": there is no other. "partial": parts are undecided. "flexible": there is a curve of them.
+    status: str
+    solutions: list
+    data: dict = field(repr=False)
+
+    @property
+    def undecided(self) -> list:
+        """The parts of the search that are undecided, and why."""
+        return self.data["undecided"]
+
+    @property
+    def reason(self) -> Optional[str]:
+        """Why there is none, where that is seen at once."""
+        return self.data.get("reason")
+
+
+@dataclass(frozen=True)
+class Edited:
+    """What came of an edit."""
+
+    #: "reached", "limit", "passes" or "stopped".
+    status: str
+    #: The part of the way that was proved, an interval: 1, or where the limit is.
+    t: tuple
+    #: Per dimension that was to move its name, and the interval that its value lies in.
+    dimensions: dict
+    #: The figure there.
+    figure: Figure
+    data: dict = field(repr=False)
+
+    @property
+    def reason(self) -> Optional[str]:
+        """Why the edit was not reached, in words."""
+        return self.data.get("reason")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the checker says of a certificate. It is true where the proof holds and is about the problem."""
+
+    #: "verified", "refuted", "not proved" or "incomplete".
+    outcome: str
+    #: The theorem, or what is wrong.
+    theorem: str
+    #: Whether the certificate is about the problem that was given.
+    is_about_the_problem: bool = True
+
+    def __bool__(self) -> bool:
+        return self.outcome == "verified" and self.is_about_the_problem
+
+
+def figure(points: dict, dimension: int, kind: Any = Figure, **more: Any) -> Any:
+    """A figure from the JSON's points: per name the coordinates, each an interval."""
+    boxes = np.array([place[:dimension] for place in points.values()], dtype=float)
+    boxes = boxes.reshape(len(points), dimension, 2)
+    return kind(
+        names=tuple(points), lower=boxes[..., 0].copy(), upper=boxes[..., 1].copy(), **more
+    )

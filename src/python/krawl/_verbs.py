@@ -1,0 +1,133 @@
+"""The verbs: solve, edit, complete, verify."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from . import _krawl
+from ._problem import text_and_name
+from ._results import Complete, Edited, Figure, Run, Solution, Verdict, figure
+
+
+def solve(
+    problem: Any,
+    *,
+    mode: str = "certified",
+    space: Optional[str] = None,
+    reverse: bool = False,
+    extended: bool = True,
+    samples: int = 0,
+    certificate: Any = None,
+    progress: Optional[Callable[[int, float, int], Any]] = None,
+) -> Run:
+    """Follows the path through the sketch and gives the figures on it that meet the dimensions, with proof.
+
+    mode: "certified", or "float" for the same without proof.
+    space: "full" or "reduced"; the suitable one otherwise.
+    reverse: sets out in the other direction.
+    extended: goes on in extended precision where doubles do not suffice.
+    samples: so many figures along the path are in `data["samples"]`.
+    certificate: where to leave the proof, for `verify`.
+    progress: called about ten times a second with the number of steps, t, and the number of solutions.
+
+    Ctrl-C ends the run. Bad input raises `krawl.Error`.
+    """
+    text, name = text_and_name(problem)
+    answer = _krawl.solve(
+        text,
+        name,
+        mode=mode,
+        space=space,
+        reverse=reverse,
+        extended=extended,
+        samples=samples,
+        certificate=_path(certificate),
+        progress=progress,
+    )
+    data = json.loads(answer)
+    return Run(data["status"], data["verdict"], _solutions(data, data["dimension"]), data)
+
+
+def complete(
+    problem: Any,
+    *,
+    threads: int = 0,
+    time: Optional[float] = None,
+    certificate: Any = None,
+    progress: Optional[Callable[[float, int], Any]] = None,
+) -> Complete:
+    """All figures with the dimensions, up to motions and reflections, and the proof that there is no other.
+
+    threads: 0 for one per processor.
+    time: ends the search after so many seconds; what is proved by then is kept.
+    certificate: where to leave the proof, for `verify`.
+    progress: called now and then with the share of the search that is done, and the number of its parts.
+    """
+    text, name = text_and_name(problem)
+    answer = _krawl.complete_set(
+        text, name, threads=threads, time=time, certificate=_path(certificate), progress=progress
+    )
+    data = json.loads(answer)
+    return Complete(data["status"], _solutions(data, None), data)
+
+
+def verify(certificate: Any, problem: Any = None) -> Verdict:
+    """Proves a certificate again, with the checker's own arithmetic; and compares it with a problem."""
+    about = None if problem is None else text_and_name(problem)
+    return Verdict(*_krawl.verify(os.fspath(certificate), about))
+
+
+def edit(problem: Any, dimensions: Mapping) -> Edited:
+    """Changes dimensions of a figure and keeps the figure, with proof, or says how far it can go.
+
+    >>> krawl.edit("plate.toml", {"C-D": 40}).status        # doctest: +SKIP
+    'reached'
+    """
+    return Session(problem).edit(dimensions)
+
+
+class Session:
+    """A figure that is edited again and again: set up once, and each edit starts from the last one reached."""
+
+    def __init__(self, problem: Any) -> None:
+        self._session = _krawl.Session(*text_and_name(problem))
+
+    def edit(self, dimensions: Mapping) -> Edited:
+        """Changes dimensions, given by name. The figure stays what it is if they are not reached."""
+        settings = [f"{name}={_number(value)}" for name, value in dimensions.items()]
+        data = json.loads(self._session.edit(settings))
+        moved = data["dimensions"]
+        places = figure(data["points"], _dimension(data["points"]))
+        return Edited(data["status"], tuple(data["t"]), moved, places, data)
+
+    @property
+    def figure(self) -> Figure:
+        """The figure as it is now, where the sketch is drawn."""
+        names, lower, upper = zip(*self._session.points())
+        return Figure(names, np.array(lower), np.array(upper))
+
+
+def _solutions(data: dict, dimension: Optional[int]) -> list:
+    return [
+        figure(one["points"], dimension or _dimension(one["points"]), Solution, data=one)
+        for one in data["solutions"]
+    ]
+
+
+def _dimension(points: dict) -> int:
+    return max((len(place) for place in points.values()), default=3)
+
+
+def _path(path: Any) -> Optional[str]:
+    return None if path is None else os.fspath(path)
+
+
+def _number(value: Any) -> str:
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    return repr(value) if isinstance(value, float) else str(value)

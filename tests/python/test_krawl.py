@@ -1,0 +1,190 @@
+"""The Python package, used as its users would: `pip install .[test]`, then `pytest tests/python`."""
+
+import decimal
+import doctest
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import krawl
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[2]
+OCTAHEDRON = ROOT / "problems/octahedron.toml"
+PLATE = ROOT / "docs/examples/plate.toml"
+
+
+def triangle(**points):
+    return {
+        "dimension": 2,
+        "points": {"a": [0, 0], "b": [4, 0], "c": [0.5, 2.9], **points},
+        "constraints": {"distances": [["a", "b", 5], ["b", "c", 4], ["c", "a", 3]]},
+        "homotopy": {"reference": ["a", "b"]},
+    }
+
+
+def test_documentation_runs():
+    assert doctest.testmod(krawl).failed == 0
+
+
+def test_solutions_are_boxes_in_arrays_that_meet_the_dimensions():
+    run = krawl.solve(OCTAHEDRON)
+    assert run.status == "closed" and len(run.solutions) == 4
+    lengths = json.loads(json.dumps(run.data))["constraints"]
+    for solution in run.solutions:
+        assert solution.lower.shape == solution.upper.shape == (6, 3)
+        assert solution.lower.dtype == np.float64
+        assert (solution.lower <= solution.upper).all()
+        for length in lengths:
+            a, b = length["items"]
+            distance = np.linalg.norm(solution[a] - solution[b])
+            assert abs(distance - float(length["value"])) < 1e-12
+    assert run.solutions[0].folds == 0
+
+
+def test_problems_come_as_paths_text_free_dictionaries_and_arrays():
+    listed = krawl.solve(triangle())
+    arrays = krawl.solve(triangle(c=np.array([0.5, 2.9])))
+    exact = krawl.solve(triangle(c=[decimal.Decimal("0.5"), decimal.Decimal("2.9")]))
+    for other in (arrays, exact):
+        assert len(other.solutions) == len(listed.solutions) > 0
+        for one, two in zip(listed.solutions, other.solutions):
+            assert (one.lower == two.lower).all() and (one.upper == two.upper).all()
+    # The right angle of 3, 4, 5: c is 2.4 above a-b.
+    height = listed.solutions[0]
+    assert height.lower[2, 1] <= 2.4 <= height.upper[2, 1]
+
+
+def test_figures_come_back_to_where_the_sketch_is():
+    moved = triangle(a=[10, 20], b=[10, 24], c=[7, 20.5])
+    run = krawl.solve(moved)
+    there = run.in_sketch(run.solutions[0].points)
+    assert np.allclose(there[0], [10, 20]) and np.allclose(there[1], [10, 25])
+    assert there[2, 0] < 10
+
+
+def test_float_runs_agree_with_proved_ones():
+    proved = krawl.solve(OCTAHEDRON).solutions
+    seen = krawl.solve(OCTAHEDRON, mode="float").solutions
+    assert len(proved) == len(seen)
+    for one, two in zip(proved, seen):
+        assert np.allclose(one.points, two.points, atol=1e-9)
+
+
+def test_certificates_verify_and_are_about_their_problem(tmp_path):
+    proof = tmp_path / "octahedron.krawl"
+    krawl.solve(OCTAHEDRON, certificate=proof)
+    assert krawl.verify(proof)
+    assert krawl.verify(proof, OCTAHEDRON)
+    other = krawl.verify(proof, triangle())
+    assert other.outcome == "verified" and not other.is_about_the_problem and not other
+    damaged = proof.read_bytes().split(b"\n")
+    del damaged[len(damaged) // 2]
+    proof.write_bytes(b"\n".join(damaged))
+    try:
+        assert not krawl.verify(proof)
+    except krawl.Error as error:
+        assert str(proof) in str(error)
+
+
+def test_complete_sets_and_their_covers(tmp_path):
+    proof = tmp_path / "prism.cover"
+    result = krawl.complete(ROOT / "problems/prism.toml", certificate=proof, threads=1)
+    assert result.status == "complete" and len(result.solutions) == 12
+    assert result.solutions[0].lower.shape == (6, 2)
+    assert krawl.verify(proof).outcome == "verified"
+
+
+def test_edits_reach_or_name_the_limit():
+    session = krawl.Session(PLATE)
+    reached = session.edit({"C-D": 40})
+    assert reached.status == "reached" and reached.dimensions["C-D"] == [40, 40]
+    before = session.figure
+    assert np.linalg.norm(before["C"] - before["D"]) == pytest.approx(40, abs=1e-12)
+    limit = session.edit({"C-D": np.float64(200)})
+    assert limit.status == "limit"
+    low, high = limit.dimensions["C-D"]
+    assert 40 < low <= high < 200
+    # An edit that is not reached changes nothing.
+    assert (session.figure.lower == before.lower).all()
+    assert krawl.edit(PLATE, {"C-D": "40"}).status == "reached"
+
+
+@pytest.mark.parametrize(
+    "problem, words",
+    [
+        ({"dimension": 4}, "dimension"),
+        ({"dimension": object()}, "has no place"),
+        (7, "path of a file or a dictionary"),
+        (triangle(d=[1, 1]), "d"),
+    ],
+)
+def test_bad_input_says_what_is_wrong(problem, words):
+    with pytest.raises(krawl.Error, match=words):
+        krawl.solve(problem)
+
+
+def test_bad_options_say_what_is_wrong():
+    with pytest.raises(krawl.Error, match="space"):
+        krawl.solve(OCTAHEDRON, space="outer")
+    with pytest.raises(krawl.Error, match="certificates"):
+        krawl.solve(OCTAHEDRON, mode="float", certificate="x")
+    with pytest.raises(krawl.Error, match="time"):
+        krawl.complete(OCTAHEDRON, time=-1)
+    with pytest.raises(krawl.Error, match="A-Z"):
+        krawl.edit(PLATE, {"A-Z": 3})
+    with pytest.raises(FileNotFoundError):
+        krawl.solve("no-such-file.toml")
+
+
+def test_progress_is_told_and_other_threads_run_meanwhile():
+    seen, ticks, done = [], [], threading.Event()
+
+    def tick():
+        while not done.wait(0.002):
+            ticks.append(time.monotonic())
+
+    clock = threading.Thread(target=tick)
+    clock.start()
+    result = krawl.complete(
+        ROOT / "problems/icosahedron.toml", time=1.5, threads=1, progress=lambda *now: seen.append(now)
+    )
+    done.set()
+    clock.join()
+    assert result.status == "partial"
+    assert len(seen) > 1 and all(0 <= share <= 1 for share, _ in seen)
+    # With Python's lock held it would not have ticked at all.
+    assert len(ticks) > 100
+
+
+def test_the_example_draws(tmp_path):
+    pytest.importorskip("matplotlib")
+    (tmp_path / "problems").symlink_to(ROOT / "problems")
+    run = subprocess.run(
+        [sys.executable, ROOT / "examples/octahedron.py"],
+        cwd=tmp_path,
+        env={**os.environ, "MPLBACKEND": "Agg"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 0, run.stderr
+    assert "4 on the path, 4 in all: complete" in run.stdout
+    assert (tmp_path / "octahedron.png").stat().st_size > 10_000
+
+
+def test_ctrl_c_ends_a_long_run():
+    script = f"import krawl; print('begun', flush=True); krawl.complete({str(ROOT / 'problems/icosahedron.toml')!r})"
+    with subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as run:
+        assert run.stdout.readline() == "begun\n"
+        time.sleep(0.5)
+        run.send_signal(signal.SIGINT)
+        _, errors = run.communicate(timeout=30)
+    assert "KeyboardInterrupt" in errors
