@@ -53,6 +53,7 @@
 //!
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
 //! - [`generate`]: large problems made to measure
+//! - [`import`]: sketches of SolveSpace and FreeCAD, in and out
 //! - [`constraint`]: what each kind of constraint means, and its equations
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0
@@ -60,6 +61,7 @@
 //! - [`plan`]: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
 //! - [`remarks`]: what can be told of a problem before any path is followed
+//! - [`blocks`]: how the equations of a sketch fall apart
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`complex`]: all complex solutions, every path proved
@@ -79,6 +81,7 @@ macro_rules! debug_in_words {
 }
 pub(crate) use debug_in_words;
 
+pub mod blocks;
 pub mod certificate;
 pub mod compare;
 pub mod complete;
@@ -86,6 +89,7 @@ pub mod complex;
 pub mod constraint;
 pub mod edit;
 pub mod generate;
+pub mod import;
 pub mod interval;
 pub mod linalg;
 pub mod plan;

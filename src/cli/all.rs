@@ -2,9 +2,8 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::complete::{Options, Progress, Status, all};
-use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table};
 use std::io::Write;
@@ -24,8 +23,11 @@ Examples:
 
 Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
     file: PathBuf,
+    /// Which molecule of a file that holds several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -58,7 +60,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let problem = input::read(&arguments.file, arguments.sketch.as_deref())?;
     let json = arguments
         .json
         .as_deref()

@@ -1,12 +1,15 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, input, output};
+use krawl::edit::Decomposition;
+use krawl::import::{self, Format};
 use krawl::plan::Plan;
 use krawl::problem::{Object, Problem, Shape, Target};
 use krawl::remarks::{in_words, remarks};
+use krawl::report::decomposition_in_words;
 use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Check a problem file and print what is in it
 #[derive(clap::Args)]
@@ -15,11 +18,16 @@ Examples:
   krawl check sketch.toml
   krawl check sketch.toml --pattern
   krawl generate tower --size 60 | krawl check -
+  krawl check part.FCStd --sketch Sketch001
 
 Exit codes: 0 in order, 2 not in order, with the line and what to do.")]
 pub struct Arguments {
-    /// The problem file (TOML); `-` is standard input
+    /// The problem file (TOML), `-` is standard input; or a file of SolveSpace (.slvs) or FreeCAD (.FCStd),
+    /// or a molecule (.xyz, .mol, .sdf)
     file: PathBuf,
+    /// Which sketch of a .slvs or .FCStd file; left out, all are listed where there are several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
     /// Show where the Jacobian has entries, ordered by the construction plan, however many
     /// coordinates there are (otherwise up to 40)
     #[arg(long)]
@@ -31,7 +39,22 @@ const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
-    let problem = match input::read(&arguments.file) {
+    let format = Format::of(&arguments.file.display().to_string());
+    let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf));
+    if format.is_some()
+        && !(is_molecule && arguments.sketch.is_some())
+        && !is_single(&arguments.file, is_molecule)
+    {
+        return match describe_sketches(&arguments.file, arguments.sketch.as_deref()) {
+            Ok(text) if output::print(&text) => CLOSED,
+            Ok(_) => BAD_INPUT,
+            Err(message) => {
+                output::complain(&message);
+                BAD_INPUT
+            }
+        };
+    }
+    let problem = match input::read(&arguments.file, arguments.sketch.as_deref()) {
         Ok(problem) => problem,
         Err(message) => {
             output::complain(&message);
@@ -40,6 +63,9 @@ pub fn run(arguments: &Arguments) -> u8 {
     };
     let mut text = describe(&problem);
     text += &remarks_in_words(&problem);
+    if problem.is_absolute() {
+        text += &blocks_in_words(&problem);
+    }
     if !problem.is_distances_only() {
         text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
                  unknowns and equations by itself\n";
@@ -60,6 +86,71 @@ pub fn run(arguments: &Arguments) -> u8 {
         CLOSED
     } else {
         BAD_INPUT
+    }
+}
+
+/// Whether a file holds one molecule, which is described as a problem.
+fn is_single(file: &Path, is_molecule: bool) -> bool {
+    let name = file.display().to_string();
+    let listed = input::bytes(file).map(|bytes| import::list(&name, &bytes));
+    is_molecule && listed.is_ok_and(|listed| listed.is_ok_and(|listed| listed.len() == 1))
+}
+
+/// What a file of another program holds: its sketches, or the one of them.
+fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String> {
+    let name = file.display().to_string();
+    let bytes = input::bytes(file)?;
+    let listed = import::list(&name, &bytes).map_err(|error| error.to_string())?;
+    if listed.len() != 1 && sketch.is_none() {
+        let mut text = format!(
+            "{} in {name}; take one with --sketch NAME\n",
+            counted(listed.len(), "sketch", "sketches")
+        );
+        for one in &listed {
+            let drawn = counted(one.drawn, "thing drawn", "things drawn");
+            let constraints = counted(one.constraints, "constraint", "constraints");
+            let _ = writeln!(text, "  {}: {drawn}, {constraints}", one.name);
+        }
+        return Ok(text);
+    }
+    let (imported, _) = input::import(file, sketch)?;
+    let problem = &imported.problem;
+    let mut text = format!("{}, read as\n", problem.name);
+    text += &describe(problem);
+    if !imported.unsupported.is_empty() {
+        let _ = writeln!(
+            text,
+            "not supported: {}; so it cannot be edited",
+            input::unsupported(&imported)
+        );
+    }
+    text += "dimensions (for --set)\n";
+    for index in problem.dimensions() {
+        let name = problem.dimension_name(index);
+        let what = match index.checked_sub(problem.distances.len()) {
+            None => {
+                let Target::Length(length) = &problem.distances[index].target else {
+                    continue;
+                };
+                format!("distance: {}, {length}", problem.distance_name(index))
+            }
+            Some(c) => problem.constraint_name(c),
+        };
+        let _ = writeln!(text, "  {name:<14}{what}");
+    }
+    text += &blocks_in_words(problem);
+    Ok(text)
+}
+
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// How a problem in its own frame falls apart.
+fn blocks_in_words(problem: &Problem) -> String {
+    match Decomposition::of(problem) {
+        Ok(found) => decomposition_in_words(&found),
+        Err(fault) => format!("blocks\n  none: {fault}\n"),
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, interrupt, serve};
-use krawl::edit::{Edited, Ending, OpenError, Session, Setting, rewrite};
+use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
+use krawl::edit::{Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
-use krawl::report::{edit_to_json, edit_to_table};
+use krawl::report::{edit_to_table, edit_to_value, freedom_in_words};
 use krawl::track::{Control, Options};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,14 +20,18 @@ use std::path::{Path, PathBuf};
 Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
+  krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
 go so far and no further; 4 passes: branches of figures seem to meet; 1 stopped: nothing could be proved
 from some point on; 2 bad input, or results that could not be written.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
-    /// The distance between two points and its new value, such as a-b=5.2; more than one move together
+    /// Which sketch of a .slvs or .FCStd file, where it holds several (`krawl check` lists them)
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
+    /// A dimension and its new value, such as a-b=5.2, radii:hole=3 or c00f=45; more than one move together
     #[arg(
         long,
         value_name = "NAME=VALUE",
@@ -61,7 +65,8 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let problem = loaded.problem.clone();
     let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
     let extended = !arguments.no_extended;
     if arguments.serve {
@@ -99,18 +104,23 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= pictures.write(&Page::of_edit(&problem, &edited));
     }
     if let Some(json) = &json {
-        written &= json.write(&(edit_to_json(&problem, &edited, moved) + "\n"));
+        let mut value = edit_to_value(&problem, &edited, moved);
+        value["free"] = session.free().into();
+        value["redundant"] = session.redundant().into();
+        written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(out) = &arguments.out
         && edited.ending == Ending::Reached
     {
-        let text = std::fs::read_to_string(&arguments.file).map_err(|e| in_file(&e))?;
-        let text = rewrite(&text, session.problem(), &session.figure()).map_err(|e| in_file(&e))?;
+        let (points, radii) = (session.figure(), session.radii());
+        let bytes = loaded.rewritten(&arguments.file, session.problem(), &points, &radii);
+        let bytes = bytes.map_err(|e| in_file(&e))?;
         let beside = Beside::new(out)?;
-        written &= beside.commit(beside.file().write_all(text.as_bytes()));
+        written &= beside.commit(beside.file().write_all(&bytes));
     }
     if !arguments.quiet && json != Some(Destination::StandardOutput) {
-        written &= output::print(&edit_to_table(&problem, &edited, moved));
+        let text = edit_to_table(&problem, &edited, moved) + &freedom_in_words(&session);
+        written &= output::print(&text);
     }
     Ok(if written {
         exit_code(&edited)

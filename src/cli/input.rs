@@ -1,5 +1,6 @@
 //! Reading problems from files and from standard input.
 
+use krawl::import::{self, Figure, Format, Imported};
 use krawl::problem::{MAX_FILE_SIZE, Problem};
 use std::io::{self, Read};
 use std::path::Path;
@@ -7,8 +8,23 @@ use std::path::Path;
 /// What `-` stands for, in messages.
 const STANDARD_INPUT: &str = "standard input";
 
-/// Reads a problem file, or standard input for `-`. The text of the error says what is wrong, and where.
-pub fn read(file: &Path) -> Result<Problem, String> {
+/// Reads a problem file, or standard input for `-`, or a file of another program, whose `sketch` may be named. The
+/// text of the error says what is wrong, and where.
+pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
+    let name = file.display().to_string();
+    match Format::of(&name) {
+        Some(Format::SolveSpace | Format::FreeCad) => {
+            let problem = load(file, sketch)?.problem;
+            return krawl::edit::completed(&problem).map_err(|e| format!("{name}: {e}"));
+        }
+        Some(Format::Xyz | Format::Sdf) => return Ok(import(file, sketch)?.0.problem),
+        None if sketch.is_some() => {
+            return Err(format!(
+                "{name}: --sketch is for files that hold several sketches or molecules"
+            ));
+        }
+        None => {}
+    }
     if file != Path::new("-") {
         return Problem::read(file).map_err(|error| error.to_string());
     }
@@ -26,6 +42,106 @@ pub fn read(file: &Path) -> Result<Problem, String> {
         ));
     }
     Problem::parse(&text, STANDARD_INPUT).map_err(|error| error.to_string())
+}
+
+/// A problem, and the sketch of another program that it is, if it is one.
+pub struct Loaded {
+    /// What was read.
+    pub problem: Problem,
+    /// The sketch with the bytes of its file.
+    imported: Option<(Imported, Vec<u8>)>,
+}
+
+/// Reads a sketch to be edited: a problem file, which may be under-constrained, or a file of another program, of which
+/// `sketch` names the sketch.
+pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
+    let name = file.display().to_string();
+    if Format::of(&name).is_none() {
+        if sketch.is_some() {
+            return Err(format!(
+                "{name}: --sketch is for files that hold several sketches or molecules"
+            ));
+        }
+        return match Problem::read(file) {
+            Ok(problem) => Ok(Loaded {
+                problem,
+                imported: None,
+            }),
+            Err(error) if error.is_about_structure() => {
+                let text = std::fs::read_to_string(file).map_err(|e| format!("{name}: {e}"))?;
+                let problem = Problem::parse_loosely(&text, &name);
+                Ok(Loaded {
+                    problem: problem.map_err(|_| error.to_string())?,
+                    imported: None,
+                })
+            }
+            Err(error) => Err(error.to_string()),
+        };
+    }
+    let (imported, bytes) = import(file, sketch)?;
+    if !imported.unsupported.is_empty() {
+        return Err(format!(
+            "{name}: {} has constraints that krawl has no kind for, and a figure would not keep them: {}",
+            imported.problem.name,
+            unsupported(&imported)
+        ));
+    }
+    Ok(Loaded {
+        problem: imported.problem.clone(),
+        imported: Some((imported, bytes)),
+    })
+}
+
+/// Reads a sketch of another program's file.
+pub fn import(file: &Path, sketch: Option<&str>) -> Result<(Imported, Vec<u8>), String> {
+    let name = file.display().to_string();
+    let bytes = bytes(file)?;
+    let imported = import::read(&name, &bytes, sketch).map_err(|error| error.to_string())?;
+    Ok((imported, bytes))
+}
+
+/// The bytes of another program's file.
+pub fn bytes(file: &Path) -> Result<Vec<u8>, String> {
+    let name = file.display();
+    let size = std::fs::metadata(file).map_err(|e| format!("{name}: cannot be read: {e}"))?;
+    if size.len() > import::MAX_SIZE as u64 {
+        return Err(format!(
+            "{name}: is larger than the {} MiB that are read",
+            import::MAX_SIZE >> 20
+        ));
+    }
+    std::fs::read(file).map_err(|e| format!("{name}: cannot be read: {e}"))
+}
+
+/// The kinds that krawl does not have, with their numbers.
+pub fn unsupported(imported: &Imported) -> String {
+    let kinds = imported.unsupported.iter();
+    let kinds: Vec<String> = kinds
+        .map(|(kind, count)| format!("{kind} ({count})"))
+        .collect();
+    kinds.join(", ")
+}
+
+impl Loaded {
+    /// The file with a new figure and new dimensions, in its own format.
+    pub fn rewritten(
+        &self,
+        file: &Path,
+        problem: &Problem,
+        points: &[[f64; 3]],
+        radii: &[f64],
+    ) -> Result<Vec<u8>, String> {
+        match &self.imported {
+            Some((imported, bytes)) => {
+                import::rewrite(imported, bytes, problem, &Figure { points, radii })
+            }
+            None => {
+                let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
+                let text = krawl::edit::rewrite(&text, problem, points, radii);
+                Ok(text.map_err(|e| e.to_string())?.into_bytes())
+            }
+        }
+    }
 }
 
 /// What a problem file is called in messages.

@@ -2,9 +2,8 @@
 
 use super::edit::{beside, open};
 use super::output::{self, Destination};
-use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
-use krawl::problem::Problem;
 use krawl::report::{ranges_to_json, ranges_to_table};
 use krawl::track::Control;
 use std::path::PathBuf;
@@ -20,8 +19,11 @@ Examples:
 Exit codes: 0 all ranges are known to their ends, 1 some are not, 2 bad input, or results that could not
 be written.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
+    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
     /// Only this dimension, such as a-b; may be given more than once
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
@@ -40,7 +42,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let shown = arguments.file.display();
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let only = arguments
         .only
         .iter()

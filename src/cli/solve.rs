@@ -2,17 +2,19 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, NOT_PROVED, OPEN, REFUTED, STOPPED, input, interrupt};
+use super::{BAD_INPUT, CLOSED, LIMIT, NOT_PROVED, OPEN, REFUTED, STOPPED, input, interrupt};
 use clap::ValueEnum;
+use krawl::blocks::clusters;
 use krawl::certificate::{Outcome as Verdict, Settings, Stage, Writer, verify};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
-use krawl::report::{ProgressLine, Run, to_short_table, to_summary, to_table};
+use krawl::report::{ProgressLine, Run, to_first_table, to_short_table, to_summary, to_table};
 use krawl::track::{self, Control, Options, Outcome, Progress, Status, Trace, Witness};
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{BufReader, BufWriter};
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Follow the path through the sketch and list the figures on it that meet the dimensions
 ///
@@ -34,9 +36,16 @@ Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, 
 found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
 proved.")]
 pub struct Arguments {
-    /// The problem files (TOML); `-` is standard input
+    /// The problem files (TOML), `-` is standard input; or sketches (.slvs, .FCStd) and molecules (.xyz, .mol, .sdf)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Which sketch or molecule of a file that holds several (`krawl check` lists them)
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
+    /// Only the solution to which the sketch moves without a fold; exit code 0 if there is one, 3 if the path turns
+    /// back before, 1 if that could not be proved
+    #[arg(long, conflicts_with_all = ["all", "summary", "cert"])]
+    first: bool,
     /// Prove every step, or track in floating-point arithmetic
     #[arg(long, value_enum, default_value_t = Mode::Certified)]
     mode: Mode,
@@ -213,7 +222,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.check()?;
     arguments.check_count()?;
     // Whatever is wrong is said before anything runs.
-    let problems = arguments.files.iter().map(|file| input::read(file));
+    let sketch = arguments.sketch.as_deref();
+    let problems = arguments.files.iter().map(|file| input::read(file, sketch));
     let problems = problems.collect::<Result<Vec<Problem>, String>>()?;
     let json = arguments
         .json
@@ -242,8 +252,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let silent = arguments.quiet || standard || pictures.use_standard_output();
     let mut lines = String::new();
     let (mut written, mut worst) = (true, CLOSED);
-    for (k, (problem, file)) in problems.iter().zip(&arguments.files).enumerate() {
-        let which = output::which_of((k, problems.len()), file);
+    let named = problems.into_iter().zip(&arguments.files);
+    let mut queue: VecDeque<(Problem, &PathBuf, bool)> = named
+        .map(|(problem, file)| (problem, file, false))
+        .collect();
+    let (count, mut k) = (queue.len(), 0);
+    while let Some((problem, file, is_block)) = queue.pop_front() {
+        let problem = &problem;
+        let which = output::which_of((k.min(count - 1), count), file);
         let mut trace = Trace::default();
         let shown = !pictures.is_empty();
         let wants_path = (json.is_some() || shown) && arguments.mode == Mode::Certified;
@@ -261,14 +277,36 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             wants_path.then_some(&mut trace),
         )?;
         written &= well;
+        if let (Status::Stopped(reason), false) = (&outcome.status, is_block)
+            && arguments.can_be_cut(cancel)
+        {
+            let blocks = clusters(problem);
+            if !blocks.is_empty() {
+                if !silent {
+                    let text = cut_in_words(problem, &blocks, reason);
+                    written &= output::print(&text);
+                }
+                for block in blocks.into_iter().rev() {
+                    queue.push_front((block, file, true));
+                }
+                continue;
+            }
+        }
         if wants_path
             && samples > 0
             && let Some(finer) = follow_finely(arguments, problem, &which, &mut outcome)
         {
             trace = finer;
         }
+        let first = match arguments.first {
+            true => to_first_table(problem, &outcome),
+            false => None,
+        };
         worst = match (&outcome.status, worst) {
+            _ if first.is_some() => worst,
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
+            // The path comes back, or ends, and has no such solution.
+            _ if arguments.first => LIMIT,
             (Status::Open(_), _) => OPEN,
             // A certificate that does not pass its check.
             (Status::Closed, CLOSED) => verdict.unwrap_or(CLOSED),
@@ -294,8 +332,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             } else {
                 "\n"
             };
-            written &= output::print(&format!("{gap}{}", arguments.shown(problem, &outcome)));
+            let text = match (first, arguments.first) {
+                (Some(text), _) => text,
+                (None, true) => format!(
+                    "{}: no solution without a fold: the path turns back before, or could not be followed that far ({})\n",
+                    problem.name,
+                    to_summary(problem, &outcome).trim_end()
+                ),
+                (None, false) => arguments.shown(problem, &outcome),
+            };
+            written &= output::print(&format!("{gap}{text}"));
         }
+        k += 1;
         if cancel.load(Ordering::Relaxed) {
             break;
         }
@@ -308,7 +356,33 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     Ok(if written { worst } else { BAD_INPUT })
 }
 
+/// What is said before a problem that stops as a whole is followed block by block.
+fn cut_in_words(problem: &Problem, blocks: &[Problem], reason: &str) -> String {
+    let what = match problem.dimension {
+        2 => "a side",
+        _ => "a triangle of sides",
+    };
+    format!(
+        "{}: followed as a whole it stops ({}). It falls apart into {} blocks that share no more than {what}, and \
+         these are followed one by one. Figures of all blocks, one of each, as they are or mirrored, fit together to a \
+         figure that meets all dimensions.\n\n",
+        problem.name,
+        reason.trim_end_matches('.'),
+        blocks.len(),
+    )
+}
+
 impl Arguments {
+    /// Whether a problem that stops may be followed block by block.
+    fn can_be_cut(&self, cancel: &AtomicBool) -> bool {
+        self.mode == Mode::Certified
+            && self.cert.is_none()
+            // One document for each file.
+            && self.json.is_none()
+            && self.pictures.files().next().is_none()
+            && !cancel.load(Ordering::Relaxed)
+    }
+
     fn shown(&self, problem: &Problem, outcome: &Outcome) -> String {
         match (self.summary, self.all) {
             (true, _) => to_summary(problem, outcome),

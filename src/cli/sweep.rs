@@ -2,9 +2,9 @@
 
 use super::edit::{beside, exit_code, open};
 use super::output::{self, Destination};
-use super::{BAD_INPUT, CLOSED, interrupt};
+use super::{BAD_INPUT, CLOSED, input, interrupt};
 use krawl::edit::{Ending, Setting};
-use krawl::problem::{Decimal, Problem};
+use krawl::problem::Decimal;
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_json};
 use krawl::track::Control;
 use std::path::PathBuf;
@@ -21,8 +21,11 @@ Examples:
 Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are written;
 2 bad input, or results that could not be written.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
+    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
     /// The dimension that is driven, such as a-b
     #[arg(long, value_name = "NAME")]
     vary: String,
@@ -53,7 +56,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let shown = arguments.file.display();
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let [from, to] =
         [&arguments.from, &arguments.to].map(|value| -> Result<(usize, Decimal), String> {

@@ -82,9 +82,12 @@ pub struct Lowering<'a> {
     /// What each equation is a part of: a count of objects, then constraints.
     owners: Vec<usize>,
     owner: usize,
-    /// Where edits begin: the distances that the figure at t = 0 has, which moves from there with all other
-    /// constraints kept. Otherwise it is the sketch that moves.
-    from: Option<&'a [Target]>,
+    /// Where the path begins.
+    from: Start<'a>,
+    /// Whether left-hand sides must not depend on the values of dimensions.
+    editable: bool,
+    /// What dimensions were led to, and which senses were read off the sketch.
+    record: Record,
     /// Index of the distance between two points, the lower first.
     distances: HashMap<[usize; 2], usize>,
     /// Lengths that are entries of equations already.
@@ -95,8 +98,30 @@ pub struct Lowering<'a> {
     pub(super) objects: HashMap<usize, Vec<Entry>>,
 }
 
+/// Where a path begins, at t = 0.
+#[derive(Debug, Clone, Copy)]
+pub enum Start<'a> {
+    /// At the sketch, which need not meet any constraint.
+    Sketch,
+    /// At a figure that meets all constraints, but has these distances.
+    Distances(&'a [Target]),
+    /// At a figure that meets all constraints with the dimensions of another lowering of the same problem, but for the
+    /// values of dimensions.
+    Dimensions(&'a Record),
+}
+
+/// What a lowering decided by values: dimensions in the order in which they were met, and senses read off the sketch.
+#[derive(Debug, Clone, Default)]
+pub struct Record {
+    targets: Vec<Target>,
+    leads: Vec<Real>,
+    senses: Vec<bool>,
+}
+
 /// A finished lowering.
 pub struct Lowered {
+    /// What edits of it begin with.
+    pub record: Record,
     /// The unknowns and equations.
     pub tail: Tail,
     /// The exact values of the unknowns in the sketch.
@@ -111,13 +136,17 @@ pub struct Lowered {
 }
 
 impl<'a> Lowering<'a> {
-    /// Nothing yet. `from`: the distances at t = 0 of a figure that meets all other constraints there, if it is
-    /// not the sketch.
-    pub fn new(problem: &'a Problem, from: Option<&'a [Target]>) -> Self {
+    /// Nothing yet. With `editable`, the left-hand sides will be the same whatever the values of dimensions are.
+    pub fn new(problem: &'a Problem, from: Start<'a>, editable: bool) -> Self {
         let pairs = problem.distances.iter().enumerate();
         Lowering {
             problem,
             from,
+            editable,
+            record: Record {
+                targets: problem.distances.iter().map(|d| d.target.clone()).collect(),
+                ..Record::default()
+            },
             frame: Frame::new(problem),
             tail: Tail::default(),
             values: Vec::new(),
@@ -146,6 +175,7 @@ impl<'a> Lowering<'a> {
         self.tail.mirrors = !self.problem.is_absolute()
             && (0..self.problem.dimension).all(|axis| self.is_symmetric(axis));
         Lowered {
+            record: self.record,
             tail: self.tail,
             values: self.values,
             owners: self.owners,
@@ -273,7 +303,7 @@ impl<'a> Lowering<'a> {
     /// [`crate::problem::HomotopyChoices::detour`]).
     pub fn vanish(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
         let detour = self.problem.homotopy.detour.value();
-        let right = if self.from.is_some() {
+        let right = if !matches!(self.from, Start::Sketch) {
             vec![Real::zero()]
         } else if !start.is_zero() {
             let back = -&start;
@@ -290,7 +320,7 @@ impl<'a> Lowering<'a> {
     /// The same for linear conditions, which hold all along the path where the sketch meets them: they
     /// are never singular.
     pub fn vanish_linear(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
-        let right = if start.is_zero() || self.from.is_some() {
+        let right = if start.is_zero() || !matches!(self.from, Start::Sketch) {
             vec![Real::zero()]
         } else {
             let back = -&start;
@@ -299,13 +329,45 @@ impl<'a> Lowering<'a> {
         self.push(name.to_owned(), products, right, power, true);
     }
 
-    /// A number's way from what it is in the sketch to what it is wanted to be; edits keep it as it is wanted.
-    /// The degree is the same for both, so that the equations are.
-    pub fn lead(&self, now: Real, then: Real) -> Polynomial {
-        match self.from {
-            Some(_) => vec![then, Real::zero()],
+    /// A number's way from what it is in the sketch to what it is wanted to be; where the path begins at a figure
+    /// that meets all constraints, from what it is there. The degree is the same for both, so that the equations are.
+    pub fn lead(&mut self, now: Real, then: Real) -> Polynomial {
+        let before = match self.from {
+            Start::Sketch => None,
+            Start::Distances(_) => Some(then.clone()),
+            Start::Dimensions(record) => Some(record.leads[self.record.leads.len()].clone()),
+        };
+        self.record.leads.push(then.clone());
+        match before {
             None => ramp(now, then),
+            Some(before) if before == then => vec![then, Real::zero()],
+            Some(before) => ramp(before, then),
         }
+    }
+
+    /// A sense that is read off the sketch and the value of a dimension: as `seen` there, and the same in edits of it.
+    pub fn sense(&mut self, seen: bool) -> bool {
+        let sense = match self.from {
+            Start::Dimensions(record) => record.senses[self.record.senses.len()],
+            _ => seen,
+        };
+        self.record.senses.push(sense);
+        sense
+    }
+
+    /// Whether left-hand sides must not depend on the values of dimensions.
+    pub fn is_editable(&self) -> bool {
+        self.editable
+    }
+
+    /// The equation of a distance between two points, which otherwise is none of the tail's.
+    pub fn distance(&mut self, index: usize) {
+        let [a, b] = self.problem.distances[index].points;
+        let span = self.between(&self.place(a), &self.place(b));
+        let products = self.dot(1, &span.forms, &span.forms);
+        let length = self.given_length(index);
+        let name = self.problem.distance_name(index);
+        self.equate(&name, products, multiply(&length, &length), 2);
     }
 
     /// A new unknown that is the polynomial `of`: a coefficient that varies, or is no whole number.
@@ -386,11 +448,16 @@ impl<'a> Lowering<'a> {
             Target::Length(x) => Real::from(x.value().clone()),
             Target::SquaredLength(x) => Real::from(x.value().clone()).sqrt(),
         };
-        let start = match self.from {
-            Some(from) => target(&from[index]),
+        let end = target(&distance.target);
+        let from = match self.from {
+            Start::Sketch => None,
+            Start::Distances(from) => Some(&from[index]),
+            Start::Dimensions(record) => Some(&record.targets[index]),
+        };
+        let start = match from {
+            Some(from) => target(from),
             None => length(&minus(&b, &a)),
         };
-        let end = target(&distance.target);
         if self.problem.bend() != Some(index) {
             return ramp(start, end);
         }

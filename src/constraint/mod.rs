@@ -50,7 +50,8 @@ use crate::interval::Interval;
 use crate::problem::{Problem, Target};
 use arguments::Arguments;
 use kind::Given;
-use lowering::{Fault, Lowered, Lowering};
+use lowering::{Fault, Lowering, Start};
+pub(crate) use lowering::{Lowered, Record};
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {
@@ -78,7 +79,7 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 /// If the problem has not been checked ([`Problem::check`]).
 pub fn lower_edit(problem: &Problem, from: &[Target]) -> Tail {
     debug_assert_eq!(problem.distances.len(), from.len());
-    tail(try_lower_from(problem, Some(from)))
+    tail(try_lower_from(problem, Start::Distances(from), false))
 }
 
 fn tail(lowered: Result<Lowered, (Owner, Fault)>) -> Tail {
@@ -131,11 +132,24 @@ pub(crate) enum Owner {
 
 /// The equations of a problem with a reference and known names, or the first object or constraint at fault.
 pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
-    try_lower_from(problem, None)
+    try_lower_from(problem, Start::Sketch, false)
 }
 
-fn try_lower_from(problem: &Problem, from: Option<&[Target]>) -> Result<Lowered, (Owner, Fault)> {
-    let mut low = Lowering::new(problem, from);
+/// All equations of a problem in its own frame, distances among them, which come last. Left-hand sides do not depend
+/// on the values of dimensions; `from`: a figure that meets all constraints with the dimensions of that lowering is
+/// where the path begins, otherwise it is the sketch.
+///
+/// The problem need not have as many equations as unknowns.
+pub(crate) fn try_lower_all(
+    problem: &Problem,
+    from: Option<&Record>,
+) -> Result<Lowered, (Owner, Fault)> {
+    let from = from.map_or(Start::Sketch, Start::Dimensions);
+    try_lower_from(problem, from, true)
+}
+
+fn try_lower_from(problem: &Problem, from: Start, all: bool) -> Result<Lowered, (Owner, Fault)> {
+    let mut low = Lowering::new(problem, from, all);
     let objects = problem.objects.len();
     for object in 0..objects {
         low.begin(object);
@@ -156,6 +170,14 @@ fn try_lower_from(problem: &Problem, from: Option<&[Target]>) -> Result<Lowered,
         kind.lower(given, &mut low).map_err(fail)?;
     }
     low.begin(objects + problem.constraints.len());
+    if all {
+        // What nothing holds is held where it is chosen, by whoever asks.
+        for index in 0..problem.distances.len() {
+            low.begin(objects + problem.constraints.len() + 1 + index);
+            low.distance(index);
+        }
+        return Ok(low.finish());
+    }
     pin(problem, &mut low);
     Ok(low.finish())
 }

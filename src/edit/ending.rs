@@ -35,9 +35,9 @@ pub struct Limit {
 /// One dimension in an edit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dimension {
-    /// The index in [`Problem::distances`](crate::problem::Problem::distances).
+    /// The index, as in [`Setting`](super::Setting).
     pub index: usize,
-    /// What it was, in the lengths of the problem.
+    /// What it was, in the unit of the problem or in degrees.
     pub from: Interval,
     /// What it was to be.
     pub to: Interval,

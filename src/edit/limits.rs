@@ -1,7 +1,9 @@
 //! How far each dimension can go alone.
 
 use super::ending::{Edited, Ending, Limit};
+use super::setting::measure;
 use super::{Session, Setting};
+use crate::constraint::Measure;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
 use crate::remarks::detour;
@@ -24,7 +26,7 @@ pub enum End {
 /// The values over which one dimension can move while all others stand still.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Range {
-    /// The index in [`Problem::distances`](crate::problem::Problem::distances).
+    /// The index, as in [`Setting`].
     pub index: usize,
     /// What the dimension is.
     pub value: Interval,
@@ -50,11 +52,24 @@ impl Session {
     /// If the problem has no such distance.
     pub fn range(&mut self, index: usize, control: &mut Control) -> Range {
         let value = self.length(index);
-        let low = SMALLEST * value.mid();
-        let high = match detour(self.problem(), index).map(|(_, length)| length) {
+        let problem = self.problem();
+        let way_round = match index < problem.distances.len() {
+            true => detour(problem, index).map(|(_, length)| length),
+            false => None,
+        };
+        let (low, high) = match (measure(problem, index), way_round) {
             // No figure is that long: the other distances between its ends do not reach.
-            Some(longest) => 1.0625 * longest.max(value.sup()),
-            None => 1024.0 * value.mid(),
+            (_, Some(longest)) => (SMALLEST * value.mid(), 1.0625 * longest.max(value.sup())),
+            (Measure::Degrees, _) => (
+                SMALLEST * value.mid(),
+                180.0 - SMALLEST * (180.0 - value.mid()),
+            ),
+            (Measure::Signed, _) => {
+                let coordinates = problem.points.iter().flat_map(|p| &p.sketch);
+                let far = coordinates.fold(value.mag(), |far, x| far.max(x.to_f64().abs()));
+                (value.mid() - far / SMALLEST, value.mid() + far / SMALLEST)
+            }
+            _ => (SMALLEST * value.mid(), value.mid() / SMALLEST),
         };
         let [low, high] = [low, high].map(|goal| self.end(index, goal, control));
         Range {
@@ -65,10 +80,15 @@ impl Session {
         }
     }
 
-    /// The ranges of all dimensions.
+    /// The ranges of all dimensions; where the figure has no place of its own, of all distances.
     pub fn ranges(&mut self, control: &mut Control) -> Vec<Range> {
-        let count = self.problem().distances.len();
-        (0..count).map(|index| self.range(index, control)).collect()
+        let problem = self.problem();
+        let all = problem.dimensions();
+        let movable = |index: &usize| *index < problem.distances.len() || problem.is_absolute();
+        let all: Vec<usize> = all.filter(movable).collect();
+        all.into_iter()
+            .map(|index| self.range(index, control))
+            .collect()
     }
 
     fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> End {

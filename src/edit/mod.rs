@@ -38,16 +38,18 @@
 mod ending;
 mod limits;
 mod open;
+mod parts;
 mod place;
 mod session;
 mod setting;
 mod sweep;
+mod whole;
 mod write;
 
 pub use ending::{Dimension, Edited, Ending, Limit, Lost, Orientations};
 pub use limits::{End, Range};
 pub use open::{Moved, OpenError};
-pub use session::Session;
+pub use session::{Decomposition, Session, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use write::{WriteError, rewrite};

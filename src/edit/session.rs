@@ -1,32 +1,27 @@
 //! A figure and the edits of it.
 
-use super::ending::{Dimension, Edited, Ending, Limit, Orientations};
-use super::open::{self, Moved, OpenError};
-use super::place::Stand;
+use super::ending::Edited;
+use super::open::{Moved, OpenError};
+use super::parts::Parts;
 use super::setting::Setting;
-use crate::interval::{Interval, enclose, hull, point};
-use crate::problem::{Decimal, Problem, Target};
-use crate::system::Homotopy;
-use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
-use crate::track::certified::{FollowArcs, arcs};
-use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError};
-use std::borrow::Cow;
-use std::sync::atomic::Ordering;
-use std::time::Instant;
-
-/// Points are said to be on one line, or in one plane, where the sine of the angle is at most this.
-const FLAT: f64 = 1e-9;
+use super::whole::Whole;
+use crate::interval::Interval;
+use crate::problem::Problem;
+use crate::track::{Control, Options};
 
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
+///
+/// Figures up to motions are followed as a whole. A problem in its own frame ([`Problem::is_absolute`]) is followed part by
+/// part ([`crate::blocks`]), and need not have as many equations as unknowns: what nothing determines stays put.
 #[derive(Debug)]
 pub struct Session {
-    problem: Problem,
-    options: Options,
-    arcs: Box<dyn FollowArcs>,
-    stand: Stand,
-    figure: Figure,
-    lengths: Vec<Interval>,
-    moved: Moved,
+    way: Way,
+}
+
+#[derive(Debug)]
+enum Way {
+    Whole(Box<Whole>),
+    Parts(Box<Parts>),
 }
 
 impl Session {
@@ -43,71 +38,53 @@ impl Session {
     /// precision and the limit of steps matter.
     ///
     /// The space is the full one for small problems and otherwise the reduced one, with the full one where that
-    /// stops, unless `options` have the reduced one.
+    /// stops, unless `options` have the reduced one. Problems with more than distances are followed in the full one.
     pub fn open_with(
         problem: &Problem,
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
-        let mut problem = problem.clone();
-        problem.homotopy.bend_coefficient = Decimal::from(0);
-        problem.homotopy.detour = Decimal::from(0);
-        let homotopy = Homotopy::new(&problem)?;
-        if homotopy.equations > LARGEST_SQUARE {
-            let what = format!(
-                "there are {} free coordinates, more than the {LARGEST_SQUARE} of which proofs keep square \
-                 matrices",
-                homotopy.equations
-            );
-            return Err(StartError::Unsupported(what).into());
-        }
-        let placement = homotopy.gauge.placement(&problem);
-        let stand = Stand::new(&problem, placement.map_err(StartError::from)?);
-        let space = match options.space {
-            // The reduced space is that of distances.
-            _ if !problem.is_distances_only() => Space::Full,
-            Space::Full => Space::for_certified(problem.distances.len()),
-            Space::Reduced => Space::Reduced,
+        let way = if problem.is_absolute() {
+            Way::Parts(Box::new(Parts::open(problem, options, control)?))
+        } else {
+            Way::Whole(Box::new(Whole::open_with(problem, options, control)?))
         };
-        let options = Options {
-            space,
-            reverse: false,
-            ..options.clone()
-        };
-        let mut arcs = arcs(homotopy, &options);
-        let (figure, moved) = open::correct(&problem, &mut *arcs, control)?;
-        let lengths = problem.distances.iter().map(|d| length(&d.target));
-        Ok(Session {
-            lengths: lengths.collect(),
-            problem,
-            options,
-            arcs,
-            stand,
-            figure,
-            moved,
-        })
+        Ok(Session { way })
     }
 
     /// The problem with the dimensions as they are now. Its sketch is the one that was given.
     pub fn problem(&self) -> &Problem {
-        &self.problem
+        match &self.way {
+            Way::Whole(whole) => whole.problem(),
+            Way::Parts(parts) => parts.problem(),
+        }
     }
 
     /// How far the sketch was from the first figure.
     pub fn moved(&self) -> Moved {
-        self.moved
+        match &self.way {
+            Way::Whole(whole) => whole.moved(),
+            Way::Parts(parts) => parts.moved(),
+        }
     }
 
-    /// What a distance is now: an enclosure.
+    /// What a dimension is now, by its index in [`Setting`]: an enclosure, in the unit of the problem or in degrees.
     pub fn length(&self, index: usize) -> Interval {
-        self.lengths[index]
+        match &self.way {
+            Way::Whole(whole) => whole.length(index),
+            Way::Parts(parts) => parts.value(index),
+        }
     }
 
-    /// The figure, in the coordinates of the problem: a box that holds exactly one with these dimensions. The
+    /// The figure, in the coordinates of the problem: a box that holds exactly one with these dimensions. Where
+    /// constraints say where the figure is it is there. Otherwise the
     /// first point stays where the sketch has it, the next one that is elsewhere stays on its ray from there, and
     /// in space the next one off that line stays on its side of their plane.
     pub fn points(&self) -> Vec<[Interval; 3]> {
-        self.in_problem(&self.figure)
+        match &self.way {
+            Way::Whole(whole) => whole.points(),
+            Way::Parts(parts) => parts.points(),
+        }
     }
 
     /// The same in floats.
@@ -116,208 +93,103 @@ impl Session {
         points.iter().map(|p| p.map(|x| x.mid())).collect()
     }
 
+    /// The radii of circles, by object, in floats; zero for all other objects, and where the figure is followed as a
+    /// whole.
+    pub fn radii(&self) -> Vec<f64> {
+        match &self.way {
+            Way::Whole(whole) => vec![0.0; whole.problem().objects.len()],
+            Way::Parts(parts) => parts.radii(),
+        }
+    }
+
+    /// The names of points (or radii) that nothing determines wholly: they stay put, at least in one direction.
+    pub fn free(&self) -> Vec<String> {
+        match &self.way {
+            Way::Whole(_) => Vec::new(),
+            Way::Parts(parts) => parts.free(),
+        }
+    }
+
+    /// Constraints that seem to follow from all others at the figure, as far as floats tell. They are left out of the
+    /// proof; after each edit they are looked at, and an edit that breaks one is `stopped`.
+    pub fn redundant(&self) -> Vec<String> {
+        match &self.way {
+            Way::Whole(_) => Vec::new(),
+            Way::Parts(parts) => parts.redundant(),
+        }
+    }
+
+    /// How the equations fall apart, if they are followed part by part.
+    pub fn decomposition(&self) -> Option<Decomposition> {
+        match &self.way {
+            Way::Whole(_) => None,
+            Way::Parts(parts) => Some(parts.decomposition()),
+        }
+    }
+
     /// Changes dimensions. The session's figure is then the one that was reached; it stays what it is if the
     /// new dimensions were not reached.
     ///
     /// Where a dimension is set twice, the last setting counts.
     ///
     /// # Panics
-    /// If a setting is about a distance that the problem does not have.
+    /// If a setting is about a dimension that the problem does not have.
     pub fn edit(&mut self, settings: &[Setting]) -> Edited {
         self.edit_with(settings, &mut Control::default())
     }
 
     /// The same, with hooks.
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        let (edited, figure) = self.attempt(settings, control);
-        if let Some(figure) = figure {
-            self.figure = figure;
-            let homotopy = self.arcs.homotopy_mut();
-            for setting in settings {
-                homotopy.hold(setting.index, &setting.target);
-                self.lengths[setting.index] = length(&setting.target);
-                self.problem.distances[setting.index].target = setting.target.clone();
-            }
-            homotopy.keep_constraints(&self.problem, &open::targets_of(&self.problem));
+        match &mut self.way {
+            Way::Whole(whole) => whole.edit_with(settings, control),
+            Way::Parts(parts) => parts.edit(settings, true, control),
         }
-        edited
     }
 
     /// What [`Session::edit`] would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        self.attempt(settings, control).0
-    }
-
-    /// An edit, and the figure that was reached if so. The homotopy is as before.
-    fn attempt(&mut self, settings: &[Setting], control: &mut Control) -> (Edited, Option<Figure>) {
-        let clock = Instant::now();
-        let homotopy = self.arcs.homotopy_mut();
-        for setting in settings {
-            let from = &self.problem.distances[setting.index].target;
-            homotopy.lead(setting.index, from, &setting.target);
+        match &mut self.way {
+            Way::Whole(whole) => whole.probe(settings, control),
+            Way::Parts(parts) => parts.edit(settings, false, control),
         }
-        let from = open::targets_of(&self.problem);
-        let mut edited = Cow::Borrowed(&self.problem);
-        if !homotopy.tail.is_empty() {
-            for setting in settings {
-                edited.to_mut().distances[setting.index].target = setting.target.clone();
-            }
-            homotopy.keep_constraints(&edited, &from);
-        }
-        let run = self.follow(control);
-        let homotopy = self.arcs.homotopy_mut();
-        for setting in settings {
-            let now = &self.problem.distances[setting.index].target;
-            homotopy.hold(setting.index, now);
-        }
-        homotopy.keep_constraints(&self.problem, &from);
-        let (edited, figure) = self.account(settings, run);
-        let seconds = clock.elapsed().as_secs_f64();
-        (Edited { seconds, ..edited }, figure)
-    }
-
-    /// Follows the arc, in the full space where the reduced one stops.
-    fn follow(&mut self, control: &mut Control) -> ArcRun {
-        let run = self.arcs.follow(&self.figure, control);
-        let is_cancelled = control
-            .cancel
-            .is_some_and(|flag| flag.load(Ordering::Relaxed));
-        let (ArcEnd::Passes(reason) | ArcEnd::Stopped(reason)) = &run.end else {
-            return run;
-        };
-        if self.options.space == Space::Full || is_cancelled {
-            return run;
-        }
-        let full = Options {
-            space: Space::Full,
-            ..self.options.clone()
-        };
-        let homotopy = self.arcs.homotopy().clone();
-        let mut second = arcs(homotopy, &full).follow(&self.figure, control);
-        let remark = format!("full space: in the reduced space the run stopped, {reason}");
-        second.switched_on.push(remark);
-        second
-    }
-
-    fn account(&self, settings: &[Setting], run: ArcRun) -> (Edited, Option<Figure>) {
-        let t = hull(run.t.0, run.t.1);
-        let dimensions = settings.iter().map(|setting| {
-            let (from, to) = (self.lengths[setting.index], length(&setting.target));
-            let value = match &run.end {
-                ArcEnd::Reached(_) => to,
-                _ => from + t * (to - from),
-            };
-            Dimension {
-                index: setting.index,
-                from,
-                to,
-                value,
-            }
-        });
-        let dimensions = dimensions.collect();
-        let (ending, points, figure) = match run.end {
-            ArcEnd::Reached(figure) => (Ending::Reached, self.in_problem(&figure), Some(figure)),
-            ArcEnd::Limit(fold) => {
-                let limit = self.limit(&fold, &run.orientations);
-                (Ending::Limit(limit), self.in_problem(&fold.figure), None)
-            }
-            ArcEnd::Passes(reason) => (Ending::Passes(reason), self.points(), None),
-            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), self.points(), None),
-        };
-        let edited = Edited {
-            ending,
-            t: run.t,
-            dimensions,
-            points,
-            orientations: Orientations::new(run.orientations),
-            tubes: run.steps,
-            rejected: run.rejected,
-            length: run.length,
-            switched_on: run.switched_on,
-            seconds: 0.0,
-        };
-        (edited, figure)
-    }
-
-    /// What is special about a fold's figure.
-    fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
-        let homotopy = self.arcs.homotopy();
-        let places = open::coordinates(homotopy, &fold.figure);
-        let (mut flat, mut flat_within) = (Vec::new(), 0.0f64);
-        for orientation in orientations.iter().filter(|o| o.sign != 0) {
-            let sine = sine(&places, &orientation.points);
-            if sine <= FLAT {
-                flat.push(orientation.points.clone());
-                flat_within = flat_within.max(sine);
-            }
-        }
-        let velocity = Figure {
-            centre: fold.velocity.clone(),
-            low: vec![0.0; fold.velocity.len()],
-            radius: vec![0.0; fold.velocity.len()],
-        };
-        let velocity = open::coordinates(homotopy, &velocity);
-        let d = homotopy.dimension;
-        let turned = velocity.iter().map(|v| {
-            let v = v.map(|x| x.mid());
-            self.stand.turn(d, &places, v)
-        });
-        let mut motion: Vec<[f64; 3]> = turned.collect();
-        let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let largest = motion.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
-        for v in &mut motion {
-            *v = v.map(|x| x / largest);
-        }
-        Limit {
-            flat,
-            flat_within,
-            motion,
-        }
-    }
-
-    /// A figure in the coordinates and lengths of the problem.
-    fn in_problem(&self, figure: &Figure) -> Vec<[Interval; 3]> {
-        let homotopy = self.arcs.homotopy();
-        let unit = point(homotopy.unit);
-        let mut points = open::coordinates(homotopy, figure);
-        for x in points.iter_mut().flatten() {
-            *x *= unit;
-        }
-        self.stand.put(homotopy.dimension, &points)
     }
 }
 
-/// An enclosure of a target length.
-pub(super) fn length(target: &Target) -> Interval {
-    match target {
-        Target::Length(length) => enclose(length),
-        Target::SquaredLength(squared) => enclose(squared).sqrt(),
-    }
+/// A problem in its own frame, which need not be well constrained, made so: coordinates that nothing determines are held
+/// where the sketch has them, and constraints that seem to follow from others there are left out.
+///
+/// # Errors
+/// If it cannot be made so, in words.
+pub fn completed(problem: &Problem) -> Result<Problem, String> {
+    Parts::assemble(problem, &Options::certified())?
+        .0
+        .completed()
 }
 
-/// A bound on the determinant of the differences of some points from the first, over the product of their
-/// lengths: in the plane the sine of the angle at the first point. 1 where it cannot be told.
-fn sine(places: &[[Interval; 3]], points: &[usize]) -> f64 {
-    let [first, others @ ..] = points else {
-        return 1.0;
-    };
-    let from_first =
-        |p: &usize| -> [Interval; 3] { std::array::from_fn(|k| places[*p][k] - places[*first][k]) };
-    let sides: Vec<[Interval; 3]> = others.iter().map(from_first).collect();
-    let minor =
-        |v: &[Interval; 3], w: &[Interval; 3], i: usize, j: usize| v[i] * w[j] - v[j] * w[i];
-    let determinant = match sides.as_slice() {
-        [u, v] => minor(u, v, 0, 1),
-        [u, v, w] => u[0] * minor(v, w, 1, 2) + u[1] * minor(v, w, 2, 0) + u[2] * minor(v, w, 0, 1),
-        _ => return 1.0,
-    };
-    let size = |u: &[Interval; 3]| (u[0].sqr() + u[1].sqr() + u[2].sqr()).sqrt();
-    let product = sides
-        .iter()
-        .fold(point(1.0), |product, u| product * size(u));
-    if product.inf() > 0.0 {
-        (determinant / product).mag()
-    } else {
-        1.0
+/// How the equations of a sketch fall apart.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decomposition {
+    /// How many coordinates are one with others, by coincidences and the like.
+    pub merged: usize,
+    /// How many unknowns are left.
+    pub unknowns: usize,
+    /// The names of the unknowns of each block that has to be solved, in an order in which each needs only those before;
+    /// single numbers that are known exactly once those before are come in none of them.
+    pub blocks: Vec<Vec<String>>,
+    /// See [`Session::free`].
+    pub free: Vec<String>,
+    /// See [`Session::redundant`].
+    pub redundant: Vec<String>,
+}
+
+impl Decomposition {
+    /// How a problem in its own frame falls apart, as its sketch shows it; it need not be well constrained.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn of(problem: &Problem) -> Result<Self, String> {
+        Ok(Parts::assemble(problem, &Options::certified())?
+            .0
+            .decomposition())
     }
 }

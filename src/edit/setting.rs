@@ -1,13 +1,18 @@
 //! Which dimension is to become how long.
 
+use super::whole::length;
+use crate::constraint::{self, Measure};
+use crate::interval::{Interval, Real, hull};
 use crate::problem::{Decimal, DecimalError, Problem, Target};
+use num_rational::BigRational;
 
 /// A dimension and its new value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
-    /// The index in [`Problem::distances`].
+    /// The index in [`Problem::distances`], or the number of those plus the index in [`Problem::constraints`] of a
+    /// constraint with a value.
     pub index: usize,
-    /// The new value.
+    /// The new value: of a constraint, its number, in the unit of the problem or in degrees.
     pub target: Target,
 }
 
@@ -41,6 +46,15 @@ pub enum SettingError {
     /// A length is positive.
     #[error("{0}: a length must be greater than 0, and {1} is not")]
     NotPositive(String, String),
+    /// An angle is between 0 and 180 degrees.
+    #[error("{0}: an angle must be between 0 and 180 degrees, and {1} is not")]
+    NotAnAngle(String, String),
+    /// Its number cannot be edited here.
+    #[error(
+        "{0}: in a figure that has no place of its own only distances between points can be edited; fix a point and a \
+         direction (docs/problem-files.md), and its number can be too"
+    )]
+    Fixed(String),
     /// The same dimension twice.
     #[error("{0} is set twice: leave out one of the two")]
     Twice(String),
@@ -50,19 +64,94 @@ pub enum SettingError {
 }
 
 impl Setting {
-    /// A length for the distance `index`.
+    /// A value for the dimension `index`.
     ///
     /// # Panics
-    /// If the problem has no such distance.
-    pub fn new(problem: &Problem, index: usize, length: Decimal) -> Result<Self, SettingError> {
-        let name = problem.distance_name(index);
-        if !length.is_positive() {
-            return Err(SettingError::NotPositive(name, length.to_string()));
+    /// If the problem has no such dimension.
+    pub fn new(problem: &Problem, index: usize, value: Decimal) -> Result<Self, SettingError> {
+        let name = problem.dimension_name(index);
+        let constraint = index.checked_sub(problem.distances.len());
+        if constraint.is_some() && !problem.is_absolute() {
+            return Err(SettingError::Fixed(name));
+        }
+        match measure(problem, index) {
+            Measure::Length if !value.is_positive() => {
+                return Err(SettingError::NotPositive(name, value.to_string()));
+            }
+            Measure::Degrees
+                if !(value.is_positive()
+                    && *value.value() < BigRational::from_integer(180.into())) =>
+            {
+                return Err(SettingError::NotAnAngle(name, value.to_string()));
+            }
+            _ => {}
         }
         Ok(Setting {
             index,
-            target: Target::Length(length),
+            target: Target::Length(value),
         })
+    }
+
+    /// What a dimension of a problem is.
+    pub(super) fn now(problem: &Problem, index: usize) -> Self {
+        let target = match index.checked_sub(problem.distances.len()) {
+            None => problem.distances[index].target.clone(),
+            Some(c) => {
+                let value = problem.constraints[c].value.clone();
+                Target::Length(value.expect("a dimension has a value"))
+            }
+        };
+        Setting { index, target }
+    }
+
+    /// Gives the dimension of a problem this value.
+    pub(super) fn apply(&self, problem: &mut Problem) {
+        match (
+            self.index.checked_sub(problem.distances.len()),
+            &self.target,
+        ) {
+            (None, target) => problem.distances[self.index].target = target.clone(),
+            (Some(c), Target::Length(value)) => problem.constraints[c].value = Some(value.clone()),
+            (Some(_), Target::SquaredLength(_)) => {
+                unreachable!("only distances are given by their squares")
+            }
+        }
+    }
+
+    /// An enclosure of the value.
+    pub(super) fn value(&self) -> Interval {
+        length(&self.target)
+    }
+
+    /// What the dimension is at t on its way from what it is in `problem` to the value.
+    pub(super) fn between(&self, problem: &Problem, t: Interval) -> Interval {
+        let before = Setting::now(problem, self.index);
+        let linear = |from: Interval, to: Interval| from + t * (to - from);
+        let (Measure::Degrees, Target::Length(from), Target::Length(to)) =
+            (measure(problem, self.index), &before.target, &self.target)
+        else {
+            return linear(before.value(), self.value());
+        };
+        // It is the cosine that goes linearly.
+        let cosine = |x: &Decimal| Real::cosine_of_degrees(x.value().clone()).enclose();
+        let now = linear(cosine(from), cosine(to));
+        let near = |x: f64| x.clamp(-1.0, 1.0).acos().to_degrees();
+        let (mut low, mut high) = (near(now.sup()), near(now.inf()));
+        let at = |x: f64| {
+            let exact = BigRational::from_float(x);
+            exact.map(|x| Real::cosine_of_degrees(x).enclose())
+        };
+        let mut step = 1e-13;
+        while low > 0.0 && at(low).is_none_or(|c| c.inf() < now.sup()) {
+            low = (low - step).max(0.0);
+            step *= 2.0;
+        }
+        let mut step = 1e-13;
+        while high < 180.0 && at(high).is_none_or(|c| c.sup() > now.inf()) {
+            high = (high + step).min(180.0);
+            step *= 2.0;
+        }
+        hull(low, high)
     }
 
     /// From a text such as `a-b=5.2`: the distance between the points a and b, in either order, shall be
@@ -85,7 +174,9 @@ impl Setting {
         Self::new(problem, index, length)
     }
 
-    /// The index of the distance of that name: `a-b`, or `b-a`.
+    /// The index of the dimension of that name: its label, if it has one; `a-b` or `b-a` for a distance; for another
+    /// constraint its kind and what it names, as in `angles:a-b-c` or `radii:hole`, or the latter alone if only one
+    /// dimension has it.
     pub fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
         find(problem, name.trim())
     }
@@ -100,23 +191,48 @@ impl Setting {
                 .iter()
                 .any(|other| other.index == setting.index)
             {
-                return Err(SettingError::Twice(problem.distance_name(setting.index)));
+                return Err(SettingError::Twice(problem.dimension_name(setting.index)));
             }
         }
         Ok(())
     }
 }
 
+/// What the number of a dimension is.
+pub(super) fn measure(problem: &Problem, index: usize) -> Measure {
+    match index.checked_sub(problem.distances.len()) {
+        None => Measure::Length,
+        Some(c) => constraint::kind(&problem.constraints[c].kind)
+            .map_or(Measure::Nothing, |kind| kind.measure()),
+    }
+}
+
 fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
+    let labelled = problem.labels.iter().filter(|(_, label)| *label == name);
+    let mut labelled = labelled.map(|(&index, _)| index);
+    if let (Some(index), None) = (labelled.next(), labelled.next()) {
+        return Ok(index);
+    }
     let mut found = None;
-    for (index, distance) in problem.distances.iter().enumerate() {
-        let [a, b] = distance.points.map(|p| problem.points[p].name.as_str());
+    for index in problem.dimensions() {
         let is = |a: &str, b: &str| {
             name.strip_prefix(a)
                 .and_then(|rest| rest.strip_prefix('-'))
                 .is_some_and(|rest| rest == b)
         };
-        if is(a, b) || is(b, a) {
+        let is_it = match index.checked_sub(problem.distances.len()) {
+            None => {
+                let [a, b] = problem.distances[index]
+                    .points
+                    .map(|p| problem.points[p].name.as_str());
+                is(a, b) || is(b, a)
+            }
+            Some(_) => {
+                let own = problem.derived_name(index);
+                own == name || own.split_once(':').is_some_and(|(_, items)| items == name)
+            }
+        };
+        if is_it {
             if found.is_some() {
                 return Err(SettingError::Ambiguous(name.to_owned()));
             }
@@ -125,11 +241,14 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
     }
     found.ok_or_else(|| {
         const SHOWN: usize = 12;
-        let count = problem.distances.len();
-        let names = (0..count.min(SHOWN)).map(|index| problem.distance_name(index));
+        let all: Vec<usize> = problem.dimensions().collect();
+        let names = all
+            .iter()
+            .take(SHOWN)
+            .map(|&index| problem.dimension_name(index));
         let mut known = names.collect::<Vec<_>>().join(", ");
-        if count > SHOWN {
-            known += &format!(" and {} more", count - SHOWN);
+        if all.len() > SHOWN {
+            known += &format!(" and {} more", all.len() - SHOWN);
         }
         SettingError::Unknown {
             name: name.chars().take(64).collect(),
@@ -139,8 +258,8 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
 }
 
 fn example(problem: &Problem) -> String {
-    match problem.distances.is_empty() {
-        true => "a-b=5.2".to_owned(),
-        false => format!("{}=5.2", problem.distance_name(0)),
+    match problem.dimensions().next() {
+        None => "a-b=5.2".to_owned(),
+        Some(index) => format!("{}=5.2", problem.dimension_name(index)),
     }
 }

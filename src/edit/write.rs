@@ -4,6 +4,7 @@ use crate::problem::{Decimal, Problem, Target};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use toml_edit::{Document, Item, TableLike, Value};
 
@@ -18,12 +19,17 @@ pub enum WriteError {
     LongSquare(String),
 }
 
-/// Puts the places of points and the dimensions of `problem` into the text of the file that it was read from,
+/// Puts the places of points, the radii of circles and the dimensions of `problem` into the text of the file that it was read from,
 /// which keeps its order, comments and layout.
 ///
 /// Places are rounded to floats. Dimensions are put where they differ from what the text says, those given
-/// by their squares as exact squares.
-pub fn rewrite(text: &str, problem: &Problem, places: &[[f64; 3]]) -> Result<String, WriteError> {
+/// by their squares as exact squares. `radii`: by object, in floats; zeros stand for what is not to be changed.
+pub fn rewrite(
+    text: &str,
+    problem: &Problem,
+    places: &[[f64; 3]],
+    radii: &[f64],
+) -> Result<String, WriteError> {
     let other = |what: &str| WriteError::OtherFile(what.to_owned());
     let document = Document::parse(text).map_err(|error| other(error.message()))?;
     let root = document.as_table();
@@ -42,12 +48,58 @@ pub fn rewrite(text: &str, problem: &Problem, places: &[[f64; 3]]) -> Result<Str
             put(value, float(*x))?;
         }
     }
+    for key in ["circles", "spheres"] {
+        let Some(circles) = table(root, key) else {
+            continue;
+        };
+        for (object, &radius) in problem.objects.iter().zip(radii) {
+            let circle = circles.get(&object.name).and_then(Item::as_inline_table);
+            if let Some(value) = circle.and_then(|circle| circle.get("radius"))
+                && radius > 0.0
+            {
+                put(value, float(radius))?;
+            }
+        }
+    }
     let constraints = table(root, "constraints").ok_or_else(|| other("no constraints"))?;
     let list = |key: &str| -> Vec<&Value> {
         let array = constraints.get(key).and_then(Item::as_array);
         array.map_or(Vec::new(), |array| array.iter().collect())
     };
-    let lengths = list("distances").into_iter().map(|value| (value, false));
+    // Under `distances` there are those of points from lines and planes too, which are constraints.
+    let names: HashSet<&str> = problem.points.iter().map(|p| p.name.as_str()).collect();
+    let joins_points = |value: &&Value| {
+        let array = value.as_array();
+        array.is_some_and(|array| {
+            let name = |k: usize| array.get(k).and_then(Value::as_str);
+            let both = [0, 1].map(|k| name(k).is_some_and(|name| names.contains(name)));
+            array.len() == 3 && both == [true, true]
+        })
+    };
+    let (lengths, others): (Vec<&Value>, Vec<&Value>) =
+        list("distances").into_iter().partition(joins_points);
+    let mut entries: HashMap<String, std::vec::IntoIter<&Value>> = HashMap::new();
+    entries.insert("distances".to_owned(), others.into_iter());
+    for constraint in problem.constraints.iter() {
+        let key = &constraint.kind;
+        let entries = entries
+            .entry(key.clone())
+            .or_insert_with(|| list(key).into_iter());
+        let entry = entries
+            .next()
+            .ok_or_else(|| other("another number of constraints"))?;
+        let Some(wanted) = &constraint.value else {
+            continue;
+        };
+        let array = entry.as_array().ok_or_else(|| other(key))?;
+        let number = array
+            .get(array.len().saturating_sub(1))
+            .ok_or_else(|| other(key))?;
+        if said(text, number).as_ref() != Some(wanted) {
+            put(number, toml_number(wanted.text()))?;
+        }
+    }
+    let lengths = lengths.into_iter().map(|value| (value, false));
     let squares = list("squared_distances")
         .into_iter()
         .map(|value| (value, true));
@@ -67,9 +119,7 @@ pub fn rewrite(text: &str, problem: &Problem, places: &[[f64; 3]]) -> Result<Str
             }
             (Target::SquaredLength(_), false) => return Err(other(&name())),
         };
-        let span = number.span().and_then(|span| text.get(span));
-        let said = span.and_then(|text| text.replace('_', "").parse::<Decimal>().ok());
-        if said.as_ref() != Some(&wanted) {
+        if said(text, number).as_ref() != Some(&wanted) {
             put(number, toml_number(wanted.text()))?;
         }
     }
@@ -80,6 +130,12 @@ pub fn rewrite(text: &str, problem: &Problem, places: &[[f64; 3]]) -> Result<Str
         out.replace_range(span, &new);
     }
     Ok(out)
+}
+
+/// The number that stands in the text.
+fn said(text: &str, number: &Value) -> Option<Decimal> {
+    let text = number.span().and_then(|span| text.get(span))?;
+    text.replace('_', "").parse().ok()
 }
 
 fn table<'t>(root: &'t dyn TableLike, key: &str) -> Option<&'t dyn TableLike> {
@@ -103,10 +159,14 @@ fn toml_number(text: &str) -> String {
     };
     let mantissa = mantissa.trim_start_matches('+');
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let (sign, whole) = match whole.strip_prefix('-') {
+        Some(whole) => ("-", whole),
+        None => ("", whole),
+    };
     let whole = whole.trim_start_matches('0');
     let whole = if whole.is_empty() { "0" } else { whole };
     let fraction = if fraction.is_empty() { "0" } else { fraction };
-    format!("{whole}.{fraction}{exponent}")
+    format!("{sign}{whole}.{fraction}{exponent}")
 }
 
 /// The exact square of a decimal, unless it has too many digits.
@@ -138,7 +198,7 @@ mod tests {
         problem.distances[0].target = Target::Length("+04.50".parse().unwrap());
         problem.distances[2].target = Target::Length("3.5".parse().unwrap());
         let places = [[0.0, 0.0, 0.0], [4.5, 1e-70, 0.0], [0.25, 3.0, 0.0]];
-        let text = rewrite(FILE, &problem, &places).unwrap();
+        let text = rewrite(FILE, &problem, &places, &[]).unwrap();
         let wanted = FILE
             .replace("[0, 0] #", "[0.0, 0.0] #")
             .replace("[ 4.0, 0 ]", "[ 4.5, 0.0 ]")
@@ -156,7 +216,7 @@ mod tests {
         let places = [[0.0; 3]; 3];
         let other = FILE.replace("\"a\", \"b\", 4], ", "");
         assert!(matches!(
-            rewrite(&other, &problem, &places),
+            rewrite(&other, &problem, &places, &[]),
             Err(WriteError::OtherFile(_))
         ));
     }

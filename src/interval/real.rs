@@ -5,6 +5,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::OnceLock;
 
 /// An exact real number, kept as an expression. Enclosures of it are computed with some 250 bits and
 /// rounded outwards, so that each of its views ([`Real::enclose`], [`Real::double`]) is nearly as
@@ -330,20 +331,43 @@ pub fn root(squared: &BigRational) -> Ball {
 
 /// The cosine of an angle from 0 to 180 degrees.
 fn cosine(degrees: &BigRational) -> Ball {
-    let x = pi().times(&Ball::exactly(
-        degrees / BigRational::from_integer(180.into()),
-    ));
-    let square = x.times(&x).negated().rounded();
+    static PI: OnceLock<Ball> = OnceLock::new();
+    let pi = PI.get_or_init(pi);
+    // All in units of 2⁻⁴⁰⁰, quotients rounded down, errors counted in units and rounded up.
+    let one = BigInt::one() << 400u32;
+    let up = |x: BigRational| {
+        (x * BigRational::from_integer(one.clone()))
+            .ceil()
+            .to_integer()
+    };
+    let part = degrees / BigRational::from_integer(180.into());
+    let x = (&pi.middle * &part * BigRational::from_integer(one.clone()))
+        .floor()
+        .to_integer();
+    // |x| ≤ π < 4: the square is off by less than 8 times what x is, and by one for rounding.
+    let x_error = up(&pi.radius * &part) + 1;
+    let square: BigInt = (&x * &x) >> 400u32;
+    let square_error = x_error * 8 + 2;
     // Σ (−x²)ᵏ/(2k)!; with |x| ≤ π what comes after 70 terms is below π¹⁴⁰/140! < 2⁻⁵⁰⁰.
-    let mut term = Ball::exactly(BigRational::one());
-    let mut sum = term.clone();
-    for k in 1..70i64 {
-        let factor = BigRational::new(1.into(), ((2 * k - 1) * (2 * k)).into());
-        term = term.times(&square).times(&Ball::exactly(factor)).rounded();
-        sum = sum.plus(&term).rounded();
+    let (mut term, mut term_error) = (one.clone(), BigInt::zero());
+    let (mut sum, mut error) = (one.clone(), BigInt::one());
+    for k in 1..70u32 {
+        let divisor = BigInt::from((2 * k - 1) * (2 * k));
+        // |term · square − their exact product| ≤ |term| δ + ε (|square| + δ).
+        let product_error = &term * &square_error + &term_error * (&square + &square_error);
+        term = (&term * &square) / (&divisor << 400u32);
+        term_error = product_error / (&divisor << 400u32) + 2;
+        if k % 2 == 1 {
+            sum -= &term;
+        } else {
+            sum += &term;
+        }
+        error += &term_error;
     }
-    sum.radius += BigRational::new(BigInt::one(), BigInt::one() << 500u32);
-    sum
+    Ball {
+        middle: BigRational::new(sum, one.clone()),
+        radius: BigRational::new(error, one),
+    }
 }
 
 /// π by Machin's formula: 16 arctan(1/5) − 4 arctan(1/239).

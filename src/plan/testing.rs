@@ -78,6 +78,7 @@ pub(crate) fn rigid(
                 return None;
             }
             Some(Problem {
+                labels: Default::default(),
                 name: "random".into(),
                 dimension,
                 source: String::new(),

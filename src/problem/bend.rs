@@ -20,6 +20,14 @@ pub(super) fn default_coefficient(distances: &[Distance]) -> Decimal {
     text.parse().unwrap_or_else(|_| Decimal::from(0))
 }
 
+impl super::Problem {
+    /// The bend that a problem has if its file names none: the last distance, by the default coefficient.
+    pub(crate) fn bend_by_default(&mut self) {
+        self.homotopy.bend = self.distances.len().saturating_sub(1);
+        self.homotopy.bend_coefficient = default_coefficient(&self.distances);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::problem::Problem;

@@ -44,6 +44,8 @@ pub struct ProblemBuilder {
     bend: Option<Vec<String>>,
     bend_coefficient: Option<Number>,
     detour: Option<Number>,
+    /// Whether it need not be well constrained.
+    loose: bool,
 }
 
 /// A number, or what is wrong with it.
@@ -85,6 +87,7 @@ impl Problem {
             bend: None,
             bend_coefficient: None,
             detour: None,
+            loose: false,
         }
     }
 
@@ -274,6 +277,13 @@ impl ProblemBuilder {
         self
     }
 
+    /// Makes a problem in the sketch's own frame that need not have as many equations as unknowns, for
+    /// [`crate::edit::Session`]; a reference is not looked at.
+    pub fn loose(mut self) -> Self {
+        self.loose = true;
+        self
+    }
+
     /// Checks everything and makes the problem.
     pub fn finish(self) -> Result<Problem, ProblemError> {
         check_size(&self.name, self.dimension, self.points.len())?;
@@ -343,6 +353,7 @@ impl ProblemBuilder {
         };
         let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
         let mut problem = Problem {
+            labels: Default::default(),
             name: self.name,
             dimension: self.dimension,
             source: self.source,
@@ -357,6 +368,11 @@ impl ProblemBuilder {
                 detour,
             },
         };
+        if self.loose {
+            check_names(&problem)?;
+            check_sketch(&problem.points, &problem.distances)?;
+            return Ok(problem);
+        }
         let own_frame = constraint::frame_of(&problem).frame;
         let count = problem.points.len();
         if !own_frame {

@@ -292,6 +292,18 @@ pub enum Place {
 }
 
 impl ProblemError {
+    /// Whether all is in order but that there are not as many equations as unknowns, or not where they are needed.
+    pub fn is_about_structure(&self) -> bool {
+        matches!(
+            self,
+            Self::System { .. }
+                | Self::Count { .. }
+                | Self::Structure { .. }
+                | Self::NoDistances
+                | Self::TooFewPoints { .. }
+        )
+    }
+
     /// The part of the input that is meant.
     pub fn place(&self) -> Place {
         match self {

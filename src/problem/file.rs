@@ -99,6 +99,16 @@ impl fmt::Display for FileError {
     }
 }
 
+impl FileError {
+    /// Whether the file is in order but for the number of its equations, or where they are.
+    pub fn is_about_structure(&self) -> bool {
+        match &*self.fault {
+            FileFault::Problem { error, .. } => error.is_about_structure(),
+            _ => false,
+        }
+    }
+}
+
 impl std::error::Error for FileError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &*self.fault {
@@ -167,6 +177,17 @@ impl Problem {
         let (problem, _) = Reader::new(text, file).problem()?;
         Ok(problem)
     }
+
+    /// The same of a problem that need not have as many equations as unknowns, in the sketch's own frame, for
+    /// [`crate::edit::Session`].
+    pub fn parse_loosely(text: &str, file: &str) -> Result<Problem, FileError> {
+        let reader = Reader {
+            loose: true,
+            ..Reader::new(text, file)
+        };
+        let (problem, _) = reader.problem()?;
+        Ok(problem)
+    }
 }
 
 /// See [`Problem::read_with_published`].
@@ -199,6 +220,8 @@ pub(super) struct Reader<'a> {
     file: &'a str,
     /// Where the lines end.
     line_ends: Vec<usize>,
+    /// Whether the problem need not be well constrained.
+    loose: bool,
 }
 
 /// Where the parts of a problem stand in the file.
@@ -231,6 +254,7 @@ impl<'a> Reader<'a> {
             text,
             file,
             line_ends: line_ends.collect(),
+            loose: false,
         }
     }
 
@@ -292,6 +316,9 @@ impl<'a> Reader<'a> {
         builder = self.constraints(root, &objects, with_objects, &mut places)?;
         builder = self.homotopy(root, builder, &mut places)?;
         let published = self.published(root)?;
+        if self.loose {
+            builder = builder.loose();
+        }
         let problem = builder.finish();
         let problem = problem.map_err(|error| self.in_problem(&places, error))?;
         Ok((problem, published))

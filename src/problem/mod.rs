@@ -4,6 +4,8 @@
 //! sure that the system of equations is square and that its parts are neither over- nor
 //! under-constrained. Numbers are [`Decimal`]s, exactly what the file says.
 
+use std::collections::BTreeMap;
+
 mod bend;
 mod builder;
 mod check;
@@ -50,6 +52,9 @@ pub struct Problem {
     pub constraints: Vec<Constraint>,
     /// How the sketch is led to the target dimensions.
     pub homotopy: HomotopyChoices,
+    /// What dimensions and constraints are called in the program that they come from, by index:
+    /// distances first, then [`Problem::constraints`].
+    pub labels: BTreeMap<usize, String>,
 }
 
 /// A point and its place in the sketch.
@@ -112,6 +117,37 @@ impl Problem {
     pub fn distance_name(&self, index: usize) -> String {
         let [a, b] = self.distances[index].points;
         format!("{}-{}", self.points[a].name, self.points[b].name)
+    }
+
+    /// The dimensions: the distances, and the constraints with a number, counted after the distances.
+    pub fn dimensions(&self) -> impl Iterator<Item = usize> + '_ {
+        let head = self.distances.len();
+        let rest = self.constraints.iter().enumerate();
+        let rest = rest.filter(|(_, c)| c.value.is_some());
+        (0..head).chain(rest.map(move |(index, _)| head + index))
+    }
+
+    /// A dimension as people read it: its label if it has one, `p1-p2` for a distance, and the kind and
+    /// what is named for all others, `angles:a-b-c`.
+    pub fn dimension_name(&self, index: usize) -> String {
+        match self.labels.get(&index) {
+            Some(label) => label.clone(),
+            None => self.derived_name(index),
+        }
+    }
+
+    /// The same without labels.
+    pub(crate) fn derived_name(&self, index: usize) -> String {
+        let Some(c) = index.checked_sub(self.distances.len()) else {
+            return self.distance_name(index);
+        };
+        let constraint = &self.constraints[c];
+        let items: Vec<&str> = constraint
+            .items
+            .iter()
+            .map(|&item| self.item_name(item))
+            .collect();
+        format!("{}:{}", constraint.kind, items.join("-"))
     }
 
     /// Whether two points are joined by a distance.

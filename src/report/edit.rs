@@ -1,9 +1,9 @@
 //! Edits in words and tables, for people, and as JSON, for programs.
 
 use super::certain_digits;
-use crate::edit::{Edited, Ending, Limit, Moved, Session};
+use crate::edit::{Decomposition, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
-use crate::problem::Problem;
+use crate::problem::{Problem, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -23,7 +23,7 @@ pub(super) fn named(problem: &Problem, points: &[usize]) -> String {
 /// What came of an edit in words, one sentence or two, without the figure.
 pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
     let changes = edited.dimensions.iter().map(|d| {
-        let name = problem.distance_name(d.index);
+        let name = problem.dimension_name(d.index);
         format!("{name} from {} to {}", short(d.from), short(d.to))
     });
     let changes = changes.collect::<Vec<_>>().join(", ");
@@ -33,7 +33,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         ),
         Ending::Limit(limit) => {
             let reached = edited.dimensions.iter().map(|d| {
-                let name = problem.distance_name(d.index);
+                let name = problem.dimension_name(d.index);
                 let verb = if d.to.mid() >= d.from.mid() {
                     "grow"
                 } else {
@@ -262,7 +262,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
             .collect()
     };
     let dimensions = edited.dimensions.iter().map(|d| {
-        let name = problem.distance_name(d.index);
+        let name = problem.dimension_name(d.index);
         (name, bounds(d.value))
     });
     let reason = match &edited.ending {
@@ -313,8 +313,9 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
 /// The figure of a session and its dimensions, as a value in memory.
 pub fn figure_to_value(session: &Session) -> Value {
     let problem = session.problem();
-    let dimensions = (0..problem.distances.len())
-        .map(|index| (problem.distance_name(index), bounds(session.length(index))));
+    let dimensions = problem
+        .dimensions()
+        .map(|index| (problem.dimension_name(index), bounds(session.length(index))));
     json!({
         "problem": problem.name,
         "status": "figure",
@@ -338,4 +339,59 @@ pub(super) fn points_to_value(problem: &Problem, points: &[[Interval; 3]]) -> Va
 /// Adding zero turns -0, which intervals use as a lower bound, into 0.
 pub(super) fn bounds(x: Interval) -> Value {
     json!([x.inf() + 0.0, x.sup() + 0.0])
+}
+
+/// What of a session's figure stays put because nothing determines it, and which constraints are left out of proofs
+/// because they follow from others: lines of text, none where there is nothing to say.
+pub fn freedom_in_words(session: &Session) -> String {
+    let mut out = String::new();
+    let (free, redundant) = (session.free(), session.redundant());
+    if !free.is_empty() {
+        let _ = writeln!(out, "free, stay put      {}", list(&free, LISTED));
+    }
+    if !redundant.is_empty() {
+        let _ = writeln!(
+            out,
+            "left out            {}: follow from the others at this figure, as far as floats tell; they hold to 1e-7 \
+             still, which is looked at, not proved",
+            list(&redundant, LISTED)
+        );
+    }
+    out
+}
+
+/// How a sketch falls apart, as lines of text.
+pub fn decomposition_in_words(found: &Decomposition) -> String {
+    let mut out = format!(
+        "blocks\n  {} merged with others, {} left\n",
+        counted(found.merged, "coordinate"),
+        counted(found.unknowns, "unknown")
+    );
+    if found.blocks.is_empty() {
+        out += "  none to solve: all are known exactly, one after the other\n";
+    }
+    for (index, block) in found.blocks.iter().enumerate() {
+        let _ = writeln!(
+            out,
+            "  {}: {}: {}",
+            index + 1,
+            counted(block.len(), "unknown"),
+            list(block, LISTED)
+        );
+    }
+    if !found.free.is_empty() {
+        let _ = writeln!(
+            out,
+            "  free (edits keep them where they are): {}",
+            list(&found.free, LISTED)
+        );
+    }
+    if !found.redundant.is_empty() {
+        let _ = writeln!(
+            out,
+            "  seem to follow from the others: {}",
+            list(&found.redundant, LISTED)
+        );
+    }
+    out
 }

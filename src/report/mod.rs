@@ -22,13 +22,14 @@ pub use complete::{complete_to_json, complete_to_table, cover_theorem};
 pub use complex::{complex_to_json, complex_to_table};
 pub use digits::certain_digits;
 pub use edit::{
-    edit_in_words, edit_to_json, edit_to_table, edit_to_value, figure_to_value, limit_in_words,
+    decomposition_in_words, edit_in_words, edit_to_json, edit_to_table, edit_to_value,
+    figure_to_value, freedom_in_words, limit_in_words,
 };
 pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
 pub use sweep::{ranges_to_json, ranges_to_table, sweep_in_words, sweep_to_csv, sweep_to_json};
-pub use table::{to_short_table, to_summary, to_table};
+pub use table::{to_first_table, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 
 #[cfg(test)]

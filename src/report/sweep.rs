@@ -34,7 +34,7 @@ fn write_ranges(
     writeln!(out)?;
     let cells = |range: &Range| {
         [
-            problem.distance_name(range.index),
+            problem.dimension_name(range.index),
             short(range.value),
             value_of(&range.low, "≤"),
             value_of(&range.high, "≥"),
@@ -66,7 +66,7 @@ fn write_ranges(
     )?;
     for range in ranges {
         for (end, verb) in [(&range.low, "shrinks to"), (&range.high, "grows to")] {
-            let name = problem.distance_name(range.index);
+            let name = problem.dimension_name(range.index);
             match end {
                 End::Limit(value, limit) => writeln!(
                     out,
@@ -108,7 +108,7 @@ pub fn ranges_to_json(problem: &Problem, ranges: &[Range], moved: Moved) -> Stri
     let ranges = ranges.iter().map(|range| {
         let value =
             json!({"value": bounds(range.value), "low": end(&range.low), "high": end(&range.high)});
-        (problem.distance_name(range.index), value)
+        (problem.dimension_name(range.index), value)
     });
     let ranges: Map<String, Value> = ranges.collect();
     json!({"problem": problem.name, "moved": moved.distance, "ranges": ranges}).to_string()
@@ -129,7 +129,7 @@ fn obstacle(sweep: &Sweep) -> Option<&Edited> {
 
 /// What came of a sweep in words.
 pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String {
-    let name = problem.distance_name(index);
+    let name = problem.dimension_name(index);
     let frames = match (sweep.frames.first(), sweep.frames.last()) {
         (Some(first), Some(last)) => format!(
             "{} of {name} from {} to {}, each proved to be the one and only continuation of the one before",
@@ -153,7 +153,7 @@ pub fn sweep_to_json(problem: &Problem, index: usize, sweep: &Sweep) -> String {
     let end = obstacle(sweep);
     json!({
         "problem": problem.name,
-        "dimension": problem.distance_name(index),
+        "dimension": problem.dimension_name(index),
         "status": end.map_or("reached", |edited| edited.ending.name()),
         "words": sweep_in_words(problem, index, sweep),
         "frames": frames.collect::<Vec<_>>(),
@@ -165,7 +165,7 @@ pub fn sweep_to_json(problem: &Problem, index: usize, sweep: &Sweep) -> String {
 /// A sweep as CSV: the dimension's value, then the coordinates of all points, as floats.
 pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep) -> String {
     let axes = &["x", "y", "z"][..problem.dimension];
-    let mut out = quoted(&problem.distance_name(index));
+    let mut out = quoted(&problem.dimension_name(index));
     for point in &problem.points {
         for axis in axes {
             let _ = write!(out, ",{}", quoted(&format!("{}.{axis}", point.name)));

@@ -55,6 +55,24 @@ pub fn to_summary(problem: &Problem, outcome: &Outcome) -> String {
     line + "\n"
 }
 
+/// The first solution, reached without a fold, as a text of several lines; `None` if the outcome has none.
+pub fn to_first_table(problem: &Problem, outcome: &Outcome) -> Option<String> {
+    let is_first = |s: &Solution| s.place.is_some_and(|place| place.folds == Some(0));
+    let index = outcome.solutions.iter().position(is_first)?;
+    let mut out = format!(
+        "{}: First{}: the sketch moves to this solution without turning back as its dimensions are led to their \
+         targets.\n",
+        problem.name,
+        match outcome.mode {
+            Mode::Certified => ", proved",
+            Mode::Float => " (floats, not proved)",
+        }
+    );
+    // Writing to a string cannot fail.
+    let _ = write_solution(&mut out, problem, outcome, index, &outcome.solutions[index]);
+    Some(out)
+}
+
 fn table(problem: &Problem, outcome: &Outcome, most: usize) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.

@@ -63,6 +63,8 @@ pub struct Homotopy {
     pub sketch: Vec<f64>,
     /// Enclosures of the auxiliary unknowns in the sketch.
     auxiliary: Vec<Interval>,
+    /// Points whose orientation is followed along arcs, beside those that distances join.
+    pub followed: Vec<Vec<usize>>,
 }
 
 impl Homotopy {
@@ -141,6 +143,7 @@ impl Homotopy {
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
             auxiliary: Vec::new(),
+            followed: Vec::new(),
             gauge,
             tail,
         };
@@ -149,14 +152,39 @@ impl Homotopy {
         Ok(homotopy)
     }
 
+    /// The homotopy of a tail alone, all unknowns being its own.
+    pub(super) fn without_distances(gauge: Gauge, unit: f64, tail: Tail) -> Self {
+        let dimension = gauge.dimension;
+        let places = gauge.variable.len();
+        let mut homotopy = Homotopy {
+            dimension,
+            points: places / dimension,
+            equations: tail.unknowns.len(),
+            unit,
+            edges: Vec::new(),
+            lengths: Vec::new(),
+            terms: Vec::new(),
+            rights: Vec::new(),
+            bend: 0,
+            names: Vec::new(),
+            sketch: vec![0.0; places],
+            sketch_box: vec![point(0.0); places],
+            auxiliary: Vec::new(),
+            followed: Vec::new(),
+            gauge,
+            tail,
+        };
+        homotopy.add_constraints();
+        homotopy
+    }
+
     /// The homotopy of equations that are about no points: all its unknowns are those of `tail`.
     ///
     /// # Panics
     /// If there are not as many equations as unknowns, or one of them is about a point.
     pub fn of_equations(tail: Tail) -> Self {
-        let equations = tail.unknowns.len();
         assert_eq!(
-            equations,
+            tail.unknowns.len(),
             tail.equations.len(),
             "as many equations as unknowns"
         );
@@ -166,25 +194,7 @@ impl Homotopy {
             place: Vec::new(),
             variable: Vec::new(),
         };
-        let mut homotopy = Homotopy {
-            dimension: gauge.dimension,
-            points: 0,
-            equations,
-            unit: 1.0,
-            gauge,
-            edges: Vec::new(),
-            lengths: Vec::new(),
-            tail,
-            terms: Vec::new(),
-            rights: Vec::new(),
-            bend: 0,
-            names: Vec::new(),
-            sketch_box: Vec::new(),
-            sketch: Vec::new(),
-            auxiliary: Vec::new(),
-        };
-        homotopy.add_constraints();
-        homotopy
+        Self::without_distances(gauge, 1.0, tail)
     }
 
     fn add_distances(&mut self, problem: &Problem) {
@@ -341,7 +351,7 @@ impl Homotopy {
 
 /// The power of two nearest to the mean target length; where there are no distances, to the mean
 /// distance of the sketch's points from their middle.
-fn typical_length(problem: &Problem) -> f64 {
+pub(crate) fn typical_length(problem: &Problem) -> f64 {
     let mean = if problem.distances.is_empty() {
         let places: Vec<[f64; 3]> = problem
             .points

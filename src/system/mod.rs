@@ -9,10 +9,13 @@ mod exact;
 mod gauge;
 mod homotopy;
 mod interpolation;
+mod part;
 mod right;
 
 pub use exact::ExactLength;
 pub use gauge::{Gauge, GaugeError, Placement};
+pub(crate) use homotopy::typical_length;
 pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
+pub use part::Part;
 pub use right::Right;

@@ -89,12 +89,16 @@ fn between(
     let now = dot(&u.at, &v.at);
     let odd = u.axial != v.axial;
     let products = low.dot(1, &u.forms, &v.forms);
-    if target.is_zero() {
+    if target.is_zero() && !low.is_editable() {
         low.vanish(name, products, now.into(), u.power + v.power);
         return Ok(());
     }
     let opposite = either && now.is_negative() == (target.enclose().inf() > 0.0) && !now.is_zero();
-    let then = if opposite { -&target } else { target };
+    let then = if low.sense(opposite) {
+        -&target
+    } else {
+        target
+    };
     low.measure(
         name,
         Measured {

@@ -48,10 +48,14 @@ impl Kind for Level {
         }
         let line = of.items.line()?;
         of.items.end()?;
-        let line = low.line(line)?;
-        let products = vec![product(1, line.along.forms[self.axis], Form::One)];
-        let start = Real::from(line.along.at[self.axis].clone());
-        low.vanish_linear(of.name, products, start, line.along.power);
+        let along = match line {
+            // Points in one place are at the same height.
+            LineName::Points([a, b]) => low.between(&low.place(a), &low.place(b)),
+            LineName::Free(_) => low.line(line)?.along,
+        };
+        let products = vec![product(1, along.forms[self.axis], Form::One)];
+        let start = Real::from(along.at[self.axis].clone());
+        low.vanish_linear(of.name, products, start, along.power);
         Ok(())
     }
 }

@@ -55,6 +55,7 @@ impl Orientations {
                 }
             }
         }
+        all.extend(homotopy.followed.iter().cloned());
         // Points that are all joined turn up once for each of them.
         for points in &mut all {
             points.sort_unstable();

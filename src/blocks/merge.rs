@@ -1,0 +1,181 @@
+//! Unknowns that are one are made one.
+
+use crate::constraint::{Entry, Form, Lowered, Product, Role, Unknown, product};
+use crate::interval::{Real, enclose};
+use crate::problem::Problem;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// An equation in merged unknowns, `½ Σ factor · left · right = E(t)`.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Which of the problem's equations it is.
+    pub index: usize,
+    /// The left-hand side; entries are `Unknown` or `Zero`.
+    pub products: Vec<Product>,
+    /// The unknowns in it.
+    pub unknowns: Vec<usize>,
+}
+
+/// The equations of a problem in its own frame, in unknowns of which no two are said to be equal.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// The unknowns: coordinates of points first.
+    pub unknowns: Vec<Unknown>,
+    /// Their exact values in the sketch.
+    pub values: Vec<Real>,
+    /// For each coordinate of each point its unknown.
+    pub coordinates: Vec<usize>,
+    /// For each auxiliary unknown of the problem its number here.
+    pub auxiliary: Vec<usize>,
+    /// The equations that are left.
+    pub rows: Vec<Row>,
+    /// Equations of which nothing is left: they hold because unknowns are one.
+    pub implied: Vec<usize>,
+    /// How many coordinates the unknowns that are coordinates stand for.
+    pub merged: usize,
+}
+
+fn root(parent: &[usize], mut x: usize) -> usize {
+    while parent[x] != x {
+        x = parent[x];
+    }
+    x
+}
+
+impl System {
+    /// Merges unknowns. `is_dimension`: whether an equation, by index, has a value that edits may change; all others
+    /// with zero on the right at t = 0 have it there always.
+    pub fn new(problem: &Problem, lowered: &Lowered, is_dimension: impl Fn(usize) -> bool) -> Self {
+        let d = problem.dimension;
+        let places = d * problem.points.len();
+        let count = places + lowered.tail.unknowns.len();
+        let raw = |entry: Entry| match entry {
+            Entry::Coordinate { point, axis } => Some(d * point + axis),
+            Entry::Unknown(u) => Some(places + u),
+            Entry::Zero => None,
+        };
+        let mut parent: Vec<usize> = (0..count).collect();
+        for (index, equation) in lowered.tail.equations.iter().enumerate() {
+            let [single] = equation.products.as_slice() else {
+                continue;
+            };
+            let pair = match (single.left, single.right) {
+                (Form::Difference(a, b), Form::One) | (Form::One, Form::Difference(a, b)) => [a, b],
+                _ => continue,
+            };
+            let [Some(a), Some(b)] = pair.map(raw) else {
+                continue;
+            };
+            if equation.right.iter().all(Real::is_zero) && !is_dimension(index) {
+                let (a, b) = (root(&parent, a), root(&parent, b));
+                // The one that comes first stands for both, so that coordinates do.
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        let mut number = vec![usize::MAX; count];
+        let (mut unknowns, mut values, mut merged) = (Vec::new(), Vec::new(), 0);
+        for x in 0..count {
+            if root(&parent, x) != x {
+                continue;
+            }
+            number[x] = unknowns.len();
+            if x < places {
+                let (point, axis) = (&problem.points[x / d], x % d);
+                let at = &point.sketch[axis];
+                unknowns.push(Unknown {
+                    name: format!("{} of {}", ["x", "y", "z"][axis], point.name),
+                    role: Role::Free,
+                    power: 1,
+                    flips: [false; 3],
+                    sketch: enclose(at),
+                });
+                values.push(Real::from(at.value().clone()));
+                merged += 1;
+            } else {
+                unknowns.push(lowered.tail.unknowns[x - places].clone());
+                values.push(lowered.values[x - places].clone());
+            }
+        }
+        // A length that is merged with another stays positive if either has to.
+        for x in places..count {
+            if lowered.tail.unknowns[x - places].role == Role::Positive {
+                unknowns[number[root(&parent, x)]].role = Role::Positive;
+            }
+        }
+        let of = |x: usize| number[root(&parent, x)];
+        let entry = |e: Entry| raw(e).map_or(Entry::Zero, |x| Entry::Unknown(of(x)));
+        let (mut rows, mut implied) = (Vec::new(), Vec::new());
+        for (index, equation) in lowered.tail.equations.iter().enumerate() {
+            let products = normalised(equation.products.iter().map(|p| Product {
+                factor: p.factor,
+                left: map(p.left, &entry),
+                right: map(p.right, &entry),
+            }));
+            if products.is_empty() {
+                implied.push(index);
+                continue;
+            }
+            let unknowns: BTreeSet<usize> = products.iter().flat_map(super::unknowns_of).collect();
+            rows.push(Row {
+                index,
+                products,
+                unknowns: unknowns.into_iter().collect(),
+            });
+        }
+        System {
+            unknowns,
+            values,
+            coordinates: (0..places).map(of).collect(),
+            auxiliary: (places..count).map(of).collect(),
+            rows,
+            implied,
+            merged: places - merged,
+        }
+    }
+}
+
+fn map(form: Form, entry: &impl Fn(Entry) -> Entry) -> Form {
+    match form {
+        Form::One => Form::One,
+        Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
+    }
+}
+
+/// The same sum without products that are zero or cancel.
+fn normalised(products: impl Iterator<Item = Product>) -> Vec<Product> {
+    let rank = |entry: Entry| match entry {
+        Entry::Unknown(u) => u,
+        _ => usize::MAX,
+    };
+    // A difference with the lower unknown first, and its sign; `None` where it is zero.
+    let ordered = |form: Form| -> Option<(Form, i32, (usize, usize))> {
+        match form {
+            Form::One => Some((form, 1, (usize::MAX, usize::MAX))),
+            Form::Difference(a, b) => match rank(a).cmp(&rank(b)) {
+                std::cmp::Ordering::Equal => None,
+                std::cmp::Ordering::Less => Some((form, 1, (rank(a), rank(b)))),
+                std::cmp::Ordering::Greater => {
+                    Some((Form::Difference(b, a), -1, (rank(b), rank(a))))
+                }
+            },
+        }
+    };
+    let mut sum: BTreeMap<_, (i32, Form, Form)> = BTreeMap::new();
+    for p in products {
+        let (Some(left), Some(right)) = (ordered(p.left), ordered(p.right)) else {
+            continue;
+        };
+        let factor = p.factor * left.1 * right.1;
+        let (one, other) = if left.2 <= right.2 {
+            (left, right)
+        } else {
+            (right, left)
+        };
+        let entry = sum.entry((one.2, other.2)).or_insert((0, one.0, other.0));
+        entry.0 += factor;
+    }
+    let terms = sum.into_values().filter(|term| term.0 != 0);
+    terms
+        .map(|(factor, left, right)| product(factor, left, right))
+        .collect()
+}

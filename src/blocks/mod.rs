@@ -1,0 +1,43 @@
+//! Sketches fall apart: the equations of a problem, merged, chosen, and cut into blocks.
+//!
+//! Most constraints of real sketches say that two coordinates are one: coincident, horizontal, vertical. [`System`]
+//! takes those away first, so that they are no equations at all. What remains need not have as many equations as
+//! unknowns: [`Choice`] finds equations that follow from others at the figure, and coordinates that nothing
+//! determines, which then stay put. The square system that is left is cut into [`Block`]s (the fine part of the
+//! decomposition of Dulmage and Mendelsohn: a perfect matching of equations with unknowns, and the strongly connected
+//! components of what depends on what), each of which needs only blocks before it.
+//!
+//! # What a proof of some blocks says
+//!
+//! Let U be a union of blocks with all blocks that they need. Its equations have no other unknowns, and the Jacobian
+//! of all is block triangular. If for every t from 0 to 1 the equations of U have exactly one zero in a tube around a
+//! curve, with a regular Jacobian, and so have those of U', each beginning at the same figure, then on the unknowns that
+//! both have the curves are the same (both continue the same regular zero), and together they are one curve of the
+//! union, regular too. So the parts of a sketch can be followed each for itself, along the same t, and what is
+//! proved of all together is what would be proved of the whole: there is exactly one continuation.
+
+mod choose;
+mod clusters;
+mod decompose;
+mod merge;
+
+pub use choose::Choice;
+pub use clusters::clusters;
+pub use decompose::{Block, Blocks};
+pub use merge::{Row, System};
+
+use crate::constraint::{Entry, Form, Product};
+
+/// The unknowns of a product, each once or twice.
+pub(crate) fn unknowns_of(product: &Product) -> impl Iterator<Item = usize> + '_ {
+    [product.left, product.right]
+        .into_iter()
+        .flat_map(|form| match form {
+            Form::One => [None, None],
+            Form::Difference(a, b) => [a, b].map(|entry| match entry {
+                Entry::Unknown(u) => Some(u),
+                _ => None,
+            }),
+        })
+        .flatten()
+}

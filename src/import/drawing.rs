@@ -1,0 +1,345 @@
+//! A sketch as it is read, in krawl's words.
+
+use crate::constraint::KINDS;
+use crate::problem::{
+    Constraint, Decimal, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape, Target,
+};
+use std::collections::BTreeMap;
+
+/// Coordinates that a constraint makes one and that differ by more than this part of the sketch's size are left as
+/// they are drawn; otherwise they are made one. Programs store what their solvers leave, about eight digits.
+const SNAP: f64 = 1e-5;
+
+/// What constraints and dimensions of a file are: an index into those that were read.
+pub type Source = usize;
+
+/// A sketch in the making: points, circles, arcs, constraints, in the order in which they are read.
+#[derive(Debug, Default)]
+pub struct Drawing {
+    places: Vec<(String, [f64; 2])>,
+    objects: Vec<Object>,
+    distances: Vec<(Distance, Option<Source>)>,
+    constraints: Vec<(Constraint, Option<Source>)>,
+    names: BTreeMap<Source, String>,
+    unsupported: BTreeMap<String, usize>,
+    /// Points of one place by constraint, as a forest.
+    parent: Vec<usize>,
+    tangents: Vec<Tangent>,
+}
+
+/// Two edges that touch somewhere.
+#[derive(Debug)]
+struct Tangent {
+    edges: [usize; 2],
+    source: Source,
+}
+
+/// A finished drawing.
+pub struct Finished {
+    pub problem: Problem,
+    pub unsupported: BTreeMap<String, usize>,
+    /// For each distance, then each constraint, what of the file it is.
+    pub sources: Vec<Option<Source>>,
+}
+
+impl Drawing {
+    /// A point.
+    pub fn point(&mut self, name: String, at: [f64; 2]) -> usize {
+        self.places.push((name, at));
+        self.parent.push(self.parent.len());
+        self.parent.len() - 1
+    }
+
+    /// A point that stays where it is.
+    pub fn fixed_point(&mut self, name: String, at: [f64; 2]) -> usize {
+        let point = self.point(name, at);
+        self.constrain(None, "fixed", vec![Item::Point(point)], None);
+        point
+    }
+
+    /// Where a point is drawn.
+    pub fn at(&self, point: usize) -> [f64; 2] {
+        self.places[point].1
+    }
+
+    fn object(&mut self, name: String, shape: Shape) -> usize {
+        self.objects.push(Object { name, shape });
+        self.objects.len() - 1
+    }
+
+    /// A line, or nothing where its ends are in one place.
+    pub fn line(&mut self, name: String, ends: [usize; 2]) -> Option<usize> {
+        let [a, b] = ends.map(|p| self.at(p));
+        (a != b).then(|| self.object(name, Shape::Line(ends)))
+    }
+
+    /// A circle.
+    pub fn circle(&mut self, name: String, center: usize, radius: f64) -> Option<usize> {
+        let radius = decimal(radius).filter(Decimal::is_positive)?;
+        Some(self.object(name, Shape::Round { center, radius }))
+    }
+
+    /// An arc.
+    pub fn arc(&mut self, name: String, [center, start, end]: [usize; 3]) -> Option<usize> {
+        let far = |p: usize| self.at(center) != self.at(p);
+        (far(start) && far(end)).then(|| self.object(name, Shape::Arc { center, start, end }))
+    }
+
+    /// What an object is.
+    pub fn shape(&self, object: usize) -> &Shape {
+        &self.objects[object].shape
+    }
+
+    /// What a constraint of the file is called there.
+    pub fn name(&mut self, source: Source, name: String) {
+        self.names.insert(source, name);
+    }
+
+    /// A constraint that there is no kind for.
+    pub fn refuse(&mut self, kind: &str) {
+        *self.unsupported.entry(kind.to_owned()).or_default() += 1;
+    }
+
+    /// A constraint.
+    pub fn constrain(
+        &mut self,
+        source: Option<Source>,
+        kind: &str,
+        items: Vec<Item>,
+        value: Option<f64>,
+    ) {
+        if kind == "coincident"
+            && let [Item::Point(a), Item::Point(b)] = items[..]
+        {
+            let (a, b) = (self.root(a), self.root(b));
+            if a == b {
+                // Said before.
+                return;
+            }
+            self.parent[b] = a;
+        }
+        let value = value.map(|value| decimal(value).unwrap_or_else(|| Decimal::from(0)));
+        let constraint = Constraint {
+            kind: kind.to_owned(),
+            items,
+            value,
+        };
+        let is_there = |(other, _): &(Constraint, _)| {
+            other.kind == constraint.kind && other.items == constraint.items
+        };
+        if constraint.value.is_none() && self.constraints.iter().any(is_there) {
+            return;
+        }
+        self.constraints.push((constraint, source));
+    }
+
+    /// A distance between two points.
+    pub fn distance(&mut self, source: Source, points: [usize; 2], length: f64) {
+        match decimal(length.abs()).filter(Decimal::is_positive) {
+            Some(length) => {
+                let target = Target::Length(length);
+                let distance = Distance { points, target };
+                self.distances.push((distance, Some(source)));
+            }
+            None => {
+                let items = points.map(Item::Point).to_vec();
+                self.constrain(Some(source), "coincident", items, None);
+            }
+        }
+    }
+
+    /// Two edges (objects) touch, wherever that is.
+    pub fn touch(&mut self, source: Source, edges: [usize; 2]) {
+        self.tangents.push(Tangent { edges, source });
+    }
+
+    /// Says that a line and an arc (or two arcs, or lines) have one direction at a point that both go through: each
+    /// side is an object and the point of it.
+    pub fn touch_at(&mut self, source: Source, sides: [(usize, usize); 2]) -> bool {
+        let [one, other] = sides.map(|(object, point)| match *self.shape(object) {
+            Shape::Line(ends) => Some((true, ends)),
+            Shape::Arc { center, .. } | Shape::Round { center, .. } => {
+                Some((false, [center, point]))
+            }
+            _ => None,
+        });
+        let (Some((one_is_line, a)), Some((other_is_line, b))) = (one, other) else {
+            return false;
+        };
+        let kind = if one_is_line == other_is_line {
+            "parallel"
+        } else {
+            "perpendicular"
+        };
+        let items = a.into_iter().chain(b).map(Item::Point).collect();
+        self.constrain(Some(source), kind, items, None);
+        true
+    }
+
+    fn root(&self, mut point: usize) -> usize {
+        while self.parent[point] != point {
+            point = self.parent[point];
+        }
+        point
+    }
+
+    /// Points at which two edges meet by constraint: a point of each.
+    fn shared(&self, edges: [usize; 2]) -> Option<[usize; 2]> {
+        let ends = edges.map(|edge| match *self.shape(edge) {
+            Shape::Line(ends) => ends.to_vec(),
+            Shape::Arc { start, end, .. } => vec![start, end],
+            _ => Vec::new(),
+        });
+        // Points that are on the other edge by constraint.
+        let on = |point: usize, edge: usize| {
+            let root = self.root(point);
+            self.constraints.iter().any(|(c, _)| {
+                c.kind == "on"
+                    && c.items.last() == Some(&Item::Object(edge))
+                    && matches!(c.items[0], Item::Point(p) if self.root(p) == root)
+            })
+        };
+        let both = ends[0]
+            .iter()
+            .flat_map(|&a| ends[1].iter().map(move |&b| [a, b]));
+        let meet = both.clone().find(|&[a, b]| self.root(a) == self.root(b));
+        meet.or_else(|| {
+            let first = ends[0].iter().find(|&&a| on(a, edges[1]));
+            let second = ends[1].iter().find(|&&b| on(b, edges[0]));
+            first.or(second).map(|&p| [p, p])
+        })
+    }
+
+    /// The problem.
+    pub fn finish(mut self, name: String, source: String) -> Finished {
+        for Tangent { edges, source } in std::mem::take(&mut self.tangents) {
+            if let Some([a, b]) = self.shared(edges)
+                && self.touch_at(source, [(edges[0], a), (edges[1], b)])
+            {
+                continue;
+            }
+            let items = edges.map(Item::Object).to_vec();
+            self.constrain(Some(source), "tangent", items, None);
+        }
+        self.snap();
+        let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
+        self.constraints.sort_by_key(|(c, _)| order(&c.kind));
+        let coordinate = |x: f64| decimal(x).unwrap_or_else(|| Decimal::from(0));
+        let points = self.places.iter().map(|(name, [x, y])| Point {
+            name: name.clone(),
+            sketch: [coordinate(*x), coordinate(*y), Decimal::from(0)],
+        });
+        let points = points.collect();
+        let sources: Vec<Option<Source>> = self
+            .distances
+            .iter()
+            .map(|d| d.1)
+            .chain(self.constraints.iter().map(|c| c.1))
+            .collect();
+        let names = sources.iter().enumerate();
+        let names =
+            names.filter_map(|(index, source)| Some((index, self.names.get(&(*source)?)?.clone())));
+        let labels = names.collect();
+        let distances: Vec<Distance> = self.distances.into_iter().map(|d| d.0).collect();
+        let problem = Problem {
+            name,
+            dimension: 2,
+            source,
+            points,
+            objects: self.objects,
+            constraints: self.constraints.into_iter().map(|c| c.0).collect(),
+            homotopy: HomotopyChoices {
+                reference: Vec::new(),
+                bend: distances.len().saturating_sub(1),
+                bend_coefficient: Decimal::from(0),
+                detour: Decimal::from(0),
+            },
+            distances,
+            labels,
+        };
+        Finished {
+            problem,
+            unsupported: self.unsupported,
+            sources,
+        }
+    }
+
+    /// Makes coordinates equal that coincidences, horizontals, verticals and given coordinates make equal, where they
+    /// are so but for what a solver leaves: then those constraints hold exactly and take no equations.
+    fn snap(&mut self) {
+        let count = self.places.len();
+        let mut parent: Vec<usize> = (0..2 * count).collect();
+        let mut given: BTreeMap<usize, f64> = BTreeMap::new();
+        fn root(parent: &[usize], mut x: usize) -> usize {
+            while parent[x] != x {
+                x = parent[x];
+            }
+            x
+        }
+        let all = self.places.iter().flat_map(|(_, at)| *at);
+        let size = all.fold(0.0f64, |max, x| max.max(x.abs()));
+        let ends = |drawing: &Drawing, items: &[Item]| match *items {
+            [Item::Point(a), Item::Point(b)] => Some([a, b]),
+            [Item::Object(o)] => match drawing.objects[o].shape {
+                Shape::Line(ends) => Some(ends),
+                _ => None,
+            },
+            _ => None,
+        };
+        let value_of = |drawing: &Drawing, place: usize| drawing.places[place / 2].1[place % 2];
+        for (constraint, _) in &self.constraints {
+            let axes: &[usize] = match constraint.kind.as_str() {
+                "horizontal" => &[1],
+                "vertical" => &[0],
+                "coincident" => &[0, 1],
+                _ => &[],
+            };
+            if let Some([a, b]) = ends(self, &constraint.items) {
+                for axis in axes {
+                    let (a, b) = (root(&parent, 2 * a + axis), root(&parent, 2 * b + axis));
+                    if (value_of(self, a) - value_of(self, b)).abs() <= SNAP * size {
+                        parent[b] = a;
+                    }
+                }
+            }
+        }
+        for (constraint, _) in &self.constraints {
+            let &[Item::Point(p)] = constraint.items.as_slice() else {
+                continue;
+            };
+            let places: Vec<(usize, f64)> = match (constraint.kind.as_str(), &constraint.value) {
+                ("fixed", _) => vec![
+                    (2 * p, self.places[p].1[0]),
+                    (2 * p + 1, self.places[p].1[1]),
+                ],
+                ("x", Some(x)) => vec![(2 * p, x.to_f64())],
+                ("y", Some(y)) => vec![(2 * p + 1, y.to_f64())],
+                _ => Vec::new(),
+            };
+            for (place, value) in places {
+                let place = root(&parent, place);
+                if (value_of(self, place) - value).abs() <= SNAP * size {
+                    given.entry(place).or_insert(value);
+                }
+            }
+        }
+        let old: Vec<f64> = (0..2 * count).map(|place| value_of(self, place)).collect();
+        for place in 0..2 * count {
+            let root = root(&parent, place);
+            let value = given.get(&root).copied().unwrap_or(old[root]);
+            self.places[place / 2].1[place % 2] = value;
+        }
+    }
+}
+
+/// The shortest decimal that reads as a double; zero where that is too small for krawl.
+pub fn decimal(x: f64) -> Option<Decimal> {
+    if x.abs() < 1e-60 {
+        return Some(Decimal::from(0));
+    }
+    // Written as people do where that is not too long.
+    if (1e-9..1e15).contains(&x.abs()) {
+        return x.to_string().parse().ok();
+    }
+    Decimal::try_from(x).ok()
+}

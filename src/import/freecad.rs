@@ -1,0 +1,740 @@
+//! FreeCAD's `.FCStd`: an archive whose `Document.xml` has the sketches' geometry and constraints.
+//!
+//! Geometry is counted from 0; −1 and −2 are the axes, −3 and below geometry of other objects, which older versions
+//! do not store. A constraint names edges, or points of edges: 1 the start, 2 the end, 3 the centre. What constraints
+//! mean is that of FreeCAD's `Sketch.cpp` and planegcs; expressions are not looked at, as their values are stored.
+
+use super::drawing::{Drawing, Finished};
+use super::{Figure, Imported, Listed, Places as AllPlaces};
+use crate::problem::{Item, Problem, Shape};
+use roxmltree::{Document, Node};
+use std::collections::HashMap;
+use std::io::{Cursor, Read, Write};
+use std::ops::Range;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+const DOCUMENT: &str = "Document.xml";
+/// What stands for "no geometry".
+const NONE: i64 = -2000;
+
+fn archive(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, String> {
+    ZipArchive::new(Cursor::new(bytes)).map_err(|e| format!("is no FreeCAD file: {e}"))
+}
+
+fn document(bytes: &[u8]) -> Result<String, String> {
+    let mut archive = archive(bytes)?;
+    let part = archive.by_name(DOCUMENT);
+    let part = part.map_err(|e| format!("there is no {DOCUMENT} in it: {e}"))?;
+    let mut text = String::new();
+    part.take(super::MAX_SIZE as u64)
+        .read_to_string(&mut text)
+        .map_err(|e| format!("{DOCUMENT} in it cannot be read: {e}"))?;
+    Ok(text)
+}
+
+fn parse(text: &str) -> Result<Document<'_>, String> {
+    Document::parse(text).map_err(|e| format!("{DOCUMENT} in it: {e}"))
+}
+
+/// The sketch objects, with their names and labels.
+fn sketches<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, String)> {
+    let declared = document
+        .descendants()
+        .filter(|n| n.has_tag_name("Object") && is_sketch(n.attribute("type")));
+    let names: Vec<&str> = declared.filter_map(|n| n.attribute("name")).collect();
+    let data = document
+        .descendants()
+        .filter(|n| n.has_tag_name("ObjectData"));
+    let objects = data.flat_map(|n| n.children().filter(|n| n.has_tag_name("Object")));
+    objects
+        .filter_map(|object| {
+            let name = object.attribute("name")?;
+            names.contains(&name).then(|| (object, name.to_owned()))
+        })
+        .collect()
+}
+
+fn is_sketch(kind: Option<&str>) -> bool {
+    matches!(
+        kind,
+        Some("Sketcher::SketchObject" | "Sketcher::SketchObjectPython")
+    )
+}
+
+fn property<'a>(object: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+    object
+        .descendants()
+        .find(|n| n.has_tag_name("Property") && n.attribute("name") == Some(name))
+}
+
+fn number(node: Node, key: &str) -> f64 {
+    node.attribute(key)
+        .and_then(|x| x.parse().ok())
+        .unwrap_or(0.0)
+}
+
+fn whole(node: Node, key: &str) -> i64 {
+    node.attribute(key)
+        .and_then(|x| x.parse().ok())
+        .unwrap_or(0)
+}
+
+fn constraints<'a>(object: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
+    let all = property(object, "Constraints").into_iter();
+    all.flat_map(|n| n.descendants().filter(|n| n.has_tag_name("Constrain")))
+        .collect()
+}
+
+fn geometry<'a>(object: Node<'a, 'a>, key: &str) -> Vec<Node<'a, 'a>> {
+    let all = property(object, key).into_iter();
+    all.flat_map(|n| n.descendants().filter(|n| n.has_tag_name("Geometry")))
+        .collect()
+}
+
+fn is_driving(constraint: Node) -> bool {
+    constraint.attribute("IsDriving") != Some("0") && constraint.attribute("IsActive") != Some("0")
+}
+
+pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
+    let text = document(bytes)?;
+    let document = parse(&text)?;
+    let listed = sketches(&document)
+        .into_iter()
+        .map(|(object, name)| Listed {
+            name,
+            drawn: geometry(object, "Geometry").len(),
+            constraints: constraints(object)
+                .into_iter()
+                .filter(|c| is_driving(*c))
+                .count(),
+        });
+    Ok(listed.collect())
+}
+
+/// An edge, or what else is drawn.
+#[derive(Debug, Clone)]
+enum Drawn {
+    Line {
+        ends: [usize; 2],
+        object: Option<usize>,
+    },
+    Point(usize),
+    Circle {
+        center: usize,
+        object: Option<usize>,
+    },
+    Arc {
+        center: usize,
+        ends: [usize; 2],
+        object: Option<usize>,
+    },
+    /// Of a kind that krawl does not have.
+    Other,
+}
+
+/// Which number of an edge stands in an attribute.
+#[derive(Debug, Clone, Copy)]
+enum Number {
+    Coordinate(usize, usize),
+    Radius(usize),
+    /// The distance of two points.
+    Apart(usize, usize),
+    /// The angle at the centre, against the x axis: centre, point, the angle of the arc's own x axis, clockwise.
+    Angle(usize, usize, f64, bool),
+}
+
+/// Where a sketch's numbers stand.
+#[derive(Debug, Clone)]
+pub struct Places {
+    /// Where they are in `Document.xml`, and what they were.
+    numbers: Vec<(Range<usize>, Number, f64)>,
+    /// For each constraint of the file where its value is.
+    values: Vec<Range<usize>>,
+    sources: Vec<Option<usize>>,
+}
+
+struct Reader {
+    drawing: Drawing,
+    edges: HashMap<i64, Drawn>,
+    numbers: Vec<(Range<usize>, Number, f64)>,
+    /// The size of the drawing.
+    size: f64,
+}
+
+impl Reader {
+    fn place(&mut self, node: Node, key: &str, number: Number) {
+        if let Some(attribute) = node.attribute_node(key) {
+            let before = attribute.value().parse().unwrap_or(f64::NAN);
+            self.numbers.push((attribute.range_value(), number, before));
+        }
+    }
+
+    /// A point of an edge; its coordinates stand in attributes with these beginnings if they are stored.
+    fn point(&mut self, name: String, at: [f64; 2], fixed: bool) -> usize {
+        match fixed {
+            true => self.drawing.fixed_point(name, at),
+            false => self.drawing.point(name, at),
+        }
+    }
+
+    /// Reads one piece of geometry. External geometry stays where it is.
+    fn draw(&mut self, id: i64, geometry: Node) {
+        let fixed = id < 0;
+        let name = match fixed {
+            true => format!("external{}", -2 - id),
+            false => format!("e{}", id + 1),
+        };
+        let kind = geometry.attribute("type").unwrap_or("");
+        let shape = geometry.children().find(|n| {
+            matches!(
+                n.tag_name().name(),
+                "LineSegment" | "Circle" | "ArcOfCircle" | "GeomPoint"
+            )
+        });
+        let Some(shape) = shape.filter(|_| kind.starts_with("Part::Geom")) else {
+            self.edges.insert(id, Drawn::Other);
+            return;
+        };
+        let at = |x: &str, y: &str| [number(shape, x), number(shape, y)];
+        let keep = |reader: &mut Self, point: usize, keys: [&str; 2]| {
+            if !fixed {
+                for (axis, key) in keys.into_iter().enumerate() {
+                    reader.place(shape, key, Number::Coordinate(point, axis));
+                }
+            }
+        };
+        let drawn = match shape.tag_name().name() {
+            "LineSegment" => {
+                let a = self.point(format!("{name}.start"), at("StartX", "StartY"), fixed);
+                let b = self.point(format!("{name}.end"), at("EndX", "EndY"), fixed);
+                keep(self, a, ["StartX", "StartY"]);
+                keep(self, b, ["EndX", "EndY"]);
+                let object = self.drawing.line(name, [a, b]);
+                Drawn::Line {
+                    ends: [a, b],
+                    object,
+                }
+            }
+            "GeomPoint" => {
+                let p = self.point(name, at("X", "Y"), fixed);
+                keep(self, p, ["X", "Y"]);
+                Drawn::Point(p)
+            }
+            "Circle" => {
+                let center = self.point(format!("{name}.center"), at("CenterX", "CenterY"), fixed);
+                keep(self, center, ["CenterX", "CenterY"]);
+                let radius = number(shape, "Radius");
+                let object = self.drawing.circle(name, center, radius);
+                if let Some(object) = object {
+                    if fixed {
+                        let items = vec![Item::Object(object)];
+                        self.drawing.constrain(None, "radii", items, Some(radius));
+                    } else {
+                        self.place(shape, "Radius", Number::Radius(object));
+                    }
+                }
+                Drawn::Circle { center, object }
+            }
+            _ => {
+                let [x, y] = at("CenterX", "CenterY");
+                let radius = number(shape, "Radius");
+                let turned = number(shape, "AngleXU");
+                let clockwise = number(shape, "NormalZ") < 0.0;
+                let end = |key: &str| {
+                    let angle = number(shape, key);
+                    let angle = if clockwise {
+                        turned - angle
+                    } else {
+                        turned + angle
+                    };
+                    [x + radius * angle.cos(), y + radius * angle.sin()]
+                };
+                let ends = [end("StartAngle"), end("EndAngle")];
+                let center = self.point(format!("{name}.center"), [x, y], fixed);
+                let a = self.point(format!("{name}.start"), ends[0], fixed);
+                let b = self.point(format!("{name}.end"), ends[1], fixed);
+                keep(self, center, ["CenterX", "CenterY"]);
+                if !fixed {
+                    self.place(shape, "Radius", Number::Apart(center, a));
+                    self.place(
+                        shape,
+                        "StartAngle",
+                        Number::Angle(center, a, turned, clockwise),
+                    );
+                    self.place(
+                        shape,
+                        "EndAngle",
+                        Number::Angle(center, b, turned, clockwise),
+                    );
+                }
+                let object = self.drawing.arc(name, [center, a, b]);
+                Drawn::Arc {
+                    center,
+                    ends: [a, b],
+                    object,
+                }
+            }
+        };
+        self.edges.insert(id, drawn);
+    }
+
+    /// The axes, when they are first asked for.
+    fn edge(&mut self, id: i64) -> Option<Drawn> {
+        if !self.edges.contains_key(&id) && matches!(id, -1 | -2) {
+            let origin = match self.edges.get(&(-3 - id)) {
+                Some(Drawn::Line { ends, .. }) => ends[0],
+                _ => self.drawing.fixed_point("origin".to_owned(), [0.0, 0.0]),
+            };
+            let (name, at) = match id {
+                -1 => ("x", [self.size, 0.0]),
+                _ => ("y", [0.0, self.size]),
+            };
+            let unit = self.drawing.fixed_point(format!("{name}-unit"), at);
+            let object = self.drawing.line(format!("{name}-line"), [origin, unit]);
+            let ends = [origin, unit];
+            self.edges.insert(id, Drawn::Line { ends, object });
+        }
+        self.edges.get(&id).cloned()
+    }
+
+    fn point_of(&mut self, (id, position): (i64, i64)) -> Option<usize> {
+        match (self.edge(id)?, position) {
+            (Drawn::Line { ends, .. } | Drawn::Arc { ends, .. }, 1) => Some(ends[0]),
+            (Drawn::Line { ends, .. } | Drawn::Arc { ends, .. }, 2) if id != -1 && id != -2 => {
+                Some(ends[1])
+            }
+            (Drawn::Point(p), 1..=3) => Some(p),
+            (Drawn::Circle { center, .. } | Drawn::Arc { center, .. }, 3) => Some(center),
+            _ => None,
+        }
+    }
+
+    fn object_of(&mut self, id: i64) -> Option<usize> {
+        match self.edge(id)? {
+            Drawn::Line { object, .. }
+            | Drawn::Circle { object, .. }
+            | Drawn::Arc { object, .. } => object,
+            _ => None,
+        }
+    }
+
+    fn line_of(&mut self, id: i64) -> Option<usize> {
+        let object = self.object_of(id)?;
+        matches!(self.drawing.shape(object), Shape::Line(_)).then_some(object)
+    }
+
+    fn round_of(&mut self, id: i64) -> Option<usize> {
+        let object = self.object_of(id)?;
+        (!matches!(self.drawing.shape(object), Shape::Line(_))).then_some(object)
+    }
+
+    fn ends_of(&mut self, id: i64) -> Option<[usize; 2]> {
+        match self.edge(id)? {
+            Drawn::Line { ends, .. } => Some(ends),
+            _ => None,
+        }
+    }
+
+    /// Puts a constraint down; `None` where there is no kind for it.
+    fn constraint(&mut self, index: usize, node: Node) -> Option<()> {
+        let source = Some(index);
+        let side = |name: &str| (whole(node, name), whole(node, &format!("{name}Pos")));
+        let (first, second, third) = (side("First"), side("Second"), side("Third"));
+        let value = number(node, "Value");
+        let has_second = second.0 != NONE;
+        match whole(node, "Type") {
+            1 => {
+                let points = [self.point_of(first)?, self.point_of(second)?];
+                let items = points.map(Item::Point).to_vec();
+                self.drawing.constrain(source, "coincident", items, None);
+            }
+            kind @ (2 | 3) => {
+                let key = if kind == 2 { "horizontal" } else { "vertical" };
+                let ends = match (first.1, has_second) {
+                    (0, false) => self.ends_of(first.0)?,
+                    (_, true) => [self.point_of(first)?, self.point_of(second)?],
+                    _ => return None,
+                };
+                let items = ends.map(Item::Point).to_vec();
+                self.drawing.constrain(source, key, items, None);
+            }
+            4 => {
+                let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
+                self.drawing
+                    .constrain(source, "parallel", lines.map(Item::Object).to_vec(), None);
+            }
+            5 if third.0 == NONE => return self.tangent(index, first, second),
+            6 => match (first.1, second) {
+                (0, (NONE, _)) => {
+                    let ends = self.ends_of(first.0)?;
+                    self.drawing.distance(index, ends, value);
+                }
+                (1.., (_, 1..)) => {
+                    let points = [self.point_of(first)?, self.point_of(second)?];
+                    self.drawing.distance(index, points, value);
+                }
+                (1.., _) => {
+                    let (p, l) = (self.point_of(first)?, self.line_of(second.0)?);
+                    let (kind, value) = match value {
+                        0.0 => ("on", None),
+                        _ => ("distances", Some(value.abs())),
+                    };
+                    let items = vec![Item::Point(p), Item::Object(l)];
+                    self.drawing.constrain(source, kind, items, value);
+                }
+                _ => return None,
+            },
+            kind @ (7 | 8) => {
+                let axis = kind - 7;
+                if first.1 != 0 && !has_second {
+                    let p = self.point_of(first)?;
+                    let key = if axis == 0 { "x" } else { "y" };
+                    self.drawing
+                        .constrain(source, key, vec![Item::Point(p)], Some(value));
+                    return Some(());
+                }
+                let ends = match (first.1, has_second) {
+                    (0, false) => self.ends_of(first.0)?,
+                    (1.., true) => [self.point_of(first)?, self.point_of(second)?],
+                    _ => return None,
+                };
+                let items = ends.map(Item::Point).to_vec();
+                let key = if axis == 0 { "dx" } else { "dy" };
+                self.drawing.constrain(source, key, items, Some(value));
+            }
+            9 if third.0 == NONE => {
+                let one = self.line_of(first.0)?;
+                let other = self.line_of(if has_second { second.0 } else { -1 })?;
+                let items = vec![Item::Object(one), Item::Object(other)];
+                let degrees = degrees(value).abs() % 360.0;
+                let degrees = if degrees > 180.0 {
+                    360.0 - degrees
+                } else {
+                    degrees
+                };
+                let (kind, value) = match degrees {
+                    0.0 | 180.0 => ("parallel", None),
+                    _ => ("angles", Some(degrees)),
+                };
+                self.drawing.constrain(source, kind, items, value);
+            }
+            10 if third.0 == NONE => return self.perpendicular(index, first, second),
+            kind @ (11 | 18) => {
+                let round = self.round_of(first.0)?;
+                let key = if kind == 11 { "radii" } else { "diameters" };
+                self.drawing
+                    .constrain(source, key, vec![Item::Object(round)], Some(value));
+            }
+            12 => {
+                let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
+                let lines = edges.map(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
+                if lines[0] != lines[1] {
+                    return None;
+                }
+                self.drawing
+                    .constrain(source, "equal", edges.map(Item::Object).to_vec(), None);
+            }
+            13 => {
+                let (p, edge) = (self.point_of(first)?, self.object_of(second.0)?);
+                let items = vec![Item::Point(p), Item::Object(edge)];
+                self.drawing.constrain(source, "on", items, None);
+            }
+            14 => {
+                let (a, b) = (self.point_of(first)?, self.point_of(second)?);
+                let mirror = match third {
+                    (-1, 0) => Item::Axis(0),
+                    (-2, 0) => Item::Axis(1),
+                    (id, 0) => Item::Object(self.line_of(id)?),
+                    _ => Item::Point(self.point_of(third)?),
+                };
+                let items = vec![Item::Point(a), Item::Point(b), mirror];
+                self.drawing.constrain(source, "symmetric", items, None);
+            }
+            17 => {
+                let points = match self.edge(first.0)? {
+                    Drawn::Line { ends, .. } => ends.to_vec(),
+                    Drawn::Point(p) => vec![p],
+                    Drawn::Circle { .. } | Drawn::Arc { .. } | Drawn::Other => return None,
+                };
+                for p in points {
+                    self.drawing
+                        .constrain(source, "fixed", vec![Item::Point(p)], None);
+                }
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// End to end, end to edge, or edge to edge.
+    fn tangent(&mut self, index: usize, first: (i64, i64), second: (i64, i64)) -> Option<()> {
+        let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
+        match (first.1, second.1) {
+            (0, 0) => {
+                let lines = edges.map(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
+                if lines[0] && lines[1] {
+                    return None;
+                }
+                self.drawing.touch(index, edges);
+                Some(())
+            }
+            (1.., 1..) => {
+                let points = [self.point_of(first)?, self.point_of(second)?];
+                let items = points.map(Item::Point).to_vec();
+                self.drawing
+                    .constrain(Some(index), "coincident", items, None);
+                let sides = [(edges[0], points[0]), (edges[1], points[1])];
+                self.drawing.touch_at(index, sides).then_some(())
+            }
+            _ => {
+                // The end of one is on the other.
+                let (end, [own, other]) = match first.1 {
+                    0 => (self.point_of(second)?, [edges[1], edges[0]]),
+                    _ => (self.point_of(first)?, edges),
+                };
+                let items = vec![Item::Point(end), Item::Object(other)];
+                self.drawing.constrain(Some(index), "on", items, None);
+                self.drawing
+                    .touch_at(index, [(own, end), (other, end)])
+                    .then_some(())
+            }
+        }
+    }
+
+    fn perpendicular(&mut self, index: usize, first: (i64, i64), second: (i64, i64)) -> Option<()> {
+        let source = Some(index);
+        if (first.1, second.1) == (0, 0)
+            && let Some(line) = self.line_of(first.0).or(self.line_of(second.0))
+        {
+            // A line at a right angle to a circle goes through its centre.
+            let other = [first.0, second.0].map(|id| self.edge(id));
+            for edge in other.into_iter().flatten() {
+                if let Drawn::Circle { center, .. } | Drawn::Arc { center, .. } = edge {
+                    let items = vec![Item::Point(center), Item::Object(line)];
+                    self.drawing.constrain(source, "on", items, None);
+                    return Some(());
+                }
+            }
+        }
+        let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
+        if first.1 != 0 && second.1 != 0 {
+            let points = [self.point_of(first)?, self.point_of(second)?];
+            let items = points.map(Item::Point).to_vec();
+            self.drawing.constrain(source, "coincident", items, None);
+        } else if first.1 != 0 || second.1 != 0 {
+            let (point, line) = match first.1 {
+                0 => (self.point_of(second)?, lines[0]),
+                _ => (self.point_of(first)?, lines[1]),
+            };
+            let items = vec![Item::Point(point), Item::Object(line)];
+            self.drawing.constrain(source, "on", items, None);
+        }
+        let items = lines.map(Item::Object).to_vec();
+        self.drawing.constrain(source, "perpendicular", items, None);
+        Some(())
+    }
+}
+
+/// An angle in degrees: see the head of [`crate::import`].
+fn degrees(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    let rounded = (degrees * 1e9).round() / 1e9;
+    let back = rounded.to_radians();
+    if (back - radians).abs() <= f64::EPSILON * radians.abs() {
+        rounded
+    } else {
+        degrees
+    }
+}
+
+fn kind_name(kind: i64) -> String {
+    let names = [
+        "None",
+        "Coincident",
+        "Horizontal",
+        "Vertical",
+        "Parallel",
+        "Tangent",
+        "Distance",
+        "DistanceX",
+        "DistanceY",
+        "Angle",
+        "Perpendicular",
+        "Radius",
+        "Equal",
+        "PointOnObject",
+        "Symmetric",
+        "InternalAlignment",
+        "SnellsLaw",
+        "Block",
+        "Diameter",
+        "Weight",
+    ];
+    let name = usize::try_from(kind).ok().and_then(|k| names.get(k));
+    name.map_or_else(|| format!("type {kind}"), |name| (*name).to_owned())
+}
+
+pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
+    let text = document(bytes)?;
+    let document = parse(&text)?;
+    let (object, name) = sketches(&document).swap_remove(index);
+    let own = geometry(object, "Geometry");
+    let mut reader = Reader {
+        drawing: Drawing::default(),
+        edges: HashMap::new(),
+        numbers: Vec::new(),
+        size: 1.0,
+    };
+    for (id, geometry) in own.iter().enumerate() {
+        reader.draw(id as i64, *geometry);
+    }
+    let places = reader
+        .numbers
+        .iter()
+        .filter(|n| matches!(n.1, Number::Coordinate(..)));
+    let far = places.fold(0.0f64, |max, n| max.max(n.2.abs()));
+    if far > 0.0 {
+        reader.size = 2f64.powi(far.log2().round() as i32);
+    }
+    // The first two are the axes.
+    for (at, geometry) in geometry(object, "ExternalGeo").iter().enumerate().skip(2) {
+        reader.draw(-1 - at as i64, *geometry);
+    }
+    let mut values = Vec::new();
+    for (index, node) in constraints(object).into_iter().enumerate() {
+        values.push(
+            node.attribute_node("Value")
+                .map_or(0..0, |value| value.range_value()),
+        );
+        if !is_driving(node) {
+            continue;
+        }
+        let given = node.attribute("Name").filter(|name| !name.is_empty());
+        let name = given.map_or_else(|| format!("Constraint{}", index + 1), str::to_owned);
+        reader.drawing.name(index, name);
+        if reader.constraint(index, node).is_none() {
+            let external = ["First", "Second", "Third"].iter().any(|side| {
+                let id = whole(node, side);
+                id <= -3 && id != NONE && !reader.edges.contains_key(&id)
+            });
+            let kind = kind_name(whole(node, "Type"));
+            let kind = match external {
+                true => {
+                    format!("{kind} (on geometry of another object, which the file does not store)")
+                }
+                false => kind,
+            };
+            reader.drawing.refuse(&kind);
+        }
+    }
+    let source = "a FreeCAD file".to_owned();
+    let Finished {
+        problem,
+        unsupported,
+        sources,
+    } = reader.drawing.finish(name, source);
+    Ok(Imported {
+        problem,
+        unsupported,
+        places: AllPlaces::FreeCad(Places {
+            numbers: reader.numbers,
+            values,
+            sources,
+        }),
+    })
+}
+
+pub fn rewrite(
+    imported: &Imported,
+    places: &Places,
+    bytes: &[u8],
+    problem: &Problem,
+    figure: &Figure,
+) -> Result<Vec<u8>, String> {
+    let mut text = document(bytes)?;
+    let mut changes: Vec<(Range<usize>, f64)> = Vec::new();
+    for (range, number, before) in &places.numbers {
+        let now = match *number {
+            Number::Coordinate(point, axis) => figure.points[point][axis],
+            Number::Radius(object) => figure.radii[object],
+            Number::Apart(a, b) => {
+                let ([ax, ay, _], [bx, by, _]) = (figure.points[a], figure.points[b]);
+                (bx - ax).hypot(by - ay)
+            }
+            Number::Angle(center, point, turned, clockwise) => {
+                let ([ax, ay, _], [bx, by, _]) = (figure.points[center], figure.points[point]);
+                let angle = (by - ay).atan2(bx - ax);
+                let angle = if clockwise {
+                    turned - angle
+                } else {
+                    angle - turned
+                };
+                // As near as can be to what it was.
+                let turn = std::f64::consts::TAU;
+                angle + turn * ((before - angle) / turn).round()
+            }
+        };
+        // Numbers are compared as they are written.
+        if format!("{now:.16}") != format!("{before:.16}") {
+            changes.push((range.clone(), now));
+        }
+    }
+    for (index, value) in super::changed(&imported.problem, problem) {
+        let Some(source) = places.sources.get(index).copied().flatten() else {
+            continue;
+        };
+        let range = places.values.get(source).cloned().unwrap_or(0..0);
+        let said: f64 = text
+            .get(range.clone())
+            .and_then(|x| x.parse().ok())
+            .unwrap_or(f64::NAN);
+        let before = super::value(&imported.problem, index);
+        let is_angle = index
+            .checked_sub(problem.distances.len())
+            .is_some_and(|c| problem.constraints[c].kind == "angles");
+        let value = if is_angle {
+            // As far from the old one as the figure turns, in the file's own sense.
+            let old = degrees(said);
+            let folded = old.abs() % 360.0;
+            let sense = if folded > 180.0 {
+                -old.signum()
+            } else {
+                old.signum()
+            };
+            (old + sense * (value - before)).to_radians()
+        } else if said * before < 0.0 {
+            -value
+        } else {
+            value
+        };
+        changes.push((range, value));
+    }
+    changes.sort_by_key(|change| std::cmp::Reverse(change.0.start));
+    for (range, value) in changes {
+        if text.get(range.clone()).is_none_or(str::is_empty) {
+            return Err("a number is missing: this is another file".to_owned());
+        }
+        text.replace_range(range, &format!("{value:.16}"));
+    }
+    let failed = |error: zip::result::ZipError| error.to_string();
+    let mut from = archive(bytes)?;
+    let mut to = ZipWriter::new(Cursor::new(Vec::with_capacity(bytes.len())));
+    to.set_raw_comment(from.comment().to_vec().into_boxed_slice())
+        .map_err(failed)?;
+    for index in 0..from.len() {
+        let part = from.by_index_raw(index).map_err(failed)?;
+        if part.name().map_err(failed)? != DOCUMENT {
+            to.raw_copy_file(part).map_err(failed)?;
+            continue;
+        }
+        let mut options =
+            SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
+        if let Some(time) = part.last_modified() {
+            options = options.last_modified_time(time);
+        }
+        to.start_file(DOCUMENT, options).map_err(failed)?;
+        to.write_all(text.as_bytes()).map_err(|e| e.to_string())?;
+    }
+    Ok(to.finish().map_err(failed)?.into_inner())
+}

@@ -1,0 +1,234 @@
+//! Files of other programs, in and out: sketches of SolveSpace (`.slvs`) and FreeCAD (`.FCStd`), molecules (`.xyz`,
+//! `.mol`, `.sdf`).
+//!
+//! A file may hold several sketches; [`list`] says which, and [`read`] takes one. What it says becomes a
+//! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. A kind that krawl does not
+//! have is counted in [`Imported::unsupported`], by its own program's name; nothing is left out in silence.
+//!
+//! The problem is what the file says and no more: it may be under-constrained, or say a thing twice. Edits take it
+//! as it is ([`crate::edit::Session`] says what it held and what it left out).
+//!
+//! # Numbers
+//!
+//! Both programs store doubles, and write more digits than anyone typed: 12.7 stands as `12.69999999999999928946` in one
+//! and as `12.6999999999999993` in the other. A number is read as a double, and means the *shortest decimal that reads
+//! as this double*, 12.7. FreeCAD's angles are radians: the angle meant is the decimal number of degrees with at most nine
+//! digits behind the point if that, converted back, is the same double up to its last digit, and else the shortest
+//! decimal of the number of degrees.
+//!
+//! ```
+//! use krawl::import;
+//! let bytes = std::fs::read("problems/sketches/bracket.slvs")?;
+//! let bracket = import::read("bracket.slvs", &bytes, None)?;
+//! assert!(bracket.unsupported.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod drawing;
+mod freecad;
+mod molecule;
+mod slvs;
+
+use crate::problem::{Decimal, Problem, Target};
+use std::collections::BTreeMap;
+
+/// The largest file that is read, in bytes.
+pub const MAX_SIZE: usize = 256 << 20;
+
+/// A format of another program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// SolveSpace's, `.slvs`.
+    SolveSpace,
+    /// FreeCAD's, `.FCStd`.
+    FreeCad,
+    /// Atoms with their coordinates, `.xyz`.
+    Xyz,
+    /// MDL's molfiles, `.mol` and `.sdf`.
+    Sdf,
+}
+
+impl Format {
+    /// The format that a file's name tells by its extension, in letters of either case.
+    pub fn of(file: &str) -> Option<Format> {
+        let extension = file.rsplit_once('.')?.1.to_ascii_lowercase();
+        match extension.as_str() {
+            "slvs" => Some(Format::SolveSpace),
+            "fcstd" => Some(Format::FreeCad),
+            "xyz" => Some(Format::Xyz),
+            "mol" | "sdf" => Some(Format::Sdf),
+            _ => None,
+        }
+    }
+}
+
+/// A sketch that a file holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Listed {
+    /// Its name, for [`read`].
+    pub name: String,
+    /// How many points, lines, circles and arcs are drawn in it.
+    pub drawn: usize,
+    /// How many constraints it has that drive it.
+    pub constraints: usize,
+}
+
+/// A sketch as krawl understands it.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    /// What the sketch says; its labels are what constraints are called in their own program. It need not have as many equations as unknowns, and has not been checked for that.
+    pub problem: Problem,
+    /// Kinds of constraints (and of outlines that constraints need) that krawl does not have, with their numbers.
+    pub unsupported: BTreeMap<String, usize>,
+    places: Places,
+}
+
+/// Where the numbers of a sketch stand in its file.
+#[derive(Debug, Clone)]
+enum Places {
+    SolveSpace(slvs::Places),
+    FreeCad(freecad::Places),
+    Molecule(molecule::Places),
+}
+
+/// The new numbers of a sketch.
+#[derive(Debug, Clone, Copy)]
+pub struct Figure<'a> {
+    /// The places of points.
+    pub points: &'a [[f64; 3]],
+    /// The radii of circles, by object; what is not a circle may have any number.
+    pub radii: &'a [f64],
+}
+
+/// Why a file gives no sketch.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ImportError {
+    /// The extension tells no format.
+    #[error("{0}: is no .slvs, .FCStd, .xyz, .mol or .sdf file")]
+    Format(String),
+    /// It cannot be read as what its extension says.
+    #[error("{file}: {what}")]
+    Broken {
+        /// The file.
+        file: String,
+        /// What is wrong, and where.
+        what: String,
+    },
+    /// It holds no sketch at all.
+    #[error("{0}: there is no sketch in it (a group in a plane, a sketch object, or a molecule)")]
+    NoSketch(String),
+    /// No sketch has that name, or none was named and there are several.
+    #[error("{file}: {what}; name one with --sketch: {names}")]
+    Which {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        what: String,
+        /// The names of all.
+        names: String,
+    },
+}
+
+/// The sketches that a file holds.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn list(file: &str, bytes: &[u8]) -> Result<Vec<Listed>, ImportError> {
+    match Format::of(file) {
+        Some(Format::SolveSpace) => slvs::list(bytes),
+        Some(Format::FreeCad) => freecad::list(bytes),
+        Some(format) => molecule::list(bytes, format),
+        None => return Err(ImportError::Format(file.to_owned())),
+    }
+    .map_err(|what| broken(file, what))
+}
+
+/// Reads a sketch: the one that is named, or else the only one.
+///
+/// # Errors
+/// If the file cannot be read, or does not say which sketch is meant.
+pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, ImportError> {
+    let all = list(file, bytes)?;
+    let index = match sketch {
+        Some(name) => all.iter().position(|listed| listed.name == name),
+        None => (all.len() == 1).then_some(0),
+    };
+    let index = index.ok_or_else(|| match (sketch, all.is_empty()) {
+        (_, true) => ImportError::NoSketch(file.to_owned()),
+        (name, _) => ImportError::Which {
+            file: file.to_owned(),
+            what: match name {
+                Some(name) => format!("there is no sketch `{name}`"),
+                None => format!("there are {} sketches in it", all.len()),
+            },
+            names: {
+                let names: Vec<&str> = all.iter().map(|listed| listed.name.as_str()).collect();
+                names.join(", ")
+            },
+        },
+    })?;
+    match Format::of(file) {
+        Some(Format::SolveSpace) => slvs::read(bytes, index),
+        Some(Format::FreeCad) => freecad::read(bytes, index),
+        Some(format) => molecule::read(bytes, format, index),
+        None => return Err(ImportError::Format(file.to_owned())),
+    }
+    .map_err(|what| broken(file, what))
+}
+
+/// The file with a sketch's new numbers: the figure, and the values of dimensions in `problem` where they are not
+/// those that were read. All else stays as it is: of a `.slvs` file byte for byte; of a `.FCStd` file, which is an
+/// archive, all other parts as they are packed, and `Document.xml` byte for byte but for those numbers.
+///
+/// `problem` is [`Imported::problem`] but for the values of dimensions.
+///
+/// # Errors
+/// If the bytes are not those that the sketch was read from.
+pub fn rewrite(
+    imported: &Imported,
+    bytes: &[u8],
+    problem: &Problem,
+    figure: &Figure,
+) -> Result<Vec<u8>, String> {
+    match &imported.places {
+        Places::SolveSpace(places) => slvs::rewrite(imported, places, bytes, problem, figure),
+        Places::FreeCad(places) => freecad::rewrite(imported, places, bytes, problem, figure),
+        Places::Molecule(places) => molecule::rewrite(places, bytes, figure),
+    }
+}
+
+fn broken(file: &str, what: String) -> ImportError {
+    ImportError::Broken {
+        file: file.to_owned(),
+        what,
+    }
+}
+
+/// The value of a dimension in floats; zero where it has none.
+fn value(problem: &Problem, index: usize) -> f64 {
+    match index.checked_sub(problem.distances.len()) {
+        None => match &problem.distances[index].target {
+            Target::Length(x) => x.to_f64(),
+            Target::SquaredLength(x) => x.to_f64().sqrt(),
+        },
+        Some(c) => problem.constraints[c]
+            .value
+            .as_ref()
+            .map_or(0.0, Decimal::to_f64),
+    }
+}
+
+/// The dimensions that have another value in `now`, by index, with that value.
+fn changed(before: &Problem, now: &Problem) -> Vec<(usize, f64)> {
+    let head = before.distances.len();
+    let lengths = before.distances.iter().zip(&now.distances);
+    let lengths = lengths
+        .enumerate()
+        .filter(|(_, (a, b))| a.target != b.target);
+    let others = before.constraints.iter().zip(&now.constraints);
+    let others = others.enumerate().filter(|(_, (a, b))| a.value != b.value);
+    let indices = lengths
+        .map(|(index, _)| index)
+        .chain(others.map(|(index, _)| head + index));
+    indices.map(|index| (index, value(now, index))).collect()
+}

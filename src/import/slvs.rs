@@ -1,0 +1,751 @@
+//! SolveSpace's `.slvs`: lines `Thing.key=value`, things ended by `AddThing`.
+//!
+//! A sketch is a group in a plane (type 5001). Its points are requests' points 1, 2, ... with the parameters
+//! `16 + 3k` of their requests; what other groups made (handles with the top bit set, or of requests of other
+//! groups) stays where it is, seen in the group's work plane. Zero values are left out of the file. What constraints
+//! mean is that of SolveSpace's `constrainteq.cpp`.
+
+use super::drawing::{Drawing, Finished};
+use super::{Figure, Imported, Listed, Places as AllPlaces};
+use crate::problem::{Item, Problem, Shape};
+use std::collections::HashMap;
+
+/// A handle: `h.v`.
+type Handle = u32;
+
+/// A group in a plane.
+const IN_PLANE: u32 = 5001;
+const POINT_IN_3D: u32 = 2000;
+const POINT_IN_2D: u32 = 2001;
+const LINE: u32 = 11000;
+const CIRCLE: u32 = 13000;
+const ARC: u32 = 14000;
+/// Requests of single points number their entities from 0, all others from 1.
+const DATUM_POINT: u32 = 101;
+
+/// One thing of a file.
+#[derive(Debug, Default)]
+struct Record<'a> {
+    /// `Param`, `Entity`, ...
+    kind: &'a str,
+    /// Keys without the thing's name, values, and the line where each stands.
+    fields: Vec<(&'a str, &'a str, usize)>,
+    /// The line of `AddThing`.
+    end: usize,
+}
+
+impl<'a> Record<'a> {
+    fn text(&self, key: &str) -> Option<&'a str> {
+        let mut fields = self.fields.iter();
+        fields.find(|field| field.0 == key).map(|field| field.1)
+    }
+
+    fn hex(&self, key: &str) -> Handle {
+        let text = self.text(key).unwrap_or("0");
+        Handle::from_str_radix(text, 16).unwrap_or(0)
+    }
+
+    fn whole(&self, key: &str) -> u32 {
+        self.text(key).and_then(|x| x.parse().ok()).unwrap_or(0)
+    }
+
+    fn number(&self, key: &str) -> f64 {
+        self.text(key).and_then(|x| x.parse().ok()).unwrap_or(0.0)
+    }
+
+    fn handle(&self) -> Handle {
+        match self.kind {
+            "Param" => self.hex("h.v."),
+            _ => self.hex("h.v"),
+        }
+    }
+}
+
+/// All things of a file that matter here.
+struct Contents<'a> {
+    records: Vec<Record<'a>>,
+    params: HashMap<Handle, usize>,
+    entities: HashMap<Handle, usize>,
+    requests: HashMap<Handle, usize>,
+    groups: Vec<usize>,
+}
+
+/// The lines of a file, without their ends; the first one is not text in the files of all versions.
+fn lines(bytes: &[u8]) -> Vec<&str> {
+    let lines = bytes.split(|&b| b == b'\n');
+    lines
+        .map(|line| {
+            let line = line.strip_suffix(b"\r").unwrap_or(line);
+            std::str::from_utf8(line).unwrap_or("")
+        })
+        .collect()
+}
+
+impl<'a> Contents<'a> {
+    fn new(bytes: &'a [u8]) -> Result<Self, String> {
+        let head = &bytes[..bytes.len().min(64)];
+        if !head.windows(10).any(|w| w == b"SolveSpace") {
+            return Err("is no SolveSpace file: its first line says otherwise".to_owned());
+        }
+        let mut contents = Contents {
+            records: Vec::new(),
+            params: HashMap::new(),
+            entities: HashMap::new(),
+            requests: HashMap::new(),
+            groups: Vec::new(),
+        };
+        let mut record = Record::default();
+        for (at, line) in lines(bytes).into_iter().enumerate() {
+            if let Some((key, value)) = line.split_once('=')
+                && let Some((kind, key)) = key.split_once('.')
+            {
+                record.kind = kind;
+                record.fields.push((key, value, at));
+            } else if let Some(kind) = line.strip_prefix("Add") {
+                record.kind = kind;
+                record.end = at;
+                let (index, handle) = (contents.records.len(), record.handle());
+                match kind {
+                    "Param" => drop(contents.params.insert(handle, index)),
+                    "Entity" => drop(contents.entities.insert(handle, index)),
+                    "Request" => drop(contents.requests.insert(handle, index)),
+                    "Group" => contents.groups.push(index),
+                    _ => {}
+                }
+                contents.records.push(std::mem::take(&mut record));
+            }
+        }
+        Ok(contents)
+    }
+
+    fn entity(&self, handle: Handle) -> Option<&Record<'a>> {
+        self.entities.get(&handle).map(|&i| &self.records[i])
+    }
+
+    fn param(&self, handle: Handle) -> f64 {
+        let record = self.params.get(&handle).map(|&i| &self.records[i]);
+        record.map_or(0.0, |record| record.number("val"))
+    }
+
+    /// The groups in a plane, with their names made different.
+    fn sketches(&self) -> Vec<(&Record<'a>, String)> {
+        let groups = self.groups.iter().map(|&i| &self.records[i]);
+        let groups: Vec<&Record> = groups.filter(|g| g.whole("type") == IN_PLANE).collect();
+        let name = |group: &Record| group.text("name").unwrap_or("sketch").to_owned();
+        let names: Vec<String> = groups.iter().map(|group| name(group)).collect();
+        let named = groups.iter().zip(&names).map(|(group, name)| {
+            let alike = names.iter().filter(|other| *other == name).count();
+            let name = match alike {
+                1 => name.clone(),
+                _ => format!("{name}#{:x}", group.handle()),
+            };
+            (*group, name)
+        });
+        named.collect()
+    }
+
+    /// The request that made an entity, if one of `group` did.
+    fn request(&self, entity: Handle, group: Handle) -> Option<&Record<'a>> {
+        if entity & 0x8000_0000 != 0 {
+            return None;
+        }
+        let request = self
+            .requests
+            .get(&(entity >> 16))
+            .map(|&i| &self.records[i]);
+        request.filter(|request| request.hex("group.v") == group)
+    }
+
+    /// The parameters of a point that a request made.
+    fn params_of_point(&self, point: Handle, request: &Record) -> [Handle; 2] {
+        let index = point & 0xffff;
+        let first = u32::from(request.whole("type") != DATUM_POINT);
+        let base = (point & !0xffff) | (16 + 3 * index.saturating_sub(first));
+        [base, base + 1]
+    }
+
+    fn place_in_space(&self, point: Handle) -> Option<[f64; 3]> {
+        let point = self.entity(point)?;
+        matches!(point.whole("type"), 2000..=2012)
+            .then(|| ["actPoint.x", "actPoint.y", "actPoint.z"].map(|key| point.number(key)))
+    }
+}
+
+/// A work plane.
+#[derive(Debug, Clone, Copy)]
+struct Plane {
+    origin: [f64; 3],
+    u: [f64; 3],
+    v: [f64; 3],
+}
+
+impl Plane {
+    fn new(contents: &Contents, handle: Handle) -> Option<Self> {
+        let plane = contents.entity(handle)?;
+        let normal = contents.entity(plane.hex("normal.v"))?;
+        let [w, x, y, z] =
+            ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
+        Some(Plane {
+            origin: contents.place_in_space(plane.hex("point[0].v"))?,
+            u: [
+                w * w + x * x - y * y - z * z,
+                2.0 * (w * z + x * y),
+                2.0 * (x * z - w * y),
+            ],
+            v: [
+                2.0 * (x * y - w * z),
+                w * w - x * x + y * y - z * z,
+                2.0 * (w * x + y * z),
+            ],
+        })
+    }
+
+    fn seen(&self, place: [f64; 3]) -> [f64; 2] {
+        let from: [f64; 3] = std::array::from_fn(|k| place[k] - self.origin[k]);
+        [self.u, self.v].map(|axis| (0..3).map(|k| axis[k] * from[k]).sum())
+    }
+
+    fn in_space(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+        std::array::from_fn(|k| self.origin[k] + u * self.u[k] + v * self.v[k])
+    }
+}
+
+/// Where a sketch's numbers stand.
+#[derive(Debug, Clone)]
+pub struct Places {
+    plane: Plane,
+    /// For each point that can move its parameters and its entity.
+    points: Vec<Option<([Handle; 2], Handle)>>,
+    /// For each object, if it is a circle, its parameter and the entity of its radius.
+    radii: Vec<Option<(Handle, Handle)>>,
+    /// For each dimension or constraint the constraint it is.
+    sources: Vec<Option<usize>>,
+}
+
+pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
+    let contents = Contents::new(bytes)?;
+    let sketches = contents.sketches().into_iter().map(|(group, name)| {
+        let handle = group.handle();
+        let of_group =
+            |record: &&Record, kind: &str| record.kind == kind && record.hex("group.v") == handle;
+        let constraints = contents
+            .records
+            .iter()
+            .filter(|record| of_group(record, "Constraint"))
+            .filter(|c| c.whole("reference") == 0 && c.whole("type") != COMMENT);
+        Listed {
+            name,
+            drawn: contents
+                .records
+                .iter()
+                .filter(|r| of_group(r, "Request"))
+                .count(),
+            constraints: constraints.count(),
+        }
+    });
+    Ok(sketches.collect())
+}
+
+const COMMENT: u32 = 1000;
+
+/// SolveSpace's names of its kinds of constraints.
+fn kind_name(kind: u32) -> String {
+    let name = match kind {
+        20 => "POINTS_COINCIDENT",
+        30 => "PT_PT_DISTANCE",
+        31 => "PT_PLANE_DISTANCE",
+        32 => "PT_LINE_DISTANCE",
+        33 => "PT_FACE_DISTANCE",
+        34 => "PROJ_PT_DISTANCE",
+        41 => "PT_IN_PLANE",
+        42 => "PT_ON_LINE",
+        43 => "PT_ON_FACE",
+        50 => "EQUAL_LENGTH_LINES",
+        51 => "LENGTH_RATIO",
+        52 => "EQ_LEN_PT_LINE_D",
+        53 => "EQ_PT_LN_DISTANCES",
+        54 => "EQUAL_ANGLE",
+        55 => "EQUAL_LINE_ARC_LEN",
+        56 => "LENGTH_DIFFERENCE",
+        60 => "SYMMETRIC",
+        61 => "SYMMETRIC_HORIZ",
+        62 => "SYMMETRIC_VERT",
+        63 => "SYMMETRIC_LINE",
+        70 => "AT_MIDPOINT",
+        80 => "HORIZONTAL",
+        81 => "VERTICAL",
+        90 => "DIAMETER",
+        100 => "PT_ON_CIRCLE",
+        110 => "SAME_ORIENTATION",
+        120 => "ANGLE",
+        121 => "PARALLEL",
+        122 => "PERPENDICULAR",
+        123 => "ARC_LINE_TANGENT",
+        124 => "CUBIC_LINE_TANGENT",
+        125 => "CURVE_CURVE_TANGENT",
+        130 => "EQUAL_RADIUS",
+        200 => "WHERE_DRAGGED",
+        other => return format!("type {other}"),
+    };
+    name.to_owned()
+}
+
+/// A sketch as it is read.
+struct Reader<'a> {
+    contents: &'a Contents<'a>,
+    group: Handle,
+    workplane: Handle,
+    plane: Plane,
+    drawing: Drawing,
+    /// The points of entities.
+    points: HashMap<Handle, usize>,
+    /// The objects of entities: lines, circles, arcs.
+    objects: HashMap<Handle, usize>,
+    places: Vec<Option<([Handle; 2], Handle)>>,
+    radii: HashMap<usize, (Handle, Handle)>,
+}
+
+impl Reader<'_> {
+    /// The point that an entity is, in this sketch or outside.
+    fn point(&mut self, handle: Handle) -> Option<usize> {
+        if let Some(&point) = self.points.get(&handle) {
+            return Some(point);
+        }
+        let entity = self.contents.entity(handle)?;
+        let own = self.contents.request(handle, self.group);
+        let name = match handle & 0x8000_0000 {
+            0 => format!("r{:03x}.{}", handle >> 16, handle & 0xffff),
+            _ => format!("x{handle:08x}"),
+        };
+        let point = match (own, entity.whole("type")) {
+            (Some(request), POINT_IN_2D) if entity.hex("workplane.v") == self.workplane => {
+                let params = self.contents.params_of_point(handle, request);
+                let at = params.map(|param| self.contents.param(param));
+                self.places.push(Some((params, handle)));
+                self.drawing.point(name, at)
+            }
+            // A point in space of this very group moves, and is not in its plane.
+            (Some(_), POINT_IN_3D) => return None,
+            _ => {
+                let place = self.contents.place_in_space(handle)?;
+                self.places.push(None);
+                self.drawing.fixed_point(name, self.plane.seen(place))
+            }
+        };
+        self.points.insert(handle, point);
+        Some(point)
+    }
+
+    /// The line, circle or arc that an entity is.
+    fn object(&mut self, handle: Handle) -> Option<usize> {
+        if let Some(&object) = self.objects.get(&handle) {
+            return Some(object);
+        }
+        let entity = self.contents.entity(handle)?;
+        let name = match handle & 0x8000_0000 {
+            0 => format!("r{:03x}", handle >> 16),
+            _ => format!("e{handle:08x}"),
+        };
+        let point = |k: usize| entity.hex(&format!("point[{k}].v"));
+        let own = self.contents.request(handle, self.group).is_some();
+        let object = match entity.whole("type") {
+            LINE => {
+                let ends = [self.point(point(0))?, self.point(point(1))?];
+                self.drawing.line(name, ends)?
+            }
+            ARC => {
+                let points = [
+                    self.point(point(0))?,
+                    self.point(point(1))?,
+                    self.point(point(2))?,
+                ];
+                self.drawing.arc(name, points)?
+            }
+            CIRCLE => {
+                let center = self.point(point(0))?;
+                let of_radius = entity.hex("distance.v");
+                let param = (handle & !0xffff) | 64;
+                let radius = match own {
+                    true => self.contents.param(param),
+                    false => self.contents.entity(of_radius)?.number("actDistance"),
+                };
+                let circle = self.drawing.circle(name, center, radius)?;
+                if own {
+                    self.radii.insert(circle, (param, of_radius));
+                } else {
+                    let items = vec![Item::Object(circle)];
+                    self.drawing.constrain(None, "radii", items, Some(radius));
+                }
+                circle
+            }
+            _ => return None,
+        };
+        self.objects.insert(handle, object);
+        Some(object)
+    }
+
+    fn line(&mut self, handle: Handle) -> Option<usize> {
+        let object = self.object(handle)?;
+        matches!(self.drawing.shape(object), Shape::Line(_)).then_some(object)
+    }
+
+    fn round(&mut self, handle: Handle) -> Option<usize> {
+        let object = self.object(handle)?;
+        (!matches!(self.drawing.shape(object), Shape::Line(_))).then_some(object)
+    }
+
+    /// Puts a constraint down; `None` where there is no kind for it.
+    fn constraint(&mut self, index: usize) -> Option<()> {
+        let record = &self.contents.records[index];
+        let source = Some(index);
+        let handle = |key: &str| record.hex(&format!("{key}.v"));
+        let (value, kind) = (record.number("valA"), record.whole("type"));
+        let workplane = handle("workplane");
+        if workplane != self.workplane && !matches!(kind, 20 | 50 | 90 | 130 | 200) {
+            return None;
+        }
+        let point = Item::Point;
+        let object = Item::Object;
+        match kind {
+            20 => {
+                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                self.drawing
+                    .constrain(source, "coincident", vec![point(a), point(b)], None);
+            }
+            30 => {
+                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                self.drawing.distance(index, [a, b], value);
+            }
+            32 => {
+                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
+                let (kind, value) = match value {
+                    0.0 => ("on", None),
+                    _ => ("distances", Some(value.abs())),
+                };
+                self.drawing
+                    .constrain(source, kind, vec![point(p), object(l)], value);
+            }
+            34 => {
+                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                let line = self.line(handle("entityA"))?;
+                let Shape::Line(ends) = *self.drawing.shape(line) else {
+                    return None;
+                };
+                // Along a line that stays where it is, parallel to an axis.
+                if !ends.iter().all(|&p| self.places[p].is_none()) {
+                    return None;
+                }
+                let [from, to] = ends.map(|p| self.drawing.at(p));
+                let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+                let axis = match (dx, dy) {
+                    (_, 0.0) => 0,
+                    (0.0, _) => 1,
+                    _ => return None,
+                };
+                // The sign in the file goes by the line's direction; what it means is seen in the figure.
+                let now = self.drawing.at(b)[axis] - self.drawing.at(a)[axis];
+                let signed = Some(if now < 0.0 { -value.abs() } else { value.abs() });
+                let kind = ["dx", "dy"][axis];
+                self.drawing
+                    .constrain(source, kind, vec![point(a), point(b)], signed);
+            }
+            42 => {
+                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
+                self.drawing
+                    .constrain(source, "on", vec![point(p), object(l)], None);
+            }
+            50 => {
+                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
+                self.drawing
+                    .constrain(source, "equal", lines.map(object).to_vec(), None);
+            }
+            53 => {
+                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
+                let (q, k) = (self.point(handle("ptB"))?, self.line(handle("entityB"))?);
+                let items = vec![point(p), object(l), point(q), object(k)];
+                self.drawing
+                    .constrain(source, "equal_distances", items, None);
+            }
+            61 | 62 => {
+                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                let axis = Item::Axis(usize::from(kind == 61));
+                self.drawing
+                    .constrain(source, "symmetric", vec![point(a), point(b), axis], None);
+            }
+            63 => {
+                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                let line = self.line(handle("entityA"))?;
+                let items = vec![point(a), point(b), object(line)];
+                self.drawing.constrain(source, "symmetric", items, None);
+            }
+            70 => {
+                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
+                self.drawing
+                    .constrain(source, "midpoint", vec![point(p), object(l)], None);
+            }
+            80 | 81 => {
+                let key = if kind == 80 { "horizontal" } else { "vertical" };
+                let items = match handle("entityA") {
+                    0 => {
+                        let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                        vec![point(a), point(b)]
+                    }
+                    line => vec![object(self.line(line)?)],
+                };
+                self.drawing.constrain(source, key, items, None);
+            }
+            90 => {
+                let round = self.round(handle("entityA"))?;
+                self.drawing
+                    .constrain(source, "diameters", vec![object(round)], Some(value));
+            }
+            100 => {
+                let (p, c) = (self.point(handle("ptA"))?, self.round(handle("entityA"))?);
+                self.drawing
+                    .constrain(source, "on", vec![point(p), object(c)], None);
+            }
+            120 => {
+                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
+                let items = lines.map(object).to_vec();
+                let (kind, value) = match value.abs() {
+                    0.0 | 180.0 => ("parallel", None),
+                    angle if angle < 180.0 => ("angles", Some(angle)),
+                    _ => return None,
+                };
+                self.drawing.constrain(source, kind, items, value);
+            }
+            121 | 122 => {
+                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
+                let kind = if kind == 121 {
+                    "parallel"
+                } else {
+                    "perpendicular"
+                };
+                self.drawing
+                    .constrain(source, kind, lines.map(object).to_vec(), None);
+            }
+            123 => {
+                let (arc, line) = (
+                    self.round(handle("entityA"))?,
+                    self.line(handle("entityB"))?,
+                );
+                let end = self.end(arc, record.whole("other") != 0)?;
+                if !self.drawing.touch_at(index, [(line, end), (arc, end)]) {
+                    return None;
+                }
+            }
+            125 => {
+                let (a, b) = (
+                    self.round(handle("entityA"))?,
+                    self.round(handle("entityB"))?,
+                );
+                let one = self.end(a, record.whole("other") != 0)?;
+                let other = self.end(b, record.whole("other2") != 0)?;
+                if !self.drawing.touch_at(index, [(a, one), (b, other)]) {
+                    return None;
+                }
+            }
+            130 => {
+                let rounds = [
+                    self.round(handle("entityA"))?,
+                    self.round(handle("entityB"))?,
+                ];
+                self.drawing
+                    .constrain(source, "equal", rounds.map(object).to_vec(), None);
+            }
+            200 => {
+                let p = self.point(handle("ptA"))?;
+                self.drawing
+                    .constrain(source, "fixed", vec![point(p)], None);
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// The end of an arc, its last if `last`.
+    fn end(&self, arc: usize, last: bool) -> Option<usize> {
+        match *self.drawing.shape(arc) {
+            Shape::Arc { start, end, .. } => Some(if last { end } else { start }),
+            _ => None,
+        }
+    }
+}
+
+pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
+    let contents = Contents::new(bytes)?;
+    let sketches = contents.sketches();
+    let (group, name) = &sketches[index];
+    let workplane = group.hex("activeWorkplane.v");
+    let plane = Plane::new(&contents, workplane)
+        .ok_or_else(|| format!("the work plane of {name} is missing"))?;
+    let mut reader = Reader {
+        contents: &contents,
+        group: group.handle(),
+        workplane,
+        plane,
+        drawing: Drawing::default(),
+        points: HashMap::new(),
+        objects: HashMap::new(),
+        places: Vec::new(),
+        radii: HashMap::new(),
+    };
+    // In the order of the file.
+    for record in &contents.records {
+        let handle = record.handle();
+        if record.kind != "Entity" || contents.request(handle, group.handle()).is_none() {
+            continue;
+        }
+        match record.whole("type") {
+            POINT_IN_2D => drop(reader.point(handle)),
+            LINE | CIRCLE | ARC => drop(reader.object(handle)),
+            _ => {}
+        }
+    }
+    for (index, record) in contents.records.iter().enumerate() {
+        let is_driving = record.whole("reference") == 0 && record.whole("type") != COMMENT;
+        if record.kind != "Constraint" || record.hex("group.v") != group.handle() || !is_driving {
+            continue;
+        }
+        reader
+            .drawing
+            .name(index, format!("c{:03x}", record.handle()));
+        if reader.constraint(index).is_none() {
+            reader.drawing.refuse(&kind_name(record.whole("type")));
+        }
+    }
+    let Reader {
+        drawing,
+        places,
+        radii,
+        ..
+    } = reader;
+    let source = "a SolveSpace file".to_owned();
+    let Finished {
+        problem,
+        unsupported,
+        sources,
+    } = drawing.finish(name.clone(), source);
+    Ok(Imported {
+        unsupported,
+        places: AllPlaces::SolveSpace(Places {
+            plane,
+            points: places,
+            radii: (0..problem.objects.len())
+                .map(|o| radii.get(&o).copied())
+                .collect(),
+            sources,
+        }),
+        problem,
+    })
+}
+
+pub fn rewrite(
+    imported: &Imported,
+    places: &Places,
+    bytes: &[u8],
+    problem: &Problem,
+    figure: &Figure,
+) -> Result<Vec<u8>, String> {
+    let contents = Contents::new(bytes)?;
+    let mut edits = Edits::default();
+    let missing = |what: &str| format!("{what} is missing: this is another file");
+    for (place, &[x, y, _]) in places.points.iter().zip(figure.points) {
+        let Some((params, entity)) = place else {
+            continue;
+        };
+        for (param, value) in params.iter().zip([x, y]) {
+            let record = contents
+                .params
+                .get(param)
+                .ok_or_else(|| missing("a parameter"))?;
+            edits.number(&contents.records[*record], "val", value);
+        }
+        let record = contents.entity(*entity).ok_or_else(|| missing("a point"))?;
+        let there = places.plane.in_space([x, y]);
+        for (axis, value) in ["x", "y", "z"].iter().zip(there) {
+            edits.number(record, &format!("actPoint.{axis}"), value);
+        }
+    }
+    for (place, &radius) in places.radii.iter().zip(figure.radii) {
+        let Some((param, entity)) = place else {
+            continue;
+        };
+        let record = contents
+            .params
+            .get(param)
+            .ok_or_else(|| missing("a radius"))?;
+        edits.number(&contents.records[*record], "val", radius);
+        if let Some(record) = contents.entity(*entity) {
+            edits.number(record, "actDistance", radius);
+        }
+    }
+    for (index, value) in super::changed(&imported.problem, problem) {
+        let Some(source) = places.sources.get(index).copied().flatten() else {
+            continue;
+        };
+        let record = contents
+            .records
+            .get(source)
+            .ok_or_else(|| missing("a constraint"))?;
+        // A distance from a line has a sign in the file, a projection that of its line.
+        let before = super::value(&imported.problem, index);
+        let sign = if record.number("valA") * before < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        edits.number(record, "valA", sign * value);
+    }
+    Ok(edits.apply(bytes))
+}
+
+/// Changes of lines.
+#[derive(Default)]
+struct Edits {
+    /// New texts of lines, `None` to leave the line out.
+    replaced: HashMap<usize, Option<String>>,
+    /// New lines before a line.
+    inserted: HashMap<usize, Vec<String>>,
+}
+
+impl Edits {
+    /// Sets a number, unless it is that already as a double.
+    fn number(&mut self, record: &Record, key: &str, value: f64) {
+        if record.number(key) == value {
+            return;
+        }
+        // Zeros are left out, as SolveSpace does.
+        let line = format!("{}.{key}={value:.20}", record.kind);
+        let field = record.fields.iter().find(|field| field.0 == key);
+        match field {
+            Some(&(_, _, at)) => drop(self.replaced.insert(at, (value != 0.0).then_some(line))),
+            None if value != 0.0 => self.inserted.entry(record.end).or_default().push(line),
+            None => {}
+        }
+    }
+
+    fn apply(&self, bytes: &[u8]) -> Vec<u8> {
+        let mut out = Vec::with_capacity(bytes.len() + 64);
+        for (at, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
+            let end: &[u8] = if line.ends_with(b"\r\n") {
+                b"\r\n"
+            } else {
+                b"\n"
+            };
+            for new in self.inserted.get(&at).into_iter().flatten() {
+                out.extend_from_slice(new.as_bytes());
+                out.extend_from_slice(end);
+            }
+            match self.replaced.get(&at) {
+                None => out.extend_from_slice(line),
+                Some(None) => {}
+                Some(Some(new)) => {
+                    out.extend_from_slice(new.as_bytes());
+                    out.extend_from_slice(end);
+                }
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,48 @@
+//! A homotopy made of equations and unknowns directly: a part of a problem's, or its with some unknowns made one.
+
+use super::{Gauge, Homotopy};
+use crate::constraint::{Equation, Tail, Unknown};
+
+/// Equations in unknowns that are all listed; [`crate::constraint::Entry::Unknown`] is an index into them.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// For each point of the problem and each axis the unknown that its coordinate is, if it is one of these.
+    pub coordinates: Vec<Option<usize>>,
+    /// The length that 1 stands for: a power of two.
+    pub unit: f64,
+    /// The unknowns, with their values in the sketch.
+    pub unknowns: Vec<Unknown>,
+    /// As many equations.
+    pub equations: Vec<Equation>,
+    /// Points of which the orientation is followed: three in the plane, four in space.
+    pub followed: Vec<Vec<usize>>,
+}
+
+impl Homotopy {
+    /// The homotopy of a part.
+    ///
+    /// # Panics
+    /// If there are not as many equations as unknowns, or the unit is not a power of two.
+    pub fn of_part(part: Part) -> Self {
+        let m = part.unknowns.len();
+        assert_eq!(part.equations.len(), m, "as many equations as unknowns");
+        assert!(part.unit.is_normal() && part.unit > 0.0 && part.unit.to_bits() << 12 == 0);
+        let variable = part.coordinates.iter().map(|c| c.unwrap_or(m));
+        let gauge = Gauge {
+            dimension: part.dimension,
+            reference: Vec::new(),
+            place: Vec::new(),
+            variable: variable.collect(),
+        };
+        let tail = Tail {
+            unknowns: part.unknowns,
+            equations: part.equations,
+            mirrors: false,
+        };
+        let mut homotopy = Homotopy::without_distances(gauge, part.unit, tail);
+        homotopy.followed = part.followed;
+        homotopy
+    }
+}

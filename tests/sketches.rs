@@ -1,0 +1,239 @@
+//! Sketches of other programs, in and out, and sketches that are followed part by part.
+
+use krawl::edit::{Decomposition, Edited, Ending, Session, Setting};
+use krawl::import::{self, Figure, Imported};
+use krawl::problem::Problem;
+
+const BRACKET: &str = "problems/sketches/bracket.slvs";
+const PARTS: &str = "problems/sketches/parts.FCStd";
+
+fn read(file: &str, sketch: Option<&str>) -> (Imported, Vec<u8>) {
+    let bytes = std::fs::read(file).unwrap();
+    (import::read(file, &bytes, sketch).unwrap(), bytes)
+}
+
+fn edit(session: &mut Session, text: &str) -> Edited {
+    let setting = Setting::parse(session.problem(), text).unwrap();
+    session.edit(&[setting])
+}
+
+fn rewritten(sketch: &Imported, bytes: &[u8], session: &Session) -> Vec<u8> {
+    let (points, radii) = (session.figure(), session.radii());
+    let figure = Figure {
+        points: &points,
+        radii: &radii,
+    };
+    import::rewrite(sketch, bytes, session.problem(), &figure).unwrap()
+}
+
+/// The place of a point in the session's figure.
+fn place(session: &Session, name: &str) -> [f64; 3] {
+    let index = session.problem().points.iter().position(|p| p.name == name);
+    session.figure()[index.unwrap()]
+}
+
+fn apart(session: &Session, a: &str, b: &str) -> f64 {
+    let (a, b) = (place(session, a), place(session, b));
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+#[test]
+fn a_solvespace_sketch_is_edited_and_given_back() {
+    let (sketch, bytes) = read(BRACKET, None);
+    assert!(sketch.unsupported.is_empty());
+    let mut session = Session::open(&sketch.problem).unwrap();
+    assert!(session.moved().distance < 1e-9, "{:?}", session.moved());
+    assert!(session.free().is_empty() && session.redundant().is_empty());
+    // What does not change is not touched.
+    assert_eq!(
+        rewritten(&sketch, &bytes, &Session::open(&sketch.problem).unwrap()).len(),
+        bytes.len()
+    );
+    let edited = edit(&mut session, "c00a=38");
+    assert_eq!(edited.ending, Ending::Reached);
+    assert!((apart(&session, "r006.1", "r006.2") - 38.0).abs() < 1e-9);
+    assert!((apart(&session, "r007.1", "r007.2") - 40.0).abs() < 1e-9);
+    // The diameter, which nothing else needs, is a number for itself.
+    let edited = edit(&mut session, "c00e=12.5");
+    assert_eq!((edited.ending, edited.tubes), (Ending::Reached, 0));
+    let out = rewritten(&sketch, &bytes, &session);
+    let again = import::read(BRACKET, &out, None).unwrap();
+    let session = Session::open(&again.problem).unwrap();
+    assert!(session.moved().distance < 1e-9);
+    assert_eq!(
+        session
+            .length(Setting::find(&again.problem, "c00a").unwrap())
+            .mid(),
+        38.0
+    );
+    // Only lines with numbers differ.
+    let lines = |bytes: &[u8]| -> Vec<Vec<u8>> {
+        bytes.split(|b| *b == b'\n').map(<[u8]>::to_vec).collect()
+    };
+    let (old, new) = (lines(&bytes), lines(&out));
+    assert_eq!(old.len(), new.len());
+    for (a, b) in old.iter().zip(&new).filter(|(a, b)| a != b) {
+        let key = |line: &[u8]| line.split(|b| *b == b'=').next().unwrap().to_vec();
+        assert_eq!(key(a), key(b));
+    }
+}
+
+#[test]
+fn a_limit_is_named_in_the_words_of_the_file() {
+    let (sketch, _) = read(BRACKET, None);
+    let mut session = Session::open(&sketch.problem).unwrap();
+    let edited = edit(&mut session, "c00a=10");
+    let Ending::Limit(limit) = &edited.ending else {
+        panic!("{edited:?}")
+    };
+    // c and d are on one line with the origin: √(50² + 30²) − 40.
+    let wanted = 3400f64.sqrt() - 40.0;
+    assert!((edited.dimensions[0].value.mid() - wanted).abs() < 1e-9);
+    assert!(
+        edited.dimensions[0]
+            .value
+            .contains(edited.dimensions[0].value.mid())
+    );
+    assert!(limit.motion.iter().flatten().all(|x| x.is_finite()));
+}
+
+#[test]
+fn angles_can_be_edited_across_a_right_angle() {
+    let (sketch, _) = read(BRACKET, None);
+    let mut session = Session::open(&sketch.problem).unwrap();
+    for degrees in ["80", "90", "100", "90", "60"] {
+        let edited = edit(&mut session, &format!("c011={degrees}"));
+        assert_eq!(edited.ending, Ending::Reached, "{degrees}: {edited:?}");
+        let [c, d, e] = ["r006.1", "r006.2", "r009.2"].map(|p| place(&session, p));
+        let (u, v) = ([d[0] - c[0], d[1] - c[1]], [e[0] - d[0], e[1] - d[1]]);
+        let turned = (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]);
+        // The sense of turn stays, by proof.
+        assert!((turned.to_degrees() + degrees.parse::<f64>().unwrap()).abs() < 1e-9);
+        assert!(
+            edited.orientations.lost.is_empty(),
+            "{:?}",
+            edited.orientations
+        );
+    }
+}
+
+#[test]
+fn freecad_sketches_are_edited_and_given_back() {
+    let bytes = std::fs::read(PARTS).unwrap();
+    let names: Vec<String> = import::list(PARTS, &bytes)
+        .unwrap()
+        .into_iter()
+        .map(|s| s.name)
+        .collect();
+    assert_eq!(names, ["Slot", "Frame"]);
+    assert!(import::read(PARTS, &bytes, None).is_err());
+    for (name, setting, points, wanted) in [
+        ("Slot", "width=6", ["e1.start", "e3.end"], 12.0),
+        ("Slot", "reach=31.5", ["e1.start", "e1.end"], 31.5),
+        ("Frame", "base=70", ["e3.start", "e3.end"], 70.0),
+        ("Frame", "lean=95.5", ["e2.start", "e2.end"], 40.0),
+    ] {
+        let (sketch, bytes) = read(PARTS, Some(name));
+        assert!(sketch.unsupported.is_empty(), "{:?}", sketch.unsupported);
+        let mut session = Session::open(&sketch.problem).unwrap();
+        assert!(
+            session.moved().distance < 1e-9,
+            "{name}: {:?}",
+            session.moved()
+        );
+        let edited = edit(&mut session, setting);
+        assert_eq!(
+            edited.ending,
+            Ending::Reached,
+            "{name} {setting}: {edited:?}"
+        );
+        assert!(
+            (apart(&session, points[0], points[1]) - wanted).abs() < 1e-9,
+            "{name} {setting}"
+        );
+        assert!(
+            edited.orientations.lost.is_empty(),
+            "{name}: {:?}",
+            edited.orientations
+        );
+        let out = rewritten(&sketch, &bytes, &session);
+        let again = import::read(PARTS, &out, Some(name)).unwrap();
+        let second = Session::open(&again.problem).unwrap();
+        assert!(
+            second.moved().distance < 1e-9,
+            "{name} {setting}: {:?}",
+            second.moved()
+        );
+        let index = Setting::find(&again.problem, setting.split('=').next().unwrap()).unwrap();
+        let said: f64 = setting.split('=').nth(1).unwrap().parse().unwrap();
+        assert!((second.length(index).mid() - said).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn kinds_that_are_not_supported_are_named() {
+    let text = String::from_utf8_lossy(&std::fs::read(BRACKET).unwrap()).into_owned();
+    let text = text.replacen("Constraint.type=90", "Constraint.type=51", 1);
+    let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
+    let kinds: Vec<(&str, usize)> = sketch
+        .unsupported
+        .iter()
+        .map(|(k, n)| (k.as_str(), *n))
+        .collect();
+    assert_eq!(kinds, [("LENGTH_RATIO", 1)]);
+    for broken in [&b""[..], b"SolveSpace", b"PK\x03\x04"] {
+        assert!(import::read("x.slvs", broken, None).is_err());
+        assert!(import::read("x.FCStd", broken, None).is_err());
+    }
+}
+
+#[test]
+fn what_is_free_stays_put() {
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [9, 9]\n\
+                [constraints]\ndistances = [[\"a\", \"b\", 4], [\"b\", \"c\", 3]]\n";
+    assert!(Problem::parse(text, "free.toml").is_err_and(|e| e.is_about_structure()));
+    let problem = Problem::parse_loosely(text, "free.toml").unwrap();
+    let mut session = Session::open(&problem).unwrap();
+    let edited = edit(&mut session, "a-b=5");
+    assert_eq!(edited.ending, Ending::Reached);
+    assert!((apart(&session, "a", "b") - 5.0).abs() < 1e-12);
+    assert!((apart(&session, "b", "c") - 3.0).abs() < 1e-12);
+    assert_eq!(place(&session, "d"), [9.0, 9.0, 0.0]);
+    assert!(session.free().contains(&"d".to_owned()));
+}
+
+#[test]
+fn blocks_are_cut_and_each_needs_those_before() {
+    let (sketch, _) = read(BRACKET, None);
+    let found = Decomposition::of(&sketch.problem).unwrap();
+    // d by two circles, after b and c by one number each.
+    let at = |name: &str| {
+        found
+            .blocks
+            .iter()
+            .position(|block| block.iter().any(|u| u == name))
+    };
+    let d = found
+        .blocks
+        .iter()
+        .position(|b| b == &["x of r006.2", "y of r006.2"])
+        .unwrap();
+    for before in ["x of r004.2", "y of r005.2"] {
+        assert!(at(before).is_none_or(|k| k < d), "{found:?}");
+    }
+    assert!(found.merged >= 12, "{found:?}");
+}
+
+/// SolveSpace 1247: cos θ = 100/√(100² + h²) from 60° to 30°; the path reaches h = 57.735…, never −57.735….
+#[test]
+fn a_height_keeps_its_sign() {
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [100, 0]\nc = [100, 173.2]\n\
+                [constraints]\nfixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"]]\nvertical = [[\"b\", \"c\"]]\n\
+                distances = [[\"a\", \"b\", 100]]\nangles = [[\"b\", \"a\", \"c\", 60]]\n";
+    let problem = Problem::parse(text, "height.toml").unwrap();
+    let mut session = Session::open(&problem).unwrap();
+    let edited = edit(&mut session, "angles:b-a-c=30");
+    assert_eq!(edited.ending, Ending::Reached);
+    assert!((place(&session, "c")[1] - 100.0 / 3f64.sqrt()).abs() < 1e-9);
+    assert_eq!(edited.orientations.kept.len(), 1);
+}
