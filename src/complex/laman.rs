@@ -193,6 +193,9 @@ mod tests {
             [5, 3],
         ];
         let number = number(&graph).unwrap();
-        assert!(number > 0 && number <= 56 && number.is_multiple_of(2), "{number}");
+        assert!(
+            number > 0 && number <= 56 && number.is_multiple_of(2),
+            "{number}"
+        );
     }
 }
