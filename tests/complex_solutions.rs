@@ -237,6 +237,12 @@ fn damaged_templates_are_refused() {
     bad["parameters"][0][0] = serde_json::json!("1/0");
     assert!(read(&bad).unwrap_err().to_string().contains("1/0"));
 
+    bad["parameters"][0][0] = serde_json::json!(format!("1{}", "0".repeat(600)));
+    assert!(read(&bad).is_err());
+    let mut huge = whole.clone();
+    huge["solutions"][0][0] = serde_json::json!(1e300);
+    assert!(read(&huge).is_err());
+
     // Of another graph.
     let (_, other) = shipped("prism");
     let error = Template::read(&text, &other.system)

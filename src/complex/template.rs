@@ -6,10 +6,16 @@ use super::follow::prove_all;
 use super::monodromy::Fibre;
 use super::system::{System, segment};
 use num_rational::BigRational;
+use num_traits::Signed;
 use serde::{Deserialize, Serialize};
 
 /// What [`Template::read`] takes and [`Template::write`] makes.
 pub const VERSION: u32 = 1;
+
+/// No parameter takes more characters.
+const LONGEST: usize = 1000;
+/// No parameter or coordinate, in typical lengths, is larger: far from overflow.
+const LARGEST: i64 = 1_000_000_000_000;
 
 /// The file: JSON.
 #[derive(Serialize, Deserialize)]
@@ -121,21 +127,23 @@ impl Template {
             && file
                 .solutions
                 .iter()
-                .all(|s| s.len() == 2 * n && s.iter().all(|x| x.is_finite()));
+                .all(|s| s.len() == 2 * n && s.iter().all(|x| x.abs() <= LARGEST as f64));
         if !is_whole {
             let what = format!("parameters and solutions of {n} unknowns are wanted");
             return Err(TemplateError::Format(what));
         }
         let number = |text: &String| -> Result<BigRational, TemplateError> {
-            let bad = || TemplateError::Format(format!("`{text}` is no ratio"));
+            let bad = || TemplateError::Format(format!("`{text}` is no ratio of moderate size"));
             // A denominator of zero would be a panic.
             let below = text.split('/').nth(1);
-            if text.len() > 10_000
+            if text.len() > LONGEST
                 || below.is_some_and(|d| d.trim_matches(['0', '+', '-']).is_empty())
             {
                 return Err(bad());
             }
-            text.parse().map_err(|_| bad())
+            let number: BigRational = text.parse().map_err(|_| bad())?;
+            let is_moderate = number.abs() <= BigRational::from_integer(LARGEST.into());
+            is_moderate.then_some(number).ok_or_else(bad)
         };
         let mut parameters = Vec::with_capacity(n);
         for (equation, [re, im]) in system.equations.iter().zip(&file.parameters) {

@@ -94,6 +94,7 @@ const THRESHOLD: f64 = 0.1;
 impl Pivots {
     /// Chooses pivots for a matrix: among those large enough, the one that fills in least
     /// (Markowitz's rule). `None`: it is singular in floating point.
+    #[inline(never)]
     pub fn choose(&mut self, pattern: &Sparse, values: &[f64], room: &mut Room) -> Option<()> {
         let n = pattern.columns();
         let Room {

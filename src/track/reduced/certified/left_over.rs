@@ -13,6 +13,7 @@ use crate::track::reduced::structure::passes::{Row, add};
 pub type Parts<const W: usize> = [Row<W>; 2];
 
 /// |Z J_A| ρ_A.
+#[inline(never)]
 pub fn of_z<const D: usize, const W: usize>(
     equations: &Equations<D>,
     y: &Reduction<D>,
@@ -64,6 +65,7 @@ pub fn of_z<const D: usize, const W: usize>(
 }
 
 /// |P S − V E − I| times the key unknowns' weights, but for what V E has at low orders by rounding.
+#[inline(never)]
 pub fn of_s<const D: usize, const W: usize>(
     y: &Reduction<D>,
     series: &Series<D>,

@@ -208,14 +208,19 @@ impl<const D: usize> Resolvent<D> {
             }
         }
         if block.has_tail(equations.tail.first()) {
-            self.set_tail_spreads(equations, block, &mut out);
+            out = self.with_tail_spreads(equations, block, out);
         }
         out
     }
 
     #[cold]
     #[inline(never)]
-    fn set_tail_spreads(&self, equations: &Equations<D>, block: &Block, out: &mut [[f64; 3]; 3]) {
+    fn with_tail_spreads(
+        &self,
+        equations: &Equations<D>,
+        block: &Block,
+        mut out: [[f64; 3]; 3],
+    ) -> [[f64; 3]; 3] {
         let tail = &equations.tail;
         for r in 0..block.size {
             let e = block.rows[r] as usize;
@@ -226,18 +231,19 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
         }
+        out
     }
 
     /// Adds Â v for the tail's rows in a block, of v from blocks before it.
     #[cold]
     #[inline(never)]
-    fn add_tail_spreads(
+    fn with_spread(
         &self,
         equations: &Equations<D>,
         block: &Block,
         v: &[Lane],
-        rest: &mut [Lane; 3],
-    ) {
+        mut rest: [Lane; 3],
+    ) -> [Lane; 3] {
         let tail = &equations.tail;
         for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
             for entry in tail.row(e as usize) {
@@ -250,6 +256,7 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
         }
+        rest
     }
 
     fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
@@ -303,7 +310,7 @@ impl<const D: usize> Resolvent<D> {
             }
             let spreads = self.spreads(equations, block);
             if block.has_tail(equations.tail.first()) {
-                self.add_tail_spreads(equations, block, v, &mut rest);
+                rest = self.with_spread(equations, block, v, rest);
             }
             for r in 0..size {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);

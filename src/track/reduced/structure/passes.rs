@@ -90,30 +90,37 @@ impl<const D: usize> Derivative<'_, D> {
         block.has_tail(self.tail.first())
     }
 
-    /// Adds the tail's entries of a block's rows in J K.
+    /// A block's rows of J K with the tail's entries. (By value, lest they live in memory where there are none.)
     #[cold]
     #[inline(never)]
-    fn add_tails<const W: usize>(&self, block: &Block, k: &[Row<W>], sums: &mut [Row<W>; 3]) {
+    fn with_tails<const W: usize>(
+        &self,
+        block: &Block,
+        k: &[Row<W>],
+        mut sums: [Row<W>; 3],
+    ) -> [Row<W>; 3] {
         for (sum, &e) in sums.iter_mut().zip(&block.rows[..block.size]) {
             self.add_tail(e as usize, k, sum);
         }
+        sums
     }
 
-    /// Subtracts the tail's entries of a block's rows in J x.
+    /// What is left of a block's right-hand side without the tail's entries of its rows in J x.
     #[cold]
     #[inline(never)]
-    fn subtract_tails(&self, block: &Block, x: &[f64], rest: &mut [f64; 3]) {
+    fn without_tails(&self, block: &Block, x: &[f64], mut rest: [f64; 3]) -> [f64; 3] {
         for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
             for entry in self.tail.row(e as usize) {
                 *rest -= self.entries[entry] * x[self.tail.unknown(entry)];
             }
         }
+        rest
     }
 
-    /// Sets the tail's entries of a diagonal block.
+    /// A diagonal block with the tail's entries.
     #[cold]
     #[inline(never)]
-    fn set_tail_entries(&self, block: &Block, out: &mut Inverse) {
+    fn with_tail_entries(&self, block: &Block, mut out: Inverse) -> Inverse {
         for r in 0..block.size {
             let e = block.rows[r] as usize;
             if e >= self.tail.first() {
@@ -123,6 +130,7 @@ impl<const D: usize> Derivative<'_, D> {
                 }
             }
         }
+        out
     }
 
     /// `out += J K`.
@@ -217,7 +225,7 @@ impl<const D: usize> Derivative<'_, D> {
                 known(e, &mut sums[r]);
             }
             if self.has_tail(block) {
-                self.add_tails(block, k, &mut sums);
+                sums = self.with_tails(block, k, sums);
             }
             for c in 0..block.size {
                 let row = &mut k[block.unknowns[c] as usize];
@@ -269,7 +277,7 @@ impl<const D: usize> Derivative<'_, D> {
                 rest[r] = f[e] - self.row_of(e, x);
             }
             if self.has_tail(block) {
-                self.subtract_tails(block, x, &mut rest);
+                rest = self.without_tails(block, x, rest);
             }
             for c in 0..block.size {
                 x[block.unknowns[c] as usize] =
@@ -290,10 +298,22 @@ impl<const D: usize> Derivative<'_, D> {
     }
 
     /// Row e of J x for any equation.
+    #[inline(always)]
     pub fn any_row_of(&self, e: usize, x: &[f64]) -> f64 {
+        let head = self.row_of(e, x);
+        if e < self.tail.first() {
+            head
+        } else {
+            head + self.tail_row_of(e, x)
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn tail_row_of(&self, e: usize, x: &[f64]) -> f64 {
         let tail = self.tail.row(e);
         let terms = tail.map(|entry| self.entries[entry] * x[self.tail.unknown(entry)]);
-        self.row_of(e, x) + terms.sum::<f64>()
+        terms.sum()
     }
 }
 
@@ -330,7 +350,7 @@ pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
         }
     }
     if j.has_tail(block) {
-        j.set_tail_entries(block, &mut out);
+        out = j.with_tail_entries(block, out);
     }
     out
 }
