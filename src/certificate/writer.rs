@@ -105,7 +105,7 @@ impl<'a, W: Write> Writer<'a, W> {
 fn solution_claim(centre: &[f64], radius: &[f64], wider: f64) -> SolutionClaim {
     let largest = |v: &[f64]| v.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
     SolutionClaim {
-        centre: centre.to_vec(),
+        centre: centre.iter().map(|x| x + 0.0).collect(),
         radius: (wider * largest(radius) + ROUNDINGS * largest(centre)) as f32,
     }
 }
@@ -127,9 +127,10 @@ impl<W: Write> Witness for Writer<'_, W> {
     fn tube(&mut self, tube: TubeSeen) {
         let weight = |&u: &f64| (u / WEIGHT_UNIT).round().clamp(1.0, u16::MAX.into()) as u16;
         let tube = TubeClaim {
-            centre: tube.centre.to_vec(),
+            // Without zeros below zero, which differ between builds.
+            centre: tube.centre.iter().map(|x| x + 0.0).collect(),
             low: tube.low.unwrap_or_default().to_vec(),
-            normal: tube.normal.iter().map(|&c| c as f32).collect(),
+            normal: tube.normal.iter().map(|&c| c as f32 + 0.0).collect(),
             weights: tube.weights.iter().map(weight).collect(),
             h: tube.h,
             r: tube.r as f32,
