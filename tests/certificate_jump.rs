@@ -210,6 +210,7 @@ impl Plain {
         for (k, (z, c)) in points.iter().enumerate() {
             let (before, after) = (if k == 0 { 0.0 } else { gaps[k - 1] }, gaps[k]);
             records.push(Record::Tube(TubeClaim {
+                low: Vec::new(),
                 centre: z.iter().copied().collect(),
                 normal: c.iter().map(|&c| c as f32).collect(),
                 weights: vec![u16::MAX; self.n],
@@ -248,7 +249,7 @@ impl Plain {
         });
         let classes = congruence_classes(&scattered.collect::<Vec<_>>(), 1e-8);
         records.push(Record::End(EndClaim {
-            stopped: None,
+            ending: krawl::certificate::Ending::Complete,
             tubes: points.len() as u64,
             classes: classes.into_iter().map(|c| c as u32).collect(),
         }));

@@ -228,8 +228,8 @@ fn files_that_are_none_are_told_from_refuted_ones() {
         FormatError::NotACertificate
     ));
     let mut future = good.clone();
-    future[18] = 3;
-    assert!(matches!(error(&future), FormatError::Version(3)));
+    future[18] = 4;
+    assert!(matches!(error(&future), FormatError::Version(4)));
     for length in (0..good.len()).step_by(97) {
         assert!(check(&good[..length]).is_err(), "{length}");
     }

@@ -118,57 +118,50 @@ fn stopped_runs_name_the_number() {
     }
 }
 
-/// What can be written of such a run is a certificate of its beginning, and holds.
+/// How many certificates the checker is too coarse for.
+const COARSE: usize = 4;
+
+fn checked(problem: &Problem) -> (Outcome, Checked) {
+    let mut writer = Writer::new(Vec::new(), problem);
+    let mut control = Control {
+        witness: Some(&mut writer),
+        ..Control::default()
+    };
+    let outcome = track::solve(problem, &Options::certified(), &mut control).unwrap();
+    assert_eq!(outcome.status, Status::Closed, "{}", problem.name);
+    let bytes = writer.finish().unwrap();
+    let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
+    (outcome, verdict.outcome)
+}
+
+/// Tubes in extended precision are proved again by the checker. Where t comes within some 1e-16 of 1 at a fold its
+/// bounds, which do not tell t from the coordinates, are too coarse; it says so.
 #[test]
-fn certificates_end_before() {
+fn certificates_are_verified() {
+    let mut coarse = Vec::new();
     for name in ["fold", "fold-missed", "peak"] {
         for k in 4..=9 {
             let problem: Problem = families().find(|f| f.name == name).unwrap().problem(k);
-            let mut writer = Writer::new(Vec::new(), &problem);
-            let mut control = Control {
-                witness: Some(&mut writer),
-                ..Control::default()
-            };
-            let outcome = track::solve(&problem, &Options::certified(), &mut control).unwrap();
-            assert_eq!(outcome.status, Status::Closed);
-            let is_cut = writer.is_cut();
-            match k {
-                ..=4 => assert!(!is_cut, "{name}-{k}"),
-                7.. => assert!(is_cut, "{name}-{k}"),
-                _ => {}
-            }
-            assert_eq!(is_cut, !words(&outcome).is_empty());
-            let bytes = writer.finish().unwrap();
-            let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
-            match verdict.outcome {
-                Checked::Verified => assert!(!is_cut),
-                Checked::Partial(reason) => {
-                    assert!(is_cut && reason.contains("extended precision"), "{reason}");
-                }
-                refused => panic!("{}: {refused:?}", problem.name),
+            let (outcome, checked) = checked(&problem);
+            println!("{name}-{k}: {checked:?} {:?}", words(&outcome));
+            match checked {
+                Checked::Verified => {}
+                Checked::NotProved(_) => coarse.push(format!("{name}-{k}")),
+                other => panic!("{name}-{k}: {other:?}"),
             }
         }
     }
-}
-
-/// In other families the checker, whose bounds are coarser than the tracker's, may refuse tubes of 53 bits
-/// already; but it never takes the beginning of a proof for all of it.
-#[test]
-fn certificates_that_are_cut_are_not_verified() {
     for name in ["flaps-apart", "tents-split", "graze", "crowd", "lengths"] {
         let family = families().find(|f| f.name == name).unwrap();
         let problem = family.problem(if name == "lengths" { 3 } else { 7 });
-        let mut writer = Writer::new(Vec::new(), &problem);
-        let mut control = Control {
-            witness: Some(&mut writer),
-            ..Control::default()
-        };
-        let outcome = track::solve(&problem, &Options::certified(), &mut control).unwrap();
-        assert_eq!(outcome.status, Status::Closed, "{name}");
-        assert!(writer.is_cut(), "{name}");
-        let bytes = writer.finish().unwrap();
-        let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
-        assert_ne!(verdict.outcome, Checked::Verified, "{name}");
-        println!("{name}: {:?}", verdict.outcome);
+        let (outcome, checked) = checked(&problem);
+        println!("{name}: {checked:?} {:?}", words(&outcome));
+        match checked {
+            Checked::Verified => {}
+            Checked::NotProved(_) => coarse.push(name.to_owned()),
+            other => panic!("{name}: {other:?}"),
+        }
     }
+    println!("{coarse:?}");
+    assert!(coarse.len() <= COARSE, "{coarse:?}");
 }

@@ -1,11 +1,11 @@
 //! What a certificate consists of (byte for byte in `certs/README.md`).
 
-use crate::problem::Problem;
+use crate::problem::{Decimal, Problem};
 
 /// The first bytes of every certificate.
 pub const MAGIC: &[u8; 18] = b"krawl certificate\n";
 /// The version of the format that is written and read.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Longest text that names a program, or gives a reason.
 pub const MAX_TEXT: usize = 4096;
 /// Longest text of a problem.
@@ -15,6 +15,10 @@ pub const MAX_PROBLEM: usize = 1 << 20;
 pub const MAX_FREE_COORDINATES: usize = 6000;
 /// Units are between 2⁻²²⁰ and 2²²⁰: lengths in files are between 10⁻⁶⁰ and 10⁶⁰.
 pub const MAX_UNIT_EXPONENT: i16 = 220;
+/// Longest decimal that is a length.
+pub const MAX_DECIMAL: usize = 512;
+/// Most distances that one edit changes, and most signs that it claims to keep.
+pub const MAX_LISTED: usize = 1 << 20;
 /// More solutions than any path of a real problem has.
 pub const MAX_SOLUTIONS: usize = 4096;
 /// Numbers are smaller than this; the homotopy's unit is a typical length.
@@ -23,11 +27,21 @@ pub const MAX_NUMBER: f64 = 1_099_511_627_776.0;
 pub const WEIGHT_UNIT: f64 = 1.0 / 65536.0;
 
 /// Tags of the records.
-pub const TAG_MOVING_KRAWCZYK: u8 = 1;
-/// See [`TAG_MOVING_KRAWCZYK`].
+pub const TAG_TUBE: u8 = 1;
+/// See [`TAG_TUBE`].
 pub const TAG_SOLUTION: u8 = 2;
-/// See [`TAG_MOVING_KRAWCZYK`].
+/// See [`TAG_TUBE`].
 pub const TAG_END: u8 = 3;
+/// See [`TAG_TUBE`].
+pub const TAG_TURN: u8 = 4;
+/// See [`TAG_TUBE`].
+pub const TAG_ARC: u8 = 5;
+/// See [`TAG_TUBE`].
+pub const TAG_REACHED: u8 = 6;
+/// See [`TAG_TUBE`].
+pub const TAG_FOLD: u8 = 7;
+/// See [`TAG_TUBE`].
+pub const TAG_EXTENDED: u8 = 8;
 
 /// What stands before the chain of tubes.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +63,14 @@ pub enum Record {
     Tube(TubeClaim),
     /// A point of the path with t = 1, first met in the tube before.
     Solution(SolutionClaim),
+    /// What follows are tubes the other way from the sketch.
+    Turn,
+    /// An edit: what follows are tubes from the figure at hand, t rising from 0.
+    Arc(ArcClaim),
+    /// The arc ends with t = 1, in this box, which is then the figure at hand.
+    Reached(SolutionClaim),
+    /// The arc ends at a fold.
+    Fold(FoldClaim),
     /// The last record.
     End(EndClaim),
 }
@@ -59,6 +81,8 @@ pub enum Record {
 pub struct TubeClaim {
     /// z₀: the free coordinates and t.
     pub centre: Vec<f64>,
+    /// What z₀ is more than that, of tubes in extended precision; otherwise empty.
+    pub low: Vec<f64>,
     /// The normal c of the cross-sections.
     pub normal: Vec<f32>,
     /// The weights u, in units of 2⁻¹⁶.
@@ -80,11 +104,45 @@ pub struct SolutionClaim {
     pub radius: f32,
 }
 
+/// What an edit changes, and what it claims to keep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArcClaim {
+    /// The distances that are led, by their numbers in the problem, and their new lengths. None: the sketch is
+    /// led to the problem's own dimensions.
+    pub lengths: Vec<(u32, Decimal)>,
+    /// Triangles in the plane, tetrahedra in space, that keep the sign of their area or volume along the arc:
+    /// their points, and whether it is positive.
+    pub kept: Vec<(Vec<u32>, bool)>,
+}
+
+/// The claim that an arc ends at a fold: that t rises up to it, dt/ds = 0 there, and that the path turns back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoldClaim {
+    /// The figure and its box.
+    pub figure: SolutionClaim,
+    /// t there.
+    pub t: f64,
+    /// How far t may be from that.
+    pub t_radius: f32,
+}
+
 /// How the chain ends.
 #[derive(Debug, Clone, PartialEq)]
+pub enum Ending {
+    /// The last tube leads back to the sketch; or the last arc to its end.
+    Complete,
+    /// Why the run stopped before.
+    Stopped(String),
+    /// What happens at the two ends of an open path, in words: that of the tubes before the turn, and that of
+    /// those behind it.
+    Open([String; 2]),
+}
+
+/// The last record: how the chain ends, and what was counted.
+#[derive(Debug, Clone, PartialEq)]
 pub struct EndClaim {
-    /// `None`: the last tube leads back to the sketch. Otherwise why the run stopped before.
-    pub stopped: Option<String>,
+    /// How it ends.
+    pub ending: Ending,
     /// The number of tubes.
     pub tubes: u64,
     /// The class of each solution: the same number for figures that are congruent up to

@@ -32,9 +32,12 @@ mod verdict;
 mod writer;
 
 pub use checker::{Settings, Stage, verify};
-pub use format::{EndClaim, FormatError, Header, Record, SolutionClaim, TubeClaim, VERSION};
+pub use format::{
+    ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, Record, SolutionClaim, TubeClaim,
+    VERSION,
+};
 pub use reader::Reader;
-pub use verdict::{Fault, Flaw, Outcome, Verdict};
+pub use verdict::{Arc, Fault, Flaw, Outcome, Verdict};
 pub use writer::{Writer, write_header, write_record};
 
 // Not beside the type: the checker's files use nothing but what they check with.

@@ -1,12 +1,13 @@
 //! Reading certificates, record by record.
 
 use super::format::{
-    EndClaim, FormatError, Header, MAGIC, MAX_FREE_COORDINATES, MAX_NUMBER, MAX_PROBLEM,
-    MAX_SOLUTIONS, MAX_TEXT, MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_END,
-    TAG_MOVING_KRAWCZYK, TAG_SOLUTION, TubeClaim, VERSION,
+    ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAGIC, MAX_DECIMAL,
+    MAX_FREE_COORDINATES, MAX_LISTED, MAX_NUMBER, MAX_PROBLEM, MAX_SOLUTIONS, MAX_TEXT,
+    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_END, TAG_EXTENDED, TAG_FOLD,
+    TAG_REACHED, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION,
 };
 use crate::constraint;
-use crate::problem::Problem;
+use crate::problem::{Decimal, Problem};
 use sha2::{Digest, Sha256};
 use std::io::{ErrorKind, Read};
 
@@ -24,7 +25,28 @@ pub struct Reader<R> {
     unknowns: usize,
     tubes: u64,
     solutions: usize,
-    ended: bool,
+    stage: Stage,
+}
+
+/// What may stand next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stage {
+    /// The first record.
+    Begun,
+    /// Tubes and solutions of a path; after the turn if so.
+    Path { turned: bool },
+    /// The first tube behind the turn.
+    Turned,
+    /// The first tube of an arc.
+    Arc,
+    /// Tubes of an arc, or its end.
+    Along,
+    /// The next arc, or the end.
+    Reached,
+    /// The end.
+    Fold,
+    /// Nothing.
+    Ended,
 }
 
 type Result<T> = std::result::Result<T, FormatError>;
@@ -77,7 +99,7 @@ impl<R: Read> Reader<R> {
             unknowns,
             tubes: 0,
             solutions: 0,
-            ended: false,
+            stage: Stage::Begun,
         })
     }
 
@@ -88,25 +110,46 @@ impl<R: Read> Reader<R> {
 
     /// The next record; `None` after the end.
     pub fn next_record(&mut self) -> Result<Option<Record>> {
-        if self.ended {
+        if self.stage == Stage::Ended {
             return Ok(None);
         }
         let [tag] = array(&mut self.input, "the chain of tubes")?;
-        let record = match tag {
-            TAG_MOVING_KRAWCZYK => Record::Tube(self.tube()?),
-            TAG_SOLUTION => Record::Solution(self.solution()?),
-            TAG_END => Record::End(self.end()?),
+        let path = Stage::Path { turned: false };
+        self.stage = match (tag, self.stage) {
+            (TAG_TUBE | TAG_EXTENDED, Stage::Begun) => path,
+            (TAG_TUBE | TAG_EXTENDED, Stage::Turned) => Stage::Path { turned: true },
+            (TAG_TUBE | TAG_EXTENDED, Stage::Arc) => Stage::Along,
+            (TAG_TUBE | TAG_EXTENDED, stage @ (Stage::Path { .. } | Stage::Along)) => stage,
+            (TAG_SOLUTION, stage @ Stage::Path { .. }) => stage,
+            (TAG_TURN, stage) if stage == path => Stage::Turned,
+            (TAG_ARC, Stage::Begun | Stage::Reached) => Stage::Arc,
+            (TAG_REACHED, Stage::Along) => Stage::Reached,
+            (TAG_FOLD, Stage::Along) => Stage::Fold,
+            (TAG_END, stage) => stage,
+            (1..=8, _) => {
+                return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
+            }
             _ => return Err(self.fault(&format!("there is no kind {tag} of record"))),
+        };
+        let record = match tag {
+            TAG_SOLUTION => Record::Solution(self.solution()?),
+            TAG_TURN => Record::Turn,
+            TAG_ARC => Record::Arc(self.arc()?),
+            TAG_REACHED => Record::Reached(self.figure()?),
+            TAG_FOLD => Record::Fold(self.fold()?),
+            TAG_END => Record::End(self.end()?),
+            _ => Record::Tube(self.tube(tag == TAG_EXTENDED)?),
         };
         Ok(Some(record))
     }
 
-    fn tube(&mut self) -> Result<TubeClaim> {
+    fn tube(&mut self, extended: bool) -> Result<TubeClaim> {
         const WHAT: &str = "a tube";
         let n = self.unknowns + 1;
         let input = &mut self.input;
         let tube = TubeClaim {
             centre: floats(input, n, WHAT)?,
+            low: floats(input, if extended { n } else { 0 }, WHAT)?,
             normal: (0..n)
                 .map(|_| Ok(f32::from_le_bytes(array(input, WHAT)?)))
                 .collect::<Result<_>>()?,
@@ -117,7 +160,7 @@ impl<R: Read> Reader<R> {
             r: f32::from_le_bytes(array(input, WHAT)?),
             exit: f64::from_le_bytes(array(input, WHAT)?),
         };
-        let centre = tube.centre.iter().all(|&x| in_range(x));
+        let centre = tube.centre.iter().chain(&tube.low).all(|&x| in_range(x));
         let normal = tube.normal.iter().all(|&x| in_range(x.into()));
         if !(centre && normal) {
             return Err(self.fault("a coordinate is out of range"));
@@ -137,34 +180,79 @@ impl<R: Read> Reader<R> {
     }
 
     fn solution(&mut self) -> Result<SolutionClaim> {
-        const WHAT: &str = "a solution";
-        let m = self.unknowns;
-        let solution = SolutionClaim {
-            centre: floats(&mut self.input, m, WHAT)?,
-            radius: f32::from_le_bytes(array(&mut self.input, WHAT)?),
-        };
-        let numbers = solution.centre.iter().all(|&x| in_range(x));
-        let radius = f64::from(solution.radius);
-        if !(numbers && radius > 0.0 && in_range(radius)) {
-            return Err(self.fault("a coordinate of a solution is out of range"));
-        }
-        if self.tubes == 0 {
-            return Err(self.fault("a solution stands before the first tube"));
-        }
         self.solutions += 1;
         if self.solutions > MAX_SOLUTIONS {
             return Err(self.fault("there are too many solutions"));
         }
-        Ok(solution)
+        self.figure()
+    }
+
+    fn figure(&mut self) -> Result<SolutionClaim> {
+        const WHAT: &str = "a solution";
+        let figure = SolutionClaim {
+            centre: floats(&mut self.input, self.unknowns, WHAT)?,
+            radius: f32::from_le_bytes(array(&mut self.input, WHAT)?),
+        };
+        let numbers = figure.centre.iter().all(|&x| in_range(x));
+        if !(numbers && is_radius(figure.radius)) {
+            return Err(self.fault("a coordinate of a solution is out of range"));
+        }
+        Ok(figure)
+    }
+
+    fn fold(&mut self) -> Result<FoldClaim> {
+        const WHAT: &str = "a fold";
+        let fold = FoldClaim {
+            figure: self.figure()?,
+            t: f64::from_le_bytes(array(&mut self.input, WHAT)?),
+            t_radius: f32::from_le_bytes(array(&mut self.input, WHAT)?),
+        };
+        if !(in_range(fold.t) && is_radius(fold.t_radius)) {
+            return Err(self.fault("the t of a fold is out of range"));
+        }
+        Ok(fold)
+    }
+
+    fn arc(&mut self) -> Result<ArcClaim> {
+        const WHAT: &str = "an arc";
+        let mut claim = ArcClaim {
+            lengths: Vec::new(),
+            kept: Vec::new(),
+        };
+        let (problem, input) = (&self.header.problem, &mut self.input);
+        let (distances, points) = (problem.distances.len(), problem.points.len());
+        for _ in 0..count(input, distances)? {
+            let index = count(input, distances.saturating_sub(1))?;
+            let length = text(input, MAX_DECIMAL, "a length")?.parse::<Decimal>();
+            let length = length.map_err(|error| malformed(&format!("an arc's length: {error}")))?;
+            if !length.is_positive() {
+                return Err(malformed("an arc's length is not positive"));
+            }
+            if claim.lengths.iter().any(|(other, _)| *other == index) {
+                return Err(malformed("an arc leads a distance twice"));
+            }
+            claim.lengths.push((index, length));
+        }
+        for _ in 0..count(input, MAX_LISTED)? {
+            let corners = 0..=problem.dimension;
+            let corners = corners.map(|_| count(input, points.saturating_sub(1)));
+            let corners = corners.collect::<Result<_>>()?;
+            match array(input, WHAT)? {
+                [sign @ (0 | 1)] => claim.kept.push((corners, sign == 1)),
+                _ => return Err(malformed("a sign in an arc is neither 0 nor 1")),
+            }
+        }
+        Ok(claim)
     }
 
     fn end(&mut self) -> Result<EndClaim> {
         const WHAT: &str = "its end";
         let input = &mut self.input;
-        let stopped = match array(input, WHAT)? {
-            [0] => None,
-            [1] => Some(text(input, MAX_TEXT, WHAT)?),
-            _ => return Err(malformed("its end is neither closed nor stopped")),
+        let ending = match array(input, WHAT)? {
+            [0] => Ending::Complete,
+            [1] => Ending::Stopped(text(input, MAX_TEXT, WHAT)?),
+            [2] => Ending::Open([text(input, MAX_TEXT, WHAT)?, text(input, MAX_TEXT, WHAT)?]),
+            _ => return Err(malformed("there is no such way to end")),
         };
         let tubes = u64::from_le_bytes(array(input, WHAT)?);
         let count = u32::from_le_bytes(array(input, WHAT)?);
@@ -182,9 +270,20 @@ impl<R: Read> Reader<R> {
             Err(error) => return Err(error),
             Ok(()) => return Err(malformed("something stands behind its end")),
         }
-        self.ended = true;
+        let fits = match &ending {
+            Ending::Complete => matches!(
+                self.stage,
+                Stage::Begun | Stage::Path { turned: false } | Stage::Reached | Stage::Fold
+            ),
+            Ending::Stopped(_) => true,
+            Ending::Open(_) => self.stage == Stage::Path { turned: true },
+        };
+        if !fits {
+            return Err(malformed("it cannot end so: its last tubes lead elsewhere"));
+        }
+        self.stage = Stage::Ended;
         Ok(EndClaim {
-            stopped,
+            ending,
             tubes,
             classes,
         })
@@ -202,6 +301,19 @@ fn malformed(what: &str) -> FormatError {
 /// False for a NaN.
 fn in_range(x: f64) -> bool {
     x.abs() <= MAX_NUMBER
+}
+
+fn is_radius(x: f32) -> bool {
+    x > 0.0 && in_range(x.into())
+}
+
+/// A whole number that is not larger.
+fn count(input: &mut impl Read, most: usize) -> Result<u32> {
+    let count = u32::from_le_bytes(array(input, "an arc")?);
+    match count as usize <= most {
+        true => Ok(count),
+        false => Err(malformed("a number in an arc is too large")),
+    }
 }
 
 fn fill(input: &mut impl Read, buffer: &mut [u8], what: &'static str) -> Result<()> {

@@ -1,5 +1,6 @@
 //! What a check finds, in words for people.
 
+use super::format::ArcClaim;
 use crate::interval::Interval;
 use crate::problem::Problem;
 use std::fmt;
@@ -17,6 +18,12 @@ pub struct Verdict {
     pub tubes: u64,
     /// The boxes, each with exactly one solution: coordinates of every point in the problem's units.
     pub solutions: Vec<Vec<[Interval; 3]>>,
+    /// Whether the certificate is one of edits.
+    pub is_edit: bool,
+    /// Those whose arc was proved to its end.
+    pub arcs: Vec<Arc>,
+    /// Whether the path was followed both ways from the sketch, to two ends.
+    pub is_open: bool,
     /// Their classes up to congruence and reflection.
     pub classes: Vec<u32>,
     /// The smallest margin 1 − q − η/r of a Krawczyk test: 0 would fail, 1 is the most.
@@ -25,10 +32,21 @@ pub struct Verdict {
     pub t_range: (f64, f64),
 }
 
+/// An edit that was proved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arc {
+    /// What it claims to change and to keep.
+    pub claim: ArcClaim,
+    /// Where it ended: t = 1, or an enclosure of the t of the fold.
+    pub t: Interval,
+    /// A box that holds the figure there: coordinates of every point, in the gauge, in the problem's units.
+    pub figure: Vec<[Interval; 3]>,
+}
+
 /// Whether a certificate's claims hold.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
-    /// They do: S is closed and its points with t = 1 are those listed.
+    /// They do: S is closed, or open, and its points with t = 1 are those listed; or all edits end as they say.
     Verified,
     /// They do as far as they go: the chain ends before S is closed, for this reason.
     Partial(String),
@@ -85,6 +103,32 @@ pub enum Flaw {
          there in the direction of the start"
     )]
     Open(u64),
+    /// The tubes behind the turn lead the same way.
+    #[error("tube {0} leads from the sketch the other way than tube 1")]
+    Turn(u64),
+    /// An edit begins nowhere.
+    #[error("the sketch meets the dimensions of the problem, exactly")]
+    Met,
+    /// An edit is none.
+    #[error("the equations of arc {0} are such that it can be followed")]
+    Arc(usize),
+    /// Time stands still, or goes back.
+    #[error("t rises in tube {0}, between {1} and {2} of its half length")]
+    Rise(u64, f64, f64),
+    /// A sign changes.
+    #[error("in tube {0}, between {1} and {2} of its half length, signs are kept as claimed")]
+    Kept(u64, f64, f64),
+    /// The box at the end of an arc is no box.
+    #[error("the box at the end of arc {0} holds exactly one figure: {1}")]
+    Figure(usize, Fault),
+    /// It is no fold.
+    #[error("there is a fold in the box at the end of arc {0}: {1}")]
+    Fold(usize, Fault),
+    /// An arc ends elsewhere.
+    #[error(
+        "arc {0} comes to the figure in the box at its end, behind its entry into the last tube"
+    )]
+    Elsewhere(usize),
     /// No tube at all.
     #[error("there is a tube")]
     Empty,

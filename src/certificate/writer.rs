@@ -1,10 +1,12 @@
 //! Writing a certificate while a run goes on.
 
 use super::format::{
-    EndClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record, SolutionClaim, TAG_END,
-    TAG_MOVING_KRAWCZYK, TAG_SOLUTION, TubeClaim, VERSION, WEIGHT_UNIT,
+    ArcClaim, EndClaim, Ending, FoldClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record,
+    SolutionClaim, TAG_ARC, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED, TAG_SOLUTION, TAG_TUBE,
+    TAG_TURN, TubeClaim, VERSION, WEIGHT_UNIT,
 };
-use crate::problem::Problem;
+use crate::problem::{Decimal, Problem, Target};
+use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::{LARGEST_SQUARE, Status, TubeSeen, Witness};
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
@@ -16,22 +18,35 @@ const _: () = assert!(LARGEST_SQUARE <= MAX_FREE_COORDINATES);
 /// largest coordinate, so that a checker that rounds more coarsely has room; the claim is weaker,
 /// not stronger.
 const WIDER: f64 = 2.0;
+/// The same for folds, where a checker may bound all entries by the largest, velocities among them.
+const WIDER_AT_FOLDS: f64 = 1024.0;
 /// See [`WIDER`].
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 /// Writes what a certified run lets it see: to be given to [`crate::track::Control::witness`].
 ///
-/// Nothing is kept in memory. Errors are kept until [`Writer::finish`].
+/// Nothing is kept in memory but the tubes of one edit, and those of the way back of an open path. Errors are kept until [`Writer::finish`].
 #[derive(Debug)]
 pub struct Writer<'a, W> {
     out: W,
     problem: &'a Problem,
     tubes: u64,
     solutions: usize,
-    /// A tube came that the format cannot hold: the rest is left out.
-    cut: bool,
+    /// The way back from the sketch, and how many solutions there were before.
+    back: Option<(Vec<Record>, usize)>,
+    /// The edit at hand: what it changes, and its tubes so far.
+    arc: Option<Following>,
+    /// Whether there was one, and why the last did not come to its end.
+    edits: Option<Result<(), String>>,
     ended: bool,
     result: io::Result<()>,
+}
+
+/// An edit that is being followed.
+#[derive(Debug)]
+struct Following {
+    lengths: Vec<(u32, Decimal)>,
+    tubes: Vec<TubeClaim>,
 }
 
 impl<'a, W: Write> Writer<'a, W> {
@@ -42,21 +57,24 @@ impl<'a, W: Write> Writer<'a, W> {
             problem,
             tubes: 0,
             solutions: 0,
-            cut: false,
+            back: None,
+            arc: None,
+            edits: None,
             ended: false,
             result: Ok(()),
         }
     }
 
-    /// Whether the certificate ends before the run did, as tubes came that were proved in extended
-    /// precision: it is then one of a path that was not followed to its end.
-    pub fn is_cut(&self) -> bool {
-        self.cut
-    }
-
-    /// Hands the stream back once the run is over. Fails where writing did, or where no
+    /// Hands the stream back once the run is over, or the last edit. Fails where writing did, or where no
     /// certified run has come to its end.
     pub fn finish(mut self) -> io::Result<W> {
+        if let Some(edits) = self.edits.take() {
+            let ending = match edits {
+                Ok(()) => Ending::Complete,
+                Err(reason) => Ending::Stopped(shortened(&reason)),
+            };
+            self.close(ending, &[]);
+        }
         self.result?;
         if !self.ended {
             return Err(io::Error::other("the run left no proof"));
@@ -66,10 +84,37 @@ impl<'a, W: Write> Writer<'a, W> {
     }
 
     fn put(&mut self, record: &Record) {
-        if self.result.is_ok() {
+        if let Some((records, _)) = &mut self.back {
+            records.push(record.clone());
+        } else if self.result.is_ok() {
             self.result = write_record(&mut self.out, record);
         }
     }
+
+    fn close(&mut self, ending: Ending, classes: &[usize]) {
+        self.put(&Record::End(EndClaim {
+            ending,
+            tubes: self.tubes,
+            classes: classes.iter().map(|&c| c as u32).collect(),
+        }));
+        self.ended = true;
+    }
+}
+
+/// A box around a figure, wider than it was proved.
+fn solution_claim(centre: &[f64], radius: &[f64], wider: f64) -> SolutionClaim {
+    let largest = |v: &[f64]| v.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+    SolutionClaim {
+        centre: centre.iter().map(|x| x + 0.0).collect(),
+        radius: (wider * largest(radius) + ROUNDINGS * largest(centre)) as f32,
+    }
+}
+
+/// As much of a reason as fits.
+fn shortened(reason: &str) -> String {
+    let end = (0..=reason.len().min(MAX_TEXT)).rev();
+    let end = end.into_iter().find(|&end| reason.is_char_boundary(end));
+    reason[..end.unwrap_or(0)].to_owned()
 }
 
 impl<W: Write> Witness for Writer<'_, W> {
@@ -80,64 +125,120 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn tube(&mut self, tube: TubeSeen) {
-        if tube.extended || self.cut {
-            self.cut = true;
-            return;
-        }
-        self.tubes += 1;
         let weight = |&u: &f64| (u / WEIGHT_UNIT).round().clamp(1.0, u16::MAX.into()) as u16;
-        self.put(&Record::Tube(TubeClaim {
-            centre: tube.centre.to_vec(),
-            normal: tube.normal.iter().map(|&c| c as f32).collect(),
+        let tube = TubeClaim {
+            // Without zeros below zero, which differ between builds.
+            centre: tube.centre.iter().map(|x| x + 0.0).collect(),
+            low: tube.low.unwrap_or_default().to_vec(),
+            normal: tube.normal.iter().map(|&c| c as f32 + 0.0).collect(),
             weights: tube.weights.iter().map(weight).collect(),
             h: tube.h,
             r: tube.r as f32,
             exit: tube.exit,
-        }));
+        };
+        match &mut self.arc {
+            Some(arc) => arc.tubes.push(tube),
+            None => {
+                self.tubes += 1;
+                self.put(&Record::Tube(tube));
+            }
+        }
     }
 
     fn solution(&mut self, centre: &[f64], radius: &[f64]) {
-        if self.cut {
-            return;
+        // An edit's figures stand at its end.
+        if self.arc.is_none() {
+            self.solutions += 1;
+            self.put(&Record::Solution(solution_claim(centre, radius, WIDER)));
         }
-        self.solutions += 1;
-        let largest = |v: &[f64]| v.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-        self.put(&Record::Solution(SolutionClaim {
-            centre: centre.to_vec(),
-            radius: (WIDER * largest(radius) + ROUNDINGS * largest(centre)) as f32,
-        }));
+    }
+
+    fn turn(&mut self) {
+        self.back = Some((vec![Record::Turn], self.solutions));
+    }
+
+    fn end_turn(&mut self, kept: bool) {
+        let Some((records, solutions)) = self.back.take() else {
+            return;
+        };
+        if kept {
+            records.iter().for_each(|record| self.put(record));
+        } else {
+            let tubes = records.iter().filter(|r| matches!(r, Record::Tube(_)));
+            self.tubes -= tubes.count() as u64;
+            self.solutions = solutions;
+        }
+    }
+
+    fn begin_arc(&mut self, lengths: &[(usize, &Target)]) {
+        let length = |&(index, target): &(usize, &Target)| match target {
+            Target::Length(length) => Some((index as u32, length.clone())),
+            Target::SquaredLength(_) => None,
+        };
+        match lengths.iter().map(length).collect() {
+            Some(lengths) => {
+                let tubes = Vec::new();
+                self.arc = Some(Following { lengths, tubes });
+            }
+            None => {
+                self.result = Err(io::Error::other(
+                    "certificates hold lengths, not squares of them",
+                ))
+            }
+        }
+    }
+
+    fn end_arc(&mut self, run: &ArcRun) {
+        let Some(Following { lengths, tubes }) = self.arc.take() else {
+            return;
+        };
+        let kept = run
+            .orientations
+            .iter()
+            .filter(|o| o.sign != 0 && o.lost.is_none());
+        let kept = kept.map(|o| (o.points.iter().map(|&p| p as u32).collect(), o.sign > 0));
+        let kept = kept.collect();
+        self.put(&Record::Arc(ArcClaim { lengths, kept }));
+        self.tubes += tubes.len() as u64;
+        for tube in tubes {
+            self.put(&Record::Tube(tube));
+        }
+        let figure = |figure: &Figure, wider: f64| {
+            let radius = figure.radius.iter().zip(&figure.low);
+            let radius: Vec<f64> = radius.map(|(r, low)| r + low.abs()).collect();
+            solution_claim(&figure.centre, &radius, wider)
+        };
+        self.edits = Some(match &run.end {
+            ArcEnd::Reached(reached) => {
+                self.put(&Record::Reached(figure(reached, WIDER)));
+                Ok(())
+            }
+            ArcEnd::Limit(fold) => {
+                let t = fold.t.mid();
+                self.put(&Record::Fold(FoldClaim {
+                    figure: figure(&fold.figure, WIDER_AT_FOLDS),
+                    t,
+                    t_radius: (WIDER_AT_FOLDS * fold.t.rad() + 64.0 * ROUNDINGS) as f32,
+                }));
+                Ok(())
+            }
+            ArcEnd::Passes(reason) => Err(format!("branches seem to meet: {reason}")),
+            ArcEnd::Stopped(reason) => Err(reason.clone()),
+        });
     }
 
     fn end(&mut self, status: &Status, classes: &[usize]) {
-        let stopped = match status {
-            _ if self.cut => Some(format!(
-                "the next tube was proved in extended precision, which certificates cannot hold: \
-                 this one ends after {} tubes, and the run {}",
-                self.tubes,
-                match status {
-                    Status::Closed => "went on and closed",
-                    Status::Open(_) | Status::Stopped(_) => "went on, but did not close",
-                }
-            )),
-            Status::Closed => None,
-            Status::Open(_) => Some(
-                "the path is open: this is its way from the sketch in the direction of travel"
-                    .to_owned(),
-            ),
-            Status::Stopped(reason) => {
-                let end = (0..=reason.len().min(MAX_TEXT)).rev();
-                let end = end.into_iter().find(|&end| reason.is_char_boundary(end));
-                Some(reason[..end.unwrap_or(0)].to_owned())
+        let ending = match status {
+            Status::Closed => Ending::Complete,
+            // The tubes that were written first are those of the second end.
+            Status::Open(ends) => {
+                let [behind, ahead] = &**ends;
+                Ending::Open([ahead, behind].map(|end| shortened(&end.reason)))
             }
+            Status::Stopped(reason) => Ending::Stopped(shortened(reason)),
         };
         // Those that were written are the first ones, and classes are numbered as they come.
-        let classes = &classes[..self.solutions.min(classes.len())];
-        self.put(&Record::End(EndClaim {
-            stopped,
-            tubes: self.tubes,
-            classes: classes.iter().map(|&c| c as u32).collect(),
-        }));
-        self.ended = true;
+        self.close(ending, &classes[..self.solutions.min(classes.len())]);
     }
 }
 
@@ -160,8 +261,12 @@ pub fn write_header(
 pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
     match record {
         Record::Tube(tube) => {
-            out.write_all(&[TAG_MOVING_KRAWCZYK])?;
-            for x in &tube.centre {
+            out.write_all(&[if tube.low.is_empty() {
+                TAG_TUBE
+            } else {
+                TAG_EXTENDED
+            }])?;
+            for x in tube.centre.iter().chain(&tube.low) {
                 out.write_all(&x.to_le_bytes())?;
             }
             for x in &tube.normal {
@@ -174,17 +279,44 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
             out.write_all(&tube.r.to_le_bytes())?;
             out.write_all(&tube.exit.to_le_bytes())
         }
-        Record::Solution(solution) => {
-            out.write_all(&[TAG_SOLUTION])?;
-            for x in &solution.centre {
-                out.write_all(&x.to_le_bytes())?;
+        Record::Solution(solution) => write_figure(out, TAG_SOLUTION, solution),
+        Record::Turn => out.write_all(&[TAG_TURN]),
+        Record::Arc(arc) => {
+            out.write_all(&[TAG_ARC])?;
+            out.write_all(&(arc.lengths.len() as u32).to_le_bytes())?;
+            for (index, length) in &arc.lengths {
+                out.write_all(&index.to_le_bytes())?;
+                write_text(out, &length.to_string())?;
             }
-            out.write_all(&solution.radius.to_le_bytes())
+            out.write_all(&(arc.kept.len() as u32).to_le_bytes())?;
+            for (points, positive) in &arc.kept {
+                for point in points {
+                    out.write_all(&point.to_le_bytes())?;
+                }
+                out.write_all(&[(*positive).into()])?;
+            }
+            Ok(())
+        }
+        Record::Reached(figure) => write_figure(out, TAG_REACHED, figure),
+        Record::Fold(fold) => {
+            write_figure(out, TAG_FOLD, &fold.figure)?;
+            out.write_all(&fold.t.to_le_bytes())?;
+            out.write_all(&fold.t_radius.to_le_bytes())
         }
         Record::End(end) => {
-            out.write_all(&[TAG_END, end.stopped.is_some().into()])?;
-            if let Some(reason) = &end.stopped {
-                write_text(out, reason)?;
+            out.write_all(&[TAG_END])?;
+            match &end.ending {
+                Ending::Complete => out.write_all(&[0])?,
+                Ending::Stopped(reason) => {
+                    out.write_all(&[1])?;
+                    write_text(out, reason)?;
+                }
+                Ending::Open(reasons) => {
+                    out.write_all(&[2])?;
+                    for reason in reasons {
+                        write_text(out, reason)?;
+                    }
+                }
             }
             out.write_all(&end.tubes.to_le_bytes())?;
             out.write_all(&(end.classes.len() as u32).to_le_bytes())?;
@@ -194,6 +326,14 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
             Ok(())
         }
     }
+}
+
+fn write_figure(out: &mut impl Write, tag: u8, figure: &SolutionClaim) -> io::Result<()> {
+    out.write_all(&[tag])?;
+    for x in &figure.centre {
+        out.write_all(&x.to_le_bytes())?;
+    }
+    out.write_all(&figure.radius.to_le_bytes())
 }
 
 fn write_text(out: &mut impl Write, text: &str) -> io::Result<()> {

@@ -2,13 +2,16 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
+use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
+use krawl::certificate::Writer;
 use krawl::edit::{Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{edit_to_table, edit_to_value, freedom_in_words};
-use krawl::track::{Control, Options};
-use std::io::Write;
+use krawl::track::{Control, Options, Witness};
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
@@ -20,6 +23,7 @@ use std::path::{Path, PathBuf};
 Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
+  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl   and `krawl verify edit.krawl`
   krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
@@ -49,6 +53,13 @@ pub struct Arguments {
     /// Write the result as JSON; `-` writes it to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
+    /// that of `verify`
+    #[arg(long, value_name = "FILE", conflicts_with = "serve")]
+    cert: Option<PathBuf>,
+    /// Do not check the certificate that was written
+    #[arg(long, requires = "cert")]
+    no_verify: bool,
     #[command(flatten)]
     pictures: Pictures,
     /// Keep to 53 bits, and stop where they do not suffice
@@ -88,8 +99,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let pictures = arguments.pictures.places()?;
     // Before any file is begun, so that an interrupt leaves none behind.
+    let cancel = interrupt::flag();
+    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
+    let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
+    let mut witness = cert.as_ref().map(writer);
     let mut control = Control {
-        cancel: Some(interrupt::flag()),
+        cancel: Some(cancel),
+        witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..Control::default()
     };
     let mut session = match open(&problem, &arguments.file, extended, &mut control)? {
@@ -99,7 +115,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let edited = session.edit_with(&settings, &mut control);
     let moved = session.moved();
 
-    let mut written = true;
+    let (mut written, verdict) = commit(
+        (cert.as_ref(), witness),
+        arguments.cert.as_deref().filter(|_| !arguments.no_verify),
+        arguments.quiet,
+    )?;
     if !pictures.is_empty() {
         written &= pictures.write(&Page::of_edit(&problem, &edited));
     }
@@ -122,11 +142,26 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let text = edit_to_table(&problem, &edited, moved) + &freedom_in_words(&session);
         written &= output::print(&text);
     }
-    Ok(if written {
-        exit_code(&edited)
-    } else {
-        BAD_INPUT
+    Ok(match written {
+        true => verdict.unwrap_or(exit_code(&edited)),
+        false => BAD_INPUT,
     })
+}
+
+/// Ends a certificate, and checks it if its `path` is given: whether it was written, and the exit code where it does not
+/// pass.
+pub(super) fn commit(
+    (beside, writer): (Option<&Beside>, Option<Writer<'_, BufWriter<&File>>>),
+    path: Option<&Path>,
+    quiet: bool,
+) -> Result<(bool, Option<u8>), String> {
+    let (Some(beside), Some(writer)) = (beside, writer) else {
+        return Ok((true, None));
+    };
+    match beside.commit(writer.finish().map(|_| ())) {
+        false => Ok((false, None)),
+        true => Ok((true, check_written(path, quiet)?)),
+    }
 }
 
 fn in_file(file: &Path, error: &dyn std::fmt::Display) -> String {

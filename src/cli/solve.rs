@@ -2,17 +2,17 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, LIMIT, NOT_PROVED, OPEN, REFUTED, STOPPED, input, interrupt};
+use super::verify::check_written;
+use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::blocks::clusters;
-use krawl::certificate::{Outcome as Verdict, Settings, Stage, Writer, verify};
+use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, Run, to_first_table, to_short_table, to_summary, to_table};
 use krawl::track::{self, Control, Options, Outcome, Progress, Status, Trace, Witness};
 use std::collections::VecDeque;
-use std::fs::File;
-use std::io::{BufReader, BufWriter};
+use std::io::BufWriter;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -439,16 +439,11 @@ fn follow(
     }
     let (mut written, mut verdict) = (true, None);
     if let (Some(beside), Some(writer)) = (cert, witness) {
-        let cut = writer.is_cut();
         written &= beside.commit(writer.finish().map(|_| ()));
         if written && !arguments.no_verify {
-            verdict = check_certificate(arguments, !cancel.load(Ordering::Relaxed))?;
-        }
-        if cut && written {
-            output::complain(
-                "the certificate holds the beginning of the proof only: the tubes that follow were proved \
-                 in extended precision, which certificates cannot hold",
-            );
+            let path = arguments.cert.as_deref();
+            let path = path.filter(|_| !cancel.load(Ordering::Relaxed));
+            verdict = check_written(path, arguments.quiet)?;
         }
     }
     Ok((outcome, written, verdict))
@@ -481,28 +476,4 @@ fn follow_finely(
         solution.place = finer.place;
     }
     Some(trace)
-}
-
-/// Checks the certificate that was written, on all processors, and says on standard error whether it does
-/// not pass: then the result is the exit code for that.
-fn check_certificate(arguments: &Arguments, wanted: bool) -> Result<Option<u8>, String> {
-    let Some(path) = arguments.cert.as_ref().filter(|_| wanted) else {
-        return Ok(None);
-    };
-    let name = path.display();
-    let file = File::open(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
-    let mut line = ProgressLine::new(!arguments.quiet, "");
-    let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
-    let verdict = verify(BufReader::new(file), &Settings::default(), &mut show);
-    line.clear();
-    let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
-    let (what, code) = match &verdict.outcome {
-        Verdict::Verified | Verdict::Partial(_) => return Ok(None),
-        Verdict::NotProved(flaw) => (format!("NOT PROVED: {flaw}"), NOT_PROVED),
-        Verdict::Refuted(flaw) => (format!("REFUTED, please report this: {flaw}"), REFUTED),
-    };
-    output::complain(&format!(
-        "{name}: the certificate does not pass the checker. {what}"
-    ));
-    Ok(Some(code))
 }

@@ -1,14 +1,16 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{beside, exit_code, open};
-use super::output::{self, Destination};
+use super::edit::{beside, commit, exit_code, open};
+use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
+use krawl::certificate::Writer;
 use krawl::edit::{Ending, Setting};
 use krawl::problem::Decimal;
 use krawl::report::page::Page;
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_json};
-use krawl::track::Control;
+use krawl::track::{Control, Witness};
+use std::io::BufWriter;
 use std::path::PathBuf;
 
 /// Drive one dimension through a range: the figure as a function of it, every frame proved
@@ -47,6 +49,13 @@ pub struct Arguments {
     /// Write the frames as CSV: the value, then the coordinates of all points; `-` likewise
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
+    /// that of `verify`
+    #[arg(long, value_name = "FILE")]
+    cert: Option<PathBuf>,
+    /// Do not check the certificate that was written
+    #[arg(long, requires = "cert")]
+    no_verify: bool,
     #[command(flatten)]
     pictures: Pictures,
     /// Print no summary
@@ -74,8 +83,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places()?;
+    let cancel = interrupt::flag();
+    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
+    let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
+    let mut witness = cert.as_ref().map(writer);
     let mut control = Control {
-        cancel: Some(interrupt::flag()),
+        cancel: Some(cancel),
+        witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..Control::default()
     };
     let mut session = match open(&problem, &arguments.file, true, &mut control)? {
@@ -83,7 +97,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Err(code) => return Ok(code),
     };
     let sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
-    let mut written = true;
+    let (mut written, verdict) = commit(
+        (cert.as_ref(), witness),
+        arguments.cert.as_deref().filter(|_| !arguments.no_verify),
+        arguments.quiet,
+    )?;
     if !pictures.is_empty() {
         written &= pictures.write(&Page::of_sweep(&problem, index, &sweep));
     }
@@ -102,6 +120,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     Ok(match (written, &sweep.end) {
         (false, _) => BAD_INPUT,
+        _ if verdict.is_some() => verdict.unwrap_or(CLOSED),
         (true, Some(end)) => exit_code(end),
         (true, None) if sweep.approach.ending != Ending::Reached => exit_code(&sweep.approach),
         (true, None) => CLOSED,

@@ -7,7 +7,7 @@ use krawl::problem::Problem;
 use krawl::report::{ProgressLine, cover_theorem, theorem};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Prove all claims of a certificate again
@@ -21,7 +21,7 @@ Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another
 certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it; 4 incomplete, the
 proof of a run that stopped, true as far as it goes.")]
 pub struct Arguments {
-    /// The certificate, as `solve --cert` or `all --cert` writes it
+    /// The certificate, as `--cert` of `solve`, `edit`, `sweep` or `all` writes it
     cert: PathBuf,
     /// A problem file (TOML) that the certificate has to be about
     file: Option<PathBuf>,
@@ -121,4 +121,28 @@ fn verify_the_cover(
         true => CLOSED,
         false => INCOMPLETE,
     })
+}
+
+/// Checks a certificate that was just written, on all processors, and says on standard error whether it does
+/// not pass: then the result is the exit code for that.
+pub(super) fn check_written(path: Option<&Path>, quiet: bool) -> Result<Option<u8>, String> {
+    let Some(path) = path else {
+        return Ok(None);
+    };
+    let name = path.display();
+    let file = File::open(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
+    let mut line = ProgressLine::new(!quiet, "");
+    let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
+    let verdict = verify(BufReader::new(file), &Settings::default(), &mut show);
+    line.clear();
+    let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
+    let (what, code) = match &verdict.outcome {
+        Outcome::Verified | Outcome::Partial(_) => return Ok(None),
+        Outcome::NotProved(flaw) => (format!("NOT PROVED: {flaw}"), NOT_PROVED),
+        Outcome::Refuted(flaw) => (format!("REFUTED, please report this: {flaw}"), REFUTED),
+    };
+    output::complain(&format!(
+        "{name}: the certificate does not pass the checker. {what}"
+    ));
+    Ok(Some(code))
 }

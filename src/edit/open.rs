@@ -3,11 +3,10 @@
 use super::ending::Ending;
 use crate::interval::{Interval, hull, point};
 use crate::problem::{Problem, Target};
-use crate::system::{GaugeError, Homotopy};
+use crate::system::{GaugeError, Homotopy, is_met};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, StartError};
-use num_rational::BigRational;
 
 /// Why a file holds no figure to edit.
 #[derive(Debug, thiserror::Error)]
@@ -43,21 +42,6 @@ pub struct Moved {
     pub tubes: usize,
 }
 
-/// Whether the sketch meets a dimension exactly.
-fn is_met(problem: &Problem, index: usize) -> bool {
-    let distance = &problem.distances[index];
-    let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
-    let mut sum = BigRational::from_integer(0.into());
-    for k in 0..3 {
-        let d = a[k].value() - b[k].value();
-        sum += &d * &d;
-    }
-    match &distance.target {
-        Target::Length(length) => sum == length.value().pow(2),
-        Target::SquaredLength(squared) => sum == *squared.value(),
-    }
-}
-
 /// The sketch as a box.
 pub(super) fn sketch(homotopy: &Homotopy) -> Figure {
     let boxes = || homotopy.sketch_of_unknowns();
@@ -90,7 +74,13 @@ pub(super) fn correct(
     if all_met {
         return Ok((start, Moved::default()));
     }
+    if let Some(witness) = &mut control.witness {
+        witness.begin_arc(&[]);
+    }
     let run = arcs.follow(&start, control);
+    if let Some(witness) = &mut control.witness {
+        witness.end_arc(&run);
+    }
     let refuse = |ending: Ending, what: String| {
         Err(OpenError::Correction {
             what,

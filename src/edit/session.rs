@@ -44,6 +44,11 @@ impl Session {
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
+        if problem.is_absolute() && control.witness.is_some() {
+            let what = "edits of a figure that its constraints fix in its own frame are followed part by part, which \
+                        certificates cannot hold: leave out `--cert`";
+            return Err(crate::track::StartError::Unsupported(what.to_owned()).into());
+        }
         let way = if problem.is_absolute() {
             Way::Parts(Box::new(Parts::open(problem, options, control)?))
         } else {

@@ -57,6 +57,8 @@ impl Whole {
         let space = match options.space {
             // The reduced space is that of distances.
             _ if !problem.is_distances_only() => Space::Full,
+            // A certificate's tubes are those of the full space.
+            _ if control.witness.is_some() => Space::Full,
             Space::Full => Space::for_certified(problem.distances.len()),
             Space::Reduced => Space::Reduced,
         };
@@ -66,6 +68,9 @@ impl Whole {
             ..options.clone()
         };
         let mut arcs = arcs(homotopy, &options);
+        if let Some(witness) = &mut control.witness {
+            witness.begin(arcs.homotopy().unit);
+        }
         let (figure, moved) = open::correct(&problem, &mut *arcs, control)?;
         let lengths = problem.distances.iter().map(|d| length(&d.target));
         Ok(Whole {
@@ -119,7 +124,11 @@ impl Whole {
 
     /// What an edit would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        self.attempt(settings, control).0
+        // What would come to pass is no part of a chain of edits.
+        let witness = control.witness.take();
+        let edited = self.attempt(settings, control).0;
+        control.witness = witness;
+        edited
     }
 
     /// An edit, and the figure that was reached if so. The homotopy is as before.
@@ -138,7 +147,14 @@ impl Whole {
             }
             homotopy.keep_constraints(&edited, &from);
         }
+        if let Some(witness) = &mut control.witness {
+            let lengths = settings.iter().map(|s| (s.index, &s.target));
+            witness.begin_arc(&lengths.collect::<Vec<_>>());
+        }
         let run = self.follow(control);
+        if let Some(witness) = &mut control.witness {
+            witness.end_arc(&run);
+        }
         let homotopy = self.arcs.homotopy_mut();
         for setting in settings {
             let now = &self.problem.distances[setting.index].target;

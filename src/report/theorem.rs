@@ -3,6 +3,7 @@
 use super::certain_digits;
 use crate::certificate::{Outcome, Verdict};
 use crate::constraint::{Symmetry, symmetry};
+use crate::interval::{Interval, point};
 use crate::problem::{Problem, counted};
 use std::fmt::Write;
 use std::time::Duration;
@@ -19,6 +20,19 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
     let name = &verdict.problem.name;
     let (low, high) = verdict.t_range;
     match &verdict.outcome {
+        Outcome::Verified if !verdict.arcs.is_empty() => write_edits(out, verdict)?,
+        Outcome::Verified if verdict.is_open => writeln!(
+            out,
+            "{name}: VERIFIED.\n\
+             Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, for the exact decimals in \
+             it, and S the connected component of the sketch at t = 0.\n\
+             1. From the sketch both ways the certificate's tubes hold an arc of S, regular along its whole length.\n\
+             2. The arc has exactly {} with t = 1, one in each of {}; {}.\n\
+             3. On it t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+            counted(verdict.solutions.len(), "point"),
+            counted(verdict.solutions.len(), "disjoint box"),
+            classes_in_words(&verdict.problem, &verdict.classes)
+        )?,
         Outcome::Verified => {
             let count = verdict.solutions.len();
             writeln!(
@@ -33,6 +47,15 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
                 counted(count, "disjoint box"),
                 classes_in_words(&verdict.problem, &verdict.classes)
             )?;
+        }
+        Outcome::Partial(reason) if verdict.is_edit => {
+            writeln!(
+                out,
+                "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
+                 Verified: the last edit leads the figure without a fold to about t = {:.6}, and before it:",
+                high.max(0.0)
+            )?;
+            write_edits(out, verdict)?;
         }
         Outcome::Partial(reason) => writeln!(
             out,
@@ -52,11 +75,7 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
     if matches!(verdict.outcome, Outcome::Verified | Outcome::Partial(_)) {
         for (k, solution) in verdict.solutions.iter().enumerate() {
             writeln!(out, "  solution {}", k + 1)?;
-            for (point, place) in verdict.problem.points.iter().zip(solution) {
-                let place = place.iter().take(verdict.problem.dimension);
-                let place: Vec<String> = place.map(|&x| certain_digits(x)).collect();
-                writeln!(out, "    {:<12} {}", point.name, place.join("  "))?;
-            }
+            write_figure(out, verdict, solution)?;
         }
     }
     writeln!(
@@ -67,6 +86,58 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
         time.as_secs_f64(),
         verdict.program.escape_debug()
     )
+}
+
+fn write_figure(out: &mut String, verdict: &Verdict, figure: &[[Interval; 3]]) -> std::fmt::Result {
+    for (point, place) in verdict.problem.points.iter().zip(figure) {
+        let place = place.iter().take(verdict.problem.dimension);
+        let place: Vec<String> = place.map(|&x| certain_digits(x)).collect();
+        writeln!(out, "    {:<12} {}", point.name, place.join("  "))?;
+    }
+    Ok(())
+}
+
+/// More edits than that are not told one by one.
+const SHOWN: usize = 12;
+
+fn write_edits(out: &mut String, verdict: &Verdict) -> std::fmt::Result {
+    let (name, count) = (&verdict.problem.name, verdict.arcs.len());
+    if verdict.outcome == Outcome::Verified {
+        writeln!(
+            out,
+            "{name}: VERIFIED.\n\
+             Theorem. Every figure below is the one and only continuation of the one before, the first one of the sketch: \
+             between the two there is exactly one figure on the way for every t, and none of them is singular."
+        )?;
+    }
+    for (k, arc) in verdict.arcs.iter().enumerate() {
+        if k > 0 && k + SHOWN < count {
+            continue;
+        }
+        let lengths = arc.claim.lengths.iter().map(|(index, length)| {
+            format!(
+                "{} to {length}",
+                verdict.problem.distance_name(*index as usize)
+            )
+        });
+        let what = match arc.claim.lengths.is_empty() {
+            true => "the sketch is led to its own dimensions".to_owned(),
+            false => lengths.collect::<Vec<_>>().join(", "),
+        };
+        let end = match arc.t == point(1.0) {
+            true => "reached".to_owned(),
+            false => format!(
+                "limit: a fold at t = {}, where the path turns back",
+                certain_digits(arc.t)
+            ),
+        };
+        let kept = counted(arc.claim.kept.len(), "sign");
+        writeln!(out, "  edit {}: {what}: {end}; {kept} kept", k + 1)?;
+    }
+    match verdict.arcs.last() {
+        Some(arc) => write_figure(out, verdict, &arc.figure),
+        None => Ok(()),
+    }
 }
 
 fn classes_in_words(problem: &Problem, classes: &[u32]) -> String {

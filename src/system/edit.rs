@@ -38,6 +38,21 @@ impl Homotopy {
         self.set_length(index, Length::new(start, end, None), from, to);
     }
 
+    /// Leads every distance from what `from` has to what `to` has, while everything else stays.
+    ///
+    /// # Panics
+    /// If the two differ in more than lengths of distances, or this is the homotopy of another problem.
+    pub fn lead_all(&mut self, from: &Problem, to: &Problem) {
+        let targets: Vec<Target> = from.distances.iter().map(|d| d.target.clone()).collect();
+        for (index, (now, then)) in targets.iter().zip(&to.distances).enumerate() {
+            match *now == then.target {
+                true => self.hold(index, now),
+                false => self.lead(index, now, &then.target),
+            }
+        }
+        self.keep_constraints(to, &targets);
+    }
+
     /// A target's length in the homotopy's unit.
     fn enclose_target(&self, target: &Target) -> Interval {
         let length = match target {
@@ -57,6 +72,17 @@ impl Homotopy {
         self.rights[index] = Right::half_square(&length, exact);
         self.lengths[index] = length;
     }
+}
+
+/// Whether the sketch of a problem meets one of its distances, exactly.
+pub fn is_met(problem: &Problem, index: usize) -> bool {
+    let distance = &problem.distances[index];
+    let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+    let sum = (0..3).fold(BigRational::from_integer(0.into()), |sum, k| {
+        let d = a[k].value() - b[k].value();
+        sum + &d * &d
+    });
+    sum == squared(&distance.target)
 }
 
 fn squared(target: &Target) -> BigRational {

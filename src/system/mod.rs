@@ -12,6 +12,7 @@ mod interpolation;
 mod part;
 mod right;
 
+pub use edit::is_met;
 pub use exact::ExactLength;
 pub use gauge::{Gauge, GaugeError, Placement};
 pub(crate) use homotopy::typical_length;

@@ -1,6 +1,8 @@
 //! What a certified run tells whoever writes its proof down.
 
 use super::Status;
+use super::arc::ArcRun;
+use crate::problem::Target;
 
 /// A tube that was proved and linked to the one before, as far as a checker has to be told.
 ///
@@ -9,8 +11,8 @@ use super::Status;
 pub struct TubeSeen<'a> {
     /// The point z₀ near the path.
     pub centre: &'a [f64],
-    /// Whether the tube was proved in extended precision: then z₀ has more digits than `centre`.
-    pub extended: bool,
+    /// What z₀ is more than that, where the tube was proved in extended precision.
+    pub low: Option<&'a [f64]>,
     /// The normal c of the cross-sections.
     pub normal: &'a [f64],
     /// The weights u of the norm, at most 1.
@@ -32,6 +34,15 @@ pub trait Witness {
     /// In the tube just seen the path meets t = 1 for the first time at this point: `centre` up to
     /// `radius`, per free coordinate.
     fn solution(&mut self, centre: &[f64], radius: &[f64]);
+    /// What follows are the tubes the other way from the sketch.
+    fn turn(&mut self) {}
+    /// The way back is over. Unless it is kept its tubes and solutions are forgotten.
+    fn end_turn(&mut self, _kept: bool) {}
+    /// An edit: what follows are tubes of an arc from the figure at hand, along which these distances are led to these
+    /// lengths. An arc that was begun and did not end is given up.
+    fn begin_arc(&mut self, _lengths: &[(usize, &Target)]) {}
+    /// The arc is over.
+    fn end_arc(&mut self, _run: &ArcRun) {}
     /// The run is over; `classes` has the class of every solution seen.
     fn end(&mut self, status: &Status, classes: &[usize]);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks a krawl certificate, from certs/README.md alone, with another method than krawl's own checker.
 
-Distances only. Numbers are intervals of whole multiples of 2^-B. Every tube is cut into pieces, each proved
+Distances only; paths and edits. Numbers are intervals of whole multiples of 2^-B. Every tube is cut into pieces, each proved
 with a matrix of its own. Prints VERIFIED or why not; exit codes as those of `krawl verify`.
 
 Usage: checker.py CERTIFICATE
@@ -57,6 +57,15 @@ def dot(v, w):
     return (lo, hi)
 
 
+def length(square, wanted, c=(0, 0)):
+    """a(t), t^0 first, from the root of one number to that of another."""
+    start, end = root(exact(square)), root(exact(wanted))
+    if square == wanted:
+        end = start
+        return [start, c, sub((0, 0), c)]
+    return [start, add(sub(end, start), c), sub((0, 0), c)]
+
+
 class Problem:
     def __init__(self, text, unit):
         # Numbers keep all of their digits.
@@ -75,20 +84,19 @@ class Problem:
                 self.index[p, axis] = len(self.free)
                 self.free.append((p, axis))
         self.m = len(self.free)
-        self.edges = []
+        self.edges, self.squares = [], []
         for key in ("distances", "squared_distances"):
             for a, b, target in rules.get(key, []):
                 i, j = names.index(a), names.index(b)
                 square = sum((x - y) ** 2 for x, y in zip(at[i], at[j])) * scale**2
-                start = root(exact(square))
                 target = Fraction(target)
-                end = exact(target * scale) if key == "distances" else root(exact(target * scale**2))
+                wanted = (target if key == "squared_distances" else target**2) * scale**2
                 bends = {a, b} == set(choices["bend"])
                 c = exact(Fraction(choices["bend_coefficient"]) * scale) if bends else (0, 0)
-                # a(t), t^0 first.
-                length = [start, add(sub(end, start), c), sub((0, 0), c)]
                 ends = [(self.index.get((i, k)), self.index.get((j, k))) for k in range(d)]
-                self.edges.append((ends, length))
+                self.edges.append((ends, length(square, wanted, c)))
+                self.squares.append((square, wanted))
+        self.scale = scale
         need(len(self.edges) == self.m, "as many distances as free coordinates")
         self.sketch = self.gauge(at, reference, scale) + [(0, 0)]
         self.axes = [axis for _, axis in self.free]
@@ -264,6 +272,7 @@ def derivative(p): return [mul(exact(k), a) for k, a in enumerate(p)][1:]
 
 class Tube:
     def __init__(self, problem, z0, c, u, h, r, s):
+        # Of z0 in two parts the sum.
         self.problem, self.n = problem, problem.m + 1
         self.c_float, self.c = c, [exact(x) for x in c]
         self.u = [w * ONE >> 16 for w in u]
@@ -297,22 +306,23 @@ class Tube:
     def piece(self, s):
         return next(p for p in self.pieces if p.a <= s <= p.b)
 
-    def exit(self):
-        """A box around the point where the path leaves, and its direction there."""
-        s = (self.s, self.s)
-        piece = self.piece(self.s)
+    def exit(self, at_s=None, digits=20, most=8):
+        """A box around the point where the path leaves, or is at another parameter, and its direction there."""
+        at_s = self.s if at_s is None else at_s
+        s = (at_s, at_s)
+        piece = self.piece(at_s)
         start = [at(p, s) for p in self.z]
         w = [(0, 0)] * self.n
-        for step in range(8):
+        for step in range(most):
             f = self.value([add(x, y) for x, y in zip(start, w)]) + [dot(self.c, w)]
             radius = piece.solved(f)
             need(all(mag(x) < up(self.r * u) for x, u in zip(w, self.u)), "an exit")
-            if radius < self.r >> 20 or step == 7:
+            if radius < self.r >> digits or step == most - 1:
                 break
             off = [dot(y, f) for y in piece.y]
             w = [((x[0] - y[0]),) * 2 for x, y in zip(w, off)]
         box = [add(add(x, y), ball(up(radius * u))) for x, y, u in zip(start, w, self.u)]
-        return box, piece.tangent(box)
+        return box, piece.tangent(box, 5 if most == 8 else most)
 
     def value(self, z):
         return [f[0] for f in self.problem.along([[x] for x in z])]
@@ -344,6 +354,99 @@ class Tube:
         if all(x[0] > 0 for x in slopes):
             return 1
         return -1 if all(x[1] < 0 for x in slopes) else 0
+
+    def climbs(self, a, b, depth=30):
+        """t rises between two parameters."""
+        if self.rises((a, b)) == 1:
+            return
+        need(depth > 0 and b > a, "t rises")
+        self.climbs(a, (a + b) // 2, depth - 1)
+        self.climbs((a + b) // 2, b, depth - 1)
+
+    def keeps(self, a, b, signs, depth=20):
+        """Triangles or tetrahedra keep their signs between two parameters."""
+        if not signs:
+            return
+        box = self.box((a, b))[0]
+        left = [x for x in signs if determinant(self.problem, box, x[0])[x[1] == 0] * (1 if x[1] else -1) <= 0]
+        need(depth > 0 or not left, "signs are kept")
+        if left:
+            self.keeps(a, (a + b) // 2, left, depth - 1)
+            self.keeps((a + b) // 2, b, left, depth - 1)
+
+    def turn(self, entry, fold, signs):
+        """t rises up to a fold in the claimed box: t'' < 0 where the sign of t' is not known, and t' changes there."""
+        need(self.exit(entry[1])[1][-1][0] > 0 or self.rises(entry) == 1, "t rises at the entry")
+        a, b = entry[1], self.h
+        # Where t' is certainly positive up to, and where certainly negative: first coarsely.
+        steps = 256
+        places = [a + (b - a) * k // steps for k in range(steps + 1)]
+        k = next((k for k in range(1, steps + 1) if self.exit(places[k])[1][-1][1] < 0), None)
+        need(k, "t falls behind the fold")
+        high = places[k]
+        for back in (2, 4, 8, 16, 32, 64, 128, 256):
+            low = places[k - back] if k > back else entry[0]
+            try:
+                if k > back:
+                    self.climbs(entry[0], low, 12)
+                self.bends_down(low, high, 8)
+                break
+            except NotProved:
+                need(k > back, "t rises up to the fold")
+        self.keeps(entry[0], high, signs)
+        for _ in range(80):
+            middle = (low + high) // 2
+            slope = self.exit(middle, 60, 80)[1][-1]
+            if slope[0] > 0:
+                low = middle
+            elif slope[1] < 0:
+                high = middle
+            else:
+                break
+        # The fold is between the two.
+        centre, radius, t, t_radius = fold
+        box, _ = self.exit(low, 60, 80)
+        pieces = self.box((low, high))[0]
+        span = (0, high - low)
+        tangent = [p.tangent(pieces, 2) for p in self.pieces if p.a <= high and p.b >= low]
+        for i, x in enumerate(box):
+            reach = x
+            for v in tangent:
+                reach = hull(reach, add(x, mul(v[i], span)))
+            middle, room = (exact(t), exact(t_radius)) if i == self.n - 1 else (exact(centre[i]), exact(radius))
+            need(mag(sub(reach, middle)) < room[0], "the fold is in its box")
+
+    def bends_down(self, a, b, depth=20):
+        """t'' < 0 between two parameters, of the curve by its own: J phi'' = -(second derivatives of F along phi')."""
+        box, pieces = self.box((a, b))
+        ok = True
+        for piece in pieces:
+            v = piece.tangent(box, 2)
+            t = box[-1]
+            f = []
+            for ends, length in self.problem.edges:
+                total = (0, 0)
+                for i, j in ends:
+                    x = sub(v[i] if i is not None else (0, 0), v[j] if j is not None else (0, 0))
+                    total = add(total, mul(x, x))
+                a0, a1, a2 = length
+                value, slope = add(a0, mul(t, add(a1, mul(t, a2)))), add(a1, mul(t, add(a2, a2)))
+                bend = add(mul(slope, slope), mul(value, add(a2, a2)))
+                f.append(sub(mul(bend, mul(v[-1], v[-1])), total))
+            f.append((0, 0))
+            # Near Y f, and how far: of what is left of the equations.
+            w = [(x[0] + x[1]) // 2 for x in (dot(y, f) for y in piece.y)]
+            w = [(x, x) for x in w]
+            rows = self.problem.jacobian(box)
+            off = [sub(dot([w[j] for j in row], row.values()), x) for row, x in zip(rows, f)]
+            off.append(dot(self.c, w))
+            r = piece.solved(off)
+            ok = ok and add(w[-1], ball(up(r * self.u[-1])))[1] < 0
+        if ok:
+            return
+        need(depth > 0 and b - a > 1, "t turns")
+        self.bends_down(a, (a + b) // 2, depth - 1)
+        self.bends_down((a + b) // 2, b, depth - 1)
 
     def account(self, a, b, solutions, depth=60):
         """t = 1 between two parameters only at these solutions' parameters."""
@@ -384,6 +487,20 @@ def solution(problem, centre, radius):
     return box, [add(x, ball(narrow)) for x in middle[:m]] + [exact(1)]
 
 
+def determinant(problem, z, points):
+    """Of the differences of some points from the first."""
+    def side(p, axis):
+        def of(p): return z[problem.index[p, axis]] if (p, axis) in problem.index else (0, 0)
+        return sub(of(p), of(points[0]))
+    rows = [[side(p, axis) for axis in range(problem.d)] for p in points[1:]]
+    def minor(v, w, i, j): return sub(mul(v[i], w[j]), mul(v[j], w[i]))
+    if problem.d == 2:
+        return minor(rows[0], rows[1], 0, 1)
+    u, v, w = rows
+    total = mul(u[0], minor(v, w, 1, 2))
+    return add(add(total, mul(u[1], minor(v, w, 2, 0))), mul(u[2], minor(v, w, 0, 1)))
+
+
 def apart(a, b): return any(x[1] < y[0] or y[1] < x[0] for x, y in zip(a, b))
 
 
@@ -411,7 +528,7 @@ class File:
 def check(data):
     file = File(data)
     assert file.read("18s")[0] == b"krawl certificate\n", "no certificate"
-    assert file.read("I")[0] == 2, "another version"
+    assert file.read("I")[0] == 3, "another version"
     file.text()
     (digest,) = file.read("32s")
     text = file.text()
@@ -421,42 +538,64 @@ def check(data):
     records = []
     while True:
         (tag,) = file.read("B")
-        if tag == 1:
-            z, c, u = file.read(f"{n}d"), file.read(f"{n}f"), file.read(f"{n}H")
+        if tag in (1, 8):
+            z = [Fraction(x) for x in file.read(f"{n}d")]
+            if tag == 8:
+                z = [x + Fraction(y) for x, y in zip(z, file.read(f"{n}d"))]
+            c, u = file.read(f"{n}f"), file.read(f"{n}H")
             records.append(("tube", (z, c, u, *file.read("dfd"))))
-        elif tag == 2:
-            records.append(("solution", (file.read(f"{m}d"), file.read("f")[0])))
+        elif tag in (2, 6):
+            records.append(({2: "solution", 6: "reached"}[tag], (file.read(f"{m}d"), file.read("f")[0])))
+        elif tag == 4:
+            records.append(("turn", None))
+        elif tag == 5:
+            led = []
+            for _ in range(file.read("I")[0]):
+                (index,) = file.read("I")
+                led.append((index, Fraction(file.text().decode())))
+            signs = []
+            for _ in range(file.read("I")[0]):
+                signs.append((file.read(f"{problem.d + 1}I"), file.read("B")[0]))
+            records.append(("arc", (led, signs)))
+        elif tag == 7:
+            records.append(("fold", (file.read(f"{m}d"), *file.read("fdf"))))
         else:
             assert tag == 3, "no such record"
             break
-    (stopped,) = file.read("B")
-    if stopped:
+    (ending,) = file.read("B")
+    for _ in range(ending):
         file.text()
     count, solutions = file.read("QI")
     classes = file.read(f"{solutions}I")
-    assert file.at == len(data) and count == sum(kind == "tube" for kind, _ in records)
-    need(not stopped, "the run stopped")
+    kinds = [kind for kind, _ in records]
+    assert file.at == len(data) and count == kinds.count("tube")
+    need(ending != 1, "the run stopped")
+    if "arc" in kinds:
+        assert ending == 0 and kinds[0] == "arc" and solutions == 0, "the order of records"
+        edits(problem, records)
+        return count, f"{kinds.count('arc')} edits"
+    assert (ending == 2) == ("turn" in kinds), "the order of records"
 
     listed, met, before, first = [], set(), None, None
+    turned = False
     for position, (kind, claim) in enumerate(records):
-        if kind == "solution":
+        if kind == "turn":
+            need(before is not None and not turned, "one turn")
+            before, turned = None, True
+        if kind != "tube":
             continue
         tube = Tube(problem, *claim)
         following = position + 1
         while following < len(records) and records[following][0] == "solution":
             listed.append(solution(problem, *records[following][1]))
             following += 1
-        closes = following == len(records)
+        closes = following == len(records) and not turned
+        entry, direction = enter(tube, before, problem.sketch)
         if before is None:
-            entry = tube.locate(problem.sketch)
-            need(entry, "the sketch in the first tube")
-            first = tube.piece(entry[0]).tangent(problem.sketch)
-            need(tube.piece(entry[0]).b >= entry[1], "the sketch in one piece")
-        else:
-            box, direction = before
-            entry = tube.locate(box)
-            need(entry, "a link")
-            need(dot(direction, tube.c)[0] > 0, "a link's direction")
+            if turned:
+                need(dot(first, tube.c)[1] < 0, "the other way")
+            else:
+                first = direction
         leave = (tube.s, tube.s)
         if closes:
             need(before is not None, "more than one tube")
@@ -472,7 +611,7 @@ def check(data):
                 here.append(s)
         tube.account(entry[0], leave[1], here)
         before = None if closes else tube.exit()
-    need(before is None and records, "the end")
+    need((before is None) != turned and records, "the end")
     need(met == set(range(solutions)), "solutions that are met")
     numbers = []
     for k, (box, narrow) in enumerate(listed):
@@ -483,14 +622,72 @@ def check(data):
                 same = numbers[j]
         numbers.append(max(numbers, default=-1) + 1 if same is None else same)
     need(tuple(numbers) == classes, "the classes")
-    return count, solutions
+    return count, f"{solutions} solutions"
+
+
+def enter(tube, before, start):
+    """Where the path comes into a tube; at the beginning also its direction there."""
+    if before is not None:
+        box, direction = before
+        entry = tube.locate(box)
+        need(entry, "a link")
+        need(dot(direction, tube.c)[0] > 0, "a link's direction")
+        return entry, None
+    entry = tube.locate(start)
+    need(entry, "where it begins, in the first tube")
+    # It may be where two pieces meet.
+    pieces = [p for p in tube.pieces if p.a <= entry[1] and p.b >= entry[0]]
+    tangents = [p.tangent(start) for p in pieces]
+    direction = tangents[0]
+    for other in tangents[1:]:
+        direction = [hull(x, y) for x, y in zip(direction, other)]
+    return entry, direction
+
+
+def edits(problem, records):
+    """Arcs one after the other."""
+    start, before, signs, number = problem.sketch, None, [], 0
+    now = [a for a, _ in problem.squares]
+    for position, (kind, claim) in enumerate(records):
+        if kind == "arc":
+            led, signs = claim
+            number += 1
+            wanted = [b for _, b in problem.squares] if number == 1 else list(now)
+            if number == 1 and led:
+                need(now == wanted, "the sketch meets its dimensions")
+            for index, value in led:
+                wanted[index] = (value * problem.scale) ** 2
+            problem.edges = [(ends, length(a, b)) for (ends, _), a, b in zip(problem.edges, now, wanted)]
+            now, before = wanted, None
+        if kind != "tube":
+            continue
+        tube = Tube(problem, *claim)
+        entry, direction = enter(tube, before, start)
+        if before is None:
+            need(direction[-1][0] > 0, "t rises at the beginning")
+        what, end = records[position + 1] if position + 1 < len(records) else ("", None)
+        if what == "fold":
+            tube.turn(entry, end, signs)
+            need(position + 2 == len(records), "nothing behind a fold")
+            continue
+        leave = (tube.s, tube.s)
+        if what == "reached":
+            box, narrow = solution(problem, *end)
+            leave = tube.locate(narrow)
+            need(leave, "the figure in the last tube")
+            start = narrow[:-1] + [(0, 0)]
+        need(entry[1] < leave[0], "an end behind the entry")
+        tube.climbs(entry[0], leave[1])
+        tube.keeps(entry[0], leave[1], signs)
+        before = tube.exit() if what == "tube" else None
+        need(what in ("tube", "reached"), "every arc has an end")
 
 
 if __name__ == "__main__":
     try:
         with open(sys.argv[1], "rb") as file:
             tubes, solutions = check(file.read())
-        print(f"VERIFIED: {tubes} tubes, {solutions} solutions")
+        print(f"VERIFIED: {tubes} tubes, {solutions}")
     except NotProved as fault:
         print(f"NOT PROVED: {fault}")
         sys.exit(3)

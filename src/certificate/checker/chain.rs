@@ -1,24 +1,44 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
+use super::arc::{Fold, keeps, rises};
 use super::equations::{Equations, ZERO};
 use super::place::{Place, Spot, component};
 use super::refute;
 use super::tube::{Stretch, Tube, direction};
-use crate::certificate::format::{EndClaim, SolutionClaim, TubeClaim};
-use crate::certificate::verdict::{Flaw, Outcome, Verdict};
+use crate::certificate::format::{ArcClaim, EndClaim, Ending, Record, SolutionClaim, TubeClaim};
+use crate::certificate::verdict::{Arc, Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
+use crate::problem::{Problem, Target};
+use crate::system::{Homotopy, is_met};
 use rayon::prelude::*;
 
 /// What is kept from one part of the chain to the next: all solutions, and two tubes.
 pub struct Chain {
     pub eq: Equations,
-    sketch: Spot,
-    /// The path's direction at the sketch, along the normal of the first tube.
+    /// Where the first tube begins: at the sketch, or at the figure where the last edit ended.
+    from: Spot,
+    /// The path's direction there, along the normal of the first tube.
     start: Vec<Interval>,
     last: Option<Tube>,
     pub solutions: Vec<Place>,
     /// Whether the path meets each of them, if that is known.
     met: Vec<Option<bool>>,
+    /// Whether the tubes to come are those behind the turn.
+    turned: bool,
+    /// The problem with its dimensions as they are now, and the edit that is followed.
+    problem: Problem,
+    arc: Option<ArcClaim>,
+}
+
+/// Where the last tube of a part leads.
+enum Goal {
+    /// On to the next.
+    On,
+    /// Back to the sketch.
+    Sketch,
+    /// To a figure with t = 1.
+    Figure(Place),
+    Fold(Fold),
 }
 
 /// The outcome where a claim is false, or only not proved.
@@ -30,26 +50,29 @@ fn flaw(is_false: bool, flaw: Flaw) -> Outcome {
 }
 
 impl Chain {
-    pub fn new(eq: Equations) -> Self {
+    pub fn new(eq: Equations, problem: &Problem) -> Self {
         let sketch: Vec<Interval> = eq.homotopy.sketch_of_unknowns().chain([ZERO]).collect();
         let near = sketch.iter().map(|x| x.mid()).collect();
         let rest = sketch.iter().map(|&x| x - point(x.mid())).collect();
         Chain {
-            sketch: Spot { near, rest },
+            from: Spot { near, rest },
             eq,
             start: Vec::new(),
             last: None,
             solutions: Vec::new(),
             met: Vec::new(),
+            turned: false,
+            problem: problem.clone(),
+            arc: None,
         }
     }
 
     /// Proves and links tubes, each with the solutions that were first met in it, on all
-    /// threads. The flaw is the first in their order. With `closes` the last one closes the loop.
+    /// threads. The flaw is the first in their order. `mark` is the record behind the last of them.
     pub fn add(
         &mut self,
         claims: &[(TubeClaim, Vec<SolutionClaim>)],
-        closes: bool,
+        mark: Option<&Record>,
         verdict: &mut Verdict,
     ) -> Result<(), Outcome> {
         let (eq, first) = (&self.eq, verdict.tubes + 1);
@@ -60,28 +83,59 @@ impl Chain {
         let tubes: Vec<_> = tubes.collect();
         // How many solutions are listed up to each tube.
         let mut listed = Vec::new();
-        for (_, solutions) in claims {
+        for (tube, solutions) in claims {
             for solution in solutions {
                 let number = self.solutions.len() + 1;
-                let solution = Place::solution(eq, solution);
+                let solution = Place::solution(eq, solution, tube);
                 let solution = solution.map_err(|f| flaw(f.is_false, Flaw::Solution(number, f)));
                 self.solutions.push(solution?);
             }
             listed.push(self.solutions.len());
         }
         self.met.resize(self.solutions.len(), Some(false));
-        if let (true, Some((claim, _))) = (self.start.is_empty(), claims.first()) {
-            self.start = direction(eq, claim, &self.sketch).unwrap_or_default();
+        if let (None, Some((claim, _))) = (&self.last, claims.first()) {
+            let start = direction(eq, claim, &self.from).unwrap_or_default();
+            if self.turned {
+                let along = component(
+                    &self.start,
+                    &tubes[0].as_ref().map_err(Outcome::clone)?.normal,
+                );
+                if !(along.sup() < 0.0) {
+                    return Err(flaw(along.inf() > 0.0, Flaw::Turn(first)));
+                }
+            } else {
+                self.start = start;
+            }
         }
 
+        let arc = verdict.arcs.len() + 1;
+        let goal = match (mark, claims.last()) {
+            (Some(Record::End(end)), _) if self.arc.is_none() && end.ending == Ending::Complete => {
+                Goal::Sketch
+            }
+            (Some(Record::Reached(claim)), Some((tube, _))) => {
+                let place = Place::solution(eq, claim, tube);
+                Goal::Figure(place.map_err(|f| flaw(f.is_false, Flaw::Figure(arc, f)))?)
+            }
+            (Some(Record::Fold(claim)), Some((tube, _))) => {
+                let fold = Fold::prove(eq, claim, tube);
+                Goal::Fold(fold.map_err(|f| flaw(f.is_false, Flaw::Fold(arc, f)))?)
+            }
+            _ => Goal::On,
+        };
         let join = |k: usize| {
             let before = match k {
                 0 => self.last.as_ref(),
                 _ => Some(tubes[k - 1].as_ref().map_err(Outcome::clone)?),
             };
             let tube = tubes[k].as_ref().map_err(Outcome::clone)?;
-            let (number, closes) = (first + k as u64, closes && k + 1 == tubes.len());
-            let stretch = self.join(number, before, tube, closes, &self.solutions[..listed[k]])?;
+            let goal = if k + 1 == tubes.len() {
+                &goal
+            } else {
+                &Goal::On
+            };
+            let solutions = &self.solutions[..listed[k]];
+            let stretch = self.join((first + k as u64, arc), before, tube, goal, solutions)?;
             Ok((tube.margin, stretch))
         };
         let joined: Vec<_> = (0..tubes.len()).into_par_iter().map(join).collect();
@@ -90,7 +144,8 @@ impl Chain {
             verdict.tubes += 1;
             verdict.margin = verdict.margin.min(margin);
             let (low, high) = verdict.t_range;
-            verdict.t_range = (low.min(stretch.t.inf()), high.max(stretch.t.sup()));
+            let t = stretch.t + point(1.0);
+            verdict.t_range = (low.min(t.inf()), high.max(t.sup()));
             for k in stretch.unknown {
                 self.met[k] = self.met[k].filter(|&met| met);
             }
@@ -104,17 +159,76 @@ impl Chain {
             .next_back()
             .and_then(Result::ok)
             .or(self.last.take());
+        self.go_on(mark, goal, verdict)
+    }
+
+    /// What follows is another edit, or the other way from the sketch.
+    fn go_on(
+        &mut self,
+        mark: Option<&Record>,
+        goal: Goal,
+        verdict: &mut Verdict,
+    ) -> Result<(), Outcome> {
+        let end = match &goal {
+            Goal::Figure(place) => Some((point(1.0), &place.spot)),
+            Goal::Fold(fold) => Some((fold.spot.at(self.eq.m), &fold.spot)),
+            Goal::On | Goal::Sketch => None,
+        };
+        if let Some((t, spot)) = end
+            && let Some(claim) = self.arc.take()
+        {
+            let figure: Vec<Interval> = (0..self.eq.m).map(|i| spot.at(i)).collect();
+            let figure = self.points(&figure);
+            lengths(&mut self.problem, &claim);
+            verdict.arcs.push(Arc { claim, t, figure });
+        }
+        if let Goal::Figure(place) = goal {
+            self.from = place.spot;
+            self.from.near[self.eq.m] = 0.0;
+        }
+        if let Some(Record::Turn | Record::Arc(_)) = mark {
+            (self.last, self.turned) = (None, true);
+        }
+        if let Some(Record::Arc(claim)) = mark {
+            self.set_out(claim, verdict)?;
+        }
+        Ok(())
+    }
+
+    /// The equations of an edit: everything stands still but the lengths that are led. In the first one they may be
+    /// none: then the sketch is led to all of the problem's dimensions, without a bend.
+    fn set_out(&mut self, claim: &ArcClaim, verdict: &mut Verdict) -> Result<(), Outcome> {
+        let number = verdict.arcs.len() + 1;
+        if number == 1 && claim.lengths.is_empty() {
+            self.problem.homotopy.bend_coefficient = 0.into();
+            self.problem.homotopy.detour = 0.into();
+            let homotopy = Homotopy::with_unit(&self.problem, self.eq.homotopy.unit);
+            self.eq = Equations::new(homotopy.map_err(|_| flaw(false, Flaw::Arc(number)))?);
+        } else {
+            let count = self.problem.distances.len();
+            let met = (0..count).all(|d| is_met(&self.problem, d));
+            if number == 1 && !(met && count == self.eq.m) {
+                return Err(flaw(!met, Flaw::Met));
+            }
+            let mut edited = self.problem.clone();
+            lengths(&mut edited, claim);
+            let mut homotopy = self.eq.homotopy.clone();
+            homotopy.lead_all(&self.problem, &edited);
+            self.eq = Equations::new(homotopy);
+        }
+        (self.turned, self.arc, verdict.is_edit) = (false, Some(claim.clone()), true);
+        verdict.t_range = (f64::INFINITY, f64::NEG_INFINITY);
         Ok(())
     }
 
     /// Links a tube to the one before, or to the sketch, and accounts for its stretch of the path:
-    /// from its entry to its exit, or to the sketch where it closes the loop.
+    /// from its entry to its exit, or to the goal.
     fn join(
         &self,
-        number: u64,
+        (number, arc): (u64, usize),
         before: Option<&Tube>,
         tube: &Tube,
-        closes: bool,
+        goal: &Goal,
         listed: &[Place],
     ) -> Result<Stretch, Outcome> {
         let find = |spot: &Spot, claim: Flaw| {
@@ -131,37 +245,60 @@ impl Chain {
             false => Err(flaw(a.inf() >= b.sup(), claim)),
         };
         let entry = match before {
-            None => find(&self.sketch, Flaw::Start)?,
+            None => find(&self.from, Flaw::Start)?,
             Some(before) => {
                 let entry = find(&before.exit, Flaw::Link(number))?;
                 along(&before.exit_direction, Flaw::Direction(number))?;
                 entry
             }
         };
-        let mut exit = point(tube.exit_at);
-        if closes {
-            exit = find(&self.sketch, Flaw::Open(number))?;
-            if before.is_none() {
-                return Err(flaw(true, Flaw::Open(number)));
+        let (exit, claim) = match goal {
+            Goal::On => (point(tube.exit_at), Flaw::Backwards(number)),
+            Goal::Sketch => (find(&self.from, Flaw::Open(number))?, Flaw::Open(number)),
+            Goal::Figure(Place { spot, .. }) | Goal::Fold(Fold { spot, .. }) => {
+                (find(spot, Flaw::Elsewhere(arc))?, Flaw::Elsewhere(arc))
             }
-            order(entry, exit, Flaw::Open(number))?;
-            along(&self.start, Flaw::Open(number))?;
-        } else {
-            order(entry, exit, Flaw::Backwards(number))?;
+        };
+        if before.is_none() && matches!(goal, Goal::Sketch) {
+            return Err(flaw(true, claim));
         }
-        let stretch = tube.account(hull(entry.inf(), exit.sup()), listed);
-        stretch.map_err(|part| {
-            let claim = Flaw::Unlisted(number, part.inf(), part.sup());
-            flaw(refute::missing(tube, part, listed), claim)
+        order(entry, exit, claim.clone())?;
+        if let Goal::Sketch = goal {
+            along(&self.start, claim)?;
+        }
+        let range = hull(entry.inf(), exit.sup());
+        let Some(edit) = &self.arc else {
+            let stretch = tube.account(range, listed);
+            return stretch.map_err(|part| {
+                let claim = Flaw::Unlisted(number, part.inf(), part.sup());
+                flaw(refute::missing(tube, part, listed), claim)
+            });
+        };
+        // It begins to rise in the first tube, and goes on in the others.
+        if before.is_none() && !self.start.last().is_some_and(|t| t.inf() > 0.0) {
+            let falls = self.start.last().is_some_and(|t| t.sup() < 0.0);
+            return Err(flaw(falls, Flaw::Rise(number, entry.inf(), entry.sup())));
+        }
+        let fold = match goal {
+            Goal::Fold(fold) => Some(fold),
+            _ => None,
+        };
+        let fault = |claim: fn(u64, f64, f64) -> Flaw| {
+            move |(s, is_false): (Interval, bool)| flaw(is_false, claim(number, s.inf(), s.sup()))
+        };
+        rises(tube, range, fold).map_err(fault(Flaw::Rise))?;
+        keeps(&self.eq, tube, range, &edit.kept).map_err(fault(Flaw::Kept))?;
+        Ok(Stretch {
+            met: Vec::new(),
+            unknown: Vec::new(),
+            t: tube.time(entry).convex_hull(tube.time(exit)),
         })
     }
 
     /// What remains to be proved when all tubes are linked.
     pub fn conclude(&self, end: &EndClaim, verdict: &mut Verdict) -> Result<(), Outcome> {
-        match (&self.last, &end.stopped) {
-            (None, None) => return Err(flaw(true, Flaw::Empty)),
-            (None, Some(_)) => return Ok(()),
-            _ => {}
+        if self.last.is_none() && end.ending == Ending::Complete {
+            return Err(flaw(true, Flaw::Empty));
         }
         for (k, solution) in self.solutions.iter().enumerate() {
             verdict.margin = verdict.margin.min(solution.margin);
@@ -186,16 +323,23 @@ impl Chain {
         Ok(())
     }
 
-    /// The coordinates of all points of a solution in the problem's units.
-    pub fn points(&self, solution: &Place) -> Vec<[Interval; 3]> {
+    /// The coordinates of all points of a figure in the problem's units.
+    pub fn points(&self, figure: &[Interval]) -> Vec<[Interval; 3]> {
         let homotopy = &self.eq.homotopy;
         let unit = point(homotopy.unit);
         let coordinate = |p, axis| {
             let free = homotopy.coordinate(p, axis);
-            free.map_or(ZERO, |i| solution.claimed[i] * unit)
+            free.map_or(ZERO, |i| figure[i] * unit)
         };
         let points = 0..homotopy.points;
         let points = points.map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
         points.collect()
+    }
+}
+
+/// Gives a problem the lengths of an edit.
+fn lengths(problem: &mut Problem, claim: &ArcClaim) {
+    for (index, length) in &claim.lengths {
+        problem.distances[*index as usize].target = Target::Length(length.clone());
     }
 }

@@ -1,14 +1,16 @@
 //! The equations q_e(X) = E_e(t) in intervals: 2 q_e is a sum of products of differences, with whole
 //! factors, and E_e a polynomial in t. For a distance 2 q_e = |p_i − p_j|² and 2 E_e = a_e².
 
-use crate::interval::{Interval, point};
+use crate::interval::{DoubleDouble, Interval, point};
 use crate::system::Homotopy;
+use std::sync::OnceLock;
 
 /// A factor, and the two forms that it multiplies.
 pub type Product = (i64, [usize; 2]);
 
 /// The problem's equations. Vectors of unknowns z = (X, t) have n = m + 1 entries.
 pub struct Equations {
+    /// Its right-hand sides are E_e; those of equations that it does not have are 0.
     pub homotopy: Homotopy,
     /// The number of equations.
     pub m: usize,
@@ -22,7 +24,11 @@ pub struct Equations {
     pub nonzero: Vec<Vec<[usize; 2]>>,
     /// Per equation the terms of all 2 ∂q_e/∂x_i: i, a factor, and the form that it multiplies.
     pub gradient: Vec<Vec<(usize, i64, usize)>>,
+    doubles: OnceLock<Vec<Doubles>>,
 }
+
+/// Coefficients of E_e(t) to twice a float's digits, and how far the exact ones may be from that.
+type Doubles = [(DoubleDouble, f64); 5];
 
 /// No equation has a larger sum of factors, so that its sums of products fit into an `i128`.
 const MAX_FACTORS: i64 = 1 << 12;
@@ -32,9 +38,9 @@ pub use crate::interval::ZERO;
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
         let m = homotopy.equations;
-        let (mut forms, mut products, mut gradient) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut forms, mut products) = (Vec::new(), Vec::new());
         for e in 0..m {
-            let (mut all, mut terms) = (Vec::new(), Vec::new());
+            let mut all = Vec::new();
             for term in homotopy.terms(e) {
                 // The number 1 has an index of its own.
                 let mut form = |form: Option<[usize; 2]>| {
@@ -43,29 +49,70 @@ impl Equations {
                 };
                 let (left, same) = (form(term.left), term.left == term.right);
                 let right = if same { left } else { form(term.right) };
-                let factor = i64::from(term.factor);
-                all.push((factor, [left, right]));
-                let halves = [(left, right), (right, left)];
-                for &(by, form) in if same { &halves[..1] } else { &halves } {
-                    let [plus, minus] = forms[by];
-                    let factor = if same { 2 * factor } else { factor };
-                    terms.extend([(plus, factor, form), (minus, -factor, form)]);
-                }
+                all.push((i64::from(term.factor), [left, right]));
             }
             assert!(all.iter().map(|p: &Product| p.0.abs()).sum::<i64>() <= MAX_FACTORS);
-            terms.retain(|term| term.0 < m);
             products.push(all);
-            gradient.push(terms);
         }
+        Self::of(homotopy, m, forms, products)
+    }
+
+    fn of(
+        homotopy: Homotopy,
+        m: usize,
+        forms: Vec<[usize; 2]>,
+        products: Vec<Vec<Product>>,
+    ) -> Self {
+        let gradient = products.iter().map(|products| {
+            let terms = products.iter().flat_map(|&(factor, [left, right])| {
+                let (same, halves) = (left == right, [(left, right), (right, left)]);
+                let (count, factor) = if same { (1, 2 * factor) } else { (2, factor) };
+                halves.into_iter().take(count).flat_map({
+                    let forms = &forms;
+                    move |(by, form)| [0, 1].map(|k| (forms[by][k], [factor, -factor][k], form))
+                })
+            });
+            terms.filter(|term| term.0 < m).collect()
+        });
         Equations {
             positive: homotopy.positive_unknowns(),
             nonzero: homotopy.nonzero_vectors(),
             m,
+            gradient: gradient.collect(),
             forms,
             products,
-            gradient,
             homotopy,
+            doubles: OnceLock::new(),
         }
+    }
+
+    /// The coefficients of all E_e(t), for points of more than 53 bits.
+    pub fn doubles(&self) -> &[Doubles] {
+        let rights = || self.homotopy.rights.iter().map(|right| right.doubles());
+        self.doubles.get_or_init(|| rights().collect())
+    }
+
+    /// The equations F(X, t) = 0 and J v = 0, J = ∂F/∂X, in the unknowns (X, v) and t.
+    pub fn of_folds(&self) -> Equations {
+        let (m, count) = (self.m, self.forms.len());
+        // The number 1 does not move.
+        let moved = |by: usize, one: usize| {
+            move |i: usize| match i {
+                i if i < m => by + i,
+                i if i == m + 2 => one,
+                _ => 2 * m + 1,
+            }
+        };
+        let of = |by, one| self.forms.iter().map(move |f| f.map(moved(by, one)));
+        let forms = of(0, 2 * m + 2).chain(of(m, 2 * m + 1)).collect();
+        let moves = self.products.iter().map(|products| {
+            let halves = products
+                .iter()
+                .flat_map(|&(f, [l, r])| [(f, [count + l, r]), (f, [l, count + r])]);
+            halves.collect()
+        });
+        let products = self.products.iter().cloned().chain(moves).collect();
+        Self::of(self.homotopy.clone(), 2 * m, forms, products)
     }
 
     /// What an index in a form stands for: an unknown other than t, the number 1, or 0.
@@ -79,7 +126,9 @@ impl Equations {
 
     /// The coefficients of E_e(t₀ + τ) in τ.
     pub fn right_at(&self, e: usize, t: Interval) -> [Interval; 5] {
-        let right = &self.homotopy.rights[e];
+        let Some(right) = self.homotopy.rights.get(e) else {
+            return [ZERO; 5];
+        };
         let (mut c, degree) = (*right.enclosures(), right.degree);
         // Horner's scheme, repeated.
         for from in 0..degree {
@@ -96,8 +145,11 @@ impl Equations {
 
     /// E'' on a range of t.
     pub fn bend(&self, e: usize, t: Interval) -> Interval {
-        let c = self.homotopy.rights[e].enclosures();
-        match self.degree(e) {
+        let Some(right) = self.homotopy.rights.get(e) else {
+            return ZERO;
+        };
+        let c = right.enclosures();
+        match right.degree {
             ..=2 => c[2] * point(2.0),
             _ => c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))),
         }
@@ -105,6 +157,6 @@ impl Equations {
 
     /// The degree of E_e.
     pub fn degree(&self, e: usize) -> usize {
-        self.homotopy.rights[e].degree
+        self.homotopy.rights.get(e).map_or(2, |right| right.degree)
     }
 }

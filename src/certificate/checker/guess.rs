@@ -3,7 +3,7 @@
 use super::equations::{Equations, Product};
 use super::krawczyk::{Curve, LARGE, ORDER, Section, magnitude, weight};
 use super::whole::{J_BITS, Whole, power};
-use crate::certificate::format::WEIGHT_UNIT;
+use crate::certificate::format::{FoldClaim, TubeClaim, WEIGHT_UNIT};
 use crate::certificate::verdict::Fault;
 
 /// More Newton's steps than any place needs.
@@ -85,7 +85,7 @@ pub fn expand(curve: &mut Curve, inverse: &Inverse, advance: f64) -> Result<(), 
 /// point, with its section and inverse.
 pub fn newton<'a>(
     eq: &'a Equations,
-    near: &[f64],
+    (near, extended): (&[f64], bool),
     c: &[f64],
     u: &[u16],
 ) -> Result<(Curve<'a>, Section, Inverse), Fault> {
@@ -93,7 +93,7 @@ pub fn newton<'a>(
     let mut at = curve.section(c, u, scale(&curve, c, u))?;
     let inverse = Inverse::new(&at)?;
     let (mut z, mut last) = (near.to_vec(), f64::INFINITY);
-    for _ in 0..STEPS {
+    for _ in 0..if extended { 0 } else { STEPS } {
         let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
         f.push(0.0);
         let step = inverse.times(&f);
@@ -105,8 +105,51 @@ pub fn newton<'a>(
         }
         last = size;
     }
+    if extended {
+        curve = refined(eq, &z, |curve| {
+            let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
+            f.push(0.0);
+            inverse.times(&f)
+        })?;
+    }
     at = curve.section(c, u, at.scale)?;
     Ok((curve, at, inverse))
+}
+
+/// A point of more than 53 bits, to which Newton's steps lead from one of 53.
+fn refined<'a>(
+    eq: &'a Equations,
+    near: &[f64],
+    step: impl Fn(&Curve) -> Vec<f64>,
+) -> Result<Curve<'a>, Fault> {
+    let mut curve = Curve::at_sum(eq, near, &vec![0.0; near.len()])?;
+    let mut last = f64::INFINITY;
+    for _ in 0..STEPS {
+        let step = step(&curve);
+        let low = step.iter().enumerate();
+        let low: Vec<f64> = low.map(|(i, x)| curve.low_of(i).mid() - x).collect();
+        curve = Curve::at_sum(eq, &curve.z[0].clone(), &low)?;
+        let size = step.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+        if !(0.0 < size && size < 0.9 * last) {
+            break;
+        }
+        last = size;
+    }
+    Ok(curve)
+}
+
+/// A point (X, v, t) near a fold in a box, where the path comes in a tube; t's derivative is as good as zero.
+pub fn fold(eq: &Equations, claim: &FoldClaim, tube: &TubeClaim) -> Result<Vec<f64>, Fault> {
+    let mut z: Vec<f64> = claim.figure.centre.clone();
+    z.push(claim.t);
+    let c: Vec<f64> = tube.normal.iter().map(|&c| c.into()).collect();
+    let curve = Curve::at(eq, &z)?;
+    let at = curve.section(&c, &tube.weights, scale(&curve, &c, &tube.weights))?;
+    let mut last = vec![0.0; eq.m + 1];
+    last[eq.m] = 1.0;
+    let tangent = Inverse::new(&at)?.times(&last);
+    z.splice(eq.m..eq.m, tangent[..eq.m].iter().copied());
+    Ok(z)
 }
 
 /// The preconditioner that moves along a curve, in floats.
@@ -153,19 +196,28 @@ impl<'a> Moving<'a> {
 
     /// A point near the zero of F in the cross-section through ẑ(s): with steps, in the norm, below
     /// `enough`, or that do not shrink any more.
-    pub fn zero(&self, s: f64, enough: f64) -> Vec<f64> {
-        let (eq, n) = (self.curve.eq, self.at.c.len());
-        let along = |i: usize| self.curve.z.iter().rev().fold(0.0, |sum, z| sum * s + z[i]);
-        let start: Vec<f64> = (0..n).map(along).collect();
-        let mut z = start.clone();
-        self.improve(&mut z, s, enough, |z| {
-            let right = |c: &[f64; 5]| c.iter().rev().fold(0.0, |sum, c| sum * z[eq.m] + c);
-            let left = value(eq, z).into_iter().zip(&self.right);
-            let ahead = z.iter().zip(&start).zip(&self.at.c);
-            let ahead = ahead.map(|((z, start), c)| c * (z - start)).sum();
-            left.map(|(f, e)| f - right(e)).chain([ahead]).collect()
-        });
-        z
+    pub fn zero(&self, s: f64, enough: f64) -> Result<Curve<'a>, Fault> {
+        let (eq, z, n) = (self.curve.eq, &self.curve.z, self.at.c.len());
+        let way = |i: usize| s * z[1..].iter().rev().fold(0.0, |sum, z| sum * s + z[i]);
+        let start: Vec<f64> = (0..n).map(|i| z[0][i] + way(i)).collect();
+        if self.curve.low.is_none() {
+            let mut near = start.clone();
+            self.improve(&mut near, s, enough, |z| {
+                let right = |c: &[f64; 5]| c.iter().rev().fold(0.0, |sum, c| sum * z[eq.m] + c);
+                let left = value(eq, z).into_iter().zip(&self.right);
+                let ahead = z.iter().zip(&start).zip(&self.at.c);
+                let ahead = ahead.map(|((z, start), c)| c * (z - start)).sum();
+                left.map(|(f, e)| f - right(e)).chain([ahead]).collect()
+            });
+            return Curve::at(eq, &near);
+        }
+        refined(eq, &start, |there| {
+            let mut f: Vec<f64> = there.residual(0).iter().map(|f| f.mid()).collect();
+            let low = |i: usize| (there.low_of(i) - self.curve.low_of(i)).mid();
+            let off = |i: usize| (there.z[0][i] - z[0][i]) + low(i) - way(i);
+            f.push((0..n).map(|i| self.at.c[i] * off(i)).sum());
+            self.times(&f, s)
+        })
     }
 
     /// A vector T near the curve's direction at a point near ẑ(s), with c·T = 1.

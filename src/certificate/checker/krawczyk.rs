@@ -2,6 +2,7 @@
 //! polynomial. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
+use super::extended::{Low, rounded_time};
 use super::whole::{Columns, J_BITS, LIMIT, Whole, above, between, exact, power, size, split};
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::verdict::Fault;
@@ -35,6 +36,8 @@ pub struct Curve<'a> {
     pub bits: [i32; 2],
     /// Its coefficients.
     pub z: Vec<Vec<f64>>,
+    /// What z₀ is more than its floats.
+    pub low: Option<Low>,
     /// For each coefficient all forms, in its units.
     pub forms: Vec<Vec<i64>>,
     /// The coefficients of E_e(t₀ + τ) in τ, per equation.
@@ -51,6 +54,7 @@ impl<'a> Curve<'a> {
             // The number 1 is a multiple of the unit, too.
             bits: [51 - magnitude(&centre[..eq.m]).max(0); 2],
             z: Vec::new(),
+            low: None,
             forms: Vec::new(),
             right: Vec::new(),
             powers: [[ZERO; DEGREE + 1]; 5],
@@ -61,12 +65,31 @@ impl<'a> Curve<'a> {
         Ok(curve)
     }
 
+    /// The same near a sum of two points, with more than 53 bits.
+    pub fn at_sum(eq: &'a Equations, high: &[f64], low: &[f64]) -> Result<Self, Fault> {
+        let mut sum: Vec<f64> = high.iter().zip(low).map(|(x, y)| x + y).collect();
+        sum[eq.m] = rounded_time(sum[eq.m]);
+        let mut curve = Curve::at(eq, &sum)?;
+        let pairs = high.iter().zip(low).zip(&curve.z[0]);
+        let rest: Vec<f64> = pairs.map(|((x, y), z)| (x - z) + y).collect();
+        curve.low = Some(Low::near(eq, curve.z[0][eq.m], curve.bits[0], &rest)?);
+        let t = point(curve.z[0][eq.m]) + curve.low_of(eq.m);
+        curve.right = (0..eq.m).map(|e| eq.right_at(e, t)).collect();
+        Ok(curve)
+    }
+
+    /// An entry of what z₀ is more than its floats.
+    pub fn low_of(&self, i: usize) -> Interval {
+        self.low.as_ref().map_or(ZERO, |low| point(low.floats[i]))
+    }
+
     /// Adds the next coefficient, its coordinates rounded.
     pub fn push(&mut self, z: &[f64]) -> Result<(), Fault> {
         let (k, m) = (self.z.len(), self.eq.m);
         if k == 1 {
-            // All others may be 64 times as large.
-            self.bits[1] = (45 - magnitude(&z[..m])).max(self.bits[0]);
+            // All others may be 64 times as large, or 4 times where more digits are needed.
+            let spare = if self.low.is_some() { 3 } else { 7 };
+            self.bits[1] = (52 - spare - magnitude(&z[..m])).max(self.bits[0]);
         }
         let bits = self.bits[k.min(1)];
         let mut whole: Vec<f64> = z[..m].iter().map(|x| (x * power(bits)).round()).collect();
@@ -112,7 +135,10 @@ impl<'a> Curve<'a> {
         let residual = |e: usize| {
             let (right, degree) = (&self.right[e], self.eq.degree(e));
             if k == 0 {
-                return nearly(self.products(e, 0, 0), 2 * coarse + 1) - right[0];
+                return match &self.low {
+                    None => nearly(self.products(e, 0, 0), 2 * coarse + 1) - right[0],
+                    Some(low) => low.value(self.eq, e, coarse, &self.forms[0]),
+                };
             }
             let inner = 1.max((k + 1).saturating_sub(known))..known.min(k);
             let inner: i128 = inner.map(|a| self.products(e, a, k - a)).sum();
@@ -120,6 +146,9 @@ impl<'a> Curve<'a> {
             if k < known {
                 let outer = self.products(e, 0, k) + self.products(e, k, 0);
                 f += nearly(outer, coarse + fine + 1);
+                if let Some(low) = &self.low {
+                    f += low.product(self.eq, e, [coarse, fine], &self.forms[k]);
+                }
             }
             let powers = (1..=degree).map(|j| (right[j], self.powers[j][k]));
             let powers = powers.filter(|&(_, power)| power != ZERO);
@@ -174,6 +203,12 @@ impl<'a> Curve<'a> {
         let m = self.eq.m;
         let mut rests = vec![ZERO; m + 1];
         let mut j0 = self.jacobian(0, (u, &scale), &mut rests)?;
+        for (e, rest) in rests[..m].iter_mut().enumerate() {
+            for &(i, factor, form) in self.low.iter().flat_map(|_| &self.eq.gradient[e]) {
+                let change = self.low.as_ref().map(|low| low.change(form, self.bits[0]));
+                *rest += point(0.5 * factor.abs() as f64) * change.unwrap_or(ZERO) * weight(u[i]);
+            }
+        }
         for ((column, &c), &u) in j0.iter_mut().zip(c).zip(u) {
             // Normals have 24 bits and weights 16: all is exact up to the rounding to a whole number.
             let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS - scale[m])).round();
@@ -208,6 +243,7 @@ impl<'a> Curve<'a> {
             square = a.square + a.norm * a.second;
         }
         let t = polynomial(&self.z, m, around(point(1.0))) + around(r * weight(u[m]));
+        let t = t + self.low_of(m);
         let t_slope = (1..=order).fold(ZERO, |sum, k| {
             sum + point(k as f64) * point(self.z[k][m].abs())
         });
@@ -241,10 +277,14 @@ impl<'a> Curve<'a> {
         // The first coefficients of F(ẑ(σ)), and those of t alone, are as good as zero: of them their sizes, and
         // k times these, will do.
         let (mut small, mut small_slope) = (vec![ZERO; n], vec![ZERO; n]);
-        let (mut defect, mut defect_slope) = (ZERO, ZERO);
+        let (mut defect, mut defect_slope, mut constant) = (ZERO, ZERO, ZERO);
         for k in 0..=if order > 0 { DEGREE } else { 0 } {
             let (f, times) = (self.residual(k), point(k as f64));
-            if k == 0 || (ORDER + 1..=2 * ORDER).contains(&k) {
+            if k == 0 {
+                constant = upper(y.image(&f));
+                continue;
+            }
+            if (ORDER + 1..=2 * ORDER).contains(&k) {
                 let image = upper(y.image(&f));
                 (defect, defect_slope) = (defect + image, defect_slope + times * image);
                 continue;
@@ -257,7 +297,8 @@ impl<'a> Curve<'a> {
         Ok(Test {
             stiff: upper(moving * (stiff + y.bound(&rests)) + square),
             width: upper(moving * y.bound(&wide)),
-            defect: upper(moving * (defect + y.bound(&small))),
+            constant: upper(moving * constant),
+            growing: upper(moving * (defect + y.bound(&small))),
             defect_slope: upper(moving * (defect_slope + y.bound(&small_slope))),
             turn: upper(moving * y.bound(&turn)),
             moving: upper(moving),
@@ -266,12 +307,13 @@ impl<'a> Curve<'a> {
 }
 
 /// What is known of a family of cross-sections: on |w|_u ≤ ρ, for ρ up to the r that it was made
-/// for, |I − Ỹ DG| ≤ `stiff` + `width` ρ; |Ỹ F(ẑ)| ≤ `defect`, its derivative by σ without that of Ỹ
+/// for, |I − Ỹ DG| ≤ `stiff` + `width` ρ; |Ỹ F(ẑ)| ≤ `constant` + |σ| `growing`, its derivative by σ without that of Ỹ
 /// `defect_slope`, |Ỹ (J(ẑ + w) − J(ẑ)) ẑ'| ≤ `turn` ρ, and |Ỹ v| ≤ `moving` |Y v|.
 pub struct Test {
     pub stiff: Interval,
     pub width: Interval,
-    pub defect: Interval,
+    constant: Interval,
+    growing: Interval,
     defect_slope: Interval,
     turn: Interval,
     moving: Interval,
@@ -282,8 +324,9 @@ pub struct Proof {
     /// |w|_u is at most so many times |Y x|, for DG(w') U w = x with a w' in the box: as |I − Ỹ DG U| ≤ q
     /// there, it is at most |Ỹ x| / (1 − q).
     pub inverse: Interval,
-    /// The zero is at most so far from ẑ(σ).
+    /// The zero is at most so far from ẑ(σ); and at most `distances[0] + |σ| distances[1]`.
     pub distance: Interval,
+    pub distances: [Interval; 2],
     /// And φ'(σ) from ẑ'(σ).
     pub slope_distance: Interval,
     /// 1 − q − η/r.
@@ -299,16 +342,18 @@ impl Test {
     /// Whether every cross-section has exactly one zero within r.
     pub fn within(&self, r: Interval) -> Result<Proof, Fault> {
         let (one, q) = (point(1.0), self.contraction(r));
-        let margin = (one - q - self.defect / r).inf();
+        let defect = upper(self.constant + self.growing);
+        let margin = (one - q - defect / r).inf();
         if !(q.sup() < 1.0 && margin > 0.0) {
             return Err(Fault::margin(margin));
         }
         // |w| ≤ η/(1 − q) first, and then q for boxes of that size.
-        let nearer = self.contraction(upper(self.defect / (one - q)));
-        let distance = upper(self.defect / (one - nearer));
+        let nearer = self.contraction(upper(defect / (one - q)));
+        let distance = upper(defect / (one - nearer));
         Ok(Proof {
             inverse: upper(self.moving / (one - q)),
             slope_distance: upper((self.defect_slope + self.turn * distance) / (one - nearer)),
+            distances: [self.constant, self.growing].map(|x| upper(x / (one - nearer))),
             distance,
             margin,
         })

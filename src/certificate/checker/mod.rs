@@ -3,8 +3,10 @@
 // Comparisons are written so that a NaN fails them.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
+mod arc;
 mod chain;
 mod equations;
+mod extended;
 mod guess;
 mod krawczyk;
 mod place;
@@ -12,7 +14,7 @@ mod refute;
 mod tube;
 mod whole;
 
-use super::format::{EndClaim, FormatError, Record, SolutionClaim, TubeClaim};
+use super::format::{Ending, FormatError, Record, SolutionClaim, TubeClaim};
 use super::reader::Reader;
 use super::verdict::{Flaw, Outcome, Verdict};
 use crate::system::Homotopy;
@@ -55,6 +57,9 @@ pub fn verify(
         program: header.program.clone(),
         tubes: 0,
         solutions: Vec::new(),
+        is_edit: false,
+        arcs: Vec::new(),
+        is_open: false,
         classes: Vec::new(),
         margin: 1.0,
         t_range: (f64::INFINITY, f64::NEG_INFINITY),
@@ -71,38 +76,42 @@ pub fn verify(
         .num_threads(settings.threads)
         .build();
     let pool = pool.map_err(|e| FormatError::Unreadable(std::io::Error::other(e)))?;
-    let mut chain = Chain::new(Equations::new(homotopy));
+    let mut chain = Chain::new(Equations::new(homotopy), &header.problem);
     let mut proved = Ok(());
     let mut ahead = None;
     let end = loop {
-        let (chunk, end) = read_chunk(&mut reader, &mut ahead)?;
+        let (chunk, mark) = read_chunk(&mut reader, &mut ahead)?;
         if proved.is_ok() {
-            let closes = end.as_ref().is_some_and(|end| end.stopped.is_none());
-            proved = pool.install(|| chain.add(&chunk, closes, &mut verdict));
+            proved = pool.install(|| chain.add(&chunk, mark.as_ref(), &mut verdict));
             progress(Stage {
                 tubes: verdict.tubes,
                 solutions: chain.solutions.len(),
             });
         }
-        if let Some(end) = end {
+        if let Some(Record::End(end)) = mark {
             break end;
         }
     };
-    verdict.solutions = chain.solutions.iter().map(|s| chain.points(s)).collect();
+    let solutions = chain.solutions.iter();
+    verdict.solutions = solutions.map(|s| chain.points(&s.claimed)).collect();
+    verdict.is_open = matches!(end.ending, Ending::Open(_));
     verdict.outcome = match proved.and_then(|()| chain.conclude(&end, &mut verdict)) {
         Err(outcome) => outcome,
-        Ok(()) => end.stopped.map_or(Outcome::Verified, Outcome::Partial),
+        Ok(()) => match end.ending {
+            Ending::Stopped(reason) => Outcome::Partial(reason),
+            Ending::Complete | Ending::Open(_) => Outcome::Verified,
+        },
     };
     Ok(verdict)
 }
 
 type Chunk = Vec<(TubeClaim, Vec<SolutionClaim>)>;
 
-/// Reads tubes, each with the solutions that follow it, and the end if it is reached.
+/// Reads tubes, each with the solutions that follow it, and the record of another kind behind them, if that is reached.
 fn read_chunk<R: Read>(
     reader: &mut Reader<R>,
     ahead: &mut Option<TubeClaim>,
-) -> Result<(Chunk, Option<EndClaim>), FormatError> {
+) -> Result<(Chunk, Option<Record>), FormatError> {
     let mut chunk: Chunk = ahead
         .take()
         .into_iter()
@@ -121,7 +130,7 @@ fn read_chunk<R: Read>(
                 last.into_iter()
                     .for_each(|(_, solutions)| solutions.push(solution.clone()));
             }
-            Some(Record::End(end)) => return Ok((chunk, Some(end))),
+            Some(mark) => return Ok((chunk, Some(mark))),
             None => return Err(FormatError::Truncated("the chain of tubes")),
         }
     }

@@ -5,12 +5,13 @@ use super::guess::newton;
 use super::krawczyk::{Section, around, weight};
 use super::refute;
 use super::whole::{exact, size};
-use crate::certificate::format::SolutionClaim;
+use crate::certificate::format::{SolutionClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 
 /// An enclosure of a point of a curve of F = 0, in n entries: exactly known floats, and what has to be
 /// added to them.
+#[derive(Clone)]
 pub struct Spot {
     pub near: Vec<f64>,
     pub rest: Vec<Interval>,
@@ -57,28 +58,46 @@ pub fn component(direction: &[Interval], normal: &[f64]) -> Interval {
     terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c))
 }
 
-/// A figure with t = 1, the only one in its box.
+/// A figure with t = 1, the only one in its box; or a point where other equations and a cross-section meet.
 pub struct Place {
     /// Where it is.
     pub spot: Spot,
+    /// Where the test was made.
+    middle: Vec<Interval>,
     /// The box that was claimed, in m entries.
     pub claimed: Vec<Interval>,
-    /// At most so far from the middle of `spot`, entry by entry, there is no other figure with t = 1.
+    /// At most so far from `middle`, entry by entry, there is no other one.
     alone_within: Vec<f64>,
     pub margin: f64,
 }
 
 /// Solutions are tested with the weight ½ for coordinates, and next to none for t.
-const HALF: u16 = 1 << 15;
+pub const HALF: u16 = 1 << 15;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
 
 impl Place {
-    /// Proves that a box holds exactly one solution of F(X, a(1)) = 0.
-    pub fn solution(eq: &Equations, claim: &SolutionClaim) -> Result<Place, Fault> {
+    /// Proves that a box holds exactly one solution of F(X, a(1)) = 0, in the precision of the tube that comes there.
+    pub fn solution(
+        eq: &Equations,
+        claim: &SolutionClaim,
+        tube: &TubeClaim,
+    ) -> Result<Place, Fault> {
         let radius = around(point(claim.radius.into()));
         let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
-        let place = Place::prove(eq, claim, claimed.clone());
+        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
+        let extended = !tube.low.is_empty();
+        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
+        (c[eq.m], u[eq.m]) = (1.0, 1);
+        let place = Place::prove(eq, (&near, extended), (&c, &u), claimed.clone());
+        let place = place.and_then(|mut place| {
+            // In this cross-section t is what it is in the middle.
+            place.spot.rest[eq.m] = ZERO;
+            let other = Fault::because("its cross-section is not t = 1");
+            (place.middle[eq.m] == point(1.0))
+                .then_some(place)
+                .ok_or(other)
+        });
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
         }
@@ -92,30 +111,30 @@ impl Place {
         }
     }
 
-    /// Proves that there is a figure with t = 1 near a box.
-    fn prove(
+    /// Proves that near a point there is a zero of F in a cross-section with this normal.
+    pub fn prove(
         eq: &Equations,
-        claim: &SolutionClaim,
+        (near, extended): (&[f64], bool),
+        (c, u): (&[f64], &[u16]),
         claimed: Vec<Interval>,
     ) -> Result<Place, Fault> {
-        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
-        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
-        (c[eq.m], u[eq.m]) = (1.0, 1);
-        let (curve, at, inverse) = newton(eq, &near, &c, &u)?;
+        let (curve, at, inverse) = newton(eq, (near, extended), c, u)?;
         let test = curve.test(&inverse.whole, &at, point(SIGHT))?;
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
         let near = curve.z[0].clone();
-        if near[eq.m] != 1.0 {
-            return Err(Fault::because("its cross-section is not t = 1"));
-        }
         let weights = || u.iter().map(|&u| weight(u));
-        let mut rest: Vec<Interval> = weights().map(|u| around(proof.distance * u)).collect();
-        rest[eq.m] = ZERO;
+        let low = || (0..near.len()).map(|i| curve.low_of(i));
+        let rest = weights().zip(low());
+        let rest = rest.map(|(u, low)| low + around(proof.distance * u));
         Ok(Place {
-            spot: Spot { near, rest },
+            middle: near.iter().zip(low()).map(|(&x, y)| exact(x) + y).collect(),
+            spot: Spot {
+                rest: rest.collect(),
+                near: near.clone(),
+            },
             claimed,
             alone_within: weights().map(|u| (alone * u).inf()).collect(),
             margin: proof.margin,
@@ -124,7 +143,7 @@ impl Place {
 
     /// Whether a box of coordinates lies where this figure is the only one with t = 1.
     pub fn covers(&self, z: &[Interval]) -> bool {
-        let near = |i: usize| size(z[i] - exact(self.spot.near[i])).sup() < self.alone_within[i];
+        let near = |i: usize| size(z[i] - self.middle[i]).sup() < self.alone_within[i];
         (0..z.len()).all(near)
     }
 

@@ -14,7 +14,8 @@ use crate::interval::{Interval, point};
 pub fn tube(claim: &TubeClaim, curve: &Curve, y: &Whole, at: &Section, test: &Test) -> bool {
     // The centre was moved by rounding: a zero within r of where it was is within `wider`, and in a
     // cross-section beside this one.
-    let moved = |i: usize| exact(claim.centre[i]) - point(curve.z[0][i]);
+    let low = |i: usize| claim.low.get(i).map_or(ZERO, |&x| point(x)) - curve.low_of(i);
+    let moved = |i: usize| exact(claim.centre[i]) - point(curve.z[0][i]) + low(i);
     let along = (0..at.u.len()).fold(ZERO, |sum, i| sum + point(at.c[i]) * moved(i));
     let away = (0..at.u.len()).map(|i| size(moved(i) / weight(at.u[i])).sup());
     let wider = point(claim.r.into()) + exact(away.fold(0.0, f64::max));
@@ -31,7 +32,7 @@ pub fn elsewhere(tube: &Tube, z: &Spot) -> bool {
     let within = s.intersection(between(-1.0, 1.0));
     let away = |i: usize| {
         let along = polynomial(&tube.z[1..], i, within) * within;
-        (z.minus(&tube.z[0], i) - along).mig() > (tube.distance * tube.u[i]).sup()
+        (tube.off(z, i) - along).mig() > (tube.distance * tube.u[i]).sup()
     };
     within.is_empty() || (0..n).any(away)
 }
@@ -39,7 +40,7 @@ pub fn elsewhere(tube: &Tube, z: &Spot) -> bool {
 /// Whether t certainly passes 1 in a range of a tube's parameters, at none of the solutions.
 pub fn missing(tube: &Tube, part: Interval, solutions: &[Place]) -> bool {
     let [from, to] = [part.inf(), part.sup()].map(|s| tube.time(exact(s)));
-    let passes = from.sup() < 1.0 && to.inf() > 1.0 || from.inf() > 1.0 && to.sup() < 1.0;
+    let passes = from.sup() < 0.0 && to.inf() > 0.0 || from.inf() > 0.0 && to.sup() < 0.0;
     let outside =
         |place: &Place| elsewhere(tube, &place.spot) || tube.parameter(&place.spot).disjoint(part);
     passes && solutions.iter().all(outside)

@@ -11,18 +11,21 @@ use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, hull, point};
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
-/// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ), φ' at
+/// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ),
+/// and at most `distances[0] + |σ| distances[1]`, φ' at
 /// most `slope_distance` from ẑ'.
 pub struct Tube {
-    /// Coefficients of ẑ.
+    /// Coefficients of ẑ, and what z₀ is more than its floats.
     pub z: Vec<Vec<f64>>,
+    pub low: Vec<Interval>,
     pub normal: Vec<f64>,
     pub u: Vec<Interval>,
     r: Interval,
     pub distance: Interval,
+    distances: [Interval; 2],
     slope_distance: Interval,
     /// c·ẑ'(σ), positive.
-    advance: Interval,
+    pub advance: Interval,
     /// The parameter at which the path leaves.
     pub exit_at: f64,
     /// Where that is.
@@ -39,7 +42,7 @@ pub struct Stretch {
     pub met: Vec<usize>,
     /// Solutions of which it is not known whether they are in it.
     pub unknown: Vec<usize>,
-    /// The range of t.
+    /// The range of t − 1.
     pub t: Interval,
 }
 
@@ -61,7 +64,10 @@ impl<'a> Work<'a> {
     fn new(eq: &'a Equations, claim: &TubeClaim) -> Result<Work<'a>, Fault> {
         let c: Vec<f64> = claim.normal.iter().map(|&c| c.into()).collect();
         let (u, r) = (&claim.weights, point(claim.r.into()));
-        let mut curve = Curve::at(eq, &claim.centre)?;
+        let mut curve = match claim.low.is_empty() {
+            true => Curve::at(eq, &claim.centre)?,
+            false => Curve::at_sum(eq, &claim.centre, &claim.low)?,
+        };
         let at = curve.section(&c, u, scale(&curve, &c, u))?;
         let inverse = Inverse::new(&at)?;
         expand(&mut curve, &inverse, claim.h)?;
@@ -82,10 +88,13 @@ impl<'a> Work<'a> {
     /// Encloses φ(s): for any w in the box, |w − w*| ≤ |Ỹ G(w)| / (1 − q) for the zero w*.
     fn spot(&self, s: f64, moving: &Moving) -> Option<Spot> {
         let (z, u) = (&self.curve.z, || self.at.u.iter().map(|&u| weight(u)));
-        let there = Curve::at(self.curve.eq, &moving.zero(s, ENOUGH * self.r.sup())).ok()?;
+        let there = moving.zero(s, ENOUGH * self.r.sup()).ok()?;
         let near = there.z[0].clone();
         let s = point(s);
-        let off = |i: usize| exact(near[i]) - point(z[0][i]) - polynomial(&z[1..], i, s) * s;
+        let off = |i: usize| {
+            let low = there.low_of(i) - self.curve.low_of(i);
+            exact(near[i]) - point(z[0][i]) + low - polynomial(&z[1..], i, s) * s
+        };
         let off: Vec<Interval> = (0..near.len()).map(off).collect();
         let mut inside = off.iter().zip(u());
         if !inside.all(|(&off, u)| size(off).sup() < (self.r * u).inf()) {
@@ -94,8 +103,12 @@ impl<'a> Work<'a> {
         let mut f = there.residual(0);
         f.push(component(&off, &self.at.c));
         let distance = self.proof.inverse * self.inverse.whole.image(&f);
-        let rest = u().map(|u| around(distance * u)).collect();
-        Some(Spot { near, rest })
+        let rest = u().enumerate();
+        let rest = rest.map(|(i, u)| there.low_of(i) + around(distance * u));
+        Some(Spot {
+            rest: rest.collect(),
+            near,
+        })
     }
 
     /// The path's direction T, c·T = 1, at a point φ(σ) of it near φ(s):
@@ -139,7 +152,8 @@ impl Tube {
         }
         let entry = |i: usize, s: Interval| match i < eq.m {
             true => {
-                polynomial(&work.curve.z, i, s) + around(work.proof.distance * weight(work.at.u[i]))
+                let away = around(work.proof.distance * weight(work.at.u[i]));
+                polynomial(&work.curve.z, i, s) + work.curve.low_of(i) + away
             }
             false => ZERO,
         };
@@ -163,10 +177,12 @@ impl Tube {
             exit_direction: work.direction(&exit, exit_at, &moving),
             exit_at,
             exit,
+            low: (0..=eq.m).map(|i| work.curve.low_of(i)).collect(),
             z: work.curve.z,
             u: claim.weights.iter().map(|&u| weight(u)).collect(),
             r: work.r,
             distance: work.proof.distance,
+            distances: work.proof.distances,
             slope_distance: work.proof.slope_distance,
             advance,
             margin: work.proof.margin,
@@ -174,10 +190,15 @@ impl Tube {
         })
     }
 
+    /// How far a point is from z₀.
+    pub fn off(&self, z: &Spot, i: usize) -> Interval {
+        z.minus(&self.z[0], i) - self.low[i]
+    }
+
     /// The parameters in [−1, 1] in whose cross-sections a point may be, and if that is all within there it
     /// is in one: g(σ) = c·(z − ẑ(σ)) falls with slope −c·ẑ', and this is Newton's interval around 0.
     pub fn parameter(&self, z: &Spot) -> Interval {
-        let off: Vec<Interval> = (0..self.u.len()).map(|i| z.minus(&self.z[0], i)).collect();
+        let off: Vec<Interval> = (0..self.u.len()).map(|i| self.off(z, i)).collect();
         component(&off, &self.normal) / self.advance
     }
 
@@ -186,41 +207,46 @@ impl Tube {
         let s = self.parameter(z);
         let inside = |i: usize| {
             let along = polynomial(&self.z[1..], i, s) * s;
-            size(z.minus(&self.z[0], i) - along).sup() < (self.r * self.u[i]).inf()
+            size(self.off(z, i) - along).sup() < (self.r * self.u[i]).inf()
         };
         (s.mag() <= 1.0 && (0..self.u.len()).all(inside)).then_some(s)
     }
 
-    /// t on the path for all parameters of a range.
+    /// An entry of the path for all parameters of a range, beyond a number.
+    pub fn beyond(&self, base: f64, i: usize, s: Interval) -> Interval {
+        let middle = exact(s.mid());
+        let way = polynomial(&self.z[1..], i, middle) * middle;
+        let change = derivative(&self.z, i, s) * (s - middle);
+        let start = (point(self.z[0][i]) - point(base)) + self.low[i];
+        let [constant, growing] = self.distances;
+        start + (way + change + around((constant + growing * size(s)) * self.u[i]))
+    }
+
+    /// The same of its derivative by σ.
+    pub fn slope(&self, i: usize, s: Interval) -> Interval {
+        derivative(&self.z, i, s) + around(self.slope_distance * self.u[i])
+    }
+
+    /// t − 1 on the path for all parameters of a range.
     pub fn time(&self, s: Interval) -> Interval {
-        let (t, middle) = (self.u.len() - 1, exact(s.mid()));
-        let change = derivative(&self.z, t, s) * (s - middle);
-        polynomial(&self.z, t, middle) + change + around(self.distance * self.u[t])
+        self.beyond(1.0, self.u.len() - 1, s)
     }
 
     /// dt/dσ on the path for all parameters of a range.
     pub fn time_slope(&self, s: Interval) -> Interval {
-        let t = self.u.len() - 1;
-        derivative(&self.z, t, s) + around(self.slope_distance * self.u[t])
+        self.slope(self.u.len() - 1, s)
     }
 
     /// Accounts for all parameters of a range: the path meets t = 1 in no other point of it than
     /// these solutions, which have t = 1. `Err`: a range where this fails.
     pub fn account(&self, range: Interval, solutions: &[Place]) -> Result<Stretch, Interval> {
-        const PARTS: u32 = 16;
-        let width = range.sup() - range.inf();
-        let cut = |k: u32| match k {
-            PARTS => range.sup(),
-            _ => range.inf() + width * (f64::from(k) / f64::from(PARTS)),
-        };
-        let mut pieces: Vec<Interval> = (0..PARTS).map(|k| between(cut(k), cut(k + 1))).collect();
-        let times = pieces.iter().map(|&part| self.time(part));
+        let times = parts(range).map(|part| self.time(part));
         let t = times
             .reduce(|a, b| a.convex_hull(b))
             .unwrap_or(Interval::ENTIRE);
         let (met, unknown) = (Vec::new(), Vec::new());
         let mut stretch = Stretch { met, unknown, t };
-        if !t.contains(1.0) {
+        if !t.contains(0.0) {
             return Ok(stretch);
         }
         // The solutions that are in this tube, and where.
@@ -233,22 +259,48 @@ impl Tube {
                 stretch.unknown.push(k);
             }
         }
-        let mut next = 0;
-        while let Some(&part) = pieces.get(next) {
-            next += 1;
-            // Where t is monotone from a solution on, it is the only one.
+        // Where t is monotone from a solution on, it is the only one.
+        let holds = |part: Interval| {
             let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
-            if !self.time(part).contains(1.0) || here.iter().any(only) {
-                continue;
-            }
-            if pieces.len() > PIECES || refute::missing(self, part, solutions) {
-                return Err(part);
-            }
-            pieces.push(between(part.inf(), part.mid()));
-            pieces.push(between(part.mid(), part.sup()));
-        }
+            !self.time(part).contains(0.0) || here.iter().any(only)
+        };
+        everywhere(range, holds, |part| refute::missing(self, part, solutions))?;
         Ok(stretch)
     }
+}
+
+/// A range in equal parts.
+fn parts(range: Interval) -> impl Iterator<Item = Interval> {
+    const PARTS: u32 = 16;
+    let width = range.sup() - range.inf();
+    let cut = move |k: u32| match k {
+        PARTS => range.sup(),
+        _ => range.inf() + width * (f64::from(k) / f64::from(PARTS)),
+    };
+    (0..PARTS).map(move |k| between(cut(k), cut(k + 1)))
+}
+
+/// Proves that something holds on pieces that cover a range. `Err`: one where it does not, though it is small,
+/// or fails for certain.
+pub fn everywhere(
+    range: Interval,
+    holds: impl Fn(Interval) -> bool,
+    fails: impl Fn(Interval) -> bool,
+) -> Result<(), Interval> {
+    let mut pieces: Vec<Interval> = parts(range).collect();
+    let mut next = 0;
+    while let Some(&part) = pieces.get(next) {
+        next += 1;
+        if holds(part) {
+            continue;
+        }
+        if pieces.len() > PIECES || fails(part) {
+            return Err(part);
+        }
+        pieces.push(between(part.inf(), part.mid()));
+        pieces.push(between(part.mid(), part.sup()));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -286,11 +338,12 @@ mod tests {
                     let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
                     // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
-                    let (curve, ..) = newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
+                    let (curve, ..) =
+                        newton(&eq, (&middle, false), &tube.normal, &claim.weights).unwrap();
                     // With the inverse there.
                     let middle = curve.z[0][..n].to_vec();
                     let (curve, _, inverse) =
-                        newton(&eq, &middle, &tube.normal, &claim.weights).unwrap();
+                        newton(&eq, (&middle, false), &tube.normal, &claim.weights).unwrap();
                     let mut last = vec![0.0; n];
                     last[n - 1] = 1.0;
                     let tangent = inverse.times(&last);

@@ -166,7 +166,20 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
         }
     };
     if let Some(witness) = &mut control.witness {
-        let classes: Vec<usize> = solutions.iter().map(|s| s.class).collect();
+        // In the order in which they were seen: those ahead, then those behind the sketch from there.
+        let seen = tracker.behind..solutions.len();
+        let seen = seen.chain((0..tracker.behind.min(solutions.len())).rev());
+        let mut numbers = Vec::new();
+        let classes: Vec<usize> = seen
+            .map(|k| {
+                let class = solutions[k].class;
+                let known = numbers.iter().position(|&other| other == class);
+                known.unwrap_or_else(|| {
+                    numbers.push(class);
+                    numbers.len() - 1
+                })
+            })
+            .collect();
         witness.end(&status, &classes);
     }
     let (plan_changes, driving) = tracker.test.plans();
@@ -218,6 +231,8 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     loses: bool,
     /// Whether it ended because no step could be proved, however short.
     is_stuck: bool,
+    /// How many of the solutions were found the other way from the sketch: the first ones.
+    behind: usize,
     /// The largest coordinate of the sketch, or 1 if that is more.
     size_of_sketch: f64,
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
@@ -258,6 +273,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             away: None,
             loses: false,
             is_stuck: false,
+            behind: 0,
             size_of_sketch,
             typical: f64::NAN,
             equations,
@@ -375,7 +391,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let weights: Vec<f64> = tube.weights[..n].iter().map(|u| u / top).collect();
         witness.tube(TubeSeen {
             centre: &tube.local.z[0][..n],
-            extended: tube.local.is_extended,
+            low: tube.local.is_extended.then_some(&tube.local.low[..n]),
             normal: &tube.local.normal[..n],
             weights: &weights,
             h: tube.proof.h,

@@ -163,13 +163,16 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             ..options.clone()
         };
         let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &options);
-        // A certificate holds one way only.
-        let witness = control.witness.take();
+        if let Some(witness) = &mut control.witness {
+            witness.turn();
+        }
         if let Some(trace) = &mut control.trace {
             trace.turn_back();
         }
         let result = back.run(&options, control);
-        control.witness = witness;
+        if let Some(witness) = &mut control.witness {
+            witness.end_turn(result.is_err());
+        }
         let other = match result {
             // The loop is closed after all: the way that closed it is the proof.
             Ok(()) if control.witness.is_some() => {
@@ -190,6 +193,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         self.steps += back.steps;
         self.rejected += back.rejected;
         self.shortened += back.shortened;
+        self.behind = back.ledger.found().len();
         if let Err(reason) = self.ledger.go_on_from(back.ledger) {
             return Status::Stopped(reason);
         }

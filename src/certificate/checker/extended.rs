@@ -1,0 +1,221 @@
+//! F at points of more than 53 bits, in whole numbers.
+//!
+//! Only F at a point needs so many: at the middle of a tube, where it is left, and at a solution.
+
+use super::equations::{Equations, Product, ZERO};
+use super::krawczyk::{LARGE, around};
+use super::whole::{between, power, size};
+use crate::certificate::verdict::Fault;
+use crate::interval::{Interval, point};
+use num_bigint::BigInt;
+use num_traits::ToPrimitive;
+
+/// What a point is more than multiples of 2 to minus some bits, in units that are finer by 2 to minus this.
+const FINER: i32 = 44;
+/// t and what it is more are multiples of 2 to minus these.
+const T_BITS: [i32; 2] = [60, 110];
+/// Coefficients of E are rounded to multiples of 2 to minus this.
+const E_BITS: i32 = 200;
+
+/// What a point is more than its floats, and that in whole numbers.
+pub struct Low {
+    /// For each unknown, and t.
+    pub floats: Vec<f64>,
+    /// For each form.
+    forms: Vec<i64>,
+    t: BigInt,
+}
+
+/// t rounded, so that it can be part of a point of more bits.
+pub fn rounded_time(t: f64) -> f64 {
+    (t * power(T_BITS[0])).round() * power(-T_BITS[0])
+}
+
+impl Low {
+    /// A multiple of the units near `low`, to be added to a point with this t that has so many bits.
+    pub fn near(eq: &Equations, t: f64, bits: i32, low: &[f64]) -> Result<Low, Fault> {
+        let unit = |i: usize| if i < eq.m { bits + FINER } else { T_BITS[1] };
+        let whole = low.iter().enumerate();
+        let whole: Vec<f64> = whole.map(|(i, x)| (x * power(unit(i))).round()).collect();
+        let t = t * power(T_BITS[0]);
+        let fits = whole[..eq.m].iter().all(|x| x.abs() < power(51));
+        let fits = fits && whole[eq.m].abs() < power(62) && t.abs() < power(100);
+        if !(fits && t.round() == t) {
+            return Err(LARGE);
+        }
+        let of = |i: usize| eq.entry(i, |i| whole[i] as i64, [0, 0]);
+        let t = (BigInt::from(t as i128) << (T_BITS[1] - T_BITS[0])) + whole[eq.m] as i64;
+        let floats = whole.iter().enumerate().map(|(i, x)| x * power(-unit(i)));
+        Ok(Low {
+            floats: floats.collect(),
+            forms: eq.forms.iter().map(|&[i, j]| of(i) - of(j)).collect(),
+            t,
+        })
+    }
+
+    /// What is to be added to ½ Σ x y for the forms x of the point and those `y` of a coefficient in units of 2^−bits:
+    /// twice, in either order.
+    pub fn product(&self, eq: &Equations, e: usize, bits: [i32; 2], y: &[i64]) -> Interval {
+        let term = |&(factor, [l, r]): &Product| {
+            let sum = i128::from(self.forms[l]) * i128::from(y[r])
+                + i128::from(y[l]) * i128::from(self.forms[r]);
+            i128::from(factor) * sum
+        };
+        let sum = eq.products[e].iter().map(term).sum::<i128>();
+        enclosed(sum.into(), bits[0] + FINER + bits[1] + 1)
+    }
+
+    /// How far an entry of 2 J is from that of the point without this: for one term.
+    pub fn change(&self, form: usize, bits: i32) -> Interval {
+        point(self.forms[form].unsigned_abs() as f64 * power(-bits - FINER))
+    }
+
+    /// F_e at the point, whose `forms` have so many bits.
+    pub fn value(&self, eq: &Equations, e: usize, bits: i32, forms: &[i64]) -> Interval {
+        let (mut coarse, mut mixed, mut fine) = (0i128, 0i128, 0i128);
+        for &(factor, [l, r]) in &eq.products[e] {
+            let [factor, a, b] = [factor, forms[l], forms[r]].map(i128::from);
+            let [x, y] = [self.forms[l], self.forms[r]].map(i128::from);
+            coarse += factor * (a * b);
+            mixed += factor * (a * y + b * x);
+            fine += factor * (x * y);
+        }
+        let double = (((BigInt::from(coarse) << FINER) + mixed) << FINER) + fine;
+        let (all, mut right, mut error) = (E_BITS + 4 * T_BITS[1], BigInt::ZERO, ZERO);
+        let t = size(enclosed(self.t.clone(), T_BITS[1]));
+        for (k, &(near, radius)) in eq.doubles()[e].iter().enumerate().rev() {
+            let whole = fixed(near.hi) + fixed(near.lo);
+            right = right * &self.t + (whole << (T_BITS[1] * (4 - k as i32)));
+            // Either float may have lost a unit.
+            error = error * t + point(radius) + point(power(1 - E_BITS));
+        }
+        let double_bits = 2 * (bits + FINER) + 1;
+        enclosed((double << (all - double_bits)) - right, all) + around(error)
+    }
+}
+
+/// x in units of 2⁻²⁰⁰, rounded towards zero.
+fn fixed(x: f64) -> BigInt {
+    let (mantissa, exponent, sign) = num_traits::Float::integer_decode(x);
+    let whole = BigInt::from(i128::from(mantissa) * i128::from(sign));
+    match i32::from(exponent) + E_BITS {
+        shift @ 0.. => whole << shift,
+        shift => whole / (BigInt::from(1) << -shift),
+    }
+}
+
+/// x 2^−bits.
+fn enclosed(x: BigInt, bits: i32) -> Interval {
+    let dropped = (x.bits() as i32 - 100).max(0);
+    let floor = (x >> dropped).to_i128().map_or(f64::NAN, |x| x as f64);
+    let unit = power(dropped - bits);
+    // Shifting rounds down by less than 1, the conversion by less than a step.
+    between(
+        (floor.next_down() - 1.0) * unit,
+        (floor.next_up() + 1.0) * unit,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::checker::krawczyk::{Curve, ORDER};
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
+    use num_rational::BigRational;
+
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    fn holds(x: Interval, value: &BigRational, room: f64) -> bool {
+        exact(x.inf()) <= value + exact(room) && value - exact(room) <= exact(x.sup())
+    }
+
+    /// F along random polynomials, tails and all, against rational numbers; and a wrong factor is found.
+    #[test]
+    fn values_are_those_of_rational_numbers() {
+        let mut seed = 1u64;
+        let mut random = move || {
+            seed = seed
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 * 2f64.powi(-52) - 1.0
+        };
+        for name in ["pentahedron", "3p3l", "3p3l-orthogonal"] {
+            let problem = Problem::read(format!("problems/constraints/{name}.toml")).unwrap();
+            let eq = Equations::new(Homotopy::new(&problem).unwrap());
+            let (m, n) = (eq.m, eq.m + 1);
+            assert!(!eq.homotopy.tail.is_empty());
+            for _ in 0..5 {
+                let high: Vec<f64> = (0..n).map(|_| 2.0 * random()).collect();
+                let low: Vec<f64> = (0..n).map(|_| 1e-17 * random()).collect();
+                let mut curve = Curve::at_sum(&eq, &high, &low).unwrap();
+                for _ in 1..=ORDER {
+                    let mut z: Vec<f64> = (0..n).map(|_| 0.1 * random()).collect();
+                    // E is then a constant.
+                    z[m] = 0.0;
+                    curve.push(&z).unwrap();
+                }
+                let mut z: Vec<Vec<BigRational>> = Vec::new();
+                for z_k in &curve.z {
+                    z.push(z_k.iter().map(|&x| exact(x)).collect());
+                }
+                for (i, x) in z[0].iter_mut().enumerate() {
+                    *x += exact(curve.low_of(i).mid());
+                    let near = exact(high[i]) + exact(low[i]) - &*x;
+                    assert!(near < exact(1e-27) && near > exact(-1e-27));
+                }
+                let zero = || BigRational::from_integer(0.into());
+                for k in 0..=2 * ORDER {
+                    let found = curve.residual(k);
+                    for e in 0..m {
+                        let terms = eq.homotopy.terms(e);
+                        let form = |form: Option<[usize; 2]>, a: usize| match form {
+                            None => exact(if a == 0 { 1.0 } else { 0.0 }),
+                            Some(ends) => {
+                                let [x, y] =
+                                    ends.map(|i| if i < m { z[a][i].clone() } else { zero() });
+                                x - y
+                            }
+                        };
+                        let coefficient = |wrong: i32| {
+                            let mut sum = zero();
+                            for (index, term) in terms.iter().enumerate() {
+                                let factor = term.factor + if index == 0 { wrong } else { 0 };
+                                for a in k.saturating_sub(ORDER)..=k.min(ORDER) {
+                                    let product = form(term.left, a) * form(term.right, k - a);
+                                    sum += product * exact(0.5 * f64::from(factor));
+                                }
+                            }
+                            sum
+                        };
+                        let (mut right, mut room) = (zero(), 0.0);
+                        if k == 0 {
+                            for &(near, radius) in eq.doubles()[e].iter().rev() {
+                                right = right * &z[0][m] + exact(near.hi) + exact(near.lo);
+                                room = 2.0 * room * high[m].abs() + 2.0 * radius + 1e-50;
+                            }
+                        }
+                        let value = coefficient(0) - &right;
+                        assert!(
+                            holds(found[e], &value, room),
+                            "{name} {e} {k}: {:?}",
+                            found[e]
+                        );
+                        let width = found[e].wid();
+                        assert!(
+                            width <= if k == 0 { 1e-25 } else { 1e-14 },
+                            "{name} {k}: {width:e}"
+                        );
+                        let wrong = coefficient(1) - right;
+                        let shift = &wrong - &value;
+                        if shift > exact(1e-10) || shift < exact(-1e-10) {
+                            assert!(!holds(found[e], &wrong, room));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,395 @@
+//! Certificates of edits, of sweeps and of open paths: verified as they are written, refused where they are damaged.
+
+mod common;
+
+use common::certificate::Certificate;
+use common::edits::{Random, case};
+use krawl::certificate::{Flaw, Outcome, Record, Settings, Verdict, Writer, verify};
+use krawl::edit::{Ending, Session, Setting};
+use krawl::problem::Problem;
+use krawl::track::{Control, Options, Status, Witness};
+
+fn check(bytes: &[u8]) -> Verdict {
+    verify(bytes, &Settings::default(), &mut |_| ()).unwrap()
+}
+
+/// What a session does, with the certificate that it leaves.
+fn certified<T>(
+    problem: &Problem,
+    work: impl FnOnce(&mut Session, &mut Control) -> T,
+) -> (T, Vec<u8>) {
+    let mut writer = Writer::new(Vec::new(), problem);
+    let mut control = Control {
+        witness: Some(&mut writer as &mut dyn Witness),
+        ..Control::default()
+    };
+    let mut session = Session::open_with(problem, &Options::certified(), &mut control).unwrap();
+    let done = work(&mut session, &mut control);
+    (done, writer.finish().unwrap())
+}
+
+fn edit(problem: &Problem, sets: &[&str]) -> (Ending, Vec<u8>) {
+    let settings = sets
+        .iter()
+        .map(|text| Setting::parse(problem, text).unwrap());
+    let settings: Vec<Setting> = settings.collect();
+    certified(problem, |session, control| {
+        session.edit_with(&settings, control).ending
+    })
+}
+
+fn plate() -> Problem {
+    Problem::read("docs/examples/plate.toml").unwrap()
+}
+
+/// The sketch is led to its dimensions first, then the edge to its new length.
+#[test]
+fn an_edit_is_verified() {
+    let (ending, bytes) = edit(&plate(), &["C-D=40"]);
+    assert_eq!(ending, Ending::Reached);
+    let verdict = check(&bytes);
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert!(verdict.is_about(&plate()));
+    let [correction, edit] = &verdict.arcs[..] else {
+        panic!("{:?}", verdict.arcs);
+    };
+    assert!(correction.claim.lengths.is_empty());
+    assert_eq!(edit.claim.lengths, [(2, "40".parse().unwrap())]);
+    assert_eq!(edit.claim.kept.len(), 9);
+    let [c, d] = [2, 3].map(|p| edit.figure[p]);
+    let length = ((c[0] - d[0]).sqr() + (c[1] - d[1]).sqr()).sqrt();
+    assert!(length.contains(40.0) && length.wid() < 1e-9);
+}
+
+/// Byte for byte: `certs/regenerate.sh` makes them again.
+#[test]
+fn shipped_edits_are_what_the_program_writes() {
+    for (name, set) in [("plate-reached", "C-D=40"), ("plate-limit", "C-D=30")] {
+        let (_, bytes) = edit(&plate(), &[set]);
+        assert!(
+            bytes == common::certificate::shipped(name),
+            "{name}: run certs/regenerate.sh"
+        );
+        assert_eq!(check(&bytes).outcome, Outcome::Verified);
+    }
+}
+
+/// To the limit, which the checker encloses by itself.
+#[test]
+fn a_limit_is_verified() {
+    let (ending, bytes) = edit(&plate(), &["C-D=30"]);
+    assert!(matches!(ending, Ending::Limit(_)));
+    let verdict = check(&bytes);
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    let t = verdict.arcs[1].t;
+    assert!(t.wid() < 1e-12);
+    // 49.5 − 19.5 t, as long as `krawl edit` says.
+    let limit = 49.5 - 19.5 * t.mid();
+    assert!((limit - 35.246_909_533_501_8).abs() < 1e-9, "{limit}");
+}
+
+/// Random figures: whatever is proved of an edit is verified.
+fn verified(count: usize, seed: u64, dimension: usize) {
+    let mut random = Random(seed);
+    let mut counts = [0; 3];
+    for _ in 0..count {
+        let points = 4 + random.below(6);
+        let case = case(&mut random, dimension, points, (0.7, 1.4));
+        let name = case.problem.distance_name(case.index);
+        let set = format!("{name}={}", case.length);
+        let (ending, bytes) = edit(&case.problem, &[&set]);
+        let verdict = check(&bytes);
+        let about = || {
+            format!(
+                "--set {set}\n{}{:?}",
+                case.problem.to_toml(),
+                verdict.outcome
+            )
+        };
+        match ending {
+            Ending::Reached | Ending::Limit(_) => {
+                assert_eq!(verdict.outcome, Outcome::Verified, "{}", about());
+                let t = verdict.arcs[0].t;
+                assert!(
+                    (t.inf() < 1.0) != (ending == Ending::Reached),
+                    "{}",
+                    about()
+                );
+            }
+            Ending::Passes(_) | Ending::Stopped(_) => {
+                assert!(
+                    matches!(verdict.outcome, Outcome::Partial(_)),
+                    "{}",
+                    about()
+                );
+                counts[2] += 1;
+                continue;
+            }
+        }
+        counts[usize::from(ending == Ending::Reached)] += 1;
+    }
+    println!(
+        "{} limits, {} reached, {} neither",
+        counts[0], counts[1], counts[2]
+    );
+    assert!(counts[0] > count / 8 && counts[1] > count / 8 && counts[2] <= count / 20);
+}
+
+#[test]
+fn random_edits_in_the_plane_are_verified() {
+    verified(60, 71, 2);
+}
+
+#[test]
+fn random_edits_in_space_are_verified() {
+    verified(40, 72, 3);
+}
+
+/// Every frame is the continuation of the one before.
+#[test]
+fn a_sweep_is_verified_up_to_its_limit() {
+    let problem = Problem::read("problems/mechanisms/four-bar.toml").unwrap();
+    let index = Setting::find(&problem, "B-D").unwrap();
+    let length = &problem.distances[index].target;
+    let krawl::problem::Target::Length(length) = length else {
+        panic!("{length:?}");
+    };
+    let from = length.to_f64();
+    let [from, to] = [from, 100.0 * from].map(|x| format!("{x}").parse().unwrap());
+    let (sweep, bytes) = certified(&problem, |session, control| {
+        session.sweep(index, (&from, &to), 200, control)
+    });
+    let verdict = check(&bytes);
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert!(matches!(sweep.end.unwrap().ending, Ending::Limit(_)));
+    let frames = verdict.arcs.iter().filter(|arc| arc.t.inf() == 1.0);
+    assert!(frames.count() >= sweep.frames.len());
+    assert!(verdict.arcs.last().unwrap().t.sup() < 1.0);
+}
+
+/// An angle stays what it is while a bar grows.
+#[test]
+fn edits_with_other_constraints_are_verified() {
+    let problem = Problem::parse(
+        r#"
+dimension = 2
+[points]
+a = [0, 0]
+b = [4, 0]
+c = [4, 3]
+d = [0.5, 3]
+[constraints]
+distances = [["a", "b", 4], ["b", "c", 3], ["a", "d", 3]]
+angles = [["a", "b", "c", 90], ["b", "a", "d", 80]]
+"#,
+        "test.toml",
+    )
+    .unwrap();
+    let (ending, bytes) = edit(&problem, &["a-b=5"]);
+    assert_eq!(ending, Ending::Reached);
+    let verdict = check(&bytes);
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert_eq!(verdict.arcs.len(), 2);
+}
+
+/// Both ways from the sketch, to two ends.
+#[test]
+fn an_open_path_is_verified() {
+    for name in ["constraints/3p3l", "quadrangle"] {
+        let problem = match name {
+            "quadrangle" => Problem::parse(QUADRANGLE, "test.toml").unwrap(),
+            _ => Problem::read(format!("problems/{name}.toml")).unwrap(),
+        };
+        let (outcome, bytes) = common::certificate::of(&problem, &Options::certified());
+        let verdict = check(&bytes);
+        assert_eq!(verdict.outcome, Outcome::Verified, "{name}");
+        let is_open = matches!(outcome.status, Status::Open(_));
+        assert_eq!(verdict.is_open, is_open, "{name}");
+        assert_eq!(verdict.solutions.len(), outcome.solutions.len(), "{name}");
+        assert!(is_open || name != "quadrangle");
+    }
+}
+
+const QUADRANGLE: &str = r#"
+dimension = 2
+[points]
+a = [0, 0]
+b = [4, 0]
+c = [4, 3]
+d = [0.5, 3]
+[constraints]
+distances = [["a", "b", 5], ["b", "c", 3.2], ["a", "d", 2.9]]
+angles = [["a", "b", "c", 80], ["b", "a", "d", 95]]
+[homotopy]
+bend = ["a", "d"]
+bend_coefficient = 2
+"#;
+
+/// Everything in a certificate of an edit that is damaged is refused.
+#[test]
+fn damaged_edits_are_refused() {
+    let reached = Certificate::read(&edit(&plate(), &["C-D=40"]).1);
+    let limit = Certificate::read(&edit(&plate(), &["C-D=30"]).1);
+    let change = |good: &Certificate, change: &dyn Fn(&mut Vec<Record>)| {
+        let mut broken = good.clone();
+        change(&mut broken.records);
+        broken.recount();
+        verify(&broken.bytes()[..], &Settings::default(), &mut |_| ()).map(|v| v.outcome)
+    };
+    let refused = |good: &Certificate, what: &str, damage: &dyn Fn(&mut Vec<Record>)| {
+        let outcome = change(good, damage);
+        println!("{what}: {outcome:?}");
+        assert!(!matches!(outcome, Ok(Outcome::Verified)), "{what}");
+    };
+    for good in [&reached, &limit] {
+        assert_eq!(change(good, &|_| ()).unwrap(), Outcome::Verified);
+        // Another length, no length, another dimension.
+        refused(good, "another length", &|records| {
+            arcs(records)[1].lengths[0].1 = "40.001".parse().unwrap();
+        });
+        refused(good, "another dimension", &|records| {
+            arcs(records)[1].lengths[0].0 = 3;
+        });
+        refused(good, "no length", &|records| {
+            arcs(records)[1].lengths.clear()
+        });
+        refused(good, "lengths in the first arc", &|records| {
+            arcs(records)[0].lengths = vec![(2, "49.5".parse().unwrap())];
+        });
+        for k in 0..9 {
+            refused(good, "a sign turned round", &|records| {
+                let kept = &mut arcs(records)[1].kept;
+                if let Some(sign) = kept.get_mut(k) {
+                    sign.1 = !sign.1;
+                } else {
+                    kept.push((vec![0, 0, 1], true));
+                }
+            });
+        }
+        refused(good, "the first arc left out", &|records| {
+            let next = records.iter().rposition(|r| matches!(r, Record::Arc(_)));
+            records.drain(..next.unwrap());
+        });
+        refused(good, "the last arc twice", &|records| {
+            let from = records.iter().rposition(|r| matches!(r, Record::Arc(_)));
+            let again = records[from.unwrap()..records.len() - 1].to_vec();
+            let at = records.len() - 1;
+            records.splice(at..at, again);
+        });
+        let tubes = good.tubes();
+        for k in 0..tubes {
+            refused(good, "a tube backwards", &|records| {
+                let tube = tube(records, k);
+                tube.normal.iter_mut().for_each(|c| *c = -*c);
+            });
+            refused(good, "a tube off the path", &|records| {
+                let tube = tube(records, k);
+                let r = f64::from(tube.r);
+                tube.centre.iter_mut().for_each(|x| *x += 30.0 * r);
+            });
+        }
+    }
+    refused(&reached, "another end", &|records| {
+        for record in records {
+            if let Record::Reached(figure) = record {
+                figure.centre[0] += 1e-6;
+            }
+        }
+    });
+    refused(&reached, "the last end left out", &|records| {
+        let at = records.len() - 2;
+        records.remove(at);
+    });
+    refused(&reached, "reached is no fold", &|records| {
+        let at = records.len() - 2;
+        let Record::Reached(figure) = &records[at] else {
+            panic!();
+        };
+        let fold = krawl::certificate::FoldClaim {
+            figure: figure.clone(),
+            t: 1.0,
+            t_radius: 1e-6,
+        };
+        records[at] = Record::Fold(fold);
+    });
+    type Change = fn(&mut krawl::certificate::FoldClaim);
+    let folds: [(&str, Change); 5] = [
+        ("t too high", |fold| fold.t += 1e-9),
+        ("t too low", |fold| fold.t -= 1e-9),
+        ("t at 1", |fold| fold.t = 1.0),
+        ("the figure elsewhere", |fold| fold.figure.centre[1] += 1e-6),
+        ("a box too narrow", |fold| fold.t_radius = 1e-30),
+    ];
+    for (what, damage) in folds {
+        refused(&limit, what, &|records| {
+            let at = records.len() - 2;
+            if let Record::Fold(fold) = &mut records[at] {
+                damage(fold);
+            }
+        });
+    }
+    refused(&limit, "a fold is no end", &|records| {
+        let at = records.len() - 2;
+        let Record::Fold(fold) = records[at].clone() else {
+            panic!();
+        };
+        records[at] = Record::Reached(fold.figure);
+    });
+    // A sketch that does not meet its dimensions is no figure to begin with.
+    let without = change(&reached, &|records| {
+        let next = records.iter().rposition(|r| matches!(r, Record::Arc(_)));
+        records.drain(..next.unwrap());
+    });
+    assert_eq!(without.unwrap(), Outcome::Refuted(Flaw::Met));
+}
+
+/// The way back is that from the sketch, and the other one.
+#[test]
+fn damaged_open_paths_are_refused() {
+    let problem = Problem::parse(QUADRANGLE, "test.toml").unwrap();
+    let good = Certificate::read(&common::certificate::of(&problem, &Options::certified()).1);
+    let turn = good
+        .records
+        .iter()
+        .position(|r| *r == Record::Turn)
+        .unwrap();
+    let outcome = |damage: &dyn Fn(&mut Vec<Record>)| {
+        let mut broken = good.clone();
+        damage(&mut broken.records);
+        broken.recount();
+        verify(&broken.bytes()[..], &Settings::default(), &mut |_| ()).map(|v| v.outcome)
+    };
+    // The same way twice.
+    let twice = outcome(&|records| {
+        let again: Vec<Record> = records[..turn].to_vec();
+        let tubes = again.into_iter().filter(|r| matches!(r, Record::Tube(_)));
+        let end = records.pop().unwrap();
+        records.truncate(turn + 1);
+        records.extend(tubes);
+        records.push(end);
+    });
+    assert!(!matches!(twice, Ok(Outcome::Verified)), "{twice:?}");
+    // Neither without the turn, nor without what follows it.
+    let joined = outcome(&|records| drop(records.remove(turn)));
+    assert!(joined.is_err(), "{joined:?}");
+    let alone = outcome(&|records| drop(records.drain(turn + 1..records.len() - 1)));
+    assert!(alone.is_err(), "{alone:?}");
+    let gap = outcome(&|records| drop(records.remove(turn + 2)));
+    assert!(!matches!(gap, Ok(Outcome::Verified)), "{gap:?}");
+}
+
+fn arcs(records: &mut [Record]) -> Vec<&mut krawl::certificate::ArcClaim> {
+    let arcs = records.iter_mut().filter_map(|record| match record {
+        Record::Arc(arc) => Some(arc),
+        _ => None,
+    });
+    arcs.collect()
+}
+
+fn tube(records: &mut [Record], k: usize) -> &mut krawl::certificate::TubeClaim {
+    let mut tubes = records.iter_mut().filter_map(|record| match record {
+        Record::Tube(tube) => Some(tube),
+        _ => None,
+    });
+    tubes.nth(k).unwrap()
+}
