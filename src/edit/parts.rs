@@ -13,7 +13,8 @@ use super::setting::Setting;
 use super::whole::sine;
 use crate::blocks::{Block, Blocks, Choice, Row, System};
 use crate::constraint::{
-    Entry, Equation, Form, KINDS, Lowered, Nonzero, Owner, Product, Record, Role, try_lower_all, value,
+    Entry, Equation, Form, KINDS, Lowered, Nonzero, Owner, Product, Record, Role, try_lower_all,
+    value,
 };
 use crate::interval::{Interval, Real, hull, point};
 use crate::problem::{Constraint, Decimal, Item, Problem, Shape};
