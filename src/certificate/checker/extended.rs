@@ -205,7 +205,12 @@ mod tests {
                         );
                         let width = found[e].wid();
                         assert!(
-                            width <= if k == 0 { 1e-25 } else { 1e-14 },
+                            width
+                                <= if k == 0 {
+                                    1e-15 * found[e].mag() + 1e-25
+                                } else {
+                                    1e-14
+                                },
                             "{name} {k}: {width:e}"
                         );
                         let wrong = coefficient(1) - right;
