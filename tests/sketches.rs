@@ -237,3 +237,35 @@ fn a_height_keeps_its_sign() {
     assert!((place(&session, "c")[1] - 100.0 / 3f64.sqrt()).abs() < 1e-9);
     assert_eq!(edited.orientations.kept.len(), 1);
 }
+
+/// b on the circle over a-c sees a and c at a right angle, until it is led to a itself: there the angle has no leg, though
+/// the equations hold all the way and beyond.
+#[test]
+fn an_angle_without_a_leg_is_no_figure() {
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [0.5, 1.32]\nc = [4, 0]\n\
+                [constraints]\nfixed = [\"a\", \"c\"]\ny = [[\"b\", 1.32]]\nperpendicular = [[\"a\", \"b\", \"b\", \"c\"]]\n";
+    let problem = Problem::parse(text, "leg.toml").unwrap();
+    for (height, is_reached) in [("1.5", true), ("0.01", true), ("0", false), ("-1", false)] {
+        let mut session = Session::open(&problem).unwrap();
+        let before = session.figure();
+        let edited = edit(&mut session, &format!("y:b={height}"));
+        assert_eq!(
+            edited.ending == Ending::Reached,
+            is_reached,
+            "{height}: {edited:?}"
+        );
+        if !is_reached {
+            let (Ending::Passes(what) | Ending::Stopped(what)) = &edited.ending else {
+                panic!("{edited:?}");
+            };
+            assert!(what.contains("a-b"), "{what}");
+            assert_eq!(session.figure(), before);
+        }
+    }
+    // A figure that has no leg to begin with is refused when it is read.
+    let text = text
+        .replace("b = [0.5, 1.32]", "b = [0, 0]")
+        .replace("1.32", "0");
+    let error = Problem::parse(&text, "leg.toml").unwrap_err().to_string();
+    assert!(error.contains("a and b coincide"), "{error}");
+}

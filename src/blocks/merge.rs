@@ -1,6 +1,6 @@
 //! Unknowns that are one are made one.
 
-use crate::constraint::{Entry, Form, Lowered, Product, Role, Unknown, product};
+use crate::constraint::{Entry, Form, Lowered, Nonzero, Product, Role, Unknown, product};
 use crate::interval::{Real, enclose};
 use crate::problem::Problem;
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,6 +31,8 @@ pub struct System {
     pub rows: Vec<Row>,
     /// Equations of which nothing is left: they hold because unknowns are one.
     pub implied: Vec<usize>,
+    /// Vectors that must not vanish along a path, in these unknowns.
+    pub nonzero: Vec<Nonzero>,
     /// How many coordinates the unknowns that are coordinates stand for.
     pub merged: usize,
 }
@@ -122,7 +124,12 @@ impl System {
                 unknowns: unknowns.into_iter().collect(),
             });
         }
+        let nonzero = lowered.tail.nonzero.iter().map(|vector| Nonzero {
+            name: vector.name.clone(),
+            forms: vector.forms.map(|form| map(form, &entry)),
+        });
         System {
+            nonzero: nonzero.collect(),
             unknowns,
             values,
             coordinates: (0..places).map(of).collect(),

@@ -13,7 +13,8 @@ use super::setting::Setting;
 use super::whole::sine;
 use crate::blocks::{Block, Blocks, Choice, Row, System};
 use crate::constraint::{
-    Entry, Equation, Form, KINDS, Lowered, Owner, Product, Record, Role, try_lower_all, value,
+    Entry, Equation, Form, KINDS, Lowered, Nonzero, Owner, Product, Record, Role, try_lower_all,
+    value,
 };
 use crate::interval::{Interval, Real, hull, point};
 use crate::problem::{Constraint, Decimal, Item, Problem, Shape};
@@ -268,7 +269,7 @@ impl Parts {
             tubes: run.tubes.max(usize::from(distance > 0.0)),
         };
         self.figure = figure;
-        match self.broken(rights) {
+        match self.broken(rights).or_else(|| self.vanished()) {
             Some(what) => Err(failed(Ending::Stopped(what.clone()), what)),
             None => Ok(()),
         }
@@ -508,7 +509,7 @@ impl Parts {
                 let mut figure = None;
                 if let End::Reached(reached) = &run.end {
                     let old = std::mem::replace(&mut self.figure, reached.clone());
-                    match self.broken(&rights) {
+                    match self.broken(&rights).or_else(|| self.vanished()) {
                         Some(what) => {
                             run.end = End::Stopped(what);
                             run.t = (0.0, 0.0);
@@ -716,6 +717,19 @@ impl Parts {
                 taken.extend(of);
             }
         }
+        // So are the unknowns of vectors that must not vanish, if any of them moves.
+        for vector in &self.system.nonzero {
+            let of = self.unknowns_of_vector(vector).into_iter();
+            let of: BTreeSet<usize> = of.map(|u| self.blocks.of_unknown[u]).collect();
+            if !of.iter().any(|&b| moving[b]) {
+                continue;
+            }
+            let of: Vec<usize> = of.into_iter().filter(|&b| !self.is_exact[b]).collect();
+            if let Some(&first) = of.first() {
+                of.iter().for_each(|&b| join(first, b));
+                taken.extend(of);
+            }
+        }
         let with_needs = self.blocks.with_needs(taken);
         let not_exact: Vec<usize> = with_needs
             .into_iter()
@@ -752,6 +766,13 @@ impl Parts {
             let of: Vec<usize> = places
                 .map(|place| self.blocks.of_unknown[self.system.coordinates[place]])
                 .collect();
+            if of.iter().any(|b| taken.contains(b) && !self.is_exact[*b]) {
+                blocks.extend(of);
+            }
+        }
+        for vector in &self.system.nonzero {
+            let of = self.unknowns_of_vector(vector).into_iter();
+            let of: Vec<usize> = of.map(|u| self.blocks.of_unknown[u]).collect();
             if of.iter().any(|b| taken.contains(b) && !self.is_exact[*b]) {
                 blocks.extend(of);
             }
@@ -863,7 +884,19 @@ impl Parts {
             let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
             places.all(|place| coordinates[place].is_some())
         };
+        let nonzero = self.system.nonzero.iter().filter(|vector| {
+            let of = self.unknowns_of_vector(vector);
+            of.iter().all(|u| local.contains_key(u))
+        });
+        let nonzero = nonzero.map(|vector| Nonzero {
+            name: vector.name.clone(),
+            forms: std::array::from_fn(|axis| match axis < d {
+                true => form(vector.forms[axis]),
+                false => Form::Difference(Entry::Zero, Entry::Zero),
+            }),
+        });
         Homotopy::of_part(Part {
+            nonzero: nonzero.collect(),
             dimension: d,
             unit: self.unit,
             unknowns: unknowns
@@ -914,6 +947,13 @@ impl Parts {
                 out.t = (0.0, 0.0);
                 return out;
             }
+        }
+        if let Some(name) = self.vanishes_exactly(exact) {
+            out.end = End::Stopped(format!(
+                "{name} may vanish on the way, and what is said of its direction would say nothing there"
+            ));
+            out.t = (0.0, 0.0);
+            return out;
         }
         let at = |time: Interval| -> Vec<Known> {
             let mut figure = self.figure.clone();
@@ -977,6 +1017,83 @@ impl Parts {
     }
 
     /// Orientations of points all of whose coordinates are known exactly.
+    /// The unknowns in a vector.
+    fn unknowns_of_vector(&self, vector: &Nonzero) -> Vec<usize> {
+        let entries = vector.forms[..self.problem.dimension].iter();
+        let entries = entries.flat_map(|form| match *form {
+            Form::One => [Entry::Zero; 2],
+            Form::Difference(a, b) => [a, b],
+        });
+        entries
+            .filter_map(|entry| match entry {
+                Entry::Unknown(u) => Some(u),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// The coordinates of a vector, from enclosures of unknowns.
+    fn coordinates_of(&self, vector: &Nonzero, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
+        let value = |entry: Entry| match entry {
+            Entry::Unknown(u) => at(u),
+            _ => point(0.0),
+        };
+        let forms = vector.forms[..self.problem.dimension].iter();
+        forms
+            .map(|form| match *form {
+                Form::One => point(1.0),
+                // The same number twice: no difference, however widely it is enclosed.
+                Form::Difference(a, b) if a == b => point(0.0),
+                Form::Difference(a, b) => value(a) - value(b),
+            })
+            .collect()
+    }
+
+    /// A vector that must not vanish and may do so in the figure.
+    fn vanished(&self) -> Option<String> {
+        let mut vectors = self.system.nonzero.iter();
+        let vector = vectors.find(|vector| {
+            let place = self.coordinates_of(vector, |u| self.figure[u].enclosure());
+            place.iter().all(|x| x.contains(0.0))
+        })?;
+        Some(format!(
+            "{} has no length in this figure, and so no direction that a constraint could be about",
+            vector.name
+        ))
+    }
+
+    /// A vector that must not vanish, of numbers that are known exactly, and may do so for some t between 0 and 1.
+    /// (Others are in a part that is followed.)
+    fn vanishes_exactly(&self, exact: &HashMap<usize, Vec<Real>>) -> Option<String> {
+        const PIECES: u32 = 64;
+        let enclosures: HashMap<usize, Vec<Interval>> = exact
+            .iter()
+            .map(|(&u, polynomial)| {
+                let scale = self.unit.powi(self.system.unknowns[u].power);
+                (u, enclosed(polynomial, scale))
+            })
+            .collect();
+        let mut vectors = self.system.nonzero.iter();
+        let vector = vectors.find(|vector| {
+            let of = self.unknowns_of_vector(vector);
+            let is_exact = |u: &usize| self.is_exact[self.blocks.of_unknown[*u]];
+            if !of.iter().all(is_exact) || !of.iter().any(|u| exact.contains_key(u)) {
+                return false;
+            }
+            let step = 1.0 / f64::from(PIECES);
+            // The ends of pieces are multiples of 1/64, exactly.
+            !(0..PIECES).all(|k| {
+                let time = hull(f64::from(k) * step, f64::from(k + 1) * step);
+                let place = self.coordinates_of(vector, |u| match enclosures.get(&u) {
+                    Some(p) => p.iter().rev().fold(point(0.0), |sum, c| sum * time + *c),
+                    None => self.figure[u].enclosure(),
+                });
+                place.iter().any(|x| !x.contains(0.0))
+            })
+        })?;
+        Some(vector.name.clone())
+    }
+
     fn exact_orientations(
         &self,
         exact: &HashMap<usize, Vec<Real>>,

@@ -1,7 +1,7 @@
 //! A homotopy made of equations and unknowns directly: a part of a problem's, or its with some unknowns made one.
 
 use super::{Gauge, Homotopy};
-use crate::constraint::{Equation, Tail, Unknown};
+use crate::constraint::{Equation, Nonzero, Tail, Unknown};
 
 /// Equations in unknowns that are all listed; [`crate::constraint::Entry::Unknown`] is an index into them.
 #[derive(Debug, Clone)]
@@ -16,6 +16,8 @@ pub struct Part {
     pub unknowns: Vec<Unknown>,
     /// As many equations.
     pub equations: Vec<Equation>,
+    /// Vectors that must not vanish along the path.
+    pub nonzero: Vec<Nonzero>,
     /// Points of which the orientation is followed: three in the plane, four in space.
     pub followed: Vec<Vec<usize>>,
 }
@@ -39,6 +41,7 @@ impl Homotopy {
         let tail = Tail {
             unknowns: part.unknowns,
             equations: part.equations,
+            nonzero: part.nonzero,
             mirrors: false,
             ..Tail::default()
         };
