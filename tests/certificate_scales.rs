@@ -18,7 +18,7 @@ use proptest::test_runner::{Config, TestRunner};
 struct Tally {
     closed: usize,
     stopped: usize,
-    /// Runs with tubes or solutions in extended precision, whose proofs certificates do not hold in full.
+    /// Runs with tubes in extended precision whose certificates are not proved in full.
     extended: usize,
     faults: Vec<String>,
 }
@@ -33,9 +33,10 @@ impl Tally {
         let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
         let right = match &run.status {
             Status::Open(_) => panic!("distances alone have no open paths"),
-            Status::Closed
+            // A proof that the checker's bounds are too coarse for: it says so.
+            Status::Closed | Status::Stopped(_)
                 if run.switched_on.iter().any(|s| s.contains("extended"))
-                    && matches!(verdict.outcome, Outcome::Partial(_) | Outcome::NotProved(_)) =>
+                    && matches!(verdict.outcome, Outcome::NotProved(_)) =>
             {
                 self.extended += 1;
                 true
@@ -66,7 +67,7 @@ impl Tally {
     /// Prints it, and fails if there is a fault, or if too few runs closed to say anything.
     fn conclude(&self, what: &str, least_closed: usize) {
         println!(
-            "{what}: {} closed, {} stopped, {} with tubes in extended precision",
+            "{what}: {} closed, {} stopped, {} not proved, with tubes in extended precision",
             self.closed, self.stopped, self.extended
         );
         assert!(
@@ -75,6 +76,7 @@ impl Tally {
             self.faults.join("\n")
         );
         assert!(self.closed >= least_closed, "{what}: {self:?}");
+        assert!(self.extended <= 16, "{what}: {self:?}");
     }
 }
 

@@ -34,6 +34,9 @@ pub struct Writer<'a, W> {
     solutions: usize,
     /// The way back from the sketch, and how many solutions there were before.
     back: Option<(Vec<Record>, usize)>,
+    /// The last tubes, in extended precision, and their solutions: left out where the run stops among them, near a
+    /// singular place, as the checker's bounds are coarser.
+    held: Vec<Record>,
     /// The edit at hand: what it changes, and its tubes so far.
     arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
@@ -58,6 +61,7 @@ impl<'a, W: Write> Writer<'a, W> {
             tubes: 0,
             solutions: 0,
             back: None,
+            held: Vec::new(),
             arc: None,
             edits: None,
             ended: false,
@@ -88,6 +92,12 @@ impl<'a, W: Write> Writer<'a, W> {
             records.push(record.clone());
         } else if self.result.is_ok() {
             self.result = write_record(&mut self.out, record);
+        }
+    }
+
+    fn release(&mut self) {
+        for record in std::mem::take(&mut self.held) {
+            self.put(&record);
         }
     }
 
@@ -140,7 +150,12 @@ impl<W: Write> Witness for Writer<'_, W> {
             Some(arc) => arc.tubes.push(tube),
             None => {
                 self.tubes += 1;
-                self.put(&Record::Tube(tube));
+                if tube.low.is_empty() {
+                    self.release();
+                    self.put(&Record::Tube(tube));
+                } else {
+                    self.held.push(Record::Tube(tube));
+                }
             }
         }
     }
@@ -149,15 +164,21 @@ impl<W: Write> Witness for Writer<'_, W> {
         // An edit's figures stand at its end.
         if self.arc.is_none() {
             self.solutions += 1;
-            self.put(&Record::Solution(solution_claim(centre, radius, WIDER)));
+            let record = Record::Solution(solution_claim(centre, radius, WIDER));
+            match self.held.is_empty() {
+                true => self.put(&record),
+                false => self.held.push(record),
+            }
         }
     }
 
     fn turn(&mut self) {
+        self.release();
         self.back = Some((vec![Record::Turn], self.solutions));
     }
 
     fn end_turn(&mut self, kept: bool) {
+        self.release();
         let Some((records, solutions)) = self.back.take() else {
             return;
         };
@@ -189,9 +210,12 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn end_arc(&mut self, run: &ArcRun) {
-        let Some(Following { lengths, tubes }) = self.arc.take() else {
+        let Some(Following { lengths, mut tubes }) = self.arc.take() else {
             return;
         };
+        if matches!(run.end, ArcEnd::Passes(_) | ArcEnd::Stopped(_)) {
+            while tubes.pop_if(|tube| !tube.low.is_empty()).is_some() {}
+        }
         let kept = run
             .orientations
             .iter()
@@ -237,6 +261,17 @@ impl<W: Write> Witness for Writer<'_, W> {
             }
             Status::Stopped(reason) => Ending::Stopped(shortened(reason)),
         };
+        match &ending {
+            Ending::Stopped(_) => {
+                for record in self.held.drain(..) {
+                    match record {
+                        Record::Tube(_) => self.tubes -= 1,
+                        _ => self.solutions -= 1,
+                    }
+                }
+            }
+            Ending::Complete | Ending::Open(_) => self.release(),
+        }
         // Those that were written are the first ones, and classes are numbered as they come.
         self.close(ending, &classes[..self.solutions.min(classes.len())]);
     }
