@@ -405,8 +405,7 @@ mod tests {
 
     // Far from where krawl's is one float further out (`round`).
     fn end() -> impl Strategy<Value = f64> {
-        let float =
-            (any::<i64>(), -60i32..40).prop_map(|(digits, e)| digits as f64 * 2f64.powi(e));
+        let float = (any::<i64>(), -60i32..40).prop_map(|(digits, e)| digits as f64 * 2f64.powi(e));
         prop_oneof![
             6 => float,
             3 => (-4i32..5).prop_map(f64::from),
