@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::QUADRANGLE;
 use common::certificate::Certificate;
 use common::edits::{Random, case};
 use krawl::certificate::{Flaw, Outcome, Record, Settings, Verdict, Writer, verify};
@@ -209,21 +210,6 @@ fn an_open_path_is_verified() {
         assert!(is_open || name != "quadrangle");
     }
 }
-
-const QUADRANGLE: &str = r#"
-dimension = 2
-[points]
-a = [0, 0]
-b = [4, 0]
-c = [4, 3]
-d = [0.5, 3]
-[constraints]
-distances = [["a", "b", 5], ["b", "c", 3.2], ["a", "d", 2.9]]
-angles = [["a", "b", "c", 80], ["b", "a", "d", 95]]
-[homotopy]
-bend = ["a", "d"]
-bend_coefficient = 2
-"#;
 
 /// Everything in a certificate of an edit that is damaged is refused.
 #[test]

@@ -1,5 +1,8 @@
 //! Paths with two ends, and edits of figures with other constraints than distances.
 
+mod common;
+
+use common::QUADRANGLE;
 use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
 use krawl::track::{Control, EndKind, Options, Outcome, Space, Status, solve};
@@ -11,23 +14,6 @@ fn parse(text: &str) -> Problem {
 fn run(problem: &Problem, options: &Options) -> Outcome {
     solve(problem, options, &mut Control::default()).unwrap()
 }
-
-/// A quadrangle with two angles given. Its bar a-d is led through a length of zero on either side, where the
-/// angle at a loses its leg.
-const QUADRANGLE: &str = r#"
-dimension = 2
-[points]
-a = [0, 0]
-b = [4, 0]
-c = [4, 3]
-d = [0.5, 3]
-[constraints]
-distances = [["a", "b", 5], ["b", "c", 3.2], ["a", "d", 2.9]]
-angles = [["a", "b", "c", 80], ["b", "a", "d", 95]]
-[homotopy]
-bend = ["a", "d"]
-bend_coefficient = 2
-"#;
 
 #[test]
 fn a_path_whose_angle_loses_its_leg_is_open_both_ways() {

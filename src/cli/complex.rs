@@ -1,10 +1,9 @@
 //! `krawl complex`: all complex solutions of a problem.
 
 use super::output::{self, Destination};
-use super::template::Search;
+use super::template::{Search, read};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
-use krawl::complex::{Status, Template, Ways, lower, solve};
-use krawl::problem::Problem;
+use krawl::complex::{Status, Template, Ways, solve};
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -51,8 +50,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
-    let lowered = lower(&problem).map_err(|error| format!("{file}: {error}"))?;
+    let (problem, lowered) = read(&arguments.file)?;
     for given in [Some(&arguments.file), arguments.template.as_ref()]
         .into_iter()
         .flatten()

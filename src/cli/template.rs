@@ -5,7 +5,7 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, interrupt};
 use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower};
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -95,10 +95,16 @@ pub fn run(arguments: &Arguments) -> u8 {
     output::exit_code(try_run(arguments))
 }
 
+/// A problem, and its complex equations.
+pub(super) fn read(file: &Path) -> Result<(Problem, Lowered), String> {
+    let problem = Problem::read(file).map_err(|error| error.to_string())?;
+    let lowered = lower(&problem).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok((problem, lowered))
+}
+
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
-    let lowered = lower(&problem).map_err(|error| format!("{file}: {error}"))?;
+    let (problem, lowered) = read(&arguments.file)?;
     if output::is_same_file(&arguments.out, &arguments.file) {
         return Err(format!(
             "{file}: is the problem itself; name another file for the template"

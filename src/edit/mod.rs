@@ -36,6 +36,7 @@
 //! ```
 
 mod ending;
+mod flat;
 mod limits;
 mod open;
 mod parts;

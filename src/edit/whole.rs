@@ -14,9 +14,6 @@ use std::borrow::Cow;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// Points are said to be on one line, or in one plane, where the sine of the angle is at most this.
-const FLAT: f64 = 1e-9;
-
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
 #[derive(Debug)]
 pub(super) struct Whole {
@@ -233,14 +230,6 @@ impl Whole {
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
         let homotopy = self.arcs.homotopy();
         let places = open::coordinates(homotopy, &fold.figure);
-        let (mut flat, mut flat_within) = (Vec::new(), 0.0f64);
-        for orientation in orientations.iter().filter(|o| o.sign != 0) {
-            let sine = sine(&places, &orientation.points);
-            if sine <= FLAT {
-                flat.push(orientation.points.clone());
-                flat_within = flat_within.max(sine);
-            }
-        }
         let velocity = Figure {
             centre: fold.velocity.clone(),
             low: vec![0.0; fold.velocity.len()],
@@ -252,17 +241,7 @@ impl Whole {
             let v = v.map(|x| x.mid());
             self.stand.turn(d, &places, v)
         });
-        let mut motion: Vec<[f64; 3]> = turned.collect();
-        let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let largest = motion.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
-        for v in &mut motion {
-            *v = v.map(|x| x / largest);
-        }
-        Limit {
-            flat,
-            flat_within,
-            motion,
-        }
+        Limit::new(&places, orientations, turned.collect())
     }
 
     /// A figure in the coordinates and lengths of the problem.
@@ -282,32 +261,5 @@ pub(super) fn length(target: &Target) -> Interval {
     match target {
         Target::Length(length) => enclose(length),
         Target::SquaredLength(squared) => enclose(squared).sqrt(),
-    }
-}
-
-/// A bound on the determinant of the differences of some points from the first, over the product of their
-/// lengths: in the plane the sine of the angle at the first point. 1 where it cannot be told.
-pub(super) fn sine(places: &[[Interval; 3]], points: &[usize]) -> f64 {
-    let [first, others @ ..] = points else {
-        return 1.0;
-    };
-    let from_first =
-        |p: &usize| -> [Interval; 3] { std::array::from_fn(|k| places[*p][k] - places[*first][k]) };
-    let sides: Vec<[Interval; 3]> = others.iter().map(from_first).collect();
-    let minor =
-        |v: &[Interval; 3], w: &[Interval; 3], i: usize, j: usize| v[i] * w[j] - v[j] * w[i];
-    let determinant = match sides.as_slice() {
-        [u, v] => minor(u, v, 0, 1),
-        [u, v, w] => u[0] * minor(v, w, 1, 2) + u[1] * minor(v, w, 2, 0) + u[2] * minor(v, w, 0, 1),
-        _ => return 1.0,
-    };
-    let size = |u: &[Interval; 3]| (u[0].sqr() + u[1].sqr() + u[2].sqr()).sqrt();
-    let product = sides
-        .iter()
-        .fold(point(1.0), |product, u| product * size(u));
-    if product.inf() > 0.0 {
-        (determinant / product).mag()
-    } else {
-        1.0
     }
 }

@@ -90,6 +90,16 @@ impl Drawing {
         &self.objects[object].shape
     }
 
+    /// The object, if it is a line.
+    pub fn if_line(&self, object: usize) -> Option<usize> {
+        matches!(self.shape(object), Shape::Line(_)).then_some(object)
+    }
+
+    /// The object, if it is a circle or an arc.
+    pub fn if_round(&self, object: usize) -> Option<usize> {
+        (!matches!(self.shape(object), Shape::Line(_))).then_some(object)
+    }
+
     /// What a constraint of the file is called there.
     pub fn name(&mut self, source: Source, name: String) {
         self.names.insert(source, name);

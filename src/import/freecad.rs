@@ -321,12 +321,12 @@ impl Reader {
 
     fn line_of(&mut self, id: i64) -> Option<usize> {
         let object = self.object_of(id)?;
-        matches!(self.drawing.shape(object), Shape::Line(_)).then_some(object)
+        self.drawing.if_line(object)
     }
 
     fn round_of(&mut self, id: i64) -> Option<usize> {
         let object = self.object_of(id)?;
-        (!matches!(self.drawing.shape(object), Shape::Line(_))).then_some(object)
+        self.drawing.if_round(object)
     }
 
     fn ends_of(&mut self, id: i64) -> Option<[usize; 2]> {

@@ -386,12 +386,12 @@ impl Reader<'_> {
 
     fn line(&mut self, handle: Handle) -> Option<usize> {
         let object = self.object(handle)?;
-        matches!(self.drawing.shape(object), Shape::Line(_)).then_some(object)
+        self.drawing.if_line(object)
     }
 
     fn round(&mut self, handle: Handle) -> Option<usize> {
         let object = self.object(handle)?;
-        (!matches!(self.drawing.shape(object), Shape::Line(_))).then_some(object)
+        self.drawing.if_round(object)
     }
 
     /// Puts a constraint down; `None` where there is no kind for it.

@@ -121,11 +121,12 @@ fn solve(
         };
         Ok(run.to_json())
     };
-    let json = interruptible(py, work)?;
+    let json = interruptible(py, work);
+    // After Ctrl-C too: what was proved by then is kept.
     if let (Some(writer), Some(path)) = (proof, &certificate) {
         writer.finish().map_err(|error| unwritten(path, &error))?;
     }
-    json
+    json?
 }
 
 /// All figures with the distances: JSON as of `krawl all --json`.

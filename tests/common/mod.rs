@@ -109,3 +109,20 @@ pub fn numbers_in(reason: &str) -> Vec<f64> {
         .filter_map(|word| word.parse().ok())
         .collect()
 }
+
+/// A quadrangle with two angles given. Its bar a-d is led through a length of zero on either side, where the
+/// angle at a loses its leg.
+pub const QUADRANGLE: &str = r#"
+dimension = 2
+[points]
+a = [0, 0]
+b = [4, 0]
+c = [4, 3]
+d = [0.5, 3]
+[constraints]
+distances = [["a", "b", 5], ["b", "c", 3.2], ["a", "d", 2.9]]
+angles = [["a", "b", "c", 80], ["b", "a", "d", 95]]
+[homotopy]
+bend = ["a", "d"]
+bend_coefficient = 2
+"#;

@@ -93,6 +93,16 @@ def test_certificates_verify_and_are_about_their_problem(tmp_path):
         assert str(proof) in str(error)
 
 
+def test_a_certificate_never_overwrites_its_problem(tmp_path):
+    problem = tmp_path / "octahedron.toml"
+    text = OCTAHEDRON.read_text()
+    problem.write_text(text)
+    for verb in (krawl.solve, krawl.complete):
+        with pytest.raises(krawl.Error, match="the problem itself"):
+            verb(problem, certificate=problem)
+    assert problem.read_text() == text
+
+
 def test_complete_sets_and_their_covers(tmp_path):
     proof = tmp_path / "prism.cover"
     result = krawl.complete(ROOT / "problems/prism.toml", certificate=proof, threads=1)

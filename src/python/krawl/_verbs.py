@@ -10,6 +10,7 @@ from typing import Any, Callable, Optional
 import numpy as np
 
 from . import _krawl
+from ._krawl import Error
 from ._problem import text_and_name
 from ._results import Complete, Edited, Figure, Run, Solution, Verdict, figure
 
@@ -46,7 +47,7 @@ def solve(
         reverse=reverse,
         extended=extended,
         samples=samples,
-        certificate=_path(certificate),
+        certificate=_beside(problem, certificate),
         progress=progress,
     )
     data = json.loads(answer)
@@ -70,7 +71,7 @@ def complete(
     """
     text, name = text_and_name(problem)
     answer = _krawl.complete_set(
-        text, name, threads=threads, time=time, certificate=_path(certificate), progress=progress
+        text, name, threads=threads, time=time, certificate=_beside(problem, certificate), progress=progress
     )
     data = json.loads(answer)
     return Complete(data["status"], _solutions(data, None), data)
@@ -123,8 +124,14 @@ def _dimension(points: dict) -> int:
     return max((len(place) for place in points.values()), default=3)
 
 
-def _path(path: Any) -> Optional[str]:
-    return None if path is None else os.fspath(path)
+def _beside(problem: Any, certificate: Any) -> Optional[str]:
+    """Where a certificate goes, which must not be the problem itself."""
+    if certificate is None:
+        return None
+    if isinstance(problem, (str, os.PathLike)) and os.path.exists(certificate):
+        if os.path.samefile(problem, certificate):
+            raise Error(f"{certificate}: is the problem itself; name another file for the certificate")
+    return os.fspath(certificate)
 
 
 def _number(value: Any) -> str:

@@ -1,0 +1,212 @@
+//! Numbers that are known exactly all the way, as polynomials in t, and what can be said of them without any tube.
+
+use super::{Parts, Used};
+use crate::constraint::{Entry, Form, Nonzero};
+use crate::interval::{Interval, Real, hull, point};
+use crate::track::arc::Orientation;
+use std::collections::HashMap;
+
+impl Parts {
+    /// The polynomials of moving unknowns that are known exactly.
+    pub(super) fn exact_polynomials(
+        &self,
+        rights: &[Vec<Real>],
+        moving: &[bool],
+    ) -> HashMap<usize, Vec<Real>> {
+        let mut all: HashMap<usize, Vec<Real>> = HashMap::new();
+        // What they need that stands still is needed too.
+        let wanted = (0..moving.len()).filter(|&b| moving[b] && self.is_exact[b]);
+        for b in self.blocks.with_needs(wanted) {
+            let block = &self.blocks.blocks[b];
+            let (u, used) = (block.unknowns[0], self.used[block.equations[0]]);
+            let mut right = self.rights_of(used, rights);
+            let mut factor = 0;
+            if let Used::Row(row) = used {
+                let mut add = |v: usize, by: i32| {
+                    if v == u {
+                        factor += by;
+                        return;
+                    }
+                    // By halves, as all products are.
+                    let by = &Real::whole((-by).into()) / &Real::whole(2);
+                    for (k, c) in all[&v].iter().enumerate() {
+                        if k == right.len() {
+                            right.push(Real::zero());
+                        }
+                        right[k] = &right[k] + &(&by * c);
+                    }
+                };
+                for p in &self.system.rows[row].products {
+                    match (p.left, p.right) {
+                        (Form::Difference(a, b), Form::One)
+                        | (Form::One, Form::Difference(a, b)) => {
+                            for (entry, by) in [(a, p.factor), (b, -p.factor)] {
+                                if let Entry::Unknown(v) = entry {
+                                    add(v, by);
+                                }
+                            }
+                        }
+                        _ => unreachable!("an exact block is linear"),
+                    }
+                }
+                let per = &Real::whole(2) / &Real::whole(factor.into());
+                right.iter_mut().for_each(|c| *c = &*c * &per);
+            }
+            all.insert(u, right);
+        }
+        all.retain(|&u, _| moving[self.blocks.of_unknown[u]]);
+        all
+    }
+
+    /// Enclosures of the polynomials' coefficients, in the homotopy's unit.
+    pub(super) fn paths(&self, exact: &HashMap<usize, Vec<Real>>) -> HashMap<usize, Vec<Interval>> {
+        let path = |(&u, polynomial): (&usize, &Vec<Real>)| {
+            let scale = self.unit.powi(self.system.unknowns[u].power);
+            (u, enclosed(polynomial, scale))
+        };
+        exact.iter().map(path).collect()
+    }
+
+    /// An unknown at a time: where its path is, or where it stands.
+    fn place_at(
+        &self,
+        paths: &HashMap<usize, Vec<Interval>>,
+        u: usize,
+        time: Interval,
+    ) -> Interval {
+        match paths.get(&u) {
+            Some(path) => value_at(path, time),
+            None => self.figure[u].enclosure(),
+        }
+    }
+
+    /// The unknowns in a vector.
+    pub(super) fn unknowns_of_vector(&self, vector: &Nonzero) -> Vec<usize> {
+        let entries = vector.forms[..self.problem.dimension].iter();
+        let entries = entries.flat_map(|form| match *form {
+            Form::One => [Entry::Zero; 2],
+            Form::Difference(a, b) => [a, b],
+        });
+        entries
+            .filter_map(|entry| match entry {
+                Entry::Unknown(u) => Some(u),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// The coordinates of a vector, from enclosures of unknowns.
+    fn coordinates_of(&self, vector: &Nonzero, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
+        let value = |entry: Entry| match entry {
+            Entry::Unknown(u) => at(u),
+            _ => point(0.0),
+        };
+        let forms = vector.forms[..self.problem.dimension].iter();
+        forms
+            .map(|form| match *form {
+                Form::One => point(1.0),
+                // The same number twice: no difference, however widely it is enclosed.
+                Form::Difference(a, b) if a == b => point(0.0),
+                Form::Difference(a, b) => value(a) - value(b),
+            })
+            .collect()
+    }
+
+    /// A vector that must not vanish and may do so in the figure.
+    pub(super) fn vanished(&self) -> Option<String> {
+        let mut vectors = self.system.nonzero.iter();
+        let vector = vectors.find(|vector| {
+            let place = self.coordinates_of(vector, |u| self.figure[u].enclosure());
+            place.iter().all(|x| x.contains(0.0))
+        })?;
+        Some(format!(
+            "{} has no length in this figure, and so no direction that a constraint could be about",
+            vector.name
+        ))
+    }
+
+    /// A vector that must not vanish, of numbers that are known exactly, and may do so for some t between 0 and 1.
+    /// (Others are in a part that is followed.)
+    pub(super) fn vanishes_exactly(&self, exact: &HashMap<usize, Vec<Real>>) -> Option<String> {
+        let paths = self.paths(exact);
+        let mut vectors = self.system.nonzero.iter();
+        let vector = vectors.find(|vector| {
+            let of = self.unknowns_of_vector(vector);
+            let is_exact = |u: &usize| self.is_exact[self.blocks.of_unknown[*u]];
+            if !of.iter().all(is_exact) || !of.iter().any(|u| exact.contains_key(u)) {
+                return false;
+            }
+            !pieces(1.0).all(|time| {
+                let place = self.coordinates_of(vector, |u| self.place_at(&paths, u, time));
+                place.iter().any(|x| !x.contains(0.0))
+            })
+        })?;
+        Some(vector.name.clone())
+    }
+
+    /// Orientations of points all of whose coordinates are known exactly.
+    pub(super) fn exact_orientations(
+        &self,
+        exact: &HashMap<usize, Vec<Real>>,
+        upto: Interval,
+    ) -> Vec<Orientation> {
+        let d = self.problem.dimension;
+        let mut out = Vec::new();
+        let paths = self.paths(exact);
+        for points in &self.followed {
+            let of: Vec<usize> = points
+                .iter()
+                .flat_map(|p| (p * d)..(p * d + d))
+                .map(|place| self.system.coordinates[place])
+                .collect();
+            let all_exact = of.iter().all(|&u| self.is_exact[self.blocks.of_unknown[u]]);
+            if !all_exact || d != 2 || !of.iter().any(|u| exact.contains_key(u)) {
+                continue;
+            }
+            let sign = |time: Interval| -> i8 {
+                let x = |k: usize| self.place_at(&paths, of[k], time);
+                let determinant = (x(2) - x(0)) * (x(5) - x(1)) - (x(3) - x(1)) * (x(4) - x(0));
+                match (determinant.inf() > 0.0, determinant.sup() < 0.0) {
+                    (true, _) => 1,
+                    (_, true) => -1,
+                    _ => 0,
+                }
+            };
+            let first = sign(point(0.0));
+            let lost = pieces(upto.sup())
+                .find(|&time| sign(time) != first)
+                .map(|time| (time.inf().max(0.0), time.sup()));
+            out.push(Orientation {
+                points: points.clone(),
+                sign: first,
+                lost: if first == 0 { None } else { lost },
+            });
+        }
+        out
+    }
+}
+
+/// Enclosures of a polynomial's coefficients, divided by a power of two.
+fn enclosed(polynomial: &[Real], scale: f64) -> Vec<Interval> {
+    let per = point(1.0 / scale);
+    polynomial.iter().map(|c| c.enclose() * per).collect()
+}
+
+/// The value of a polynomial by Horner's rule.
+pub(super) fn value_at(coefficients: &[Interval], time: Interval) -> Interval {
+    let terms = coefficients.iter().rev();
+    terms.fold(point(0.0), |sum, c| sum * time + *c)
+}
+
+/// Intervals that cover the times from 0 to `end`. Multiples of 1/64 are floats, and products are rounded outwards.
+fn pieces(end: f64) -> impl Iterator<Item = Interval> {
+    const PIECES: u32 = 64;
+    let at = |k: u32| f64::from(k) / f64::from(PIECES);
+    (0..PIECES).map(move |k| hull(at(k), at(k + 1)) * point(end))
+}
+
+/// Whether a polynomial is positive on all of [0, 1].
+pub(super) fn is_positive(polynomial: &[Real]) -> bool {
+    let coefficients = enclosed(polynomial, 1.0);
+    pieces(1.0).all(|time| value_at(&coefficients, time).inf() > 0.0)
+}

@@ -1,0 +1,384 @@
+//! Following what moves, part by part, and what the parts come to together.
+
+use super::exact::{is_positive, value_at};
+use super::{End, Known, Parts, Run, Used, moves};
+use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
+use crate::interval::{Interval, Real, hull, point};
+use crate::system::{Homotopy, Part, Right};
+use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
+use crate::track::certified::arcs;
+use crate::track::{Control, LARGEST_SQUARE};
+use std::collections::{BTreeSet, HashMap};
+use std::sync::atomic::Ordering;
+
+/// What became of one part.
+struct PartRun {
+    unknowns: Vec<usize>,
+    run: ArcRun,
+}
+
+impl Parts {
+    /// A dimension that is to move but follows from others.
+    pub(super) fn unmovable(&self, rights: &[Vec<Real>]) -> Option<String> {
+        let redundant = self
+            .redundant
+            .iter()
+            .map(|&row| self.system.rows[row].index);
+        let mut all = redundant.chain(self.system.implied.iter().copied());
+        let fixed = all.find(|&index| moves(&rights[index]))?;
+        Some(format!(
+            "{} follows from the other constraints at this figure and cannot change by itself",
+            self.name(fixed)
+        ))
+    }
+
+    pub(super) fn rights_of(&self, used: Used, rights: &[Vec<Real>]) -> Vec<Real> {
+        match used {
+            Used::Row(row) => rights[self.system.rows[row].index].clone(),
+            Used::Held(u) => vec![self.system.values[u].clone()],
+        }
+    }
+
+    fn power_of(&self, used: Used) -> i32 {
+        match used {
+            Used::Row(row) => self.powers[self.system.rows[row].index],
+            Used::Held(u) => self.system.unknowns[u].power,
+        }
+    }
+
+    /// Follows all that moves from t = 0 to t = 1.
+    pub(super) fn follow(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Run {
+        let count = self.blocks.blocks.len();
+        let mut moving = vec![false; count];
+        for (b, block) in self.blocks.blocks.iter().enumerate() {
+            moving[b] = block.needs.iter().any(|&need| moving[need])
+                || block.equations.iter().any(|&e| match self.used[e] {
+                    Used::Row(row) => moves(&rights[self.system.rows[row].index]),
+                    Used::Held(_) => false,
+                });
+        }
+        let exact = self.exact_polynomials(rights, &moving);
+        let groups = self.groups(&moving);
+        let mut runs = Vec::new();
+        for group in &groups {
+            let run = self.follow_group(group, rights, control);
+            let is_reached = matches!(run.run.end, ArcEnd::Reached(_));
+            runs.push(run);
+            let is_cancelled = control
+                .cancel
+                .is_some_and(|flag| flag.load(Ordering::Relaxed));
+            if !is_reached && is_cancelled {
+                break;
+            }
+        }
+        let worst = (0..runs.len())
+            .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
+            .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
+        if let Some(k) = worst
+            && runs.len() > 1
+            && matches!(runs[k].run.end, ArcEnd::Limit(_))
+        {
+            // All together, so that the whole figure at the limit is enclosed.
+            let all: Vec<usize> = groups.concat();
+            runs = vec![self.follow_group(&all, rights, control)];
+        }
+        let worst = (0..runs.len())
+            .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
+            .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
+        let t = worst.map_or((1.0, 1.0), |k| runs[k].run.t);
+        self.combine(runs, worst, &exact, t)
+    }
+
+    /// The moving blocks that have to be followed, in groups that have nothing in common but numbers known exactly.
+    fn groups(&self, moving: &[bool]) -> Vec<Vec<usize>> {
+        let count = moving.len();
+        let mut parent: Vec<usize> = (0..count).collect();
+        fn root(parent: &[usize], mut x: usize) -> usize {
+            while parent[x] != x {
+                x = parent[x];
+            }
+            x
+        }
+        let mut join = |a: usize, b: usize| {
+            let (a, b) = (root(&parent, a), root(&parent, b));
+            parent[a.max(b)] = a.min(b);
+        };
+        let mut taken: BTreeSet<usize> = (0..count)
+            .filter(|&b| moving[b] && !self.is_exact[b])
+            .collect();
+        for of in &self.together {
+            if !of.iter().any(|&b| moving[b]) {
+                continue;
+            }
+            let of: Vec<usize> = of.iter().copied().filter(|&b| !self.is_exact[b]).collect();
+            if let Some(&first) = of.first() {
+                of.iter().for_each(|&b| join(first, b));
+                taken.extend(of);
+            }
+        }
+        let with_needs = self.blocks.with_needs(taken);
+        let not_exact: Vec<usize> = with_needs
+            .into_iter()
+            .filter(|&b| !self.is_exact[b])
+            .collect();
+        for &b in &not_exact {
+            for &need in &self.blocks.blocks[b].needs {
+                if !self.is_exact[need] {
+                    join(b, need);
+                }
+            }
+        }
+        let mut groups: HashMap<usize, Vec<usize>> = HashMap::new();
+        for b in not_exact {
+            groups.entry(root(&parent, b)).or_default().push(b);
+        }
+        let mut groups: Vec<Vec<usize>> = groups.into_values().collect();
+        groups.sort();
+        groups
+    }
+
+    fn follow_group(
+        &mut self,
+        group: &[usize],
+        rights: &[Vec<Real>],
+        control: &mut Control,
+    ) -> PartRun {
+        let mut blocks: Vec<usize> = group.to_vec();
+        let taken = self.blocks.with_needs(group.iter().copied());
+        for of in &self.together {
+            if of.iter().any(|b| taken.contains(b) && !self.is_exact[*b]) {
+                blocks.extend(of);
+            }
+        }
+        let blocks = self.blocks.with_needs(blocks);
+        let unknowns: Vec<usize> = blocks
+            .iter()
+            .flat_map(|&b| self.blocks.blocks[b].unknowns.iter().copied())
+            .collect();
+        let used: Vec<Used> = blocks
+            .iter()
+            .flat_map(|&b| {
+                self.blocks.blocks[b]
+                    .equations
+                    .iter()
+                    .map(|&e| self.used[e])
+            })
+            .collect();
+        if unknowns.len() > LARGEST_SQUARE {
+            let reason = format!(
+                "a part has {} unknowns, more than the {LARGEST_SQUARE} of which proofs keep square matrices",
+                unknowns.len()
+            );
+            let run = ArcRun {
+                end: ArcEnd::Stopped(reason),
+                t: (0.0, 0.0),
+                orientations: Vec::new(),
+                alone_within: 0.0,
+                last: Vec::new(),
+                steps: 0,
+                rejected: 0,
+                length: 0.0,
+                switched_on: Vec::new(),
+            };
+            return PartRun { unknowns, run };
+        }
+        let polynomials: Vec<Vec<Real>> = used
+            .iter()
+            .map(|&used| self.rights_of(used, rights))
+            .collect();
+        let mut follower = match self.ready.remove(&blocks) {
+            Some(mut follower) => {
+                let homotopy = follower.homotopy_mut();
+                for (k, polynomial) in polynomials.iter().enumerate() {
+                    let scale = self.unit.powi(self.power_of(used[k]));
+                    homotopy.rights[k] = Right::polynomial(polynomial, scale);
+                }
+                follower
+            }
+            None => arcs(self.homotopy(&unknowns, &used, polynomials), &self.options),
+        };
+        let start = Figure {
+            centre: unknowns.iter().map(|&u| self.figure[u].centre).collect(),
+            low: unknowns.iter().map(|&u| self.figure[u].low).collect(),
+            radius: unknowns.iter().map(|&u| self.figure[u].radius).collect(),
+        };
+        let run = follower.follow(&start, control);
+        self.ready.insert(blocks, follower);
+        PartRun { unknowns, run }
+    }
+
+    fn homotopy(&self, unknowns: &[usize], used: &[Used], rights: Vec<Vec<Real>>) -> Homotopy {
+        let local: HashMap<usize, usize> =
+            unknowns.iter().enumerate().map(|(k, &u)| (u, k)).collect();
+        let entry = |e: Entry| match e {
+            Entry::Unknown(u) => Entry::Unknown(local[&u]),
+            other => other,
+        };
+        let form = |f: Form| match f {
+            Form::One => Form::One,
+            Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
+        };
+        let equations = used.iter().zip(rights).map(|(&used, right)| {
+            let (name, products) = match used {
+                Used::Row(row) => {
+                    let row = &self.system.rows[row];
+                    let products = row.products.iter().map(|p| Product {
+                        factor: p.factor,
+                        left: form(p.left),
+                        right: form(p.right),
+                    });
+                    (self.name(row.index), products.collect())
+                }
+                Used::Held(u) => {
+                    let name = format!("{} stays put", self.system.unknowns[u].name);
+                    let held = Product {
+                        factor: 2,
+                        left: value(Entry::Unknown(local[&u])),
+                        right: Form::One,
+                    };
+                    (name, vec![held])
+                }
+            };
+            Equation {
+                name,
+                products,
+                right,
+                power: self.power_of(used),
+            }
+        });
+        let d = self.problem.dimension;
+        let coordinates = self
+            .system
+            .coordinates
+            .iter()
+            .map(|u| local.get(u).copied());
+        let coordinates: Vec<Option<usize>> = coordinates.collect();
+        let is_here = |points: &&Vec<usize>| {
+            let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
+            places.all(|place| coordinates[place].is_some())
+        };
+        let nonzero = self.system.nonzero.iter().filter(|vector| {
+            let of = self.unknowns_of_vector(vector);
+            of.iter().all(|u| local.contains_key(u))
+        });
+        let nonzero = nonzero.map(|vector| Nonzero {
+            name: vector.name.clone(),
+            forms: std::array::from_fn(|axis| match axis < d {
+                true => form(vector.forms[axis]),
+                false => Form::Difference(Entry::Zero, Entry::Zero),
+            }),
+        });
+        Homotopy::of_part(Part {
+            nonzero: nonzero.collect(),
+            dimension: d,
+            unit: self.unit,
+            unknowns: unknowns
+                .iter()
+                .map(|&u| self.system.unknowns[u].clone())
+                .collect(),
+            equations: equations.collect(),
+            followed: self.followed.iter().filter(is_here).cloned().collect(),
+            coordinates,
+        })
+    }
+
+    /// What the parts come to together.
+    fn combine(
+        &self,
+        runs: Vec<PartRun>,
+        worst: Option<usize>,
+        exact: &HashMap<usize, Vec<Real>>,
+        t: (f64, f64),
+    ) -> Run {
+        let upto = hull(t.0.min(0.0), t.1.min(1.0));
+        let mut out = Run {
+            end: End::Stopped(String::new()),
+            t,
+            orientations: self.exact_orientations(exact, upto),
+            tubes: runs.iter().map(|run| run.run.steps).sum(),
+            rejected: runs.iter().map(|run| run.run.rejected).sum(),
+            length: runs.iter().map(|run| run.run.length).sum(),
+            switched_on: Vec::new(),
+        };
+        for run in &runs {
+            for remark in &run.run.switched_on {
+                if !out.switched_on.contains(remark) {
+                    out.switched_on.push(remark.clone());
+                }
+            }
+            out.orientations
+                .extend(run.run.orientations.iter().cloned());
+        }
+        // Nothing is said of a piece of path beyond where all of it ends.
+        for orientation in &mut out.orientations {
+            orientation.lost = orientation.lost.filter(|lost| lost.0 <= t.1);
+        }
+        for (&u, polynomial) in exact {
+            if self.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
+                let name = &self.system.unknowns[u].name;
+                out.end = End::Stopped(format!("{name} does not stay positive"));
+                out.t = (0.0, 0.0);
+                return out;
+            }
+        }
+        if let Some(name) = self.vanishes_exactly(exact) {
+            out.end = End::Stopped(format!(
+                "{name} may vanish on the way, and what is said of its direction would say nothing there"
+            ));
+            out.t = (0.0, 0.0);
+            return out;
+        }
+        let paths = self.paths(exact);
+        let at = |time: Interval| -> Vec<Known> {
+            let mut figure = self.figure.clone();
+            for (&u, path) in &paths {
+                figure[u] = Known::new(value_at(path, time));
+            }
+            figure
+        };
+        let put = |figure: &mut Vec<Known>, unknowns: &[usize], found: &Figure| {
+            for (k, &u) in unknowns.iter().enumerate() {
+                // Numbers known exactly are known better.
+                if !exact.contains_key(&u) {
+                    figure[u] = Known {
+                        centre: found.centre[k],
+                        low: found.low[k],
+                        radius: found.radius[k],
+                    };
+                }
+            }
+        };
+        let Some(worst) = worst else {
+            let mut figure = at(point(1.0));
+            for PartRun { unknowns, run } in &runs {
+                if let ArcEnd::Reached(found) = &run.end {
+                    put(&mut figure, unknowns, found);
+                }
+            }
+            out.end = End::Reached(figure);
+            return out;
+        };
+        let PartRun { unknowns, run } = &runs[worst];
+        out.end = match &run.end {
+            ArcEnd::Limit(fold) => {
+                let Fold {
+                    figure: found,
+                    velocity,
+                    t,
+                    ..
+                } = &**fold;
+                let mut figure = at(*t);
+                put(&mut figure, unknowns, found);
+                let mut all = vec![0.0; figure.len()];
+                for (k, &u) in unknowns.iter().enumerate() {
+                    all[u] = velocity[k];
+                }
+                End::Limit(figure, all)
+            }
+            ArcEnd::Passes(reason) => End::Passes(reason.clone()),
+            ArcEnd::Stopped(reason) => End::Stopped(reason.clone()),
+            ArcEnd::Reached(_) => unreachable!("it is not reached"),
+        };
+        out
+    }
+}

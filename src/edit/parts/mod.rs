@@ -1,0 +1,524 @@
+//! A sketch in its own frame, followed part by part.
+//!
+//! Real sketches fall apart ([`crate::blocks`]). An edit moves the blocks in which its dimensions are and those that
+//! need them; what is linear in numbers that are known exactly is computed, as a polynomial in t with exact
+//! coefficients; the rest is followed, each connected part for itself with all that it needs, along the same t. Points
+//! that nothing determines stay put, and equations that follow from others at the figure are left out and looked at in
+//! the end.
+
+mod exact;
+mod follow;
+mod senses;
+mod words;
+
+use crate::blocks::{Blocks, Choice, Row, System};
+use crate::constraint::{Entry, Form, Lowered, Owner, Record, try_lower_all};
+use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
+use crate::edit::open::{Moved, OpenError};
+use crate::edit::setting::Setting;
+use crate::interval::{Interval, Real, hull, point};
+use crate::problem::{Decimal, Problem, Shape};
+use crate::system::{Right, typical_length};
+use crate::track::arc::Orientation;
+use crate::track::certified::FollowArcs;
+use crate::track::{Control, Options, StartError};
+use std::collections::{BTreeSet, HashMap};
+use std::time::Instant;
+
+/// A part is followed over so many tubes and then given up. Edits of real sketches take a few; those that came to so
+/// many had ever longer tubes and ever larger figures, as where two lines become parallel.
+const MOST_TUBES: usize = 1000;
+
+/// An equation of the square system.
+#[derive(Debug, Clone, Copy)]
+enum Used {
+    /// A row of the merged system, by position.
+    Row(usize),
+    /// An unknown stays what it is.
+    Held(usize),
+}
+
+/// A number that is known up to a radius, in the homotopy's unit.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    centre: f64,
+    low: f64,
+    radius: f64,
+}
+
+impl Known {
+    fn new(x: Interval) -> Self {
+        Known {
+            centre: x.mid(),
+            low: 0.0,
+            radius: x.rad(),
+        }
+    }
+
+    fn enclosure(self) -> Interval {
+        point(self.centre) + point(self.low) + hull(-self.radius, self.radius)
+    }
+}
+
+/// A sketch and its figure.
+#[derive(Debug)]
+pub(super) struct Parts {
+    problem: Problem,
+    options: Options,
+    record: Record,
+    /// The power of the unit of length of each of the problem's equations.
+    powers: Vec<i32>,
+    system: System,
+    used: Vec<Used>,
+    redundant: Vec<usize>,
+    free: Vec<usize>,
+    blocks: Blocks,
+    /// Blocks of one equation that is linear in exactly known numbers.
+    is_exact: Vec<bool>,
+    /// Whose equation each of the problem's is: objects, constraints, none, distances.
+    owners: Vec<usize>,
+    /// Blocks that are followed together if any of them moves: those of points of which the orientation is a sense, and
+    /// those of vectors that must not vanish.
+    together: Vec<BTreeSet<usize>>,
+    /// For each object its radius, if it is a circle.
+    radii: Vec<Option<usize>>,
+    /// Points of which the orientation is a sense that constraints leave open: followed always.
+    senses: Vec<Vec<usize>>,
+    /// Those, and points that distances join, which are followed where all of them are in one part.
+    followed: Vec<Vec<usize>>,
+    figure: Vec<Known>,
+    unit: f64,
+    moved: Moved,
+    /// Followers of parts that were needed before, by their blocks.
+    ready: HashMap<Vec<usize>, Box<dyn FollowArcs>>,
+}
+
+/// A path of the whole sketch.
+struct Run {
+    end: End,
+    t: (f64, f64),
+    orientations: Vec<Orientation>,
+    tubes: usize,
+    rejected: usize,
+    length: f64,
+    switched_on: Vec<String>,
+}
+
+enum End {
+    Reached(Vec<Known>),
+    /// The figure there and the velocity of each unknown.
+    Limit(Vec<Known>, Vec<f64>),
+    Passes(String),
+    Stopped(String),
+}
+
+fn refuse(what: String) -> OpenError {
+    OpenError::Start(StartError::Unsupported(what))
+}
+
+impl Parts {
+    /// Takes the sketch for the figure, after leading it to its own dimensions.
+    pub fn open(
+        problem: &Problem,
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<Self, OpenError> {
+        let (mut parts, rights) = Self::assemble(problem, options).map_err(refuse)?;
+        parts.lead(&rights, control)?;
+        Ok(parts)
+    }
+
+    /// Merges, chooses and cuts; the figure is the sketch still, which the right-hand sides that come along lead to its
+    /// dimensions.
+    pub fn assemble(
+        problem: &Problem,
+        options: &Options,
+    ) -> Result<(Self, Vec<Vec<Real>>), String> {
+        let mut problem = problem.clone();
+        problem.homotopy.bend_coefficient = Decimal::from(0);
+        problem.homotopy.detour = Decimal::from(0);
+        let problem = &problem;
+        let lowered = lowered(problem, None)?;
+        let owner_is_dimension = |owner: usize| {
+            let (objects, all) = (problem.objects.len(), problem.constraints.len());
+            match owner.checked_sub(objects) {
+                None => false,
+                Some(c) if c < all => problem.constraints[c].value.is_some(),
+                Some(c) => c > all,
+            }
+        };
+        let system = System::new(problem, &lowered, |index| {
+            owner_is_dimension(lowered.owners[index])
+        });
+        let unit = typical_length(problem);
+        let scaled: Vec<Interval> = system
+            .unknowns
+            .iter()
+            .zip(&system.values)
+            .map(|(unknown, value)| value.enclose() * point(1.0 / unit.powi(unknown.power)))
+            .collect();
+        let at: Vec<f64> = scaled.iter().map(|x| x.mid()).collect();
+        let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
+        let choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
+        let held = choice.free.iter().map(|&u| Used::Held(u));
+        let used: Vec<Used> = choice
+            .used
+            .iter()
+            .map(|&r| Used::Row(r))
+            .chain(held)
+            .collect();
+        let of: Vec<Vec<usize>> = used
+            .iter()
+            .map(|used| match *used {
+                Used::Row(row) => system.rows[row].unknowns.clone(),
+                Used::Held(u) => vec![u],
+            })
+            .collect();
+        let blocks = Blocks::new(&of, system.unknowns.len())
+            .ok_or("its equations do not match its unknowns: the sketch is singular")?;
+        let radii = problem.objects.iter().enumerate().map(|(o, object)| {
+            let entry = lowered.object_unknowns[o].first();
+            match (&object.shape, entry) {
+                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => Some(system.auxiliary[k]),
+                _ => None,
+            }
+        });
+        let radii = radii.collect();
+        let mut parts = Parts {
+            problem: problem.clone(),
+            options: Options {
+                space: crate::track::Space::Full,
+                reverse: false,
+                max_steps: options.max_steps.min(MOST_TUBES),
+                ..options.clone()
+            },
+            record: lowered.record.clone(),
+            powers: lowered.tail.equations.iter().map(|e| e.power).collect(),
+            used,
+            redundant: choice.redundant,
+            free: choice.free,
+            is_exact: Vec::new(),
+            together: Vec::new(),
+            owners: lowered.owners.clone(),
+            radii,
+            senses: senses::senses(problem),
+            followed: senses::followed(problem),
+            figure: scaled.into_iter().map(Known::new).collect(),
+            unit,
+            moved: Moved::default(),
+            ready: HashMap::new(),
+            blocks,
+            system,
+        };
+        parts.drop_flat_triples();
+        parts.find_exact();
+        parts.together = parts.bound_together();
+        let rights: Vec<Vec<Real>> = lowered
+            .tail
+            .equations
+            .into_iter()
+            .map(|e| e.right)
+            .collect();
+        for &index in &parts.system.implied {
+            if !rights[index]
+                .iter()
+                .fold(Real::zero(), |sum, c| &sum + c)
+                .is_zero()
+            {
+                return Err(format!(
+                    "{} contradicts the other constraints",
+                    parts.name(index)
+                ));
+            }
+        }
+        Ok((parts, rights))
+    }
+
+    /// Leads the sketch to its own dimensions.
+    fn lead(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Result<(), OpenError> {
+        let run = self.follow(rights, control);
+        let failed = |ending: Ending, what: String| OpenError::Correction {
+            what,
+            ending: Box::new(ending),
+        };
+        let figure = match run.end {
+            End::Reached(figure) => figure,
+            End::Limit(..) => {
+                let what = format!(
+                    "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
+                    run.t.0
+                );
+                return Err(failed(Ending::Stopped(what.clone()), what));
+            }
+            End::Passes(reason) => {
+                let what = format!("on the way there branches seem to meet ({reason})");
+                return Err(failed(Ending::Passes(reason), what));
+            }
+            End::Stopped(reason) => {
+                return Err(failed(Ending::Stopped(reason.clone()), reason));
+            }
+        };
+        let distance = self.distance(&figure);
+        self.moved = Moved {
+            distance,
+            tubes: run.tubes.max(usize::from(distance > 0.0)),
+        };
+        self.figure = figure;
+        match self.broken(rights).or_else(|| self.vanished()) {
+            Some(what) => Err(failed(Ending::Stopped(what.clone()), what)),
+            None => Ok(()),
+        }
+    }
+
+    /// Triples of which two points are one and the same have no orientation.
+    fn drop_flat_triples(&mut self) {
+        let d = self.problem.dimension;
+        let coordinates = &self.system.coordinates;
+        let place = |p: usize| &coordinates[p * d..(p + 1) * d];
+        let differ = |points: &Vec<usize>| {
+            let mut places: Vec<&[usize]> = points.iter().map(|&p| place(p)).collect();
+            places.sort_unstable();
+            places.windows(2).all(|pair| pair[0] != pair[1])
+        };
+        self.senses.retain(differ);
+        self.followed.retain(differ);
+    }
+
+    fn bound_together(&self) -> Vec<BTreeSet<usize>> {
+        let d = self.problem.dimension;
+        let blocks = |unknowns: Vec<usize>| {
+            let blocks = unknowns.into_iter().map(|u| self.blocks.of_unknown[u]);
+            blocks.collect()
+        };
+        let senses = self.senses.iter().map(|points| {
+            let places = points.iter().flat_map(|p| (p * d)..(p * d + d));
+            places.map(|place| self.system.coordinates[place]).collect()
+        });
+        let vectors = self.system.nonzero.iter();
+        let vectors = vectors.map(|vector| self.unknowns_of_vector(vector));
+        senses.chain(vectors).map(blocks).collect()
+    }
+
+    fn find_exact(&mut self) {
+        self.is_exact = vec![false; self.blocks.blocks.len()];
+        for b in 0..self.is_exact.len() {
+            let block = &self.blocks.blocks[b];
+            let known = block.needs.iter().all(|&need| self.is_exact[need]);
+            self.is_exact[b] = known
+                && block.unknowns.len() == 1
+                && match self.used[block.equations[0]] {
+                    Used::Held(_) => true,
+                    Used::Row(row) => self.system.rows[row]
+                        .products
+                        .iter()
+                        .all(|p| p.left == Form::One || p.right == Form::One),
+                };
+        }
+    }
+
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    pub fn moved(&self) -> Moved {
+        self.moved
+    }
+
+    /// The figure in the coordinates of the problem.
+    pub fn points(&self) -> Vec<[Interval; 3]> {
+        self.points_of(&self.figure)
+    }
+
+    fn points_of(&self, figure: &[Known]) -> Vec<[Interval; 3]> {
+        let (d, unit) = (self.problem.dimension, point(self.unit));
+        let coordinate = |p: usize, axis: usize| match axis < d {
+            true => figure[self.system.coordinates[p * d + axis]].enclosure() * unit,
+            false => point(0.0),
+        };
+        (0..self.problem.points.len())
+            .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
+            .collect()
+    }
+
+    /// The radii of circles, by object, in floats; zero for what is none.
+    pub fn radii(&self) -> Vec<f64> {
+        let radius = |u: &Option<usize>| u.map_or(0.0, |u| self.figure[u].centre * self.unit);
+        self.radii.iter().map(radius).collect()
+    }
+
+    fn distance(&self, figure: &[Known]) -> f64 {
+        let (old, new) = (self.points(), self.points_of(figure));
+        let apart = old.iter().zip(&new).map(|(a, b)| {
+            let sum = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
+            sum.sqrt().sup()
+        });
+        // Where nothing moved the enclosures are of one and the same point.
+        let apart = apart.fold(0.0, f64::max);
+        if apart > 1e-15 * self.unit {
+            apart
+        } else {
+            0.0
+        }
+    }
+
+    pub fn edit(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
+        let clock = Instant::now();
+        let mut problem = self.problem.clone();
+        for setting in settings {
+            setting.apply(&mut problem);
+        }
+        let (edited, figure) = match lowered(&problem, Some(&self.record)) {
+            Err(fault) => (self.account(settings, stopped(fault)), None),
+            Ok(lowered) => {
+                let rights: Vec<Vec<Real>> = lowered
+                    .tail
+                    .equations
+                    .into_iter()
+                    .map(|e| e.right)
+                    .collect();
+                let mut run = match self.unmovable(&rights) {
+                    Some(what) => stopped(what),
+                    None => self.follow(&rights, control),
+                };
+                let mut figure = None;
+                if let End::Reached(reached) = &run.end {
+                    let old = std::mem::replace(&mut self.figure, reached.clone());
+                    match self.broken(&rights).or_else(|| self.vanished()) {
+                        Some(what) => {
+                            run.end = End::Stopped(what);
+                            run.t = (0.0, 0.0);
+                        }
+                        None => figure = Some((reached.clone(), lowered.record)),
+                    }
+                    self.figure = old;
+                }
+                (self.account(settings, run), figure)
+            }
+        };
+        if let (Some((figure, record)), true) = (figure, keep) {
+            (self.figure, self.record, self.problem) = (figure, record, problem);
+        }
+        Edited {
+            seconds: clock.elapsed().as_secs_f64(),
+            ..edited
+        }
+    }
+
+    /// An equation that was left out and does not hold at the figure.
+    fn broken(&self, rights: &[Vec<Real>]) -> Option<String> {
+        let side = |form: Form| match form {
+            Form::One => point(1.0),
+            Form::Difference(a, b) => {
+                let [a, b] = [a, b].map(|entry| match entry {
+                    Entry::Unknown(u) => self.figure[u].enclosure(),
+                    _ => point(0.0),
+                });
+                a - b
+            }
+        };
+        for &row in &self.redundant {
+            let Row {
+                index, products, ..
+            } = &self.system.rows[row];
+            let left = products.iter().fold(point(0.0), |sum, p| {
+                sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
+            });
+            let right = Right::polynomial(&rights[*index], self.scale(*index)).at_target();
+            let off = (left - right).mig();
+            if off > 1e-7 {
+                return Some(format!(
+                    "{} seemed to follow from the other constraints, but contradicts them",
+                    self.name(*index)
+                ));
+            }
+        }
+        None
+    }
+
+    /// What right-hand sides of an equation are divided by. Every product of it has the same power of the unit.
+    fn scale(&self, index: usize) -> f64 {
+        self.unit.powi(self.powers[index])
+    }
+
+    fn account(&self, settings: &[Setting], run: Run) -> Edited {
+        let t = hull(run.t.0, run.t.1);
+        let is_reached = matches!(run.end, End::Reached(_));
+        let dimensions = settings.iter().map(|setting| {
+            let (from, to) = (self.value(setting.index), setting.value());
+            let value = match is_reached {
+                true => to,
+                false => setting.between(&self.problem, t),
+            };
+            Dimension {
+                index: setting.index,
+                from,
+                to,
+                value,
+            }
+        });
+        let dimensions = dimensions.collect();
+        let (ending, points) = match run.end {
+            End::Reached(figure) => (Ending::Reached, self.points_of(&figure)),
+            End::Limit(figure, velocity) => {
+                let limit = self.limit(&figure, &velocity, &run.orientations);
+                (Ending::Limit(limit), self.points_of(&figure))
+            }
+            End::Passes(reason) => (Ending::Passes(reason), self.points()),
+            End::Stopped(reason) => (Ending::Stopped(reason), self.points()),
+        };
+        Edited {
+            ending,
+            t: run.t,
+            dimensions,
+            points,
+            orientations: Orientations::new(run.orientations),
+            tubes: run.tubes,
+            rejected: run.rejected,
+            length: run.length,
+            switched_on: run.switched_on,
+            seconds: 0.0,
+        }
+    }
+
+    /// What is special about a fold's figure.
+    fn limit(&self, figure: &[Known], velocity: &[f64], orientations: &[Orientation]) -> Limit {
+        let d = self.problem.dimension;
+        let motion = (0..self.problem.points.len()).map(|p| {
+            std::array::from_fn(|axis| match axis < d {
+                true => velocity[self.system.coordinates[p * d + axis]],
+                false => 0.0,
+            })
+        });
+        Limit::new(&self.points_of(figure), orientations, motion.collect())
+    }
+
+    /// What a dimension is now: an enclosure.
+    pub fn value(&self, index: usize) -> Interval {
+        Setting::now(&self.problem, index).value()
+    }
+}
+
+fn stopped(reason: String) -> Run {
+    Run {
+        end: End::Stopped(reason),
+        t: (0.0, 0.0),
+        orientations: Vec::new(),
+        tubes: 0,
+        rejected: 0,
+        length: 0.0,
+        switched_on: Vec::new(),
+    }
+}
+
+/// The equations of a problem, or what is at fault.
+fn lowered(problem: &Problem, from: Option<&Record>) -> Result<Lowered, String> {
+    try_lower_all(problem, from).map_err(|(owner, fault)| match owner {
+        Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
+        Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
+    })
+}
+
+/// Whether a right-hand side changes with t.
+fn moves(right: &[Real]) -> bool {
+    right.iter().skip(1).any(|c| !c.is_zero())
+}

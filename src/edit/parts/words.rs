@@ -1,0 +1,146 @@
+//! What people are told of a sketch and its parts, in its own names.
+
+use super::Parts;
+use crate::blocks::Block;
+use crate::constraint::KINDS;
+use crate::edit::session::Decomposition;
+use crate::problem::{Constraint, Item, Problem, Shape};
+use std::collections::BTreeSet;
+
+impl Parts {
+    /// What stays put because nothing determines it, and what was left out because it follows from the rest at the
+    /// figure: names.
+    pub fn free(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for &u in &self.free {
+            let points = self.system.coordinates.iter().position(|&c| c == u);
+            let name = match points {
+                Some(place) => self.problem.points[place / self.problem.dimension]
+                    .name
+                    .clone(),
+                None => self.system.unknowns[u].name.clone(),
+            };
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// See [`Parts::free`].
+    pub fn redundant(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for &row in &self.redundant {
+            let name = self.name(self.system.rows[row].index);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// How the equations fall apart.
+    pub fn decomposition(&self) -> Decomposition {
+        let blocks = self.blocks.blocks.iter().zip(&self.is_exact);
+        let names = |block: &Block| {
+            let unknowns = block.unknowns.iter();
+            unknowns
+                .map(|&u| self.system.unknowns[u].name.clone())
+                .collect()
+        };
+        Decomposition {
+            merged: self.system.merged,
+            unknowns: self.system.unknowns.len(),
+            blocks: blocks
+                .filter(|(_, exact)| !**exact)
+                .map(|(block, _)| names(block))
+                .collect(),
+            free: self.free(),
+            redundant: self.redundant(),
+        }
+    }
+
+    /// The sketch as a problem with as many equations as unknowns: what nothing determines is held by constraints on its
+    /// coordinates, and what follows from others at the figure is left out. It bends by default.
+    pub fn completed(&self) -> Result<Problem, String> {
+        let mut problem = self.problem.clone();
+        let (objects, all) = (problem.objects.len(), problem.constraints.len());
+        let head = problem.distances.len();
+        let out: BTreeSet<usize> = self
+            .redundant
+            .iter()
+            .filter_map(|&row| match self.owners[self.system.rows[row].index] {
+                owner if owner < objects => None,
+                owner if owner < objects + all => Some(head + owner - objects),
+                owner => Some(owner - objects - all - 1),
+            })
+            .collect();
+        let labels = std::mem::take(&mut problem.labels);
+        let label = |index: usize| labels.get(&index).cloned();
+        let distances = problem.distances.drain(..).enumerate();
+        let distances: Vec<_> = distances
+            .filter(|(index, _)| !out.contains(index))
+            .map(|(index, distance)| (distance, label(index)))
+            .collect();
+        let constraints = problem.constraints.drain(..).enumerate();
+        let mut constraints: Vec<_> = constraints
+            .filter(|(c, _)| !out.contains(&(head + c)))
+            .map(|(c, constraint)| (constraint, label(head + c)))
+            .collect();
+        let d = problem.dimension;
+        for &u in &self.free {
+            let place = self.system.coordinates.iter().position(|&c| c == u);
+            let round = self.radii.iter().position(|&r| r == Some(u));
+            let (kind, item, value) = match (place, round) {
+                (Some(place), _) => {
+                    let (p, axis) = (place / d, place % d);
+                    let at = problem.points[p].sketch[axis].clone();
+                    (["x", "y", "z"][axis], Item::Point(p), at)
+                }
+                (None, Some(o)) => match &problem.objects[o].shape {
+                    Shape::Round { radius, .. } => ("radii", Item::Object(o), radius.clone()),
+                    _ => unreachable!("only circles have radii of their own"),
+                },
+                _ => return Err(format!("{} is free", self.system.unknowns[u].name)),
+            };
+            let held = Constraint {
+                kind: kind.to_owned(),
+                items: vec![item],
+                value: Some(value),
+            };
+            constraints.push((held, None));
+        }
+        let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
+        constraints.sort_by_key(|(c, _)| order(&c.kind));
+        let named = distances
+            .iter()
+            .map(|d| &d.1)
+            .chain(constraints.iter().map(|c| &c.1));
+        let named = named.enumerate();
+        problem.labels = named
+            .filter_map(|(k, label)| Some((k, label.clone()?)))
+            .collect();
+        problem.distances = distances.into_iter().map(|d| d.0).collect();
+        problem.constraints = constraints.into_iter().map(|c| c.0).collect();
+        problem.bend_by_default();
+        problem.check().map_err(|error| error.to_string())?;
+        Ok(problem)
+    }
+
+    /// What people call the source of one of the problem's equations.
+    pub(super) fn name(&self, equation: usize) -> String {
+        let (objects, all) = (self.problem.objects.len(), self.problem.constraints.len());
+        let owner = self.owners[equation];
+        match owner.checked_sub(objects) {
+            None => format!("`{}`", self.problem.objects[owner].name),
+            Some(c) if c < all => {
+                let index = self.problem.distances.len() + c;
+                match self.problem.labels.get(&index) {
+                    Some(label) => format!("`{label}` ({})", self.problem.constraint_name(c)),
+                    None => format!("`{}`", self.problem.constraint_name(c)),
+                }
+            }
+            Some(c) => format!("`{}`", self.problem.dimension_name(c - all - 1)),
+        }
+    }
+}
