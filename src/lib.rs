@@ -78,6 +78,7 @@
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`complex`]: all complex solutions, every path proved
+//! - [`explore`]: new sketches from solutions, and their paths
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
@@ -100,6 +101,10 @@ macro_rules! debug_in_words {
 }
 pub(crate) use debug_in_words;
 
+// Tests in here and in tests/ draw the same problems.
+#[cfg(test)]
+extern crate self as krawl;
+
 pub mod blocks;
 pub mod certificate;
 pub mod compare;
@@ -107,6 +112,7 @@ pub mod complete;
 pub mod complex;
 pub mod constraint;
 pub mod edit;
+pub mod explore;
 pub mod generate;
 pub mod import;
 pub mod interval;

@@ -4,10 +4,12 @@
 mod common;
 
 use common::certificate::{Certificate, shipped};
+use common::mixed::Spec;
 use dice::Dice;
 use krawl::certificate::{Outcome, Record, Settings, TubeClaim, verify};
+use krawl::track::{Options, Status};
 use proptest::test_runner::{RngAlgorithm, TestRng};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Random choices from the generator that comes with proptest.
 mod dice {
@@ -302,6 +304,20 @@ fn outcome(bytes: &[u8]) -> Option<Outcome> {
 /// Damages a certificate in each way so many times. Returns how many of which kind.
 fn damage(name: &str, times: usize, kinds: &[(&'static str, Damage)], harmless: bool) {
     let good = Certificate::read(&shipped(name));
+    let (refuted, total) = damage_in(name, &good, times, kinds, harmless);
+    // Of a few kinds it cannot be told: tubes that are too long or too wide for the test may be true.
+    assert!(harmless || 3 * refuted > 2 * total, "{refuted} of {total}");
+    assert!(total + kinds.len() >= times * kinds.len() * 9 / 10);
+}
+
+/// The same for any certificate. Returns how many changes were proved false, of how many.
+fn damage_in(
+    name: &str,
+    good: &Certificate,
+    times: usize,
+    kinds: &[(&'static str, Damage)],
+    harmless: bool,
+) -> (usize, usize) {
     let mut counts = BTreeMap::new();
     let mut refuted = 0;
     let mut dice = Dice(TestRng::deterministic_rng(RngAlgorithm::ChaCha));
@@ -328,9 +344,7 @@ fn damage(name: &str, times: usize, kinds: &[(&'static str, Damage)], harmless: 
     let total: usize = counts.values().sum();
     let verb = if harmless { "accepted" } else { "refused" };
     println!("{name}: {total} changes {verb}, {refuted} of them proved false: {counts:?}");
-    // Of a few kinds it cannot be told: tubes that are too long or too wide for the test may be true.
-    assert!(harmless || 3 * refuted > 2 * total, "{refuted} of {total}");
-    assert!(total + kinds.len() >= times * kinds.len() * 9 / 10);
+    (refuted, total)
 }
 
 // 22 kinds: more than 1,000 false claims in all.
@@ -363,6 +377,43 @@ fn damaged_disulfide_is_refused() {
 #[test]
 fn damaged_icosahedron_is_refused() {
     damage("icosahedron-c1", 2, FALSE, false);
+}
+
+/// Constraints of all kinds, with their auxiliary unknowns.
+#[test]
+fn damaged_certificates_of_mixed_kinds_are_refused() {
+    let mut dice = Dice(TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    let kinds: Vec<(&str, Damage)> = FALSE
+        .iter()
+        .copied()
+        // Another place of the sketch's line on the same line says nothing else.
+        .filter(|(kind, _)| *kind != "last digit of a number of the problem")
+        .collect();
+    let (mut tried, mut sum) = (0, (0, 0));
+    while tried < 8 {
+        let dimension = 2 + tried % 2;
+        let Some((_, problem)) = Spec::random(dimension, &mut |n| dice.below(n)) else {
+            continue;
+        };
+        let options = Options {
+            max_steps: 150,
+            ..Options::certified()
+        };
+        let (run, bytes) = common::certificate::of(&problem, &options);
+        let classes: BTreeSet<usize> = run.solutions.iter().map(|s| s.class).collect();
+        let is_fit = run.status == Status::Closed
+            && run.solutions.len() >= 2
+            && classes.len() == run.solutions.len()
+            && run.steps > 6
+            && outcome(&bytes) == Some(Outcome::Verified);
+        if is_fit && !problem.constraints.is_empty() {
+            tried += 1;
+            let name = format!("mixed {tried}:\n{}", problem.to_toml());
+            let (refuted, of) = damage_in(&name, &Certificate::read(&bytes), 2, &kinds, false);
+            sum = (sum.0 + refuted, sum.1 + of);
+        }
+    }
+    assert!(2 * sum.0 > sum.1, "{sum:?}");
 }
 
 #[test]

@@ -199,10 +199,12 @@ fn holds_newtons(problem: &Problem, result: &Complete, starts: usize) -> Result<
                 .iter()
                 .map(|p| p.map(krawl::interval::point))
                 .collect(),
+            objects: Vec::new(),
             class: 0,
             width: 0.0,
             place: None,
             mirror_of: None,
+            is_degenerate: false,
         };
         // Floats are good for 1e-6 where the figure is not nearly singular.
         let found = congruent(result, &pairs(&solution), 1e-5);

@@ -309,3 +309,71 @@ fn the_way_does_not_matter() {
     let edited = session.edit(&set("B-D=4"));
     assert_eq!((edited.ending, edited.tubes), (Ending::Reached, 1));
 }
+
+/// A triangle with two sides and the angle between them, up to motions: the third side is known in closed form.
+#[test]
+fn an_angle_of_a_figure_up_to_motions_can_be_edited() {
+    let triangle = Problem::build("triangle", 2)
+        .point("a", [4, 0])
+        .point("b", [0, 0])
+        .point("c", [0, 3])
+        .distance("a", "b", 4)
+        .distance("b", "c", 3)
+        .dimension("angles", ["a", "b", "c"], 90)
+        .finish()
+        .unwrap();
+    let mut session = Session::open(&triangle).unwrap();
+    let apart = |points: &[[krawl::interval::Interval; 3]]| {
+        let d: [_; 2] = [0, 1].map(|k| points[0][k] - points[2][k]);
+        d[0].sqr() + d[1].sqr()
+    };
+    for degrees in ["60", "120", "35.5", "90"] {
+        let setting = Setting::parse(&triangle, &format!("a-b-c={degrees}")).unwrap();
+        let edited = session.edit(&[setting]);
+        assert_eq!(edited.ending, Ending::Reached, "{edited:?}");
+        let cosine = degrees.parse::<f64>().unwrap().to_radians().cos();
+        let wanted = 25.0 - 24.0 * cosine;
+        let squared = apart(&edited.points);
+        assert!((squared.mid() - wanted).abs() < 1e-12 && squared.wid() < 1e-11);
+        assert_eq!(edited.orientations.kept.len(), 1, "{edited:?}");
+    }
+    // A side and the angle at once; what is not reached changes nothing.
+    let both = ["a-b=5", "angles:a-b-c=45"].map(|text| Setting::parse(&triangle, text).unwrap());
+    let edited = session.probe(&both, &mut krawl::track::Control::default());
+    assert_eq!(edited.ending, Ending::Reached);
+    assert!((apart(&edited.points).mid() - (34.0 - 15.0 * 2f64.sqrt())).abs() < 1e-12);
+    assert!((session.length(2).mid() - 90.0).abs() < 1e-12);
+}
+
+/// With a third side given instead of the second, the angle at c has a limit: where a is in the way of no circle any more.
+#[test]
+fn the_limit_of_an_angle_is_enclosed() {
+    let triangle = Problem::build("triangle", 2)
+        .point("a", [4, 0])
+        .point("b", [0, 0])
+        .point("c", [4, 3])
+        .distance("a", "b", 4)
+        .distance("a", "c", 3)
+        .dimension(
+            "angles",
+            ["a", "b", "c"],
+            "36.86989764584402"
+                .parse::<krawl::problem::Decimal>()
+                .unwrap(),
+        )
+        .finish()
+        .unwrap();
+    let mut session = Session::open(&triangle).unwrap();
+    let setting = Setting::parse(&triangle, "a-b-c=80").unwrap();
+    let edited = session.edit(&[setting]);
+    let Ending::Limit(_) = &edited.ending else {
+        panic!("{edited:?}")
+    };
+    // The sine is at most 3/4.
+    let most = 0.75f64.asin().to_degrees();
+    let value = edited.dimensions[0].value;
+    assert!(
+        (value.mid() - most).abs() < 1e-9 && value.wid() < 1e-9,
+        "{value:?} {most}"
+    );
+}

@@ -91,6 +91,8 @@ fn written(kind: &str, arguments: &[&str]) -> (Value, Vec<String>) {
 fn results_of_other_verbs_meet_their_schemas() {
     let plate = "docs/examples/plate.toml";
     let bar = "problems/mechanisms/four-bar.toml";
+    let folder = tempfile::tempdir().unwrap();
+    let store = folder.path().to_str().unwrap();
     for (kind, status, arguments) in [
         ("edit", "reached", &["edit", plate, "--set", "C-D=40"][..]),
         ("edit", "limit", &["edit", plate, "--set", "C-D=200"]),
@@ -110,6 +112,18 @@ fn results_of_other_verbs_meet_their_schemas() {
         ),
         ("complete", "complete", &["all", "problems/prism.toml"]),
         (
+            "explore",
+            "budget",
+            &[
+                "explore",
+                "problems/octahedron.toml",
+                "--paths",
+                "1",
+                "--store",
+                store,
+            ],
+        ),
+        (
             "complete",
             "partial",
             &["all", "problems/icosahedron.toml", "--time", "0.2"],
@@ -119,9 +133,33 @@ fn results_of_other_verbs_meet_their_schemas() {
         assert_eq!(complaints, [""; 0], "{arguments:?}");
         assert_eq!(document["status"], status, "{arguments:?}");
     }
+    let octahedron = "problems/octahedron.toml";
+    let template = "problems/octahedron.krawl-template";
+    let (complex, complaints) =
+        written("complex", &["complex", octahedron, "--template", template]);
+    assert_eq!(complaints, [""; 0]);
+    assert!(complex["solutions"].as_array().unwrap().len() > 1);
+    let (comparison, complaints) = written(
+        "comparison",
+        &["compare", "problems/k33.toml", "--repeat", "1"],
+    );
+    assert_eq!(complaints, [""; 0]);
+    assert!(comparison["problems"][0]["rows"].as_array().unwrap().len() > 3);
     let (limits, complaints) = written("limits", &["limits", bar]);
     assert_eq!(complaints, [""; 0]);
     assert!(limits["ranges"].as_object().unwrap().len() > 3);
+}
+
+#[test]
+fn results_made_block_by_block_meet_the_schema() {
+    let file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    let rectangle = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n[constraints]\n\
+                     distances = [[\"a\", \"b\", 5], [\"b\", \"c\", 3], [\"c\", \"d\", 5], [\"d\", \"a\", 3]]\n\
+                     squared_distances = [[\"a\", \"c\", 34]]\n";
+    std::fs::write(file.path(), rectangle).unwrap();
+    let documents = solve(&[&file.path().display().to_string()]);
+    assert_eq!(documents[0]["blocks"]["runs"].as_array().unwrap().len(), 2);
+    assert_eq!(complain(&schema(), &documents[0]), Vec::<String>::new());
 }
 
 #[test]
@@ -136,7 +174,7 @@ fn the_schemas_of_other_verbs_refuse_others() {
         without.as_object_mut().unwrap().remove(key);
         assert!(!schema_of("edit").is_valid(&without), "{key}");
     }
-    for kind in ["complete", "sweep", "limits"] {
+    for kind in ["complete", "sweep", "limits", "complex", "comparison"] {
         assert!(!schema_of(kind).is_valid(&edit), "{kind}");
     }
     // A complete result has no undecided parts.

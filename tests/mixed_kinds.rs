@@ -6,9 +6,10 @@
 
 mod common;
 
-use common::mixed::{Kinds, Spec, View};
+use common::mixed::{Spec, View};
+use krawl::constraint::{Symmetry, symmetry};
 use krawl::problem::Problem;
-use krawl::track::{Control, Options, Outcome, Status, solve};
+use krawl::track::{Control, Options, Outcome, Space, Status, solve};
 use std::collections::BTreeMap;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -23,6 +24,10 @@ struct Tally {
     long: usize,
     solutions: usize,
     compared: usize,
+    /// Solutions of which the mirror image was looked at.
+    mirrored: usize,
+    /// Float runs with the same solutions, of which classes were compared.
+    float: usize,
     /// Per kind in how many problems whose path closed or has two ends it was.
     kinds: BTreeMap<String, usize>,
 }
@@ -52,6 +57,7 @@ fn is_singular(reason: &str) -> bool {
     condition(reason) > 1e5
         || [
             "singular",
+            "cannot be inverted",
             "could not be decided whether",
             "positive for t from",
         ]
@@ -104,8 +110,7 @@ fn short(status: &Status) -> String {
 
 fn try_one(random: &mut Random, tally: &mut Tally) -> Result<(), String> {
     let dimension = 2 + random.below(2);
-    let Some((spec, problem)) = Spec::random(dimension, Kinds::All, &mut |n| random.below(n))
-    else {
+    let Some((spec, problem)) = Spec::random(dimension, &mut |n| random.below(n)) else {
         return Ok(());
     };
     tally.tried += 1;
@@ -113,6 +118,18 @@ fn try_one(random: &mut Random, tally: &mut Tally) -> Result<(), String> {
     for solution in &outcome.solutions {
         let points: Vec<[f64; 3]> = solution.points.iter().map(|p| p.map(|x| x.mid())).collect();
         spec.holds(&points)?;
+        // What is congruent up to reflection is a solution too where the problem is said to be so.
+        if symmetry(&problem) == Symmetry::Isometries {
+            let mirrored = points.iter().map(|&p| {
+                let mut p = p;
+                p[dimension - 1] *= -1.0;
+                p
+            });
+            let mirrored: Vec<[f64; 3]> = mirrored.collect();
+            spec.holds(&mirrored)
+                .map_err(|what| format!("mirrored: {what}"))?;
+            tally.mirrored += 1;
+        }
     }
     if let Status::Stopped(reason) = &outcome.status {
         if reason.contains("the limit of") {
@@ -132,10 +149,36 @@ fn try_one(random: &mut Random, tally: &mut Tally) -> Result<(), String> {
     for constraint in &spec.constraints {
         *tally.kinds.entry(constraint.kind.to_owned()).or_default() += 1;
     }
+    for (what, is_there) in [
+        ("body", !spec.bodies.is_empty()),
+        ("arc", !spec.arcs.is_empty()),
+        ("free line", !spec.free_lines.is_empty()),
+        ("free plane", !spec.free_planes.is_empty()),
+    ] {
+        *tally.kinds.entry(what.to_owned()).or_default() += usize::from(is_there);
+    }
+    let classes = |o: &Outcome| o.solutions.iter().map(|s| s.class + 1).max().unwrap_or(0);
+    let float = Options {
+        max_steps: 20 * MAX_STEPS,
+        ..Options::float(Space::Full)
+    };
+    let float = solve(&problem, &float, &mut Control::default()).unwrap();
     let same = View::same(&spec);
+    if float.status == Status::Closed
+        && agree(
+            &figures(&outcome, &spec, &same),
+            &figures(&float, &spec, &same),
+        )
+    {
+        tally.float += 1;
+        if classes(&outcome) != classes(&float) {
+            return Err("other classes in floats".to_owned());
+        }
+    }
     let wanted = figures(&outcome, &spec, &same);
     let mut views = vec![("reversed", same.clone())];
-    views.push(("scaled", View::scaled(&spec)));
+    let exponent = [-6, -3, 3, 6][random.below(4)];
+    views.push(("scaled", View::scaled(&spec, exponent)));
     views.push(("renamed", View::renamed(&spec)));
     if !problem.is_absolute() {
         views.push(("moved", View::moved(&spec)));
@@ -159,7 +202,6 @@ fn try_one(random: &mut Random, tally: &mut Tally) -> Result<(), String> {
         if !agree(&wanted, &figures(&other, &spec, &view)) {
             return Err(format!("{name}: other figures"));
         }
-        let classes = |o: &Outcome| o.solutions.iter().map(|s| s.class + 1).max().unwrap_or(0);
         if classes(&outcome) != classes(&other) {
             return Err(format!("{name}: other classes"));
         }
@@ -175,7 +217,7 @@ fn many(count: usize, seed: u64) -> Tally {
         if let Err(what) = try_one(&mut random, &mut tally) {
             let mut again = Random(before);
             let dimension = 2 + again.below(2);
-            let (spec, _) = Spec::random(dimension, Kinds::All, &mut |n| again.below(n)).unwrap();
+            let (spec, _) = Spec::random(dimension, &mut |n| again.below(n)).unwrap();
             failures.push(format!("{what}\n{}", spec.text(&View::same(&spec))));
         }
     }
@@ -203,7 +245,7 @@ impl Random {
 fn random_problems_of_mixed_kinds() {
     let tally = many(120, 1);
     assert!(tally.closed + tally.open > 90, "{tally:?}");
-    assert!(tally.compared > 250 && tally.kinds.len() >= 14, "{tally:?}");
+    assert!(tally.compared > 250 && tally.kinds.len() >= 20, "{tally:?}");
 }
 
 #[test]

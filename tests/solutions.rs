@@ -59,6 +59,7 @@ fn through_the_program(name: &str, way: &Options) -> (Value, Vec<Solution>) {
                 std::array::from_fn(|k| place.get(k).map_or(zero, interval))
             })
             .collect(),
+        objects: Vec::new(),
         class: solution["class"].as_u64().unwrap() as usize,
         width: solution["width"].as_f64().unwrap(),
         place: solution["arc"].as_f64().map(|arc| Place {
@@ -67,6 +68,7 @@ fn through_the_program(name: &str, way: &Options) -> (Value, Vec<Solution>) {
             folds: solution["folds"].as_u64().map(|n| n as usize),
         }),
         mirror_of: solution["mirror_of"].as_u64().map(|k| k as usize),
+        is_degenerate: false,
     });
     let solutions = solutions.collect();
     (json, solutions)

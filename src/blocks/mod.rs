@@ -18,12 +18,16 @@
 
 mod choose;
 mod clusters;
+mod combine;
 mod decompose;
+mod follows;
 mod merge;
 
 pub use choose::Choice;
 pub use clusters::clusters;
+pub use combine::{Choice as CombinedChoice, Combined};
 pub use decompose::{Block, Blocks};
+pub use follows::{Combination, Given, combination};
 pub use merge::{Row, System};
 
 use crate::constraint::{Entry, Form, Product};

@@ -25,6 +25,7 @@
 //! ```
 
 mod checker;
+pub mod complex;
 pub mod cover;
 mod format;
 mod reader;

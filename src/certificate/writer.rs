@@ -41,6 +41,8 @@ pub struct Writer<'a, W> {
     arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
     edits: Option<Result<(), String>>,
+    /// Why the certificate ends before the run does, if so: nothing is written any more but the end.
+    cut: Option<String>,
     ended: bool,
     result: io::Result<()>,
 }
@@ -64,6 +66,7 @@ impl<'a, W: Write> Writer<'a, W> {
             held: Vec::new(),
             arc: None,
             edits: None,
+            cut: None,
             ended: false,
             result: Ok(()),
         }
@@ -134,7 +137,19 @@ impl<W: Write> Witness for Writer<'_, W> {
         self.result = write_header(&mut self.out, program, &self.problem.to_toml(), exponent);
     }
 
+    fn interrupt(&mut self, reason: &str) {
+        if self.cut.is_none() {
+            // Half of a way back proves nothing.
+            self.end_turn(false);
+            self.release();
+            self.cut = Some(shortened(reason));
+        }
+    }
+
     fn tube(&mut self, tube: TubeSeen) {
+        if self.cut.is_some() {
+            return;
+        }
         let weight = |&u: &f64| (u / WEIGHT_UNIT).round().clamp(1.0, u16::MAX.into()) as u16;
         let tube = TubeClaim {
             // Without zeros below zero, which differ between builds.
@@ -162,7 +177,7 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn solution(&mut self, centre: &[f64], radius: &[f64]) {
         // An edit's figures stand at its end.
-        if self.arc.is_none() {
+        if self.arc.is_none() && self.cut.is_none() {
             self.solutions += 1;
             let record = Record::Solution(solution_claim(centre, radius, WIDER));
             match self.held.is_empty() {
@@ -173,6 +188,9 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn turn(&mut self) {
+        if self.cut.is_some() {
+            return;
+        }
         self.release();
         self.back = Some((vec![Record::Turn], self.solutions));
     }
@@ -253,6 +271,7 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn end(&mut self, status: &Status, classes: &[usize]) {
         let ending = match status {
+            _ if self.cut.is_some() => Ending::Stopped(self.cut.take().unwrap_or_default()),
             Status::Closed => Ending::Complete,
             // The tubes that were written first are those of the second end.
             Status::Open(ends) => {

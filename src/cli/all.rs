@@ -75,7 +75,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             results.display()
         ));
     }
-    let pictures = arguments.pictures.places()?;
+    let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
@@ -122,7 +122,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(json) = &json {
         written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
     }
-    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
+    if !arguments.quiet && !elsewhere {
         written &= output::print(&complete_to_table(&problem, &result));
     }
     Ok(match result.status {

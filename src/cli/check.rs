@@ -1,12 +1,13 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, input, output};
+use krawl::blocks::clusters;
 use krawl::edit::Decomposition;
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
 use krawl::problem::{Object, Problem, Shape, Target};
 use krawl::remarks::{in_words, remarks};
-use krawl::report::decomposition_in_words;
+use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -61,11 +62,12 @@ pub fn run(arguments: &Arguments) -> u8 {
             return BAD_INPUT;
         }
     };
-    let mut text = describe(&problem);
+    let mut text = describe(&problem, None);
     text += &remarks_in_words(&problem);
-    if problem.is_absolute() {
-        text += &blocks_in_words(&problem);
-    }
+    text += &match problem.is_absolute() {
+        true => blocks_in_words(&Decomposition::of(&problem)),
+        false => clusters_in_words(&problem),
+    };
     if !problem.is_distances_only() {
         text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
                  unknowns and equations by itself\n";
@@ -116,7 +118,8 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
     let (imported, _) = input::import(file, sketch)?;
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
-    text += &describe(problem);
+    let blocks = Decomposition::of(problem);
+    text += &describe(problem, blocks.as_ref().ok());
     if !imported.unsupported.is_empty() {
         let _ = writeln!(
             text,
@@ -138,7 +141,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
         };
         let _ = writeln!(text, "  {name:<14}{what}");
     }
-    text += &blocks_in_words(problem);
+    text += &blocks_in_words(&blocks);
     Ok(text)
 }
 
@@ -147,19 +150,41 @@ fn counted(count: usize, one: &str, many: &str) -> String {
 }
 
 /// How a problem in its own frame falls apart.
-fn blocks_in_words(problem: &Problem) -> String {
-    match Decomposition::of(problem) {
-        Ok(found) => decomposition_in_words(&found),
+fn blocks_in_words(found: &Result<Decomposition, String>) -> String {
+    match found {
+        Ok(found) => decomposition_in_words(found),
         Err(fault) => format!("blocks\n  none: {fault}\n"),
     }
+}
+
+/// How a figure of distances falls apart at sides that its parts share; nothing where it does not.
+fn clusters_in_words(problem: &Problem) -> String {
+    const MOST: usize = 20;
+    let blocks = clusters(problem);
+    if blocks.is_empty() {
+        return String::new();
+    }
+    let what = match problem.dimension {
+        2 => "a side",
+        _ => "a triangle of sides",
+    };
+    let mut text = format!(
+        "blocks\n  {}, which share no more than {what}\n",
+        blocks.len()
+    );
+    for (index, block) in blocks.iter().enumerate().take(MOST) {
+        let names: Vec<&str> = block.points.iter().map(|p| p.name.as_str()).collect();
+        let _ = writeln!(text, "  {}: {}", index + 1, names.join(", "));
+    }
+    if blocks.len() > MOST {
+        let _ = writeln!(text, "  and {} more", blocks.len() - MOST);
+    }
+    text
 }
 
 /// What makes the sketch or the target singular or impossible, and what can be mirrored, as lines of text.
 fn remarks_in_words(problem: &Problem) -> String {
     const MOST: usize = 12;
-    if !problem.is_distances_only() {
-        return String::new();
-    }
     let found = remarks(problem);
     let lines = found.iter().take(MOST).map(|remark| {
         let label = if remark.is_warning() {
@@ -213,7 +238,8 @@ fn pattern(problem: &Problem, homotopy: &Homotopy, plan: &Plan) -> String {
         .render(&jacobian.equations, &distances, &coordinates)
 }
 
-fn describe(problem: &Problem) -> String {
+/// What is in a problem; with `blocks` of one that may be loose, which is said first.
+fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
     let mut rows: Vec<(&str, String)> = Vec::new();
     if !problem.source.is_empty() {
         rows.push(("source", problem.source.clone()));
@@ -277,16 +303,17 @@ fn describe(problem: &Problem) -> String {
         rows.push(("bend", format!("{bend}, c = {c}{remark}")));
     }
 
-    let mut text = format!("{}: the input is in order\n", problem.name);
+    let mut text = format!(
+        "{}: {}\n",
+        problem.name,
+        blocks.map_or_else(
+            || "the input is in order".to_owned(),
+            freedom_of_sketch_in_words
+        )
+    );
     for (label, value) in rows {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {label:<20}{value}");
-    }
-    // With distances only a warning says it.
-    if !problem.is_distances_only()
-        && let Some(message) = problem.impossible_triangle()
-    {
-        let _ = writeln!(text, "  {:<20}{message}", "but");
     }
     text
 }

@@ -3,7 +3,7 @@
 use super::output::{self, Destination};
 use super::template::{Search, read};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
-use krawl::complex::{Status, Template, Ways, solve};
+use krawl::complex::{Status, Template, Ways, solve, to_certificate};
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -18,8 +18,9 @@ use std::time::{Duration, Instant};
 Examples:
   krawl complex problems/octahedron.toml
   krawl complex problems/disulfide.toml --template problems/disulfide.krawl-template --json -
+  krawl complex problems/disulfide.toml --bound 64     complete if you know that there are at most 64
 
-Exit codes: 0 complete, by a proved bound, 4 all paths were followed, and that there are no other solutions is
+Exit codes: 0 complete, by a proved bound or one that you cite, 4 all paths were followed, and that there are no other solutions is
 not proved, 1 paths stopped, 2 bad input.")]
 pub struct Arguments {
     /// The problem file (TOML)
@@ -30,9 +31,16 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write the solutions as a certificate, for `krawl verify`: problems of distances only
+    #[arg(long, value_name = "FILE")]
+    cert: Option<PathBuf>,
     /// A path is taken to go to infinity where an unknown is so many typical lengths
     #[arg(long, value_name = "R", default_value_t = 1000.0, value_parser = super::all::seconds)]
     radius: f64,
+    /// A bound on the number of solutions up to rotation that you know from elsewhere: the result then says that it is
+    /// complete if this bound holds. A smaller one that is proved here goes before it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    bound: Option<u64>,
     /// List all solutions, not the real ones only
     #[arg(long)]
     all: bool,
@@ -50,15 +58,20 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
-    let (problem, lowered) = read(&arguments.file)?;
+    let (problem, mut lowered) = read(&arguments.file)?;
+    if let Some(bound) = arguments.bound {
+        lowered.cite(bound.into());
+    }
+    let lowered = lowered;
     for given in [Some(&arguments.file), arguments.template.as_ref()]
         .into_iter()
         .flatten()
     {
-        if arguments
-            .json
-            .as_ref()
-            .is_some_and(|json| output::is_same_file(json, given))
+        let results = [&arguments.json, &arguments.cert];
+        if results
+            .into_iter()
+            .flatten()
+            .any(|results| output::is_same_file(results, given))
         {
             return Err(format!(
                 "{}: is read; name another file for the results",
@@ -68,6 +81,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let json = arguments
         .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
+    let cert = arguments
+        .cert
         .as_deref()
         .map(Destination::new)
         .transpose()?;
@@ -107,6 +125,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let result = result??;
     let mut written = true;
+    if let Some(cert) = &cert {
+        match to_certificate(&problem, &lowered, &result) {
+            Some(set) => written &= cert.write(&set.to_text()),
+            None => output::complain(&format!(
+                "{file}: no certificate is written: they are defined for distances in a figure with a proper reference only"
+            )),
+        }
+    }
     if let Some(json) = &json {
         written &= json.write(&(complex_to_json(&problem, &lowered, &result) + "\n"));
     }

@@ -97,7 +97,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let settings = settings.map_err(|e| in_file(&e))?;
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
-    let pictures = arguments.pictures.places()?;
+    let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
@@ -127,6 +127,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let mut value = edit_to_value(&problem, &edited, moved);
         value["free"] = session.free().into();
         value["redundant"] = session.redundant().into();
+        value["follows"] = session.follows().into();
         written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(out) = &arguments.out
@@ -138,7 +139,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let beside = Beside::new(out)?;
         written &= beside.commit(beside.file().write_all(&bytes));
     }
-    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
+    if !arguments.quiet && !elsewhere {
         let text = edit_to_table(&problem, &edited, moved) + &freedom_in_words(&session);
         written &= output::print(&text);
     }

@@ -2,8 +2,10 @@
 
 use super::edit::{beside, open};
 use super::output::{self, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
+use krawl::report::page::Page;
 use krawl::report::{ranges_to_json, ranges_to_table};
 use krawl::track::Control;
 use std::path::PathBuf;
@@ -15,6 +17,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   krawl limits problems/mechanisms/four-bar.toml
+  krawl limits docs/examples/plate.toml --html limits.html   the figures at the limits
 
 Exit codes: 0 all ranges are known to their ends, 1 some are not, 2 bad input, or results that could not
 be written.")]
@@ -30,6 +33,8 @@ pub struct Arguments {
     /// Write the result as JSON; `-` writes it to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print nothing
     #[arg(long)]
     quiet: bool,
@@ -51,6 +56,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.file])?;
     let mut control = Control {
         cancel: Some(interrupt::flag()),
         ..Control::default()
@@ -70,7 +76,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(json) = &json {
         written &= json.write(&(ranges_to_json(&problem, &ranges, session.moved()) + "\n"));
     }
-    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+    if !pictures.is_empty() {
+        written &= pictures.write(&Page::of_ranges(&problem, &ranges, session.moved()));
+    }
+    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
+    if !arguments.quiet && !elsewhere {
         written &= output::print(&ranges_to_table(&problem, &ranges, session.moved()));
     }
     let is_known = |end: &End| !matches!(end, End::Unknown(..));

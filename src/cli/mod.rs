@@ -5,11 +5,13 @@ mod check;
 mod compare;
 mod complex;
 mod edit;
+mod explore;
 mod export;
 mod generate;
 mod input;
 mod interrupt;
 mod limits;
+mod merge;
 mod output;
 mod pictures;
 mod processor;
@@ -20,6 +22,7 @@ mod solve;
 mod sweep;
 mod template;
 mod verify;
+mod work;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -58,13 +61,14 @@ Examples:
   krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
   krawl all sketch.toml                     every figure that there is
   krawl complex sketch.toml                 every complex one
+  krawl explore sketch.toml --store DIR     more real ones, from new sketches
   krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
 
 `krawl VERB --help` has more of each verb. The README has the format of problem files.
 
 Exit codes: 0 closed, complete, verified or reached, 1 stopped or refuted, 2 bad input or results that
 could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's branches meet or
-an incomplete certificate, or complex solutions that are not proved to be all, 5 open: a path with two ends, proved between them."
+an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore, 5 open: a path with two ends, proved between them."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -78,14 +82,17 @@ enum Verb {
     Compare(compare::Arguments),
     Complex(complex::Arguments),
     Edit(edit::Arguments),
+    Explore(explore::Arguments),
     Export(export::Arguments),
     Generate(generate::Arguments),
     Limits(limits::Arguments),
+    Merge(merge::Arguments),
     Show(show::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
     Template(template::Arguments),
     Verify(verify::Arguments),
+    Work(work::Arguments),
     Completions(shell::Completions),
     Man(shell::Man),
 }
@@ -102,14 +109,17 @@ pub fn run() -> ExitCode {
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Complex(arguments) => complex::run(&arguments),
         Verb::Edit(arguments) => edit::run(&arguments),
+        Verb::Explore(arguments) => explore::run(&arguments),
         Verb::Export(arguments) => export::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Limits(arguments) => limits::run(&arguments),
+        Verb::Merge(arguments) => merge::run(&arguments),
         Verb::Show(arguments) => show::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Sweep(arguments) => sweep::run(&arguments),
         Verb::Template(arguments) => template::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
+        Verb::Work(arguments) => work::run(&arguments),
         Verb::Completions(arguments) => shell::completions(&arguments),
         Verb::Man(arguments) => shell::man(&arguments),
     };

@@ -63,8 +63,20 @@ impl Pictures {
         self.html.is_some() || self.animation.is_some()
     }
 
-    /// Says early that something cannot be written where it is wanted.
-    pub fn places(&self) -> Result<Places<'_>, String> {
+    /// Says early that something cannot be written where it is wanted: where it is not possible, or where one
+    /// of the files is that are read.
+    pub fn places<'f>(
+        &self,
+        read: impl IntoIterator<Item = &'f PathBuf>,
+    ) -> Result<Places<'_>, String> {
+        for file in read {
+            if let Some(same) = self.files().find(|path| output::is_same_file(path, file)) {
+                return Err(format!(
+                    "{}: is read; name another file for the results",
+                    same.display()
+                ));
+            }
+        }
         let all = self.all().into_iter();
         let all = all.map(|(kind, path)| Ok((kind, Destination::new(path)?, path.as_path())));
         Ok(Places {

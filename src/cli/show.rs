@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = &arguments.result;
-    let places = arguments.pictures.places()?;
+    let places = arguments.pictures.places([file])?;
     let text = match file == Path::new("-") {
         true => {
             let mut text = String::new();

@@ -8,10 +8,12 @@ use clap::ValueEnum;
 use krawl::blocks::clusters;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
+use krawl::remarks::{Remark, in_words, remarks};
 use krawl::report::page::Page;
-use krawl::report::{ProgressLine, Run, to_first_table, to_short_table, to_summary, to_table};
-use krawl::track::{self, Control, Options, Outcome, Progress, Status, Trace, Witness};
-use std::collections::VecDeque;
+use krawl::report::{
+    BlockRuns, ProgressLine, Run, to_first_table, to_no_first, to_short_table, to_summary, to_table,
+};
+use krawl::track::{self, Control, First, Options, Outcome, Progress, Status, Trace, Witness};
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +46,7 @@ pub struct Arguments {
     sketch: Option<String>,
     /// Only the solution to which the sketch moves without a fold; exit code 0 if there is one, 3 if the path turns
     /// back before, 1 if that could not be proved
-    #[arg(long, conflicts_with_all = ["all", "summary", "cert"])]
+    #[arg(long, conflicts_with_all = ["all", "summary", "cert", "reverse"])]
     first: bool,
     /// Prove every step, or track in floating-point arithmetic
     #[arg(long, value_enum, default_value_t = Mode::Certified)]
@@ -54,28 +56,32 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     space: Option<Space>,
     /// How float mode steps: well, or as in the paper (RR 8705, 7.1 to 7.3)
-    #[arg(long, value_enum, default_value_t = Preset::Default)]
+    #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default)]
     preset: Preset,
     /// Distance to a boundary configuration at which the plan is changed, between 0 and 0.5
-    #[arg(long, value_name = "X", default_value = "0.1", value_parser = alpha)]
+    #[arg(long, help_heading = "For experiments", value_name = "X", default_value = "0.1", value_parser = alpha)]
     alpha: f64,
     /// Longest step allowed, in arc length
-    #[arg(long, value_name = "X", value_parser = positive)]
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
     max_step: Option<f64>,
     /// Certified mode: how far the path may be from the middle of a tube. Extended precision is never
     /// switched on for the sake of a small radius alone
-    #[arg(long, value_name = "X", value_parser = positive)]
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
     tube_radius: Option<f64>,
     /// Certified mode: keep to 53 bits, and stop where they do not suffice, instead of switching extended
     /// precision on there (which only the full space has)
-    #[arg(long)]
+    #[arg(long, help_heading = "For experiments")]
     no_extended: bool,
     /// Float mode: points are corrected until a correction is about this small
-    #[arg(long, value_name = "X", value_parser = positive)]
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
     tolerance: Option<f64>,
     /// Follow the loop the other way round
     #[arg(long)]
     reverse: bool,
+    /// Threads for problems of 127 free coordinates and more that are proved in the full space; others have no use
+    /// for them. 0 is one for each processor. The result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=1024))]
+    threads: u16,
     /// Write a certificate, and check it as `verify` does; only for runs in certified mode. Where a
     /// certificate of a closed run does not pass, the exit code is that of `verify`
     #[arg(long, value_name = "FILE")]
@@ -197,6 +203,7 @@ impl Arguments {
             reverse: self.reverse,
             alpha: self.alpha,
             extended: !self.no_extended,
+            threads: self.threads.into(),
             ..options
         }
     }
@@ -230,9 +237,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .as_deref()
         .map(Destination::new)
         .transpose()?;
-    let pictures = arguments.pictures.places()?;
+    let pictures = arguments.pictures.places(&arguments.files)?;
     let results = [&arguments.json, &arguments.cert].into_iter().flatten();
-    for results in results.chain(arguments.pictures.files()) {
+    for results in results {
         for file in &arguments.files {
             if output::is_same_file(results, file) {
                 return Err(format!(
@@ -253,13 +260,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut lines = String::new();
     let (mut written, mut worst) = (true, CLOSED);
     let named = problems.into_iter().zip(&arguments.files);
-    let mut queue: VecDeque<(Problem, &PathBuf, bool)> = named
-        .map(|(problem, file)| (problem, file, false))
-        .collect();
-    let (count, mut k) = (queue.len(), 0);
-    while let Some((problem, file, is_block)) = queue.pop_front() {
+    let (count, mut k) = (arguments.files.len(), 0);
+    for (problem, file) in named {
         let problem = &problem;
-        let which = output::which_of((k.min(count - 1), count), file);
+        let which = output::which_of((k, count), file);
         let mut trace = Trace::default();
         let shown = !pictures.is_empty();
         let wants_path = (json.is_some() || shown) && arguments.mode == Mode::Certified;
@@ -268,27 +272,49 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             None if arguments.pictures.want_path() => samples_for(problem),
             None => 0,
         };
-        let (mut outcome, well, verdict) = follow(
-            arguments,
-            problem,
-            &input::name(file),
-            &which,
-            cert.as_ref(),
-            wants_path.then_some(&mut trace),
-        )?;
+        let mut turns_at = None;
+        let (mut outcome, well, verdict) = if arguments.first && !shown && samples == 0 {
+            let found = follow_first(arguments, problem, &input::name(file), &which)?;
+            turns_at = found.turns_at;
+            (found.outcome, true, None)
+        } else {
+            follow(
+                arguments,
+                problem,
+                &input::name(file),
+                &which,
+                cert.as_ref(),
+                wants_path.then_some(&mut trace),
+            )?
+        };
         written &= well;
-        if let (Status::Stopped(reason), false) = (&outcome.status, is_block)
+        if let Status::Stopped(reason) = &outcome.status
             && arguments.can_be_cut(cancel)
         {
             let blocks = clusters(problem);
             if !blocks.is_empty() {
+                let (runs, code) = follow_blocks(arguments, blocks, &input::name(file), &which)?;
+                let all = BlockRuns {
+                    problem,
+                    reason,
+                    options: &arguments.options(),
+                    runs: &runs,
+                };
+                if json.is_some() {
+                    lines += &(all.to_value(&outcome, arguments.all).to_string() + "\n");
+                }
                 if !silent {
-                    let text = cut_in_words(problem, &blocks, reason);
-                    written &= output::print(&text);
+                    let gap = if k == 0 || arguments.summary {
+                        ""
+                    } else {
+                        "\n"
+                    };
+                    let hints = hints(problem, &outcome, &input::name(file));
+                    written &=
+                        output::print(&format!("{gap}{}{hints}", arguments.shown_blocks(&all)));
                 }
-                for block in blocks.into_iter().rev() {
-                    queue.push_front((block, file, true));
-                }
+                worst = worse(worst, code);
+                k += 1;
                 continue;
             }
         }
@@ -304,6 +330,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         };
         worst = match (&outcome.status, worst) {
             _ if first.is_some() => worst,
+            _ if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
             // The path comes back, or ends, and has no such solution.
             _ if arguments.first => LIMIT,
@@ -334,6 +361,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             };
             let text = match (first, arguments.first) {
                 (Some(text), _) => text,
+                (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
                 (None, true) => format!(
                     "{}: no solution without a fold: the path turns back before, or could not be followed that far ({})\n",
                     problem.name,
@@ -341,7 +369,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 ),
                 (None, false) => arguments.shown(problem, &outcome),
             };
-            written &= output::print(&format!("{gap}{text}"));
+            let hints = hints(problem, &outcome, &input::name(file));
+            written &= output::print(&format!("{gap}{text}{hints}"));
         }
         k += 1;
         if cancel.load(Ordering::Relaxed) {
@@ -356,31 +385,87 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     Ok(if written { worst } else { BAD_INPUT })
 }
 
-/// What is said before a problem that stops as a whole is followed block by block.
-fn cut_in_words(problem: &Problem, blocks: &[Problem], reason: &str) -> String {
-    let what = match problem.dimension {
-        2 => "a side",
-        _ => "a triangle of sides",
-    };
-    format!(
-        "{}: followed as a whole it stops ({}). It falls apart into {} blocks that share no more than {what}, and \
-         these are followed one by one. Figures of all blocks, one of each, as they are or mirrored, fit together to a \
-         figure that meets all dimensions.\n\n",
-        problem.name,
-        reason.trim_end_matches('.'),
-        blocks.len(),
-    )
+/// The graver of two exit codes.
+fn worse(one: u8, other: u8) -> u8 {
+    match (one, other) {
+        (STOPPED, _) | (_, STOPPED) => STOPPED,
+        (CLOSED, code) => code,
+        (code, _) => code,
+    }
+}
+
+/// Follows the blocks of a problem one by one; what came of each, and the exit code.
+fn follow_blocks(
+    arguments: &Arguments,
+    blocks: Vec<Problem>,
+    name: &str,
+    which: &str,
+) -> Result<(Vec<(Problem, Outcome)>, u8), String> {
+    let mut code = CLOSED;
+    let mut runs = Vec::with_capacity(blocks.len());
+    for block in blocks {
+        let (outcome, _, _) = follow(arguments, &block, name, which, None, None)?;
+        code = worse(
+            code,
+            match &outcome.status {
+                Status::Closed => CLOSED,
+                Status::Open(_) => OPEN,
+                Status::Stopped(_) => STOPPED,
+            },
+        );
+        runs.push((block, outcome));
+    }
+    Ok((runs, code))
+}
+
+/// Where a run stopped: what makes the sketch or the target singular, which may be why.
+fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
+    const MOST: usize = 3;
+    if !matches!(outcome.status, Status::Stopped(_)) || !problem.is_distances_only() {
+        return String::new();
+    }
+    let all = remarks(problem);
+    let mut warnings: Vec<_> = all.iter().filter(|remark| remark.is_warning()).collect();
+    if outcome.steps == 0 {
+        // It is the sketch that no run can leave.
+        let is_of_sketch =
+            |remark: &Remark| matches!(remark, Remark::Loose { .. } | Remark::FlatInSketch(_));
+        warnings.sort_by_key(|remark| !is_of_sketch(remark));
+    }
+    let shown = warnings.iter().take(MOST);
+    let mut text: String = shown
+        .map(|remark| format!("warning: {}\n", in_words(problem, remark)))
+        .collect();
+    if warnings.len() > MOST {
+        let more = warnings.len() - MOST;
+        text += &format!("and {more} more of these: `krawl check {file}` lists them\n");
+    }
+    text
 }
 
 impl Arguments {
     /// Whether a problem that stops may be followed block by block.
     fn can_be_cut(&self, cancel: &AtomicBool) -> bool {
         self.mode == Mode::Certified
+            && !self.first
             && self.cert.is_none()
-            // One document for each file.
-            && self.json.is_none()
             && self.pictures.files().next().is_none()
             && !cancel.load(Ordering::Relaxed)
+    }
+
+    fn shown_blocks(&self, all: &BlockRuns) -> String {
+        let runs = all.runs.iter();
+        match self.summary {
+            true => {
+                let lines: String = runs.map(|(block, run)| to_summary(block, run)).collect();
+                format!("{lines}{}: {}\n", all.problem.name, all.verdict())
+            }
+            false => {
+                let tables = runs.map(|(block, run)| self.shown(block, run) + "\n");
+                let tables: String = tables.collect();
+                format!("{}\n{tables}{}", all.introduction(), all.to_table(self.all))
+            }
+        }
     }
 
     fn shown(&self, problem: &Problem, outcome: &Outcome) -> String {
@@ -447,6 +532,34 @@ fn follow(
         }
     }
     Ok((outcome, written, verdict))
+}
+
+/// Follows the first arc of a path, on which t rises.
+fn follow_first(
+    arguments: &Arguments,
+    problem: &Problem,
+    name: &str,
+    which: &str,
+) -> Result<First, String> {
+    if arguments.mode == Mode::Float {
+        let (outcome, _, _) = follow(arguments, problem, name, which, None, None)?;
+        return Ok(First {
+            outcome,
+            turns_at: None,
+        });
+    }
+    let mut line = ProgressLine::new(!arguments.quiet, which);
+    let mut show = |now: Progress| line.show(now);
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        progress: Some(&mut show),
+        ..Control::default()
+    };
+    let options = arguments.options();
+    let space = arguments.space.map(|_| options.space);
+    let found = track::first(problem, space, &options, &mut control);
+    line.clear();
+    found.map_err(|error| format!("{name}: {error}"))
 }
 
 /// Follows the path again in narrow tubes, if that comes to the same end, for pictures and folds: what it

@@ -82,7 +82,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let ((index, from), (_, to)) = (from?, to?);
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places()?;
+    let pictures = arguments.pictures.places([&arguments.file])?;
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);

@@ -1,10 +1,11 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, output};
+use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::certificate::cover::{FIRST_LINE, verify_cover};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::problem::Problem;
-use krawl::report::{ProgressLine, cover_theorem, theorem};
+use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -21,7 +22,7 @@ Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another
 certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it; 4 incomplete, the
 proof of a run that stopped, true as far as it goes.")]
 pub struct Arguments {
-    /// The certificate, as `--cert` of `solve`, `edit`, `sweep` or `all` writes it
+    /// The certificate, as `--cert` of `solve`, `edit`, `sweep`, `all` or `complex` writes it
     cert: PathBuf,
     /// A problem file (TOML) that the certificate has to be about
     file: Option<PathBuf>,
@@ -44,8 +45,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let problem = problem.map_err(|error| error.to_string())?;
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let mut file = BufReader::new(file);
-    if begins_a_cover(&mut file) {
+    if begins(&mut file, FIRST_LINE) {
         return verify_the_cover(arguments, file, problem.as_ref());
+    }
+    if begins(&mut file, krawl::certificate::complex::FIRST_LINE) {
+        return verify_the_set(arguments, file, problem.as_ref());
     }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
@@ -81,10 +85,47 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     })
 }
 
-/// Whether the file is a cover, by its first line.
-fn begins_a_cover(file: &mut BufReader<File>) -> bool {
+/// Whether the file has this first line.
+fn begins(file: &mut BufReader<File>, line: &str) -> bool {
     file.fill_buf()
-        .is_ok_and(|bytes| bytes.starts_with(format!("{FIRST_LINE}\n").as_bytes()))
+        .is_ok_and(|bytes| bytes.starts_with(format!("{line}\n").as_bytes()))
+}
+
+/// Checks a set of complex solutions.
+fn verify_the_set(
+    arguments: &Arguments,
+    mut file: BufReader<File>,
+    problem: Option<&Problem>,
+) -> Result<u8, String> {
+    let name = arguments.cert.display();
+    let mut text = String::new();
+    file.read_to_string(&mut text)
+        .map_err(|e| format!("{name}: cannot be read: {e}"))?;
+    let clock = Instant::now();
+    let verdict = verify_complex_set(&text).map_err(|error| format!("{name}: {error}"))?;
+    let mut text = complex_set_theorem(&verdict, clock.elapsed());
+    let same = problem.is_none_or(|problem| verdict.is_about(problem));
+    if let Some(file) = &arguments.file {
+        text += &match same {
+            true => format!(
+                "The points and distances are those in {}, exactly.\n",
+                file.display()
+            ),
+            false => format!(
+                "REFUTED: the points or distances are not those in {}.\n",
+                file.display()
+            ),
+        };
+    }
+    if !arguments.quiet && !output::print(&text) {
+        return Ok(BAD_INPUT);
+    }
+    Ok(match verdict.flaw {
+        _ if !same => REFUTED,
+        None => CLOSED,
+        Some(ComplexFlaw::False(_)) => REFUTED,
+        Some(ComplexFlaw::NotProved(_)) => NOT_PROVED,
+    })
 }
 
 /// Checks what a search for all solutions left.

@@ -214,10 +214,12 @@ mod tests {
                 [point(0.0); 3],
                 [hull(x - radius, x + radius), point(1.0), point(0.0)],
             ],
+            objects: Vec::new(),
             class: 0,
             width: 2.0 * radius,
             place: None,
             mirror_of: None,
+            is_degenerate: false,
         };
         Measured {
             outcome: Outcome {

@@ -388,9 +388,11 @@ fn in_gauge(
     let width = all.map(|x| x.wid()).fold(0.0, f64::max) / size;
     Some(Solution {
         points,
+        objects: Vec::new(),
         class: 0,
         width,
         place: None,
         mirror_of: None,
+        is_degenerate: false,
     })
 }

@@ -26,6 +26,8 @@ pub struct Bound {
     pub count: u128,
     /// Where it comes from, in words.
     pub source: String,
+    /// Whether somebody cites it: then it is not proved here, and what rests on it holds if it does.
+    pub is_cited: bool,
     /// The points that it holds fixed: their distances must not make them isotropic.
     pub fixed: Vec<usize>,
 }
@@ -45,6 +47,7 @@ pub fn bound(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Option<Bo
         && number <= count
     {
         return Some(Bound {
+            is_cited: false,
             count: number,
             source: "the number of realisations of a minimally rigid graph in the plane (Capco et al. 2018)"
                 .to_owned(),
@@ -52,6 +55,7 @@ pub fn bound(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Option<Bo
         });
     }
     Some(Bound {
+        is_cited: false,
         count,
         source: "the multi-homogeneous Bézout bound of the graph (Bartzos, Emiris, Schicho 2020)"
             .to_owned(),

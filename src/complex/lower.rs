@@ -31,9 +31,24 @@ pub struct Lowered {
     pub system: System,
     /// The bound.
     pub bound: Option<Bound>,
+    /// The points that stand on places of their own, where the problem has distances only.
+    pub placed: Option<Vec<usize>>,
 }
 
 impl Lowered {
+    /// Takes a bound on the number of solutions up to rotation that somebody cites, unless a smaller one is proved.
+    pub fn cite(&mut self, count: u128) {
+        if self.bound.as_ref().is_some_and(|own| own.count <= count) {
+            return;
+        }
+        self.bound = Some(Bound {
+            count,
+            source: "the bound that you cite".to_owned(),
+            is_cited: true,
+            fixed: Vec::new(),
+        });
+    }
+
     /// The number of orbits under the system's group that the bound allows, for instances of which no solution is
     /// its own image.
     pub fn enough(&self) -> Option<usize> {
@@ -71,6 +86,7 @@ fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         Some(system) => Lowered {
             system,
             bound: None,
+            placed: None,
         },
         None => general(problem, placed)?,
     };
@@ -190,6 +206,8 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed)
     });
     Ok(Lowered {
+        placed: matches!(system.start, Start::Placed(..))
+            .then(|| problem.homotopy.reference.clone()),
         system: system.with_groups(),
         bound,
     })

@@ -26,6 +26,7 @@
 
 pub mod bound;
 mod boxes;
+mod certify;
 mod count;
 mod exact;
 mod export;
@@ -41,6 +42,7 @@ mod template;
 
 pub use bound::Bound;
 pub use boxes::{Found, Same, SolutionBox, SolutionSet};
+pub use certify::to_certificate;
 pub use count::{Counts, count, count_generic};
 pub use exact::{Exact, Parameter, Random};
 pub use export::{Export, export};

@@ -11,6 +11,8 @@ pub enum LineName {
     Points([usize; 2]),
     /// A line of its own, by index of the object.
     Free(usize),
+    /// A coordinate axis.
+    Axis(usize),
 }
 
 /// A plane in a constraint.
@@ -52,6 +54,11 @@ impl<'a> Arguments<'a> {
     /// The items of a constraint.
     pub fn new(problem: &'a Problem, items: &'a [Item]) -> Self {
         Arguments { problem, items }
+    }
+
+    /// What was taken since an earlier state.
+    pub fn taken_since(&self, before: &Arguments<'a>) -> &'a [Item] {
+        &before.items[..before.items.len() - self.items.len()]
     }
 
     /// How many are left.
@@ -140,6 +147,7 @@ impl<'a> Arguments<'a> {
                     _ => LineName::Free(index),
                 })
             }
+            Sort::Axis => Ok(LineName::Axis(self.axis()?)),
             Sort::Point => {
                 let a = self.point()?;
                 let b = match self.items.first() {
@@ -156,6 +164,17 @@ impl<'a> Arguments<'a> {
                 Ok(LineName::Points([a, b]))
             }
             _ => Err(self.wanted("a line, or two points,")),
+        }
+    }
+
+    /// A line through two points: those.
+    pub fn segment(&mut self) -> Result<[usize; 2], Fault> {
+        let what = self.found();
+        match self.line()? {
+            LineName::Points(points) => Ok(points),
+            LineName::Free(_) | LineName::Axis(_) => Err(format!(
+                "{what} has no ends: name a line through two points, or two points"
+            )),
         }
     }
 
@@ -208,7 +227,11 @@ impl<'a> Arguments<'a> {
                 self.take();
                 Ok(k)
             }
-            _ => Err(self.wanted(&format!("`{}` or `{}`", AXES[0], AXES[1]))),
+            _ => {
+                let axes = &AXES[..self.problem.dimension];
+                let axes: Vec<String> = axes.iter().map(|axis| format!("`{axis}`")).collect();
+                Err(self.wanted(&axes.join(" or ")))
+            }
         }
     }
 

@@ -13,6 +13,8 @@ pub enum Measure {
     Length,
     /// A length with a sign, or a coordinate.
     Signed,
+    /// A ratio greater than zero, which has no unit.
+    Ratio,
     /// An angle between 0 and 180 degrees.
     Degrees,
 }
@@ -24,6 +26,21 @@ pub struct Fixes {
     pub frame: bool,
     /// For each axis whether a place along it is fixed.
     pub axes: [bool; 3],
+}
+
+impl Fixes {
+    /// What is fixed by the distance from a coordinate axis, if one is named: a direction, and the place along all
+    /// other axes.
+    pub fn beside_axis(items: &[Item]) -> Self {
+        let axis = items.iter().find_map(|item| match item {
+            Item::Axis(k) => Some(*k),
+            _ => None,
+        });
+        Fixes {
+            frame: axis.is_some(),
+            axes: std::array::from_fn(|k| axis.is_some_and(|axis| axis != k)),
+        }
+    }
 }
 
 /// A kind of constraint.
@@ -45,9 +62,12 @@ pub trait Kind: Sync {
         Measure::Nothing
     }
 
-    /// What of the frame it fixes.
-    fn fixes(&self, _problem: &Problem, _items: &[Item]) -> Fixes {
-        Fixes::default()
+    /// What of the frame it fixes: unless it says more, directions, where it names a coordinate axis.
+    fn fixes(&self, _problem: &Problem, items: &[Item]) -> Fixes {
+        Fixes {
+            frame: items.iter().any(|item| matches!(item, Item::Axis(_))),
+            ..Fixes::default()
+        }
     }
 
     /// Its unknowns and equations.

@@ -25,6 +25,7 @@ mod arguments;
 #[cfg(test)]
 mod floats;
 mod frame;
+mod heights;
 mod kind;
 mod kinds;
 mod lowering;
@@ -38,6 +39,7 @@ mod testing;
 mod tests;
 mod twins;
 
+pub use heights::{Divided, Origin, divide};
 pub use kind::{Fixes, Kind, Measure};
 pub use kinds::KINDS;
 pub use quadratic::{
@@ -51,8 +53,8 @@ use crate::interval::Interval;
 use crate::problem::{Problem, Target};
 use arguments::Arguments;
 use kind::Given;
-use lowering::{Fault, Lowering, Start};
-pub(crate) use lowering::{Lowered, Record};
+pub(crate) use lowering::{Fault, Lowered, Record};
+use lowering::{Lowering, Start};
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {
@@ -80,7 +82,11 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 /// If the problem has not been checked ([`Problem::check`]).
 pub fn lower_edit(problem: &Problem, from: &[Target]) -> Tail {
     debug_assert_eq!(problem.distances.len(), from.len());
-    tail(try_lower_from(problem, Start::Distances(from), false))
+    tail(try_lower_from(
+        problem,
+        Start::Distances(from),
+        (false, false),
+    ))
 }
 
 fn tail(lowered: Result<Lowered, (Owner, Fault)>) -> Tail {
@@ -133,7 +139,7 @@ pub(crate) enum Owner {
 
 /// The equations of a problem with a reference and known names, or the first object or constraint at fault.
 pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
-    try_lower_from(problem, Start::Sketch, false)
+    try_lower_from(problem, Start::Sketch, (false, false))
 }
 
 /// All equations of a problem in its own frame, distances among them, which come last. Left-hand sides do not depend
@@ -146,11 +152,27 @@ pub(crate) fn try_lower_all(
     from: Option<&Record>,
 ) -> Result<Lowered, (Owner, Fault)> {
     let from = from.map_or(Start::Sketch, Start::Dimensions);
-    try_lower_from(problem, from, true)
+    try_lower_from(problem, from, (true, true))
 }
 
-fn try_lower_from(problem: &Problem, from: Start, all: bool) -> Result<Lowered, (Owner, Fault)> {
-    let mut low = Lowering::new(problem, from, all);
+/// The equations of all constraints of a problem that are not distances between points, as [`lower`] makes them, but with
+/// left-hand sides that do not depend on the values of dimensions: for edits of any of them. `from`: as in
+/// [`try_lower_all`].
+pub(crate) fn try_lower_editable(
+    problem: &Problem,
+    from: Option<&Record>,
+) -> Result<Lowered, (Owner, Fault)> {
+    let from = from.map_or(Start::Sketch, Start::Dimensions);
+    try_lower_from(problem, from, (false, true))
+}
+
+/// `all`: distances among the equations, and nothing pinned. `editable`: left-hand sides that do not depend on values.
+fn try_lower_from(
+    problem: &Problem,
+    from: Start,
+    (all, editable): (bool, bool),
+) -> Result<Lowered, (Owner, Fault)> {
+    let mut low = Lowering::new(problem, from, editable);
     let objects = problem.objects.len();
     for object in 0..objects {
         low.begin(object);
@@ -217,7 +239,7 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
     let value = &problem.constraints[index].value;
     let wanted = match kind.measure() {
         Measure::Nothing => None,
-        Measure::Length => Some("a number greater than zero"),
+        Measure::Length | Measure::Ratio => Some("a number greater than zero"),
         Measure::Signed => Some("a number"),
         Measure::Degrees => Some("an angle between 0 and 180 degrees"),
     };
@@ -231,7 +253,7 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
             let number = value.value();
             let straight = num_rational::BigRational::from_integer(180.into());
             let in_range = match kind.measure() {
-                Measure::Length => value.is_positive(),
+                Measure::Length | Measure::Ratio => value.is_positive(),
                 Measure::Degrees => value.is_positive() && *number < straight,
                 _ => true,
             };

@@ -82,6 +82,13 @@ impl Lowering<'_> {
                 base: self.place(a),
                 along: self.span(a, b)?,
             },
+            LineName::Axis(axis) => Line {
+                base: Place {
+                    entries: [Entry::Zero; 3],
+                    at: [zero(), zero(), zero()],
+                },
+                along: self.axis(axis),
+            },
             LineName::Free(object) => {
                 let entries = self.objects[&object].clone();
                 let (at, direction) = self.free_line(object);
@@ -182,6 +189,11 @@ impl Lowering<'_> {
             radius: self.objects[&object][0],
             squared,
         }
+    }
+
+    /// The unknowns of an object that has some of its own.
+    pub fn unknowns_of(&self, object: usize) -> Vec<Entry> {
+        self.objects[&object].clone()
     }
 
     /// Says that a place is on a circle, sphere or arc.

@@ -113,6 +113,9 @@ pub struct Tail {
     /// is the same line with its direction reversed. Per change the unknowns concerned; all sums of changes
     /// are such changes too.
     pub twins: Vec<Vec<bool>>,
+    /// For each object of the problem its own unknowns: of a line of its own the place nearest to the origin and
+    /// the direction, of a plane of its own the normal and the level, of a circle, sphere or arc the radius.
+    pub objects: Vec<Vec<Entry>>,
     /// Whether the mirror image of a solution is a solution too. It is not where a constraint says
     /// which way round a figure is.
     pub mirrors: bool,
@@ -125,6 +128,7 @@ impl Default for Tail {
             equations: Vec::new(),
             nonzero: Vec::new(),
             twins: Vec::new(),
+            objects: Vec::new(),
             mirrors: true,
         }
     }

@@ -143,7 +143,7 @@ impl<'a> System<'a> {
             .map(|point| format!("`{}`", self.problem.points[point].name))
             .collect();
         for (index, object) in self.problem.objects.iter().enumerate() {
-            let mut own = self.lowered.object_unknowns[index].iter();
+            let mut own = self.lowered.tail.objects[index].iter();
             if own.any(|&entry| self.column(entry).is_some_and(&moves)) {
                 names.push(format!("`{}`", object.name));
             }

@@ -34,6 +34,11 @@ pub struct Range {
     pub low: End,
     /// How far it can grow.
     pub high: End,
+    /// The figure at the low end, in the coordinates of the problem: at a limit, and where none was met up to
+    /// there, a box that holds exactly one; otherwise the old figure.
+    pub low_figure: Vec<[Interval; 3]>,
+    /// The figure at the high end, likewise.
+    pub high_figure: Vec<[Interval; 3]>,
 }
 
 impl End {
@@ -71,31 +76,32 @@ impl Session {
             }
             _ => (SMALLEST * value.mid(), value.mid() / SMALLEST),
         };
-        let [low, high] = [low, high].map(|goal| self.end(index, goal, control));
+        let ends = [low, high].map(|goal| self.end(index, goal, control));
+        let [(low, low_figure), (high, high_figure)] = ends;
         Range {
             index,
             value,
             low,
             high,
+            low_figure,
+            high_figure,
         }
     }
 
-    /// The ranges of all dimensions; where the figure has no place of its own, of all distances.
+    /// The ranges of all dimensions.
     pub fn ranges(&mut self, control: &mut Control) -> Vec<Range> {
-        let problem = self.problem();
-        let all = problem.dimensions();
-        let movable = |index: &usize| *index < problem.distances.len() || problem.is_absolute();
-        let all: Vec<usize> = all.filter(movable).collect();
+        let all: Vec<usize> = self.problem().dimensions().collect();
         all.into_iter()
             .map(|index| self.range(index, control))
             .collect()
     }
 
-    fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> End {
+    /// How far a dimension can go towards a value, and the figure there.
+    fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> (End, Vec<[Interval; 3]>) {
         let rounded = format!("{goal:.3e}").parse::<Decimal>();
         let Ok(goal) = rounded else {
             let reason = format!("{goal:e} is out of the range of lengths");
-            return End::Unknown(self.length(index), reason);
+            return (End::Unknown(self.length(index), reason), self.points());
         };
         let setting = Setting {
             index,
@@ -103,10 +109,13 @@ impl Session {
         };
         let edited = self.probe(&[setting], control);
         let Edited {
-            ending, dimensions, ..
+            ending,
+            dimensions,
+            points,
+            ..
         } = edited;
         let value = dimensions[0].value;
-        match ending {
+        let end = match ending {
             Ending::Reached => End::Beyond(value),
             Ending::Limit(limit) => End::Limit(value, limit),
             Ending::Passes(reason) => End::Unknown(
@@ -114,6 +123,7 @@ impl Session {
                 format!("branches of figures seem to meet there ({reason})"),
             ),
             Ending::Stopped(reason) => End::Unknown(value, reason),
-        }
+        };
+        (end, points)
     }
 }

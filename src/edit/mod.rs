@@ -54,3 +54,17 @@ pub use session::{Decomposition, Session, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use write::{WriteError, rewrite};
+
+use crate::constraint::{Fault, Lowered, Owner};
+use crate::problem::Problem;
+
+/// The equations of a problem, or what is at fault in words.
+fn lowered(
+    problem: &Problem,
+    lower: impl FnOnce(&Problem) -> Result<Lowered, (Owner, Fault)>,
+) -> Result<Lowered, String> {
+    lower(problem).map_err(|(owner, fault)| match owner {
+        Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
+        Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
+    })
+}

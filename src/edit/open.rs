@@ -1,7 +1,7 @@
 //! From a sketch to a figure that meets its dimensions.
 
 use super::ending::Ending;
-use crate::interval::{Interval, hull, point};
+use crate::interval::point;
 use crate::problem::{Problem, Target};
 use crate::system::{GaugeError, Homotopy, is_met};
 use crate::track::arc::{ArcEnd, Figure};
@@ -42,25 +42,15 @@ pub struct Moved {
     pub tubes: usize,
 }
 
-/// The sketch as a box.
-pub(super) fn sketch(homotopy: &Homotopy) -> Figure {
-    let boxes = || homotopy.sketch_of_unknowns();
-    Figure {
-        centre: boxes().map(|x| x.mid()).collect(),
-        low: vec![0.0; homotopy.equations],
-        radius: boxes().map(|x| x.rad()).collect(),
-    }
-}
-
-/// Leads the sketch to its own dimensions, which then stand still in the homotopy of `arcs`. The homotopy
-/// must be that of the problem without a bend.
+/// Leads the sketch to its own dimensions; distances then stand still in the homotopy of `arcs`, and what is said of other
+/// constraints has to be set anew. The homotopy must be that of the problem without a bend.
 pub(super) fn correct(
     problem: &Problem,
     arcs: &mut dyn FollowArcs,
     control: &mut Control,
 ) -> Result<(Figure, Moved), OpenError> {
     let homotopy = arcs.homotopy_mut();
-    let start = sketch(homotopy);
+    let start = Figure::of_sketch(homotopy);
     // What other constraints say of the sketch is not looked at.
     let mut all_met = homotopy.edges.len() == homotopy.equations;
     for (index, distance) in problem.distances.iter().enumerate() {
@@ -106,7 +96,6 @@ pub(super) fn correct(
     for (index, distance) in problem.distances.iter().enumerate() {
         homotopy.hold(index, &distance.target);
     }
-    homotopy.keep_constraints(problem, &targets_of(problem));
     let distance = distance(homotopy, &start, &figure) * unit;
     Ok((
         figure,
@@ -124,27 +113,10 @@ pub(super) fn targets_of(problem: &Problem) -> Vec<Target> {
 
 /// A bound on the distance of any point in one figure from the same in the other.
 fn distance(homotopy: &Homotopy, one: &Figure, other: &Figure) -> f64 {
-    let (a, b) = (coordinates(homotopy, one), coordinates(homotopy, other));
+    let (a, b) = (one.points(homotopy), other.points(homotopy));
     let squared = a.iter().zip(&b).map(|(a, b)| {
         let sum = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
         sum.sqrt().sup()
     });
     squared.fold(0.0, f64::max)
-}
-
-/// All points of a figure in the gauge, in the homotopy's unit.
-pub(super) fn coordinates(homotopy: &Homotopy, figure: &Figure) -> Vec<[Interval; 3]> {
-    let (d, m) = (homotopy.dimension, homotopy.equations);
-    let coordinate = |p: usize, axis: usize| -> Interval {
-        match homotopy.gauge.variable.get(p * d + axis) {
-            Some(&i) if axis < d && i < m => {
-                let around = hull(-figure.radius[i], figure.radius[i]);
-                point(figure.centre[i]) + point(figure.low[i]) + around
-            }
-            _ => point(0.0),
-        }
-    };
-    (0..homotopy.points)
-        .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
-        .collect()
 }

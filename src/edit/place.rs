@@ -1,7 +1,7 @@
 //! Where figures stand in the coordinates of the problem.
 
 use crate::interval::point;
-use crate::interval::vector::{Vector, cross, dot, minus, unit};
+use crate::interval::vector::{Vector, minus, unit};
 use crate::problem::Problem;
 use crate::system::Placement;
 
@@ -60,12 +60,11 @@ impl Stand {
     /// The figure with these places in the gauge, in the coordinates of the problem.
     pub fn put(&self, dimension: usize, places: &[Vector]) -> Vec<Vector> {
         let frame = frame(dimension, &self.points, places);
-        let Some(Placement { origin, axes }) = frame else {
+        let Some(frame) = frame else {
             return places.iter().map(|p| self.gauge.to_problem(p)).collect();
         };
-        let into = |p: &Vector| axes.map(|axis| dot(axis, minus(*p, origin)));
         let put = |(index, p): (usize, &Vector)| {
-            let mut inside = into(p);
+            let mut inside = frame.seen(p);
             // Exactly where they are by choice.
             for (k, &chosen) in self.points.iter().enumerate() {
                 if index == chosen {
@@ -98,18 +97,9 @@ impl Stand {
 /// direction of its first axis, the third on the side of its second. `None`: they have none that can be
 /// enclosed.
 fn frame(dimension: usize, points: &[usize], places: &[Vector]) -> Option<Placement> {
-    let zero = point(0.0);
-    let (&first, &second) = (points.first()?, points.get(1)?);
-    let origin = places[first];
-    let e1 = unit(minus(places[second], origin))?;
-    let axes = if dimension == 2 {
-        [e1, [-e1[1], e1[0], zero], [zero, zero, point(1.0)]]
-    } else {
-        let third = minus(places[*points.get(2)?], origin);
-        let e3 = unit(cross(e1, third))?;
-        [e1, cross(e3, e1), e3]
-    };
+    let here: Vec<Vector> = points.iter().map(|&p| places[p]).collect();
+    let found = Placement::through(dimension, &here)?;
     // Where that is known only roughly it is of no use.
-    let is_known = axes.iter().flatten().all(|x| x.rad() < 1e-6);
-    is_known.then_some(Placement { origin, axes })
+    let is_known = found.axes.iter().flatten().all(|x| x.rad() < 1e-6);
+    is_known.then_some(found)
 }

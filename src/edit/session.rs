@@ -115,12 +115,21 @@ impl Session {
         }
     }
 
-    /// Constraints that seem to follow from all others at the figure, as far as floats tell. They are left out of the
-    /// proof; after each edit they are looked at, and an edit that breaks one is `stopped`.
+    /// Constraints that seem to follow from all others at the figure, as far as floats tell, and are not among
+    /// [`Session::follows`]. They are left out of the proof; after each edit they are looked at, and an edit that breaks one is `stopped`.
     pub fn redundant(&self) -> Vec<String> {
         match &self.way {
             Way::Whole(_) => Vec::new(),
-            Way::Parts(parts) => parts.redundant(),
+            Way::Parts(parts) => parts.redundant(false),
+        }
+    }
+
+    /// Constraints that are proved to follow from the others, by an identity with rational coefficients. They are left out
+    /// of what is followed, and hold wherever the others do.
+    pub fn follows(&self) -> Vec<String> {
+        match &self.way {
+            Way::Whole(_) => Vec::new(),
+            Way::Parts(parts) => parts.redundant(true),
         }
     }
 
@@ -185,6 +194,8 @@ pub struct Decomposition {
     pub free: Vec<String>,
     /// See [`Session::redundant`].
     pub redundant: Vec<String>,
+    /// See [`Session::follows`].
+    pub follows: Vec<String>,
 }
 
 impl Decomposition {

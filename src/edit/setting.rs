@@ -46,15 +46,12 @@ pub enum SettingError {
     /// A length is positive.
     #[error("{0}: a length must be greater than 0, and {1} is not")]
     NotPositive(String, String),
+    /// A ratio is positive.
+    #[error("{0}: a ratio must be greater than 0, and {1} is not")]
+    NotARatio(String, String),
     /// An angle is between 0 and 180 degrees.
     #[error("{0}: an angle must be between 0 and 180 degrees, and {1} is not")]
     NotAnAngle(String, String),
-    /// Its number cannot be edited here.
-    #[error(
-        "{0}: in a figure that has no place of its own only distances between points can be edited; fix a point and a \
-         direction (docs/problem-files.md), and its number can be too"
-    )]
-    Fixed(String),
     /// The same dimension twice.
     #[error("{0} is set twice: leave out one of the two")]
     Twice(String),
@@ -70,13 +67,12 @@ impl Setting {
     /// If the problem has no such dimension.
     pub fn new(problem: &Problem, index: usize, value: Decimal) -> Result<Self, SettingError> {
         let name = problem.dimension_name(index);
-        let constraint = index.checked_sub(problem.distances.len());
-        if constraint.is_some() && !problem.is_absolute() {
-            return Err(SettingError::Fixed(name));
-        }
         match measure(problem, index) {
             Measure::Length if !value.is_positive() => {
                 return Err(SettingError::NotPositive(name, value.to_string()));
+            }
+            Measure::Ratio if !value.is_positive() => {
+                return Err(SettingError::NotARatio(name, value.to_string()));
             }
             Measure::Degrees
                 if !(value.is_positive()

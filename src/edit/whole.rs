@@ -2,15 +2,17 @@
 
 use super::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use super::open::{self, Moved, OpenError};
+use super::parts::MOST_TUBES;
+use super::parts::senses::senses;
 use super::place::Stand;
 use super::setting::Setting;
+use crate::constraint::{Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
 use crate::problem::{Decimal, Problem, Target};
-use crate::system::Homotopy;
+use crate::system::{Homotopy, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
 use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError};
-use std::borrow::Cow;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -24,6 +26,8 @@ pub(super) struct Whole {
     figure: Figure,
     lengths: Vec<Interval>,
     moved: Moved,
+    /// What the constraints that are not distances were led to, where they can be edited too.
+    record: Option<Record>,
 }
 
 impl Whole {
@@ -40,7 +44,19 @@ impl Whole {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
         problem.homotopy.detour = Decimal::from(0);
-        let homotopy = Homotopy::new(&problem)?;
+        let mut record = None;
+        // Certificates hold edits of distances.
+        let homotopy = if problem.is_distances_only() || control.witness.is_some() {
+            Homotopy::new(&problem)?
+        } else {
+            let lowered = super::lowered(&problem, |problem| try_lower_editable(problem, None))
+                .map_err(StartError::Unsupported)?;
+            record = Some(lowered.record);
+            let mut homotopy =
+                Homotopy::with_constraints(&problem, typical_length(&problem), |_| lowered.tail)?;
+            homotopy.followed = senses(&problem);
+            homotopy
+        };
         if homotopy.equations > LARGEST_SQUARE {
             let what = format!(
                 "there are {} free coordinates, more than the {LARGEST_SQUARE} of which proofs keep square \
@@ -59,9 +75,15 @@ impl Whole {
             Space::Full => Space::for_certified(problem.distances.len()),
             Space::Reduced => Space::Reduced,
         };
+        // Figures of distances cannot grow without end as those of angles can.
+        let most = match problem.is_distances_only() {
+            true => options.max_steps,
+            false => options.max_steps.min(MOST_TUBES),
+        };
         let options = Options {
             space,
             reverse: false,
+            max_steps: most,
             ..options.clone()
         };
         let mut arcs = arcs(homotopy, &options);
@@ -78,6 +100,7 @@ impl Whole {
             stand,
             figure,
             moved,
+            record,
         })
     }
 
@@ -91,9 +114,12 @@ impl Whole {
         self.moved
     }
 
-    /// What a distance is now: an enclosure.
+    /// What a dimension is now: an enclosure.
     pub fn length(&self, index: usize) -> Interval {
-        self.lengths[index]
+        match self.lengths.get(index) {
+            Some(length) => *length,
+            None => Setting::now(&self.problem, index).value(),
+        }
     }
 
     /// The figure, in the coordinates of the problem: a box that holds exactly one with these dimensions. The
@@ -105,16 +131,18 @@ impl Whole {
 
     /// See [`super::Session::edit_with`].
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        let (edited, figure) = self.attempt(settings, control);
-        if let Some(figure) = figure {
+        let (edited, reached) = self.attempt(settings, control);
+        if let Some((figure, record)) = reached {
             self.figure = figure;
-            let homotopy = self.arcs.homotopy_mut();
+            self.record = record;
             for setting in settings {
-                homotopy.hold(setting.index, &setting.target);
-                self.lengths[setting.index] = length(&setting.target);
-                self.problem.distances[setting.index].target = setting.target.clone();
+                setting.apply(&mut self.problem);
+                if let Some(old) = self.lengths.get_mut(setting.index) {
+                    *old = length(&setting.target);
+                    let homotopy = self.arcs.homotopy_mut();
+                    homotopy.hold(setting.index, &setting.target);
+                }
             }
-            homotopy.keep_constraints(&self.problem, &open::targets_of(&self.problem));
         }
         edited
     }
@@ -128,39 +156,75 @@ impl Whole {
         edited
     }
 
-    /// An edit, and the figure that was reached if so. The homotopy is as before.
-    fn attempt(&mut self, settings: &[Setting], control: &mut Control) -> (Edited, Option<Figure>) {
+    /// An edit, and the figure that was reached if so, with what constraints were led to. The lengths of the homotopy's
+    /// distances are as before; right-hand sides of other constraints are set by every edit anew.
+    fn attempt(
+        &mut self,
+        settings: &[Setting],
+        control: &mut Control,
+    ) -> (Edited, Option<(Figure, Option<Record>)>) {
         let clock = Instant::now();
+        let head = self.problem.distances.len();
+        let distances = || settings.iter().filter(|setting| setting.index < head);
         let homotopy = self.arcs.homotopy_mut();
-        for setting in settings {
+        for setting in distances() {
             let from = &self.problem.distances[setting.index].target;
             homotopy.lead(setting.index, from, &setting.target);
         }
-        let from = open::targets_of(&self.problem);
-        let mut edited = Cow::Borrowed(&self.problem);
-        if !homotopy.tail.is_empty() {
-            for setting in settings {
-                edited.to_mut().distances[setting.index].target = setting.target.clone();
+        let record = self.lead_constraints(settings);
+        let run = match &record {
+            Err(fault) => ArcRun::stopped(fault.clone()),
+            Ok(_) => {
+                if let Some(witness) = &mut control.witness {
+                    let lengths = settings.iter().map(|s| (s.index, &s.target));
+                    witness.begin_arc(&lengths.collect::<Vec<_>>());
+                }
+                let run = self.follow(control);
+                if let Some(witness) = &mut control.witness {
+                    witness.end_arc(&run);
+                }
+                run
             }
-            homotopy.keep_constraints(&edited, &from);
-        }
-        if let Some(witness) = &mut control.witness {
-            let lengths = settings.iter().map(|s| (s.index, &s.target));
-            witness.begin_arc(&lengths.collect::<Vec<_>>());
-        }
-        let run = self.follow(control);
-        if let Some(witness) = &mut control.witness {
-            witness.end_arc(&run);
-        }
+        };
         let homotopy = self.arcs.homotopy_mut();
-        for setting in settings {
+        for setting in distances() {
             let now = &self.problem.distances[setting.index].target;
             homotopy.hold(setting.index, now);
         }
-        homotopy.keep_constraints(&self.problem, &from);
         let (edited, figure) = self.account(settings, run);
         let seconds = clock.elapsed().as_secs_f64();
-        (Edited { seconds, ..edited }, figure)
+        let reached = figure.and_then(|figure| Some((figure, record.ok()?)));
+        (Edited { seconds, ..edited }, reached)
+    }
+
+    /// Leads the constraints that are not distances, in proportion to t, from what they are to what they are to be, once
+    /// for an edit. What they are then led to comes back, where they can be edited.
+    fn lead_constraints(&mut self, settings: &[Setting]) -> Result<Option<Record>, String> {
+        if self.arcs.homotopy().tail.is_empty() {
+            return Ok(None);
+        }
+        let mut edited = self.problem.clone();
+        for setting in settings {
+            setting.apply(&mut edited);
+        }
+        let homotopy = self.arcs.homotopy_mut();
+        let Some(record) = &self.record else {
+            let head = edited.distances.len();
+            if let Some(other) = settings.iter().find(|setting| setting.index >= head) {
+                return Err(format!(
+                    "{} is no distance between points, and certificates of figures without a frame of their own hold \
+                     edits of those only",
+                    edited.dimension_name(other.index)
+                ));
+            }
+            homotopy.keep_constraints(&edited, &open::targets_of(&self.problem));
+            return Ok(None);
+        };
+        let lowered = super::lowered(&edited, |edited| try_lower_editable(edited, Some(record)))?;
+        match homotopy.set_constraints(&lowered.tail) {
+            true => Ok(Some(lowered.record)),
+            false => Err("with the new dimensions the constraints are other equations".to_owned()),
+        }
     }
 
     /// Follows the arc, in the full space where the reduced one stops.
@@ -189,10 +253,10 @@ impl Whole {
     fn account(&self, settings: &[Setting], run: ArcRun) -> (Edited, Option<Figure>) {
         let t = hull(run.t.0, run.t.1);
         let dimensions = settings.iter().map(|setting| {
-            let (from, to) = (self.lengths[setting.index], length(&setting.target));
+            let (from, to) = (self.length(setting.index), setting.value());
             let value = match &run.end {
                 ArcEnd::Reached(_) => to,
-                _ => from + t * (to - from),
+                _ => setting.between(&self.problem, t),
             };
             Dimension {
                 index: setting.index,
@@ -229,13 +293,13 @@ impl Whole {
     /// What is special about a fold's figure.
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
         let homotopy = self.arcs.homotopy();
-        let places = open::coordinates(homotopy, &fold.figure);
+        let places = fold.figure.points(homotopy);
         let velocity = Figure {
             centre: fold.velocity.clone(),
             low: vec![0.0; fold.velocity.len()],
             radius: vec![0.0; fold.velocity.len()],
         };
-        let velocity = open::coordinates(homotopy, &velocity);
+        let velocity = velocity.points(homotopy);
         let d = homotopy.dimension;
         let turned = velocity.iter().map(|v| {
             let v = v.map(|x| x.mid());
@@ -248,7 +312,7 @@ impl Whole {
     fn in_problem(&self, figure: &Figure) -> Vec<[Interval; 3]> {
         let homotopy = self.arcs.homotopy();
         let unit = point(homotopy.unit);
-        let mut points = open::coordinates(homotopy, figure);
+        let mut points = figure.points(homotopy);
         for x in points.iter_mut().flatten() {
             *x *= unit;
         }

@@ -15,7 +15,7 @@
 mod chain;
 mod close;
 mod frame;
-mod random;
+pub(crate) mod random;
 mod strip;
 mod tetrahedra;
 mod tower;

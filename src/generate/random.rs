@@ -2,7 +2,7 @@
 
 /// A sequence of a seed (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*,
 /// 2014).
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {

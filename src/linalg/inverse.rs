@@ -1,4 +1,4 @@
-//! Inverses of small sparse matrices of one pattern, for use as preconditioners.
+//! Inverses of sparse matrices of one pattern, for use as preconditioners.
 
 use super::matrix::{LANE, Lane, Matrix, Sparse, Vector, with_block};
 use super::pivots::{Pivots, Room};

@@ -3,6 +3,8 @@
 //! Columns are worked on in blocks of at most eight lanes, whose number is a constant of the
 //! kernels: loops over a block are unrolled and their sums stay in registers.
 
+use super::large::{LARGE, Workers};
+
 /// Floats in one SIMD register (AVX).
 pub const LANE: usize = 4;
 /// Lanes in a block.
@@ -114,6 +116,11 @@ impl Matrix {
         self.lanes
     }
 
+    /// All columns one after the other, padding included.
+    pub(super) fn entries(&self) -> &[f64] {
+        self.data.as_flattened()
+    }
+
     pub(super) fn data_mut(&mut self) -> &mut [Lane] {
         &mut self.data
     }
@@ -181,8 +188,25 @@ impl Matrix {
 
     /// `square = |A A − Y S| u` and `other = |Y S| u`, the matrices square of the same size. Each
     /// entry of Y S is a fused sum over the entries of a column of S; that of the difference
-    /// a fused sum of n products more; then fused sums of n products.
+    /// a sum of n products more, fused or not and in any order; then sums of n products.
+    ///
+    /// `workers` are for matrices of this size.
     pub fn square_minus_sparse_abs(
+        &self,
+        of: (&Matrix, &Sparse, &[f64]),
+        u: &[f64],
+        (square, other): (&mut Vector, &mut Vector),
+        workers: &mut Workers,
+    ) {
+        if self.rows >= LARGE {
+            workers.square_minus_sparse_abs(self, of, u, square, other);
+        } else {
+            self.square_minus_by_small_kernels(of, u, square, other);
+        }
+    }
+
+    /// The same for any size, every sum fused and in the columns' order.
+    pub(super) fn square_minus_by_small_kernels(
         &self,
         (y, s, values): (&Matrix, &Sparse, &[f64]),
         u: &[f64],
@@ -437,7 +461,8 @@ mod tests {
             close(&y, dense(&a) * &s * &x);
             a.identity_minus_sparse_abs(&pattern, &values, &u, &mut y);
             close(&y, (DMatrix::identity(n, n) - dense(&a) * &s).abs() * &x);
-            a.square_minus_sparse_abs((&b, &pattern, &values), &u, &mut y, &mut z);
+            let mut workers = Workers::new(n, 1);
+            a.square_minus_sparse_abs((&b, &pattern, &values), &u, (&mut y, &mut z), &mut workers);
             close(&y, (dense(&a) * dense(&a) - dense(&b) * &s).abs() * &x);
             close(&z, (dense(&b) * &s).abs() * &x);
         }

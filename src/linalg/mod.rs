@@ -1,15 +1,17 @@
-//! Dense kernels on small square matrices, the norms that proofs are made of, and large systems
+//! Dense kernels on square matrices, small and large, the norms that proofs are made of, and large systems
 //! that fall apart but for a few unknowns ([`rstructure`]).
 //!
 //! The dense kernels are plain floating point; what they may have rounded away is bounded by the
 //! caller with [`crate::interval::rounding`], from the operation counts stated with each kernel.
 
 mod inverse;
+mod large;
 mod matrix;
 mod pivots;
 mod rank;
 pub mod rstructure;
 
 pub use inverse::{Inverter, Singular};
+pub use large::{LARGE, Workers};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
 pub use rank::extreme_pivots;

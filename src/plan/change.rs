@@ -7,7 +7,7 @@ use super::{Arm, Instruction, Plan};
 
 /// Where the path is, when a plan is to be changed. All lengths are in the homotopy's unit.
 #[derive(Debug, Clone, Copy)]
-pub struct Lookout<'a> {
+pub struct Situation<'a> {
     /// The current figure.
     pub figure: &'a [f64],
     /// A figure further along the path. What comes near a boundary configuration there, or
@@ -22,7 +22,7 @@ pub struct Lookout<'a> {
     pub restore: f64,
 }
 
-impl Lookout<'_> {
+impl Situation<'_> {
     fn length(&self, arm: &Arm) -> f64 {
         match arm {
             Arm::Edge { edge, .. } => self.lengths[*edge],
@@ -71,7 +71,7 @@ impl Plan {
     /// restores original instructions where they are good again. Returns whether anything changed.
     ///
     /// The figure stays what it is: afterwards γ > alpha holds at the current figure.
-    pub fn change(&mut self, at: &Lookout) -> bool {
+    pub fn change(&mut self, at: &Situation) -> bool {
         let dimension = self.dimension;
         self.instructions
             .iter_mut()
@@ -83,7 +83,7 @@ impl Plan {
     }
 
     /// Whether an original instruction could come back (RR 8705, Algorithm 2, line 15).
-    pub fn restorable(&self, at: &Lookout) -> bool {
+    pub fn restorable(&self, at: &Situation) -> bool {
         self.instructions.iter().any(|i| {
             (0..i.elementary())
                 .any(|k| i.original[k].is_some_and(|arm| i.restores(self.dimension, k, arm, at)))
@@ -104,7 +104,7 @@ impl Plan {
 
 impl Instruction {
     /// One turn of the loop of Algorithm 2, for elementary instruction `k`.
-    fn change(&mut self, dimension: usize, k: usize, at: &Lookout) -> bool {
+    fn change(&mut self, dimension: usize, k: usize, at: &Situation) -> bool {
         let driven = k + 1;
         let mut changed = false;
         if let Some(original) = self.original[k] {
@@ -139,7 +139,7 @@ impl Instruction {
         true
     }
 
-    fn restores(&self, dimension: usize, k: usize, original: Arm, at: &Lookout) -> bool {
+    fn restores(&self, dimension: usize, k: usize, original: Arm, at: &Situation) -> bool {
         let mut arms = self.arms;
         arms[k + 1] = original;
         // What comes after must stay good as well: interCS depends on the circle.

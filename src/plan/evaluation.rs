@@ -496,7 +496,7 @@ fn side_of_line<const D: usize>(p: [f64; D], c1: [f64; D], c2: [f64; D]) -> f64 
 mod tests {
     use super::*;
     use crate::plan::testing::{rigid, shipped};
-    use crate::plan::{Differences, Lookout};
+    use crate::plan::{Differences, Situation};
     use crate::problem::Problem;
     use proptest::prelude::*;
 
@@ -509,7 +509,7 @@ mod tests {
         let mut plan = Plan::derive(&homotopy);
         let lengths: Vec<f64> = homotopy.lengths.iter().map(|l| l.value(0.0)).collect();
         let figure = &homotopy.sketch;
-        plan.change(&Lookout {
+        plan.change(&Situation {
             figure,
             ahead: None,
             lengths: &lengths,
@@ -574,7 +574,7 @@ mod tests {
         // Replacing every instruction there is and restoring all of them keeps the figure.
         let original = plan.clone();
         let lengths: Vec<f64> = homotopy.lengths.iter().map(|l| l.value(0.0)).collect();
-        let at = Lookout {
+        let at = Situation {
             figure: &homotopy.sketch,
             ahead: None,
             lengths: &lengths,
@@ -586,7 +586,7 @@ mod tests {
         assert!(replaced.gamma() > 0.7 - 1e-9, "{}", replaced.gamma());
         assert!(is_sketch(&homotopy, &replaced));
         assert!(plan.driving() >= original.driving() && plan.driving() == plan.removed().len());
-        let restoring = Lookout {
+        let restoring = Situation {
             alpha: 0.0,
             restore: 0.0,
             ..at

@@ -29,7 +29,7 @@ mod shift;
 pub(crate) mod testing;
 mod vector;
 
-pub use change::Lookout;
+pub use change::Situation;
 pub use differences::Differences;
 pub use evaluation::Evaluation;
 pub use instruction::{Arm, Instruction, Plan};

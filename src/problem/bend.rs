@@ -6,7 +6,7 @@ use super::{Decimal, Distance, Target};
 const PART: f64 = 0.05;
 
 /// Part of the mean target length, to six digits: the same path in any unit.
-pub(super) fn default_coefficient(distances: &[Distance]) -> Decimal {
+pub(crate) fn default_coefficient(distances: &[Distance]) -> Decimal {
     let lengths = distances.iter().map(|distance| match &distance.target {
         Target::Length(length) => length.to_f64(),
         Target::SquaredLength(squared) => squared.to_f64().sqrt(),
@@ -27,7 +27,7 @@ pub(super) fn default_coefficient(distances: &[Distance]) -> Decimal {
 
 impl super::Problem {
     /// The bend that a problem has if its file names none: the last distance, by the default coefficient.
-    pub(crate) fn bend_by_default(&mut self) {
+    pub fn bend_by_default(&mut self) {
         self.homotopy.bend = self.distances.len().saturating_sub(1);
         self.homotopy.bend_coefficient = default_coefficient(&self.distances);
     }

@@ -20,6 +20,7 @@ mod reference;
 mod vocabulary;
 mod write;
 
+pub(crate) use bend::default_coefficient as default_bend;
 pub use builder::ProblemBuilder;
 pub use check::{Rigidity, rigidity};
 pub(crate) use check::{echelon, field};

@@ -12,6 +12,33 @@ pub struct Object {
     pub shape: Shape,
 }
 
+impl Object {
+    /// What people call it, in a problem of that dimension: `line`, `plane`, `circle`, `sphere`, `arc` or `body`.
+    pub fn kind(&self, dimension: usize) -> &'static str {
+        match &self.shape {
+            Shape::Line(_) | Shape::FreeLine { .. } => "line",
+            Shape::Plane(_) | Shape::FreePlane { .. } => "plane",
+            Shape::Round { .. } if dimension == 2 => "circle",
+            Shape::Round { .. } => "sphere",
+            Shape::Arc { .. } => "arc",
+            Shape::Body { .. } => "body",
+        }
+    }
+
+    /// The points that say where it is, as far as points do: of a circle or sphere the centre, of an arc the centre and
+    /// both ends.
+    pub fn points(&self) -> Vec<usize> {
+        match &self.shape {
+            Shape::Line(points) => points.to_vec(),
+            Shape::Plane(points) => points.to_vec(),
+            Shape::FreeLine { .. } | Shape::FreePlane { .. } => Vec::new(),
+            Shape::Round { center, .. } => vec![*center],
+            Shape::Arc { center, start, end } => vec![*center, *start, *end],
+            Shape::Body { points, .. } => points.clone(),
+        }
+    }
+}
+
 /// What an object is, and where it is in the sketch. Points are indices into [`Problem::points`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {

@@ -1,9 +1,9 @@
 //! Reading objects and constraints from problem files. Which kinds of constraints there are, and what
 //! they take, is not said here: [`crate::constraint::KINDS`] does.
 
-use super::Decimal;
 use super::builder::ProblemBuilder;
 use super::file::{FileError, Line, Places, Reader};
+use super::{AXES, Decimal};
 use crate::constraint::{KINDS, Kind, Measure};
 use std::collections::HashSet;
 use toml_edit::{Item, Key, TableLike, Value};
@@ -170,7 +170,9 @@ impl Reader<'_> {
             }
             let between_points = kind.key() == "distances"
                 && names.len() == 2
-                && !names.iter().any(|&n| objects.contains(n));
+                && !names
+                    .iter()
+                    .any(|&n| objects.contains(n) || AXES.contains(&n));
             let shown: Vec<String> = names.iter().map(|n| n.chars().take(40).collect()).collect();
             let here = format!("{key}: {}", shown.join("-"));
             let number = number.map(|n| self.number(line, &here, n)).transpose()?;

@@ -1,7 +1,8 @@
 //! What can be told of a problem before any path is followed, by the names of its points: target lengths that no
 //! figure has, places where the sketch or the target is singular, parts that can be mirrored.
 //!
-//! Everything here is decided exactly, on the decimals of the problem; what is not said is not excluded.
+//! Everything here is decided exactly, on the decimals of the problem, but for [`Remark::Redundant`]; what is not said is
+//! not excluded.
 //!
 //! ```
 //! use krawl::problem::Problem;
@@ -17,11 +18,12 @@
 
 mod flat;
 mod mirror;
+mod redundant;
 mod target;
 mod twins;
 mod words;
 
-use crate::problem::Problem;
+use crate::problem::{Item, Problem, Shape};
 
 pub(crate) use target::detour;
 pub use words::in_words;
@@ -73,6 +75,9 @@ pub enum Remark {
         /// Those that stay.
         hinge: Vec<usize>,
     },
+    /// These constraints follow from each other in every figure that meets them: figures are singular. Observed in
+    /// floats.
+    Redundant(Vec<String>),
 }
 
 impl Remark {
@@ -87,11 +92,27 @@ impl Remark {
     }
 }
 
+/// The points of an object.
+fn points_of(shape: &Shape) -> Vec<usize> {
+    match shape {
+        Shape::Line(points) => points.to_vec(),
+        Shape::Plane(points) => points.to_vec(),
+        Shape::Round { center, .. } => vec![*center],
+        Shape::Arc { center, start, end } => vec![*center, *start, *end],
+        Shape::Body { points, .. } => points.clone(),
+        Shape::FreeLine { .. } | Shape::FreePlane { .. } => Vec::new(),
+    }
+}
+
 /// Most points of problems that are looked at for what takes long.
 const MANY: usize = 200;
 
-/// Everything that is found, the gravest first.
+/// Everything that is found, the gravest first. Of problems with other constraints than distances only which of
+/// them follow from each other.
 pub fn remarks(problem: &Problem) -> Vec<Remark> {
+    if !problem.is_distances_only() {
+        return redundant::redundant(problem);
+    }
     let mut all = target::too_long(problem);
     all.extend(target::flat(problem));
     all.extend(flat::in_sketch(problem));
@@ -99,7 +120,29 @@ pub fn remarks(problem: &Problem) -> Vec<Remark> {
     if problem.points.len() <= MANY {
         all.extend(mirror::parts(problem));
     }
+    let touched = touched(problem);
+    // Distances are not all that holds these.
+    all.retain(|remark| match remark {
+        Remark::Loose { point, .. } => !touched[*point],
+        Remark::Mirrored { part, .. } => !part.iter().any(|&p| touched[p]),
+        _ => true,
+    });
     all
+}
+
+/// The points that constraints other than distances are about, by themselves or through objects.
+fn touched(problem: &Problem) -> Vec<bool> {
+    let mut touched = vec![false; problem.points.len()];
+    let of_objects = problem.objects.iter().flat_map(|o| points_of(&o.shape));
+    let items = problem.constraints.iter().flat_map(|c| &c.items);
+    let of_constraints = items.filter_map(|item| match item {
+        Item::Point(p) => Some(*p),
+        _ => None,
+    });
+    of_constraints
+        .chain(of_objects)
+        .for_each(|p| touched[p] = true);
+    touched
 }
 
 /// For each point the points joined to it, in order, with the index of the distance.

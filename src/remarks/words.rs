@@ -68,6 +68,11 @@ pub fn in_words(problem: &Problem, remark: &Remark) -> String {
                  moved a little keeps them apart"
             )
         }
+        Remark::Redundant(names) => format!(
+            "wherever they are met, any of {} follows from the others, as far as floats tell: figures that meet them are \
+             singular, proofs end there, and something can still move; remove one of them and give another dimension",
+            crate::problem::list(names, 8)
+        ),
         Remark::Mirrored { part, hinge } => format!(
             "{} {} joined to the rest through {} only, and can be mirrored in their {}: every figure has another \
              one with the same dimensions",

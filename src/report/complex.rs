@@ -1,6 +1,7 @@
 //! Complex solutions, as text and for programs.
 
 use super::{JSON_VERSION, certain_digits};
+use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
 use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
 use crate::interval::{Interval, point};
 use crate::problem::{Problem, counted};
@@ -105,6 +106,7 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
         "bound": lowered.bound.as_ref().map(|bound| json!({
             "count": bound.count as f64,
             "source": bound.source,
+            "cited": bound.is_cited,
         })),
         "gauge": lowered.system.gauge,
         "counts": {
@@ -235,6 +237,39 @@ fn write_table(
     writeln!(out, "seconds    {:.4}", result.seconds)
 }
 
+/// What the check of a set of complex solutions showed.
+pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> String {
+    let name = &verdict.problem.name;
+    let counts = format!(
+        "{} up to isometry ({} of them real), {} up to rotation",
+        counted(verdict.isometry, "complex solution"),
+        verdict.real,
+        verdict.rotation
+    );
+    let seconds = took.as_secs_f64();
+    match (&verdict.flaw, verdict.bound) {
+        (Some(ComplexFlaw::False(flaw)), _) => {
+            format!("REFUTED: {name}: {flaw}. Nothing is proved.\n")
+        }
+        (Some(ComplexFlaw::NotProved(flaw)), _) => {
+            format!("NOT PROVED: {name}: {flaw}. Nothing is proved.\n")
+        }
+        (None, Some(bound)) if verdict.proves_all() => format!(
+            "VERIFIED: {name} has exactly {counts}, and no other isolated one: the multi-homogeneous Bézout bound of the \
+             graph is {bound}. Each was proved again in {seconds:.2} s.\n"
+        ),
+        (None, bound) => {
+            let bound = bound.map_or(String::new(), |bound| {
+                format!(" There are at most {bound} isolated ones up to rotation.")
+            });
+            format!(
+                "VERIFIED: {name} has {counts}, no two congruent. That there are no others is not proved.{bound} Each was \
+                 proved again in {seconds:.2} s.\n"
+            )
+        }
+    }
+}
+
 /// How many are real, and so on.
 fn natures(result: &Solutions) -> String {
     let number = |pick: &dyn Fn(&Nature) -> bool| result.natures.iter().filter(|n| pick(n)).count();
@@ -256,6 +291,17 @@ fn natures(result: &Solutions) -> String {
 fn verdict(lowered: &Lowered, result: &Solutions) -> String {
     let counts = result.counts_in_words();
     match (&result.status, &lowered.bound) {
+        (Status::Complete, Some(bound)) if bound.is_cited => format!(
+            "Complete if the bound that you cite holds: {counts}, each proved. There is no other isolated complex solution \
+             if there are at most {} up to rotation, which is not proved here.",
+            bound.count
+        ),
+        (_, Some(bound)) if bound.is_cited && bound.count < result.counts.rotation as u128 => {
+            format!(
+                "The bound that you cite is wrong: at most {} up to rotation, and {counts} are proved.",
+                bound.count
+            )
+        }
         (Status::Complete, Some(bound)) => format!(
             "Complete, proved: {counts}. There is no other isolated complex solution: {} is {}.",
             bound.source, bound.count

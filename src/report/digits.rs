@@ -11,13 +11,15 @@ const MOST_DIGITS: i32 = 17;
 /// A decimal from which every number of `x` differs by at most one unit of its last digit, with
 /// as many digits as that allows. It is decided exactly, so it may be read as part of a proof.
 ///
-/// Where `x` is too wide for a single digit, the decimal is replaced by the bounds.
+/// Where `x` is too wide for a single digit, the decimal is replaced by the bounds; but where it is small, by a
+/// zero with so many digits behind the point.
 ///
 /// ```
 /// use krawl::interval::hull;
 /// use krawl::report::certain_digits;
 /// assert_eq!(certain_digits(hull(1.234567896, 1.234567904)), "1.23456790");
 /// assert_eq!(certain_digits(hull(0.0, 0.0)), "0");
+/// assert_eq!(certain_digits(hull(-3e-9, 2e-9)), "0.00000000");
 /// assert_eq!(certain_digits(hull(-1.0, 2.0)), "[-1e0, 2e0]");
 /// ```
 pub fn certain_digits(x: Interval) -> String {
@@ -39,6 +41,9 @@ pub fn certain_digits(x: Interval) -> String {
     let (Some(exact_lo), Some(exact_hi)) = exact else {
         return bounds();
     };
+    if let Some(zero) = zero(x) {
+        return zero;
+    }
     let magnitude = x.mag().log10().floor() as i32;
     let most = MOST_DIGITS - 1 - magnitude;
     // A first guess that is too fine by a digit or two, then coarser until it is right.
@@ -62,6 +67,23 @@ pub fn certain_digits(x: Interval) -> String {
         }
     }
     bounds()
+}
+
+/// A zero for an interval around it, from which no number of the interval differs by more than one unit of its
+/// last digit; `None` where there is no such zero of four to sixteen digits behind the point.
+fn zero(x: Interval) -> Option<String> {
+    if !x.contains(0.0) {
+        return None;
+    }
+    let largest = BigRational::from_float(x.mag())?;
+    let shown = (4..=16usize)
+        .rev()
+        .map(|decimals| format!("{:.*}", decimals, 0.0));
+    let mut certain = shown.filter(|shown| {
+        let unit = value_and_unit(shown).map(|(_, unit)| unit);
+        unit.is_some_and(|unit| largest <= unit)
+    });
+    certain.next()
 }
 
 /// Whether a number is readable without a power of ten.
@@ -104,6 +126,9 @@ mod tests {
             format!("[0e0, {:e}]", f64::MAX)
         );
         assert_eq!(certain_digits(Interval::ENTIRE), "[-inf, inf]");
+        assert_eq!(certain_digits(hull(-1e-30, 1e-30)), "0.0000000000000000");
+        assert_eq!(certain_digits(hull(-1e-12, 0.0)), "0.000000000000");
+        assert_eq!(certain_digits(hull(-1e-3, 1e-3)), "[-1e-3, 1e-3]");
     }
 
     proptest! {

@@ -351,6 +351,14 @@ pub fn freedom_in_words(session: &Session) -> String {
     if !free.is_empty() {
         let _ = writeln!(out, "free, stay put      {}", list(&free, LISTED));
     }
+    let follows = session.follows();
+    if !follows.is_empty() {
+        let _ = writeln!(
+            out,
+            "left out            {}: follow from the others, proved",
+            list(&follows, LISTED)
+        );
+    }
     if !redundant.is_empty() {
         let _ = writeln!(
             out,
@@ -360,6 +368,27 @@ pub fn freedom_in_words(session: &Session) -> String {
         );
     }
     out
+}
+
+/// Whether a sketch is in order, or what of it can still move and what seems to be too much.
+pub fn freedom_of_sketch_in_words(found: &Decomposition) -> String {
+    let mut parts = Vec::new();
+    if !found.free.is_empty() {
+        parts.push(format!(
+            "under-constrained: {} can still move (edits keep what is free where it is)",
+            list(&found.free, LISTED)
+        ));
+    }
+    if !found.redundant.is_empty() {
+        parts.push(format!(
+            "over-constrained: {} seem to follow from the others",
+            list(&found.redundant, LISTED)
+        ));
+    }
+    match parts.is_empty() {
+        true => "the input is in order".to_owned(),
+        false => parts.join("; "),
+    }
 }
 
 /// How a sketch falls apart, as lines of text.
@@ -386,6 +415,13 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
             out,
             "  free (edits keep them where they are): {}",
             list(&found.free, LISTED)
+        );
+    }
+    if !found.follows.is_empty() {
+        let _ = writeln!(
+            out,
+            "  follow from the others, proved: {}",
+            list(&found.follows, LISTED)
         );
     }
     if !found.redundant.is_empty() {

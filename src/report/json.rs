@@ -1,8 +1,10 @@
 //! Results for programs (docs/json.md, docs/schema/result.schema.json).
 
+use super::marks::Marks;
+use super::objects::Objects;
 use super::table::verdict;
 use crate::interval::Interval;
-use crate::problem::{Decimal, Problem, Shape, Target};
+use crate::problem::{Decimal, Problem, Target};
 use crate::system::{Homotopy, Placement};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
@@ -59,6 +61,8 @@ struct Document<'a> {
     reference: Vec<&'a str>,
     frame: Option<WrittenFrame>,
     sketch: Points<'a, [f64; 3]>,
+    #[serde(skip_serializing_if = "Objects::is_empty")]
+    sketch_objects: Objects<'a, f64>,
     constraints: Vec<Constraint<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     objects: Vec<WrittenObject<'a>>,
@@ -67,10 +71,11 @@ struct Document<'a> {
     verdict: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<End<'a>>>,
+    orientations: Vec<WrittenSet<'a>>,
     solutions: Vec<Entry<'a>>,
     folds: Vec<WrittenFold<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    samples: Vec<WrittenSample>,
+    samples: Vec<WrittenSample<'a>>,
     steps: usize,
     rejected: usize,
     plan_changes: usize,
@@ -128,12 +133,24 @@ struct Driving {
 #[derive(Serialize)]
 struct Entry<'a> {
     points: Points<'a, [Interval; 3]>,
+    #[serde(skip_serializing_if = "Objects::is_empty")]
+    objects: Objects<'a, Interval>,
     class: usize,
     width: f64,
     folds: Option<usize>,
     arc: Option<f64>,
     rising: Option<bool>,
     mirror_of: Option<usize>,
+    signs: Vec<i8>,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    degenerate: bool,
+}
+
+/// Joined points and the sign of their orientation in the sketch.
+#[derive(Serialize)]
+struct WrittenSet<'a> {
+    points: Vec<&'a str>,
+    sketch: i8,
 }
 
 #[derive(Serialize)]
@@ -145,10 +162,13 @@ struct WrittenFold<'a> {
 }
 
 #[derive(Serialize)]
-struct WrittenSample {
+struct WrittenSample<'a> {
     at: f64,
     t: f64,
+    within: f64,
     points: Vec<Vec<f64>>,
+    #[serde(skip_serializing_if = "Objects::is_empty")]
+    objects: Objects<'a, f64>,
 }
 
 /// A map from names to coordinates, in the problem's order.
@@ -174,7 +194,15 @@ impl<'a> Document<'a> {
         let placement = Homotopy::new(problem)
             .and_then(|homotopy| homotopy.gauge.placement(problem))
             .ok();
+        let marks = Marks::new(problem);
+        let sets = marks.sets.iter().zip(&marks.signs);
         Document {
+            orientations: sets
+                .map(|(set, &sketch)| WrittenSet {
+                    points: names(problem, set),
+                    sketch,
+                })
+                .collect(),
             version: JSON_VERSION,
             krawl: env!("CARGO_PKG_VERSION"),
             problem: &problem.name,
@@ -192,6 +220,7 @@ impl<'a> Document<'a> {
                 .collect(),
             frame: placement.map(|placement| WrittenFrame::new(&placement, d)),
             sketch: Points(problem, sketch_of(problem)),
+            sketch_objects: Objects::in_sketch(problem),
             constraints: constraints_of(problem),
             objects: objects_of(problem),
             status,
@@ -201,7 +230,7 @@ impl<'a> Document<'a> {
             solutions: outcome
                 .solutions
                 .iter()
-                .map(|solution| Entry::new(problem, solution))
+                .map(|solution| Entry::new(problem, solution, &marks))
                 .collect(),
             folds: trace.map_or(Vec::new(), |trace| {
                 let folds = trace.folds().into_iter();
@@ -220,7 +249,9 @@ impl<'a> Document<'a> {
                     .map(|sample| WrittenSample {
                         at: sample.at,
                         t: sample.t,
+                        within: sample.within,
                         points: sample.points.iter().map(|p| p[..d].to_vec()).collect(),
+                        objects: Objects::new(problem, &sample.objects, |x| x.mid()),
                     })
                     .collect()
             }),
@@ -311,25 +342,12 @@ fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
 }
 
 fn objects_of(problem: &Problem) -> Vec<WrittenObject<'_>> {
-    let flat = problem.dimension == 2;
     let objects = problem.objects.iter();
     objects
-        .map(|object| {
-            let (kind, points): (_, &[usize]) = match &object.shape {
-                Shape::Line(points) => ("line", points),
-                Shape::FreeLine { .. } => ("line", &[]),
-                Shape::Plane(points) => ("plane", points),
-                Shape::FreePlane { .. } => ("plane", &[]),
-                Shape::Round { center, .. } if flat => ("circle", std::slice::from_ref(center)),
-                Shape::Round { center, .. } => ("sphere", std::slice::from_ref(center)),
-                Shape::Arc { center, start, end } => ("arc", &[*center, *start, *end]),
-                Shape::Body { points, .. } => ("body", points),
-            };
-            WrittenObject {
-                name: &object.name,
-                kind,
-                points: names(problem, points),
-            }
+        .map(|object| WrittenObject {
+            name: &object.name,
+            kind: object.kind(problem.dimension),
+            points: names(problem, &object.points()),
         })
         .collect()
 }
@@ -373,15 +391,18 @@ impl WrittenFrame {
 }
 
 impl<'a> Entry<'a> {
-    fn new(problem: &'a Problem, solution: &Solution) -> Self {
+    fn new(problem: &'a Problem, solution: &Solution, marks: &Marks) -> Self {
         Entry {
             points: Points(problem, solution.points.clone()),
+            objects: Objects::new(problem, &solution.objects, |x| *x),
             class: solution.class,
             width: solution.width,
             folds: solution.place.and_then(|place| place.folds),
             arc: solution.place.map(|place| place.arc),
             rising: solution.place.map(|place| place.rising),
             mirror_of: solution.mirror_of,
+            signs: marks.of(solution),
+            degenerate: solution.is_degenerate,
         }
     }
 }
@@ -392,7 +413,7 @@ fn bounds(x: &Interval) -> [f64; 2] {
 }
 
 /// A coordinate as it is written.
-trait Coordinate {
+pub(super) trait Coordinate {
     type Written: Serialize;
     fn written(&self) -> Self::Written;
 }

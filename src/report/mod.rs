@@ -1,11 +1,15 @@
 //! What people and programs get to see of a run.
 
+mod blocks;
 mod comparison;
 mod complete;
 mod complex;
 mod digits;
 mod edit;
+mod explore;
 mod json;
+mod marks;
+mod objects;
 pub mod page;
 #[cfg(feature = "cli")]
 pub mod picture;
@@ -16,20 +20,23 @@ mod table;
 mod theorem;
 
 #[cfg(feature = "cli")]
+pub use blocks::BlockRuns;
+#[cfg(feature = "cli")]
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
 pub use complete::{complete_to_json, complete_to_table, cover_theorem};
-pub use complex::{complex_to_json, complex_to_table};
+pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
 pub use digits::certain_digits;
 pub use edit::{
     decomposition_in_words, edit_in_words, edit_to_json, edit_to_table, edit_to_value,
-    figure_to_value, freedom_in_words, limit_in_words,
+    figure_to_value, freedom_in_words, freedom_of_sketch_in_words, limit_in_words,
 };
+pub use explore::{AllReal, Explored, explore_to_json, explore_to_table};
 pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
 pub use sweep::{ranges_to_json, ranges_to_table, sweep_in_words, sweep_to_csv, sweep_to_json};
-pub use table::{to_first_table, to_short_table, to_summary, to_table};
+pub use table::{to_first_table, to_no_first, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 
 #[cfg(test)]
@@ -57,10 +64,12 @@ mod tests {
         let third = hull(1.0 / 3.0, (1.0f64 / 3.0).next_up());
         let solution = |y: Interval, class| Solution {
             points: vec![[zero; 3], [point(1.0), zero, zero], [third, y, zero]],
+            objects: Vec::new(),
             class,
             width: 1.2e-16,
             place: None,
             mirror_of: None,
+            is_degenerate: false,
         };
         Outcome {
             mode,

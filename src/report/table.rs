@@ -1,8 +1,11 @@
 //! Results for people.
 
 use super::certain_digits;
+use super::marks::Marks;
 use crate::constraint::{Symmetry, symmetry};
-use crate::problem::Problem;
+use crate::interval::{Interval, hull};
+use crate::problem::{Problem, Shape, list};
+use crate::system::Located;
 use crate::track::{Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
 
@@ -19,7 +22,7 @@ const LINES_OF_MANY: usize = 45;
 
 /// The same with the first solutions only, where there are too many for a few screens.
 pub fn to_short_table(problem: &Problem, outcome: &Outcome) -> String {
-    let each = problem.points.len() + 2;
+    let each = problem.points.len() + 3;
     let most = match each * outcome.solutions.len() <= LINES {
         true => usize::MAX,
         false => (LINES_OF_MANY / each).max(1),
@@ -69,8 +72,22 @@ pub fn to_first_table(problem: &Problem, outcome: &Outcome) -> Option<String> {
         }
     );
     // Writing to a string cannot fail.
-    let _ = write_solution(&mut out, problem, outcome, index, &outcome.solutions[index]);
+    let marks = Marks::new(problem);
+    let _ = write_solution(&mut out, (problem, outcome, &marks), index);
     Some(out)
+}
+
+/// What is said where the path turns back before t = 1, between these bounds on t: there is no solution that is reached
+/// without a fold.
+pub fn to_no_first(problem: &Problem, turns_at: Option<(f64, f64)>) -> String {
+    let at = turns_at.map_or(String::new(), |(low, high)| {
+        format!(" at t = {}", certain_digits(hull(low, high)))
+    });
+    format!(
+        "{}: No solution without a fold, proved: led from the sketch to its targets the figure comes to a limit{at}, where \
+         the path turns back. (Without `--first` the path is followed beyond.)\n",
+        problem.name
+    )
 }
 
 fn table(problem: &Problem, outcome: &Outcome, most: usize) -> String {
@@ -88,8 +105,9 @@ fn write_table(out: &mut String, problem: &Problem, outcome: &Outcome, most: usi
             None => writeln!(out, "{NOTHING_FOUND}")?,
         }
     }
-    for (index, solution) in outcome.solutions.iter().enumerate().take(most) {
-        write_solution(out, problem, outcome, index, solution)?;
+    let marks = Marks::new(problem);
+    for index in 0..outcome.solutions.len().min(most) {
+        write_solution(out, (problem, outcome, &marks), index)?;
     }
     let left = outcome.solutions.len().saturating_sub(most);
     if left > 0 {
@@ -126,6 +144,27 @@ fn classes(outcome: &Outcome) -> usize {
     classes.len()
 }
 
+/// What is to be said of degenerate solutions, if there are any.
+fn degenerate(outcome: &Outcome) -> String {
+    let count = outcome.solutions.iter().filter(|s| s.is_degenerate).count();
+    let which = match count {
+        0 => return String::new(),
+        1 => "One of them is a degenerate (flat) figure".to_owned(),
+        n => format!("{n} of them are degenerate (flat) figures"),
+    };
+    match outcome.mode {
+        Mode::Certified => format!(
+            " {which}: each meets all constraints, and the path passes through it, heights divided by 1 − t having limits \
+             there. Other flat figures that meet the constraints are as near as one likes; on the path are only those \
+             listed."
+        ),
+        Mode::Float => format!(
+            " {which}: the path was followed over t = 1 by a step, as the equations are dependent there; other flat \
+             figures near them meet the constraints too."
+        ),
+    }
+}
+
 /// What was found, in words that claim no more than was proved.
 pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
     let count = outcome.solutions.len();
@@ -139,6 +178,7 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
         (n, c, _) if n == c => " No two of them are congruent, even up to reflection.".to_owned(),
         (_, c, _) => format!(" Up to congruence and reflection they are {c}."),
     };
+    let different = different + &degenerate(outcome);
     match (outcome.mode, &outcome.status) {
         (Mode::Certified, Status::Closed) => {
             let text = match count {
@@ -182,8 +222,9 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
                 ),
             };
             format!(
-                "Stopped: {}. {text}; there may be more.",
-                without_stop(reason)
+                "Stopped: {}. {text}; there may be more.{}",
+                without_stop(reason),
+                degenerate(outcome)
             )
         }
         (Mode::Float, Status::Closed) => format!(
@@ -212,16 +253,69 @@ fn without_stop(reason: &str) -> &str {
     reason.trim_end().trim_end_matches('.')
 }
 
-fn write_solution(
+/// Where on the path a solution is, and what it has turned over beside the sketch.
+fn write_marks(
     out: &mut String,
     problem: &Problem,
     outcome: &Outcome,
-    index: usize,
+    marks: &Marks,
     solution: &Solution,
 ) -> fmt::Result {
+    let mut parts = Vec::new();
+    if let Some(place) = solution.place {
+        parts.push(format!(
+            "{:.4} of {:.4} along the path",
+            place.arc, outcome.length
+        ));
+    }
+    let (turned, flat, all) = marks.turned(solution);
+    let what = match problem.dimension {
+        2 => "triangles",
+        _ => "tetrahedra",
+    };
+    let named = |sets: &[&[usize]]| {
+        let names = |set: &&[usize]| {
+            let names = set.iter().map(|&p| problem.points[p].name.as_str());
+            names.collect::<Vec<_>>().join(" ")
+        };
+        let all: Vec<String> = sets.iter().map(names).collect();
+        list(&all, TURNED)
+    };
+    match (turned.len(), flat.len()) {
+        _ if all == 0 => {}
+        (0, 0) => parts.push(format!("all {what} as in the sketch")),
+        (n, 0) if n == all => parts.push(format!("all {what} turned over")),
+        (0, _) => {}
+        _ => parts.push(format!(
+            "{} of {all} {what} turned over: {}",
+            turned.len(),
+            named(&turned)
+        )),
+    }
+    if !flat.is_empty() {
+        parts.push(format!("flat, or too near to tell: {}", named(&flat)));
+    }
+    match parts.is_empty() {
+        true => Ok(()),
+        false => writeln!(out, "  ({})", parts.join("; ")),
+    }
+}
+
+/// Triangles and tetrahedra that are named.
+const TURNED: usize = 6;
+
+fn write_solution(
+    out: &mut String,
+    (problem, outcome, marks): (&Problem, &Outcome, &Marks),
+    index: usize,
+) -> fmt::Result {
+    let solution = &outcome.solutions[index];
     write!(out, "\nSolution {}, class {}", index + 1, solution.class)?;
     if let Some(other) = solution.mirror_of {
         write!(out, ", mirror image of solution {}", other + 1)?;
+    }
+    if solution.is_degenerate {
+        write!(out, ", degenerate (flat)")?;
     }
     match solution.place.and_then(|place| place.folds) {
         None => {}
@@ -233,6 +327,7 @@ fn write_solution(
         Mode::Certified => writeln!(out, ", relative width {:.1e}", solution.width)?,
         Mode::Float => writeln!(out)?,
     }
+    write_marks(out, problem, outcome, marks, solution)?;
     let rows: Vec<Vec<String>> = solution
         .points
         .iter()
@@ -272,6 +367,52 @@ fn write_solution(
             write!(line, "  {:>left$}{:<right$}", &text[..at], &text[at..])?;
         }
         writeln!(out, "{}", line.trim_end())?;
+    }
+    write_objects(out, problem, outcome.mode, &solution.objects)
+}
+
+/// Objects that are not told by their points: a line for each.
+fn write_objects(
+    out: &mut String,
+    problem: &Problem,
+    mode: Mode,
+    objects: &[Located],
+) -> fmt::Result {
+    let digits = |x: &Interval| match mode {
+        Mode::Certified => certain_digits(*x),
+        Mode::Float => float_digits(x.mid()),
+    };
+    let place = |x: &[Interval; 3]| {
+        let all: Vec<String> = x[..problem.dimension].iter().map(digits).collect();
+        format!("({})", all.join(", "))
+    };
+    for (object, at) in problem.objects.iter().zip(objects) {
+        let name = &object.name;
+        match (&object.shape, at) {
+            (Shape::FreeLine { .. }, Located::Line { point, direction }) => {
+                let (point, direction) = (place(point), place(direction));
+                writeln!(out, "  line {name}: through {point}, direction {direction}")?;
+            }
+            (Shape::FreePlane { .. }, Located::Plane { point, normal }) => {
+                let (point, normal) = (place(point), place(normal));
+                writeln!(out, "  plane {name}: through {point}, normal {normal}")?;
+            }
+            (
+                Shape::Round { center, .. } | Shape::Arc { center, .. },
+                Located::Round { radius, .. },
+            ) => {
+                let (kind, center) = (
+                    object.kind(problem.dimension),
+                    &problem.points[*center].name,
+                );
+                writeln!(
+                    out,
+                    "  {kind} {name}: centre {center}, radius {}",
+                    digits(radius)
+                )?;
+            }
+            _ => {}
+        }
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! A homotopy in which everything stands still at its target but for the lengths that are edited.
 
 use super::{ExactLength, Homotopy, Length, Right};
-use crate::constraint;
+use crate::constraint::{self, Tail};
 use crate::interval::{Interval, enclose, point};
 use crate::problem::{Problem, Target};
 use num_rational::BigRational;
@@ -23,13 +23,23 @@ impl Homotopy {
             return;
         }
         let edited = constraint::lower_edit(problem, from);
-        assert_eq!(edited.equations.len(), self.tail.equations.len());
+        let is_same = self.set_constraints(&edited);
+        assert!(is_same, "left-hand sides do not depend on distances");
+    }
+
+    /// Gives the equations that are not distances the right-hand sides of another lowering of the same problem. False, and
+    /// nothing is changed: that one has other left-hand sides.
+    pub(crate) fn set_constraints(&mut self, other: &Tail) -> bool {
+        let (now, then) = (&self.tail.equations, &other.equations);
+        let mut pairs = now.iter().zip(then);
+        if now.len() != then.len() || pairs.any(|(a, b)| a.products != b.products) {
+            return false;
+        }
         let head = self.edges.len();
-        let pairs = self.tail.equations.iter().zip(edited.equations);
-        for ((before, after), right) in pairs.zip(&mut self.rights[head..]) {
-            assert_eq!(before.products, after.products, "{}", before.name);
+        for (after, right) in then.iter().zip(&mut self.rights[head..]) {
             *right = Right::polynomial(&after.right, self.unit.powi(after.power));
         }
+        true
     }
 
     /// Leads distance `index` from one length at t = 0 to another at t = 1, in proportion to t.

@@ -1,6 +1,6 @@
 //! The reference: which coordinates are fixed, and the sketch seen from it.
 
-use crate::interval::vector::{cross, dot, minus, unit};
+use crate::interval::vector::{Vector, cross, dot, minus, unit};
 use crate::interval::{Interval, enclose, point};
 use crate::problem::{Problem, free_coordinates};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -178,6 +178,26 @@ impl Placement {
     /// If the sketch has the reference points in one place, or three of them on one line.
     pub fn of(problem: &Problem) -> Result<Self, GaugeError> {
         Gauge::new(problem).placement(problem)
+    }
+
+    /// The frame of some points, two in the plane and three in space: the first is its origin, the second in the direction of
+    /// its first axis, the third on the side of its second. `None`: they have none that can be enclosed.
+    pub fn through(dimension: usize, places: &[Vector]) -> Option<Placement> {
+        let zero = point(0.0);
+        let (&origin, &second) = (places.first()?, places.get(1)?);
+        let e1 = unit(minus(second, origin))?;
+        let axes = if dimension == 2 {
+            [e1, [-e1[1], e1[0], zero], [zero, zero, point(1.0)]]
+        } else {
+            let e3 = unit(cross(e1, minus(*places.get(2)?, origin)))?;
+            [e1, cross(e3, e1), e3]
+        };
+        Some(Placement { origin, axes })
+    }
+
+    /// A point as it is seen in the frame: an enclosure.
+    pub fn seen(&self, p: &Vector) -> Vector {
+        self.axes.map(|axis| dot(axis, minus(*p, self.origin)))
     }
 
     /// The motion from the gauge to the coordinates of the problem, in floats: in the plane a turn about

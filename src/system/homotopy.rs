@@ -3,7 +3,7 @@
 use super::{ExactLength, Gauge, GaugeError, Length, Right};
 use crate::constraint::{self, Entry, Form, Role, Tail};
 use crate::interval::{Interval, enclose, enclose_rational, point};
-use crate::problem::{Problem, Target};
+use crate::problem::{Problem, Shape, Target};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +49,8 @@ pub struct Homotopy {
     pub lengths: Vec<Length>,
     /// What other constraints there are, and their unknowns.
     pub tail: Tail,
+    /// The problem's objects.
+    pub shapes: Vec<Shape>,
     /// 2 q_e of the equations behind the distances.
     terms: Vec<Vec<Term>>,
     /// The right-hand sides E_e(t) of all equations.
@@ -147,12 +149,39 @@ impl Homotopy {
             sketch_box,
             auxiliary: Vec::new(),
             followed: Vec::new(),
+            shapes: problem.objects.iter().map(|o| o.shape.clone()).collect(),
             gauge,
             tail,
         };
         homotopy.add_distances(problem);
         homotopy.add_constraints();
         Ok(homotopy)
+    }
+
+    /// The same with another tail of no fewer auxiliary unknowns.
+    pub(super) fn with_other_tail(&self, tail: Tail) -> Self {
+        let mut other = self.clone();
+        let head = self.edges.len();
+        let places = self.gauge.place.len();
+        other.equations = places + tail.unknowns.len();
+        assert_eq!(
+            other.equations,
+            head + tail.equations.len(),
+            "as many equations as unknowns"
+        );
+        // Coordinates that the reference fixes have the number of all unknowns.
+        for variable in &mut other.gauge.variable {
+            if *variable == self.equations {
+                *variable = other.equations;
+            }
+        }
+        other.tail = tail;
+        other.terms.clear();
+        other.rights.truncate(head);
+        other.names.truncate(head);
+        other.auxiliary.clear();
+        other.add_constraints();
+        other
     }
 
     /// The homotopy of a tail alone, all unknowns being its own.
@@ -175,6 +204,7 @@ impl Homotopy {
             sketch_box: vec![point(0.0); places],
             auxiliary: Vec::new(),
             followed: Vec::new(),
+            shapes: Vec::new(),
             gauge,
             tail,
         };
@@ -264,7 +294,7 @@ impl Homotopy {
     }
 
     /// The unknown that an entry is, or m + 1 if it is zero.
-    fn entry(&self, entry: Entry) -> usize {
+    pub(super) fn entry(&self, entry: Entry) -> usize {
         let zero = self.equations + 1;
         match entry {
             Entry::Zero => zero,
@@ -301,6 +331,22 @@ impl Homotopy {
             }
         };
         (0..self.dimension).map(of_axis).collect()
+    }
+
+    /// Whether a box (all unknowns, and t) may hold a zero of each equation, as far as intervals tell: false where one
+    /// is certainly not zero anywhere in it.
+    pub fn may_hold(&self, z: &[Interval]) -> bool {
+        let m = self.equations;
+        let at = |i: usize| if i < m { z[i] } else { point(0.0) };
+        let factor = |form: Option<[usize; 2]>| form.map_or(point(1.0), |[i, j]| at(i) - at(j));
+        (0..m).all(|e| {
+            let terms = self.terms(e).into_iter();
+            let sum = terms.fold(point(0.0), |sum, term| {
+                let size = point(0.5 * f64::from(term.factor));
+                sum + size * factor(term.left) * factor(term.right)
+            });
+            (sum - self.rights[e].enclose(z[m])).contains(0.0)
+        })
     }
 
     /// An enclosure of each unknown in the sketch.

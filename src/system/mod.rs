@@ -7,16 +7,22 @@
 mod edit;
 mod exact;
 mod gauge;
+mod heights;
 mod homotopy;
 mod interpolation;
+mod located;
 mod part;
 mod right;
+mod simplices;
 
 pub use edit::is_met;
 pub use exact::ExactLength;
 pub use gauge::{Gauge, GaugeError, Placement};
+pub use heights::Heights;
 pub(crate) use homotopy::typical_length;
 pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
+pub use located::Located;
 pub use part::Part;
 pub use right::Right;
+pub use simplices::{orientation, simplices};

@@ -1,6 +1,7 @@
 //! What follows from an arc of path that sets out from a figure at t = 0 with t rising.
 
-use crate::interval::Interval;
+use crate::interval::{Interval, hull, point};
+use crate::system::Homotopy;
 
 /// A figure that is known up to a box, in which it is the only one that meets its equations.
 ///
@@ -13,6 +14,35 @@ pub struct Figure {
     pub low: Vec<f64>,
     /// How far the exact figure may be from the middle, entry by entry.
     pub radius: Vec<f64>,
+}
+
+impl Figure {
+    /// The sketch as a box.
+    pub fn of_sketch(homotopy: &Homotopy) -> Self {
+        let boxes = || homotopy.sketch_of_unknowns();
+        Figure {
+            centre: boxes().map(|x| x.mid()).collect(),
+            low: vec![0.0; homotopy.equations],
+            radius: boxes().map(|x| x.rad()).collect(),
+        }
+    }
+
+    /// All points of the figure in the gauge, in the homotopy's unit.
+    pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
+        let (d, m) = (homotopy.dimension, homotopy.equations);
+        let coordinate = |p: usize, axis: usize| -> Interval {
+            match homotopy.gauge.variable.get(p * d + axis) {
+                Some(&i) if axis < d && i < m => {
+                    let around = hull(-self.radius[i], self.radius[i]);
+                    point(self.centre[i]) + point(self.low[i]) + around
+                }
+                _ => point(0.0),
+            }
+        };
+        (0..homotopy.points)
+            .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
+            .collect()
+    }
 }
 
 /// A fold: the point where an arc stops rising, t' = 0 with t'' < 0.
@@ -83,4 +113,21 @@ pub struct ArcRun {
     pub length: f64,
     /// What was switched on beyond the plain run, and why.
     pub switched_on: Vec<String>,
+}
+
+impl ArcRun {
+    /// One that could not even set out.
+    pub fn stopped(reason: String) -> Self {
+        ArcRun {
+            end: ArcEnd::Stopped(reason),
+            t: (0.0, 0.0),
+            orientations: Vec::new(),
+            alone_within: 0.0,
+            last: Vec::new(),
+            steps: 0,
+            rejected: 0,
+            length: 0.0,
+            switched_on: Vec::new(),
+        }
+    }
 }

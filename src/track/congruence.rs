@@ -15,10 +15,12 @@ pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<So
         .collect();
     let thin = |((figure, class), mirror_of): ((Vec<[f64; 3]>, usize), Option<usize>)| Solution {
         points: figure.into_iter().map(|p| p.map(point)).collect(),
+        objects: Vec::new(),
         class,
         width: 0.0,
         place: None,
         mirror_of,
+        is_degenerate: false,
     };
     figures
         .into_iter()

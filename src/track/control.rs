@@ -1,6 +1,6 @@
 //! How a run talks to its caller: progress out, a request to stop in.
 
-use super::{Trace, Witness};
+use super::{FiguresSeen, Trace, Witness};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -44,6 +44,8 @@ pub struct Control<'a> {
     pub witness: Option<&'a mut dyn Witness>,
     /// Keeps the path of a certified run, to be drawn.
     pub trace: Option<&'a mut Trace>,
+    /// Keeps the boxes of a certified run's solutions, and of the figures with t = 0 on its path.
+    pub figures: Option<&'a mut FiguresSeen>,
 }
 
 impl Control<'_> {

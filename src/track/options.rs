@@ -37,6 +37,10 @@ pub struct Options {
     /// Whether certified mode in the full space may switch extended precision on where 53 bits do not
     /// suffice; otherwise it stops there. Where they do suffice this changes nothing.
     pub extended: bool,
+    /// Threads for tubes of the full space with 127 free coordinates or more, whose tests are products of large
+    /// matrices; smaller ones and the reduced space have no use for them. 0 means one for each processor. The result does
+    /// not depend on it.
+    pub threads: usize,
     /// The run ends `stopped` after so many steps.
     pub max_steps: usize,
 }
@@ -67,6 +71,7 @@ impl Options {
             reverse: false,
             alpha: 0.1,
             extended: true,
+            threads: 1,
             max_steps: 10_000_000,
         }
     }
@@ -134,6 +139,11 @@ impl Options {
             extended: false,
             ..self
         }
+    }
+
+    /// On several threads, where that helps; 0 means one for each processor.
+    pub fn with_threads(self, threads: usize) -> Self {
+        Options { threads, ..self }
     }
 
     /// In the other direction.

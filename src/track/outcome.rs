@@ -3,6 +3,7 @@
 use super::PathEnd;
 use crate::interval::Interval;
 use crate::problem::Problem;
+use crate::system::Located;
 use nalgebra::Point3;
 
 /// Whether steps are proved.
@@ -70,8 +71,10 @@ pub enum Status {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// Coordinates of every point in the gauge, in the units of the problem. Certified: boxes
-    /// that hold exactly one solution. Float: `[x, x]`.
+    /// that hold exactly one solution, or where [`Solution::is_degenerate`] that of the path. Float: `[x, x]`.
     pub points: Vec<[Interval; 3]>,
+    /// Where the problem's lines, planes, circles, spheres and arcs are, in their order and in the same coordinates.
+    pub objects: Vec<Located>,
     /// Solutions with the same class are congruent up to reflection.
     pub class: usize,
     /// The widest coordinate's width, divided by the size (largest coordinate) of the figure.
@@ -81,6 +84,12 @@ pub struct Solution {
     /// The first solution of the list (counted from 0) whose mirror image this one is, if there is one
     /// before it.
     pub mirror_of: Option<usize>,
+    /// Whether it is a degenerate solution: a flat figure, all points in one plane, at which the constraints' equations
+    /// are dependent, as they are at all flat figures of a problem with more conditions on heights than heights. Such
+    /// figures come in continua, and this is the one that the path passes through: heights over 1 − t have limits
+    /// there. In certified mode that is proved, and that the figure meets all constraints; nothing is claimed of
+    /// other flat figures, which are as near as one likes. In float mode it is observed.
+    pub is_degenerate: bool,
 }
 
 fn middle(place: &[Interval; 3]) -> Point3<f64> {
@@ -94,6 +103,13 @@ impl Solution {
         let mut points = problem.points.iter();
         self.points
             .get(points.position(|point| point.name == name)?)
+    }
+
+    /// Where an object of the problem is, by its name. `None`: there is no such object.
+    pub fn object(&self, problem: &Problem, name: &str) -> Option<&Located> {
+        let mut objects = problem.objects.iter();
+        self.objects
+            .get(objects.position(|object| object.name == name)?)
     }
 
     /// The middle of a point's box, the third coordinate being zero in the plane: floats, for what draws or

@@ -52,6 +52,16 @@ impl Turns {
         self.first
     }
 
+    /// Whether it is certain all along that t rises, or that it falls.
+    pub fn is_steady(&self, rising: bool) -> bool {
+        self.first == Some(rising) && self.count == 0 && !self.may_hide && !self.is_open
+    }
+
+    /// The path goes on, and it is certain that t rises there, or that it falls.
+    pub fn go_on(&mut self, rising: bool) {
+        self.be_certain(0.0, rising);
+    }
+
     /// Goes on along a tube, from a parameter to another, and tells what it sees, in order.
     pub fn follow<const N: usize>(
         &mut self,

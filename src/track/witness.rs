@@ -34,6 +34,9 @@ pub trait Witness {
     /// In the tube just seen the path meets t = 1 for the first time at this point: `centre` up to
     /// `radius`, per free coordinate.
     fn solution(&mut self, centre: &[f64], radius: &[f64]);
+    /// The path goes on by a proof that cannot be told in tubes and solutions of the problem's own equations: why. What
+    /// is seen after that is no proof by itself.
+    fn interrupt(&mut self, _reason: &str) {}
     /// What follows are the tubes the other way from the sketch.
     fn turn(&mut self) {}
     /// The way back is over. Unless it is kept its tubes and solutions are forgotten.

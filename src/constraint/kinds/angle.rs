@@ -36,6 +36,9 @@ impl Kind for Angles {
         let degrees = of.number().value().clone();
         if of.items.next() == Sort::Point && of.items.left() == 3 {
             let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
+            if a == c {
+                return Err("both legs are one and the same: name another point".to_owned());
+            }
             let (u, v) = (low.span(b, a)?, low.span(b, c)?);
             return between(
                 of.name,
@@ -46,9 +49,7 @@ impl Kind for Angles {
                 false,
             );
         }
-        let first = direction(&mut of.items, low)?;
-        let second = direction(&mut of.items, low)?;
-        of.items.end()?;
+        let (first, second) = directions(&mut of.items, low)?;
         let target = if first.1 == second.1 {
             Real::cosine_of_degrees(degrees)
         } else if degrees > BigRational::from_integer(90.into()) {
@@ -60,8 +61,30 @@ impl Kind for Angles {
     }
 }
 
+/// Two directions or normals, and nothing more.
+pub fn directions(
+    items: &mut Arguments,
+    low: &mut Lowering,
+) -> Result<((Arrow, bool), (Arrow, bool)), Fault> {
+    let before = items.clone();
+    let is_axis = items.next() == Sort::Axis;
+    let first = direction(items, low)?;
+    let one = items.taken_since(&before);
+    let between = items.clone();
+    if is_axis && items.next() == Sort::Axis {
+        return Err("axes lie as they do: name a line or a plane".to_owned());
+    }
+    let second = direction(items, low)?;
+    let other = items.taken_since(&between);
+    if one == other || one.iter().eq(other.iter().rev()) {
+        return Err("the two are one and the same: name another one".to_owned());
+    }
+    items.end()?;
+    Ok((first, second))
+}
+
 /// The direction of a line or the normal of a plane, and whether it is a plane's.
-pub fn direction(items: &mut Arguments, low: &mut Lowering) -> Result<(Arrow, bool), Fault> {
+fn direction(items: &mut Arguments, low: &mut Lowering) -> Result<(Arrow, bool), Fault> {
     // Four points are two lines, six are two planes.
     let plane = match items.next() {
         Sort::Plane => true,

@@ -32,6 +32,10 @@ impl Kind for Distances {
         Measure::Length
     }
 
+    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
+        Fixes::beside_axis(items)
+    }
+
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let then = Real::from(of.number().value().clone());
         if of.items.next() == Sort::Point {
@@ -59,7 +63,7 @@ impl Kind for Distances {
         }
         let first = of.items.next();
         if first == Sort::Plane
-            || first == Sort::Line && of.items.left() == 2 && {
+            || matches!(first, Sort::Line | Sort::Axis) && of.items.left() == 2 && {
                 let mut rest = of.items.clone();
                 rest.line()?;
                 rest.next() == Sort::Point
@@ -94,6 +98,9 @@ impl Kind for Distances {
         }
         let (a, b) = (of.items.line()?, of.items.line()?);
         of.items.end()?;
+        if let (LineName::Axis(_), LineName::Axis(_)) = (a, b) {
+            return Err("axes are where they are: name a line".to_owned());
+        }
         let (a, b) = (low.line(a)?, low.line(b)?);
         let what = format!("the common normal of {} and {}", a.along.name, b.along.name);
         let normal = low.cross(&a.along, &b.along, what);

@@ -53,14 +53,7 @@ impl Kind for Equal {
         }
         let mut spans = Vec::new();
         while of.items.next() != Sort::End {
-            match of.items.line()? {
-                LineName::Points(points) => spans.push(points),
-                LineName::Free(_) => {
-                    return Err(
-                        "a line of its own has no length: name lines through two points".to_owned(),
-                    );
-                }
-            }
+            spans.push(of.items.segment()?);
         }
         let [first, rest @ ..] = spans.as_slice() else {
             return Err("name at least two lines".to_owned());

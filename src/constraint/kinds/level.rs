@@ -52,6 +52,9 @@ impl Kind for Level {
             // Points in one place are at the same height.
             LineName::Points([a, b]) => low.between(&low.place(a), &low.place(b)),
             LineName::Free(_) => low.line(line)?.along,
+            LineName::Axis(_) => {
+                return Err("an axis lies as it does: name a line or two points".to_owned());
+            }
         };
         let products = vec![product(1, along.forms[self.axis], Form::One)];
         let start = Real::from(along.at[self.axis].clone());

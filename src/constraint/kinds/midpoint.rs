@@ -24,14 +24,7 @@ impl Kind for Midpoint {
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let middle = of.items.point()?;
-        let ends = match of.items.line()? {
-            LineName::Points(points) => points,
-            LineName::Free(_) => {
-                return Err(
-                    "a line of its own has no middle: name one through two points".to_owned(),
-                );
-            }
-        };
+        let ends = of.items.segment()?;
         of.items.end()?;
         if ends.contains(&middle) {
             return Err("the point is one of the ends".to_owned());

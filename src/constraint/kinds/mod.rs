@@ -1,5 +1,6 @@
 //! The kinds of constraints, one file each.
 
+mod along;
 mod angle;
 mod coincident;
 mod collinear;
@@ -7,12 +8,14 @@ mod coplanar;
 mod distance;
 mod equal;
 mod fixed;
+mod length;
 mod level;
 mod midpoint;
 mod on;
 mod parallel;
 mod position;
 mod radius;
+mod same_angle;
 mod same_distance;
 mod symmetric;
 mod tangent;
@@ -31,6 +34,9 @@ pub const KINDS: &[&dyn Kind] = &[
     &position::POSITIONS[3],
     &position::POSITIONS[4],
     &position::POSITIONS[5],
+    &along::Along,
+    &length::RATIOS,
+    &length::DIFFERENCES,
     &fixed::Fixed,
     &coincident::Coincident,
     &level::HORIZONTAL,
@@ -44,6 +50,7 @@ pub const KINDS: &[&dyn Kind] = &[
     &tangent::Tangent,
     &equal::Equal,
     &same_distance::EqualDistances,
+    &same_angle::EqualAngles,
     &symmetric::Symmetric,
 ];
 

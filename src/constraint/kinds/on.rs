@@ -26,6 +26,10 @@ impl Kind for On {
         r#"["p1", "l1"]"#
     }
 
+    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
+        Fixes::beside_axis(items)
+    }
+
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let point = of.items.point()?;
         let place = low.place(point);

@@ -44,9 +44,7 @@ impl Kind for Parallel {
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let first = super::angle::direction(&mut of.items, low)?;
-        let second = super::angle::direction(&mut of.items, low)?;
-        of.items.end()?;
+        let (first, second) = super::angle::directions(&mut of.items, low)?;
         if (first.1 == second.1) == self.right {
             orthogonal(of.name, low, &first.0, &second.0);
         } else {

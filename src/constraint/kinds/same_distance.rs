@@ -25,6 +25,10 @@ impl Kind for EqualDistances {
         r#"["p1", "l1", "p2", "l2"]"#
     }
 
+    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
+        Fixes::beside_axis(items)
+    }
+
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         if low.dimension() == 3 {
             return Err("this is for problems of dimension 2".to_owned());

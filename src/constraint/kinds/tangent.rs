@@ -29,6 +29,10 @@ impl Kind for Tangent {
         r#"["c1", "l1"]"#
     }
 
+    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
+        Fixes::beside_axis(items)
+    }
+
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let (first, other) = if of.items.next() == Sort::Round {
             (Some(of.items.round()?), flat_or_round(&mut of.items, low)?)

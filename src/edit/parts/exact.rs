@@ -1,8 +1,9 @@
 //! Numbers that are known exactly all the way, as polynomials in t, and what can be said of them without any tube.
 
-use super::{Parts, Used};
+use super::{Known, Parts, Used};
 use crate::constraint::{Entry, Form, Nonzero};
 use crate::interval::{Interval, Real, hull, point};
+use crate::system::orientation;
 use crate::track::arc::Orientation;
 use std::collections::HashMap;
 
@@ -113,10 +114,10 @@ impl Parts {
     }
 
     /// A vector that must not vanish and may do so in the figure.
-    pub(super) fn vanished(&self) -> Option<String> {
+    pub(super) fn vanished(&self, figure: &[Known]) -> Option<String> {
         let mut vectors = self.system.nonzero.iter();
         let vector = vectors.find(|vector| {
-            let place = self.coordinates_of(vector, |u| self.figure[u].enclosure());
+            let place = self.coordinates_of(vector, |u| figure[u].enclosure());
             place.iter().all(|x| x.contains(0.0))
         })?;
         Some(format!(
@@ -160,17 +161,20 @@ impl Parts {
                 .map(|place| self.system.coordinates[place])
                 .collect();
             let all_exact = of.iter().all(|&u| self.is_exact[self.blocks.of_unknown[u]]);
-            if !all_exact || d != 2 || !of.iter().any(|u| exact.contains_key(u)) {
+            if !all_exact || !of.iter().any(|u| exact.contains_key(u)) {
                 continue;
             }
+            // The points' places in the order of the set.
+            let set: Vec<usize> = (0..points.len()).collect();
             let sign = |time: Interval| -> i8 {
-                let x = |k: usize| self.place_at(&paths, of[k], time);
-                let determinant = (x(2) - x(0)) * (x(5) - x(1)) - (x(3) - x(1)) * (x(4) - x(0));
-                match (determinant.inf() > 0.0, determinant.sup() < 0.0) {
-                    (true, _) => 1,
-                    (_, true) => -1,
-                    _ => 0,
-                }
+                let place = |k: usize| -> [Interval; 3] {
+                    std::array::from_fn(|axis| match axis < d {
+                        true => self.place_at(&paths, of[k * d + axis], time),
+                        false => point(0.0),
+                    })
+                };
+                let places: Vec<[Interval; 3]> = set.iter().map(|&k| place(k)).collect();
+                orientation(&places, &set)
             };
             let first = sign(point(0.0));
             let lost = pieces(upto.sup())

@@ -18,20 +18,6 @@ struct PartRun {
 }
 
 impl Parts {
-    /// A dimension that is to move but follows from others.
-    pub(super) fn unmovable(&self, rights: &[Vec<Real>]) -> Option<String> {
-        let redundant = self
-            .redundant
-            .iter()
-            .map(|&row| self.system.rows[row].index);
-        let mut all = redundant.chain(self.system.implied.iter().copied());
-        let fixed = all.find(|&index| moves(&rights[index]))?;
-        Some(format!(
-            "{} follows from the other constraints at this figure and cannot change by itself",
-            self.name(fixed)
-        ))
-    }
-
     pub(super) fn rights_of(&self, used: Used, rights: &[Vec<Real>]) -> Vec<Real> {
         match used {
             Used::Row(row) => rights[self.system.rows[row].index].clone(),
@@ -169,17 +155,7 @@ impl Parts {
                 "a part has {} unknowns, more than the {LARGEST_SQUARE} of which proofs keep square matrices",
                 unknowns.len()
             );
-            let run = ArcRun {
-                end: ArcEnd::Stopped(reason),
-                t: (0.0, 0.0),
-                orientations: Vec::new(),
-                alone_within: 0.0,
-                last: Vec::new(),
-                steps: 0,
-                rejected: 0,
-                length: 0.0,
-                switched_on: Vec::new(),
-            };
+            let run = ArcRun::stopped(reason);
             return PartRun { unknowns, run };
         }
         let polynomials: Vec<Vec<Real>> = used

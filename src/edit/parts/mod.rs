@@ -8,26 +8,29 @@
 
 mod exact;
 mod follow;
-mod senses;
+mod left_out;
+pub(super) mod senses;
 mod words;
 
-use crate::blocks::{Blocks, Choice, Row, System};
-use crate::constraint::{Entry, Form, Lowered, Owner, Record, try_lower_all};
+use crate::blocks::{Blocks, Choice, Combination, Given, System};
+use crate::constraint::{Entry, Form, Record, try_lower_all};
 use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
+use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
 use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
 use crate::problem::{Decimal, Problem, Shape};
-use crate::system::{Right, typical_length};
+use crate::system::typical_length;
 use crate::track::arc::Orientation;
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError};
+use left_out::at_rest_all;
 use std::collections::{BTreeSet, HashMap};
 use std::time::Instant;
 
 /// A part is followed over so many tubes and then given up. Edits of real sketches take a few; those that came to so
 /// many had ever longer tubes and ever larger figures, as where two lines become parallel.
-const MOST_TUBES: usize = 1000;
+pub(super) const MOST_TUBES: usize = 1000;
 
 /// An equation of the square system.
 #[derive(Debug, Clone, Copy)]
@@ -71,6 +74,11 @@ pub(super) struct Parts {
     system: System,
     used: Vec<Used>,
     redundant: Vec<usize>,
+    /// What those used say, and for each redundant row how it follows from them, if that was found.
+    given: Vec<Given>,
+    follows: Vec<Option<Combination>>,
+    /// For each whether that is proved of the figure.
+    proved: Vec<bool>,
     free: Vec<usize>,
     blocks: Blocks,
     /// Blocks of one equation that is linear in exactly known numbers.
@@ -138,7 +146,7 @@ impl Parts {
         problem.homotopy.bend_coefficient = Decimal::from(0);
         problem.homotopy.detour = Decimal::from(0);
         let problem = &problem;
-        let lowered = lowered(problem, None)?;
+        let lowered = lowered(problem, |problem| try_lower_all(problem, None))?;
         let owner_is_dimension = |owner: usize| {
             let (objects, all) = (problem.objects.len(), problem.constraints.len());
             match owner.checked_sub(objects) {
@@ -177,7 +185,7 @@ impl Parts {
         let blocks = Blocks::new(&of, system.unknowns.len())
             .ok_or("its equations do not match its unknowns: the sketch is singular")?;
         let radii = problem.objects.iter().enumerate().map(|(o, object)| {
-            let entry = lowered.object_unknowns[o].first();
+            let entry = lowered.tail.objects[o].first();
             match (&object.shape, entry) {
                 (Shape::Round { .. }, Some(&Entry::Unknown(k))) => Some(system.auxiliary[k]),
                 _ => None,
@@ -194,6 +202,9 @@ impl Parts {
             },
             record: lowered.record.clone(),
             powers: lowered.tail.equations.iter().map(|e| e.power).collect(),
+            given: Vec::new(),
+            follows: Vec::new(),
+            proved: Vec::new(),
             used,
             redundant: choice.redundant,
             free: choice.free,
@@ -231,6 +242,7 @@ impl Parts {
                 ));
             }
         }
+        parts.find_what_follows(&rights);
         Ok((parts, rights))
     }
 
@@ -264,7 +276,10 @@ impl Parts {
             tubes: run.tubes.max(usize::from(distance > 0.0)),
         };
         self.figure = figure;
-        match self.broken(rights).or_else(|| self.vanished()) {
+        match self
+            .broken(&self.figure, &at_rest_all(rights), None)
+            .or_else(|| self.vanished(&self.figure))
+        {
             Some(what) => Err(failed(Ending::Stopped(what.clone()), what)),
             None => Ok(()),
         }
@@ -367,7 +382,9 @@ impl Parts {
         for setting in settings {
             setting.apply(&mut problem);
         }
-        let (edited, figure) = match lowered(&problem, Some(&self.record)) {
+        let (edited, figure) = match lowered(&problem, |problem| {
+            try_lower_all(problem, Some(&self.record))
+        }) {
             Err(fault) => (self.account(settings, stopped(fault)), None),
             Ok(lowered) => {
                 let rights: Vec<Vec<Real>> = lowered
@@ -381,58 +398,32 @@ impl Parts {
                     None => self.follow(&rights, control),
                 };
                 let mut figure = None;
-                if let End::Reached(reached) = &run.end {
-                    let old = std::mem::replace(&mut self.figure, reached.clone());
-                    match self.broken(&rights).or_else(|| self.vanished()) {
-                        Some(what) => {
-                            run.end = End::Stopped(what);
-                            run.t = (0.0, 0.0);
-                        }
-                        None => figure = Some((reached.clone(), lowered.record)),
+                let broken = match &run.end {
+                    End::Reached(reached) => self
+                        .broken(reached, &rights, None)
+                        .or_else(|| self.vanished(reached)),
+                    End::Limit(there, _) => {
+                        self.broken(there, &rights, Some(hull(run.t.0, run.t.1)))
                     }
-                    self.figure = old;
+                    _ => None,
+                };
+                if let Some(what) = broken {
+                    run.end = End::Stopped(what);
+                    run.t = (0.0, 0.0);
+                } else if let End::Reached(reached) = &run.end {
+                    figure = Some((reached.clone(), lowered.record, rights));
                 }
                 (self.account(settings, run), figure)
             }
         };
-        if let (Some((figure, record)), true) = (figure, keep) {
+        if let (Some((figure, record, rights)), true) = (figure, keep) {
             (self.figure, self.record, self.problem) = (figure, record, problem);
+            self.note_what_follows(&rights);
         }
         Edited {
             seconds: clock.elapsed().as_secs_f64(),
             ..edited
         }
-    }
-
-    /// An equation that was left out and does not hold at the figure.
-    fn broken(&self, rights: &[Vec<Real>]) -> Option<String> {
-        let side = |form: Form| match form {
-            Form::One => point(1.0),
-            Form::Difference(a, b) => {
-                let [a, b] = [a, b].map(|entry| match entry {
-                    Entry::Unknown(u) => self.figure[u].enclosure(),
-                    _ => point(0.0),
-                });
-                a - b
-            }
-        };
-        for &row in &self.redundant {
-            let Row {
-                index, products, ..
-            } = &self.system.rows[row];
-            let left = products.iter().fold(point(0.0), |sum, p| {
-                sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
-            });
-            let right = Right::polynomial(&rights[*index], self.scale(*index)).at_target();
-            let off = (left - right).mig();
-            if off > 1e-7 {
-                return Some(format!(
-                    "{} seemed to follow from the other constraints, but contradicts them",
-                    self.name(*index)
-                ));
-            }
-        }
-        None
     }
 
     /// What right-hand sides of an equation are divided by. Every product of it has the same power of the unit.
@@ -508,14 +499,6 @@ fn stopped(reason: String) -> Run {
         length: 0.0,
         switched_on: Vec::new(),
     }
-}
-
-/// The equations of a problem, or what is at fault.
-fn lowered(problem: &Problem, from: Option<&Record>) -> Result<Lowered, String> {
-    try_lower_all(problem, from).map_err(|(owner, fault)| match owner {
-        Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
-        Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
-    })
 }
 
 /// Whether a right-hand side changes with t.

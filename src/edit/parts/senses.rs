@@ -1,6 +1,8 @@
-//! Which points tell by their orientation the senses that constraints leave open.
+//! Which points tell by their orientation the senses that constraints leave open, tangents, angles and chirality.
 
+use crate::interval::enclose;
 use crate::problem::{Item, Problem, Shape};
+use crate::system::{orientation, simplices};
 use std::collections::BTreeSet;
 
 /// Triples of points, in order, each once.
@@ -17,9 +19,12 @@ impl Triples {
     }
 }
 
-/// Points of which the orientation tells a sense that constraints in the plane leave open: both legs of an angle, the ends
-/// of a line and the centre of what touches it.
-pub(super) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
+/// Points of which the orientation tells a sense that constraints leave open. In the plane: both legs of an angle, the ends
+/// of a line and the centre of what touches it. In space, the chirality of points: each with three joined to it.
+pub(in crate::edit) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
+    if problem.dimension == 3 {
+        return chiralities(problem);
+    }
     let mut out = Triples::default();
     let points_of = |item: &Item| match *item {
         Item::Point(p) => vec![p],
@@ -32,7 +37,7 @@ pub(super) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
     };
     let kinds = ["angles", "tangent", "perpendicular", "distances"];
     let all = problem.constraints.iter();
-    for constraint in all.filter(|c| problem.dimension == 2 && kinds.contains(&c.kind.as_str())) {
+    for constraint in all.filter(|c| kinds.contains(&c.kind.as_str())) {
         let points: Vec<usize> = constraint.items.iter().flat_map(points_of).collect();
         match *points.as_slice() {
             [a, b, c] => out.put(vec![a, b, c]),
@@ -47,18 +52,38 @@ pub(super) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
     out.0.into_iter().collect()
 }
 
-/// The same, and three points joined by two distances.
-pub(super) fn followed(problem: &Problem) -> Vec<Vec<usize>> {
-    let mut out = Triples(senses(problem).into_iter().collect());
-    let plane = problem.dimension == 2;
-    for (index, distance) in problem.distances.iter().enumerate().filter(|_| plane) {
-        let [a, b] = distance.points;
-        for other in &problem.distances[index + 1..] {
-            let [c, d] = other.points;
-            if [c, d].contains(&a) || [c, d].contains(&b) {
-                out.put(vec![a, b, c, d]);
-            }
+/// One tetrahedron of each point that is joined to three others at least, the first that is not flat in the sketch.
+fn chiralities(problem: &Problem) -> Vec<Vec<usize>> {
+    let points = problem.points.iter();
+    let sketch: Vec<_> = points.map(|p| p.sketch.each_ref().map(enclose)).collect();
+    let mut found = vec![None; problem.points.len()];
+    for pair in pairs(problem).collect::<BTreeSet<_>>() {
+        for p in pair {
+            found[p].get_or_insert_with(Vec::new).push(pair);
         }
     }
-    out.0.into_iter().collect()
+    let first = |pairs: Vec<[usize; 2]>| {
+        let mut all = simplices(3, problem.points.len(), pairs).into_iter();
+        all.find(|set| orientation(&sketch, set) != 0)
+    };
+    let mut out: Vec<Vec<usize>> = found.into_iter().flatten().filter_map(first).collect();
+    out.sort_unstable();
+    out.dedup();
+    out
+}
+
+/// The pairs of points that have a distance.
+fn pairs(problem: &Problem) -> impl Iterator<Item = [usize; 2]> + '_ {
+    problem.distances.iter().map(|d| d.points)
+}
+
+/// The senses, and each point with two (in space: three) joined to it by distances.
+pub(super) fn followed(problem: &Problem) -> Vec<Vec<usize>> {
+    let mut out: BTreeSet<Vec<usize>> = senses(problem).into_iter().collect();
+    out.extend(simplices(
+        problem.dimension,
+        problem.points.len(),
+        pairs(problem),
+    ));
+    out.into_iter().collect()
 }

@@ -27,10 +27,11 @@ impl Parts {
         names
     }
 
-    /// See [`Parts::free`].
-    pub fn redundant(&self) -> Vec<String> {
+    /// See [`Parts::free`]: those that seem to follow, and with `proved` those that are proved to.
+    pub fn redundant(&self, proved: bool) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
-        for &row in &self.redundant {
+        let all = self.redundant.iter().zip(&self.proved);
+        for (&row, _) in all.filter(|(_, known)| **known == proved) {
             let name = self.name(self.system.rows[row].index);
             if !names.contains(&name) {
                 names.push(name);
@@ -56,7 +57,8 @@ impl Parts {
                 .map(|(block, _)| names(block))
                 .collect(),
             free: self.free(),
-            redundant: self.redundant(),
+            redundant: self.redundant(false),
+            follows: self.redundant(true),
         }
     }
 

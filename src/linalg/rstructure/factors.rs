@@ -1,31 +1,36 @@
-//! Elimination through the R-structure: factor once, solve many.
+//! R-structured matrices that are stored as such: factor once, solve many.
 
-use super::kernel::{self, Group, Lane, for_groups};
+use super::elimination::{Blocks, Elimination, Solves};
+use super::kernel;
+use super::rows::{Lane, MAX_KEYS, Row, add, zeros};
 use super::structure::{Block, Structure};
 use super::{RMatrix, Scalar};
 use crate::linalg::LANE;
 use std::borrow::Borrow;
 
-/// Where elimination found no pivot.
+/// Why a matrix could not be factored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Singular {
-    /// In a diagonal block of A, counted from 0: with this choice of key unknowns and ignored
+    /// No pivot in a diagonal block of A, counted from 0: with this choice of key unknowns and ignored
     /// equations the system does not fall apart here.
     #[error("diagonal block {0} is singular")]
     Block(usize),
-    /// In C − L A⁻¹ H: A is regular, the whole matrix is not.
+    /// None in C − L A⁻¹ H: A is regular, the whole matrix is not.
     #[error("the Schur complement of the key unknowns is singular")]
     Schur,
+    /// So many key unknowns, and how many there may be.
+    #[error("{0} key unknowns are more than the {1} there is room for")]
+    TooManyKeys(usize, usize),
 }
 
-/// A factored R-structured matrix: LU factors of the diagonal blocks and of the k × k Schur
-/// complement C − L A⁻¹ H (002, section 5). What is left of the blocks, H and L are read from the
-/// matrix, which this holds or borrows.
+/// A factored R-structured matrix: LU factors of the diagonal blocks, K = −A⁻¹H, and the inverse of the k × k
+/// Schur complement C − L A⁻¹ H (002, section 5). What is left of the blocks, and L, are read from the matrix,
+/// which this holds or borrows. There may be 31 key unknowns.
 ///
 /// With β the numbers stored left of the blocks, t the size of blocks and n = bt the order of A,
-/// factoring costs O(n t²) for the blocks, O(k(β + n t)) for K = A⁻¹H (step 2) and O(k²n + k³)
-/// for the Schur complement (steps 3 and 5); each solution O(β + n t) for steps 1 and 7 and O(kn)
-/// for steps 4 and 6.
+/// factoring costs O(n t²) for the blocks, O(k(β + n t)) for K (step 2) and O(k²n + k³)
+/// for the Schur complement (steps 3 and 5); each solution O(β + n t) for step 1 and O(kn)
+/// for steps 4, 6 and 7, which are a product with K.
 #[derive(Debug, Clone)]
 pub struct Factors<T, M = RMatrix<T>> {
     matrix: M,
@@ -34,16 +39,18 @@ pub struct Factors<T, M = RMatrix<T>> {
 
 #[derive(Debug, Clone)]
 struct Storage<T> {
-    diagonal: Vec<Lane<T>>,
+    diagonal: Diagonal<T>,
+    elimination: Elimination<T>,
+    /// A right-hand side.
+    right: Vec<T>,
+}
+
+/// LU factors of the diagonal blocks, see [`kernel::factor`].
+#[derive(Debug, Clone)]
+struct Diagonal<T> {
+    factors: Vec<Lane<T>>,
     inverses: Vec<T>,
     swaps: Vec<u32>,
-    schur: Vec<Lane<T>>,
-    schur_inverses: Vec<T>,
-    schur_swaps: Vec<u32>,
-    /// k + 1 vectors.
-    vectors: Vec<Lane<T>>,
-    /// One column of C.
-    key: Vec<Lane<T>>,
 }
 
 impl<T: Scalar, M: Borrow<RMatrix<T>>> Factors<T, M> {
@@ -99,178 +106,215 @@ impl<T: Scalar, M: Borrow<RMatrix<T>>> Factors<T, M> {
     /// # Panics
     /// If `x` is not as long as the matrix has rows.
     pub fn solve_in_place(&mut self, x: &mut [T]) {
+        let Storage {
+            diagonal,
+            elimination,
+            right,
+        } = &mut self.storage;
         let matrix = self.matrix.borrow();
-        let structure = &*matrix.structure;
-        let lanes = structure.lanes;
-        let mut vectors = std::mem::take(&mut self.storage.vectors);
-        let z = &mut vectors[structure.keys * lanes..];
-        if structure.keys > 0 {
-            // Step 1; without key unknowns step 7 is all there is.
-            pack(structure, x, z);
-            self.storage.eliminate(matrix, &mut [&mut *z]);
-        }
-        self.storage.finish(matrix, x, z);
-        self.storage.vectors = vectors;
+        assert_eq!(x.len(), matrix.structure.size(), "one number per row");
+        right.clear();
+        right.extend_from_slice(x);
+        let whole = Whole {
+            matrix,
+            diagonal,
+            right: None,
+        };
+        elimination.solve(&whole, right, x);
     }
 
     fn build(matrix: M, mut storage: Storage<T>, x: Option<&mut [T]>) -> Result<Self, Singular> {
         let m = matrix.borrow();
-        storage.factor(m, x.as_deref())?;
+        if let Some(x) = &x {
+            assert_eq!(x.len(), m.structure.size(), "one number per row");
+        }
+        storage.diagonal.factor(m)?;
+        let whole = Whole {
+            matrix: m,
+            diagonal: &storage.diagonal,
+            right: x.as_deref(),
+        };
+        let elimination = &mut storage.elimination;
+        elimination.make(&whole, usize::from(x.is_some()))?;
         if let Some(x) = x {
-            let mut vectors = std::mem::take(&mut storage.vectors);
-            let z = &mut vectors[m.structure.keys * m.structure.lanes..];
-            storage.finish(m, x, z);
-            storage.vectors = vectors;
+            elimination.solution(m.structure.keys, x);
         }
         Ok(Factors { matrix, storage })
     }
 }
 
-/// Spreads R over a vector in which every block starts a new lane.
-fn pack<T: Scalar>(structure: &Structure, x: &[T], vector: &mut [Lane<T>]) {
-    assert_eq!(x.len(), structure.size(), "one number per row");
-    vector.fill([T::zero(); LANE]);
-    for block in &structure.blocks {
-        let from = &x[block.start..block.start + block.size];
-        vector[block.at..].as_flattened_mut()[..block.size].copy_from_slice(from);
-    }
-}
-
-/// Subtracts what is left of a block from the right-hand sides.
-#[inline(always)]
-fn reduce<T: Scalar, const R: usize>(matrix: &RMatrix<T>, block: &Block, v: &mut Group<T, R>) {
-    if block.columns.is_empty() {
-        return;
-    }
-    for (first, width, range) in block.tiles() {
-        let positions = block.positions.iter().map(|&position| position as usize);
-        let tile = &matrix.left[range];
-        kernel::reduce(tile, width, width, positions, v, block.at + first);
-    }
-}
-
-impl<T: Scalar> Storage<T> {
+impl<T> Default for Storage<T> {
     fn default() -> Self {
         Storage {
-            diagonal: Vec::new(),
-            inverses: Vec::new(),
-            swaps: Vec::new(),
-            schur: Vec::new(),
-            schur_inverses: Vec::new(),
-            schur_swaps: Vec::new(),
-            vectors: Vec::new(),
-            key: Vec::new(),
+            diagonal: Diagonal {
+                factors: Vec::new(),
+                inverses: Vec::new(),
+                swaps: Vec::new(),
+            },
+            elimination: Elimination::default(),
+            right: Vec::new(),
         }
     }
+}
 
-    /// Steps 2 and 3 of section 5 (and 1, where there is a right-hand side).
-    fn factor(&mut self, matrix: &RMatrix<T>, x: Option<&[T]>) -> Result<(), Singular> {
+/// A block's factors, and its pivots: their inverses, and the row that each row was exchanged with.
+type OfBlock<'a, T> = (&'a [Lane<T>], (&'a [T], &'a [u32]));
+
+impl<T: Scalar> Diagonal<T> {
+    /// Factors the diagonal blocks.
+    fn factor(&mut self, matrix: &RMatrix<T>) -> Result<(), Singular> {
         let structure = &*matrix.structure;
-        let (keys, lanes) = (structure.keys, structure.lanes);
-        let zero = [T::zero(); LANE];
-        self.diagonal.clone_from(&matrix.diagonal);
+        self.factors.clone_from(&matrix.diagonal);
         self.inverses.resize(structure.order, T::zero());
         self.swaps.resize(structure.order, 0);
-        self.schur.clone_from(&matrix.c);
-        self.schur_inverses.resize(keys, T::zero());
-        self.schur_swaps.resize(keys, 0);
-        self.key.resize(structure.key_lanes(), zero);
-        self.vectors.clear();
-        self.vectors.extend_from_slice(&matrix.h);
-        self.vectors.resize((keys + 1) * lanes, zero);
-        let mut columns = keys;
-        if let Some(x) = x {
-            pack(structure, x, &mut self.vectors[keys * lanes..]);
-            // Without key unknowns step 7 is all there is.
-            columns += usize::from(keys > 0);
-        }
-
         for (index, block) in structure.blocks.iter().enumerate() {
             let rows = block.start..block.start + block.size;
             let start = block.diagonal;
             kernel::factor(
-                &mut self.diagonal[start..start + block.lanes * block.size],
+                &mut self.factors[start..start + block.lanes * block.size],
                 block.lanes,
                 &mut self.inverses[rows.clone()],
                 &mut self.swaps[rows],
             )
             .ok_or(Singular::Block(index))?;
-            let mut vectors = std::mem::take(&mut self.vectors);
-            for_groups!(vectors[..columns * lanes], lanes, |group| {
-                reduce(matrix, block, &mut group);
-                self.solve_block(block, &mut group);
-            });
-            self.vectors = vectors;
-        }
-
-        if keys > 0 {
-            let key_lanes = structure.key_lanes();
-            for key in 0..keys {
-                let k = &self.vectors[key * lanes..(key + 1) * lanes];
-                let column = &mut self.schur[key * key_lanes..(key + 1) * key_lanes];
-                for (row, entry) in column.as_flattened_mut()[..keys].iter_mut().enumerate() {
-                    let l = &matrix.l[row * lanes..(row + 1) * lanes];
-                    *entry = kernel::minus_dot(*entry, l, k);
-                }
-            }
-            kernel::factor(
-                &mut self.schur,
-                key_lanes,
-                &mut self.schur_inverses,
-                &mut self.schur_swaps,
-            )
-            .ok_or(Singular::Schur)?;
         }
         Ok(())
     }
 
-    /// Solves `A X = v` for every `v` of the group (steps 1, 2 and 7).
-    fn eliminate<const R: usize>(&self, matrix: &RMatrix<T>, v: &mut Group<T, R>) {
-        for block in &matrix.structure.blocks {
-            reduce(matrix, block, v);
-            self.solve_block(block, v);
-        }
-    }
-
-    /// Solves with a factored diagonal block.
-    #[inline(always)]
-    fn solve_block<const R: usize>(&self, block: &Block, v: &mut Group<T, R>) {
+    /// A block's factors, the inverses of its pivots, and its exchanges of rows.
+    fn of(&self, block: &Block) -> OfBlock<'_, T> {
         let rows = block.start..block.start + block.size;
-        let factors = (&self.inverses[rows.clone()], &self.swaps[rows]);
-        let diagonal = &self.diagonal[block.diagonal..][..block.lanes * block.size];
-        kernel::solve(diagonal, block.lanes, factors, v, block.at);
+        let factors = &self.factors[block.diagonal..][..block.lanes * block.size];
+        (factors, (&self.inverses[rows.clone()], &self.swaps[rows]))
+    }
+}
+
+/// A matrix with its diagonal blocks factored. The key unknowns come first, then A's.
+struct Whole<'a, T> {
+    matrix: &'a RMatrix<T>,
+    diagonal: &'a Diagonal<T>,
+    /// A right-hand side that is eliminated with: a column more, with a minus.
+    right: Option<&'a [T]>,
+}
+
+impl<T: Scalar> Whole<'_, T> {
+    fn structure(&self) -> &Structure {
+        &self.matrix.structure
     }
 
-    /// Steps 4 to 7 of section 5: from (R, S) in `x` and Z = A⁻¹R in `z` to (U, X) in `x`.
-    fn finish(&mut self, matrix: &RMatrix<T>, x: &mut [T], z: &mut [Lane<T>]) {
-        let structure = &*matrix.structure;
-        let (n, keys, lanes) = (structure.order, structure.keys, structure.lanes);
-        self.key.fill([T::zero(); LANE]);
-        if keys > 0 {
-            let key = self.key.as_flattened_mut();
-            for (row, u) in key[..keys].iter_mut().enumerate() {
-                let l = &matrix.l[row * lanes..(row + 1) * lanes];
-                *u = kernel::minus_dot(x[n + row], l, z);
+    /// A row of L.
+    fn row_of_l(&self, at: usize) -> &[Lane<T>] {
+        let lanes = self.structure().lanes;
+        &self.matrix.l[at * lanes..(at + 1) * lanes]
+    }
+}
+
+impl<T: Scalar> Blocks<T> for Whole<'_, T> {
+    fn keys(&self) -> usize {
+        self.structure().keys
+    }
+
+    fn unknowns(&self) -> usize {
+        self.structure().size()
+    }
+
+    fn key(&self, at: usize) -> usize {
+        at
+    }
+
+    fn substitute<const W: usize>(&self, rows: &mut [Row<W, T>]) {
+        let (keys, lanes) = (self.keys(), self.structure().lanes);
+        for block in &self.structure().blocks {
+            let (done, own) = rows.split_at_mut(keys + block.start);
+            let own = &mut own[..block.size];
+            for (r, row) in own.iter_mut().enumerate() {
+                let row = row.as_flattened_mut();
+                for (key, x) in row[..keys].iter_mut().enumerate() {
+                    let h = &self.matrix.h[key * lanes + block.at..].as_flattened()[r];
+                    *x = h.negated();
+                }
+                if let Some(right) = self.right {
+                    row[keys] = right[block.start + r];
+                }
             }
-            let factors = (&self.schur_inverses[..], &self.schur_swaps[..]);
-            let mut group = [self.key.as_mut_slice()];
-            kernel::solve(&self.schur, structure.key_lanes(), factors, &mut group, 0);
+            for (first, width, range) in block.tiles() {
+                let panel = self.matrix.left[range].as_flattened();
+                let done = block.columns.iter().map(|&c| &done[keys + c as usize]);
+                let from = first * LANE;
+                let to = block.size.min(from + width * LANE);
+                kernel::reduce_rows(panel, width * LANE, done, &mut own[from..to]);
+            }
+            let (factors, pivots) = self.diagonal.of(block);
+            kernel::solve_rows(factors, block.lanes, pivots, own);
         }
-        pack(structure, x, z);
-        let u = &self.key.as_flattened()[..keys];
-        for (key, &u) in u.iter().enumerate() {
-            let h = &matrix.h[key * lanes..(key + 1) * lanes];
-            for (z, h) in z.iter_mut().zip(h) {
-                for q in 0..LANE {
-                    z[q] = z[q].minus_product(h[q], u);
+    }
+
+    fn ignored_row<const W: usize>(&self, at: usize, rows: &[Row<W, T>]) -> Row<W, T> {
+        let (keys, structure) = (self.keys(), self.structure());
+        // Four sums, so that one need not wait for the other.
+        let mut sums = [zeros::<W, T>(); LANE];
+        let l = self.row_of_l(at);
+        for block in &structure.blocks {
+            let of_block = &rows[keys + block.start..][..block.size];
+            for (lane, rows) in l[block.at..].iter().zip(of_block.chunks(LANE)) {
+                for ((sum, &factor), row) in sums.iter_mut().zip(lane).zip(rows) {
+                    add(sum, factor, row);
                 }
             }
         }
-        self.eliminate(matrix, &mut [&mut *z]);
-        x[..keys].copy_from_slice(u);
-        for block in &structure.blocks {
-            let from = &z[block.at..].as_flattened()[..block.size];
-            x[keys + block.start..][..block.size].copy_from_slice(from);
+        let [mut sum, rest @ ..] = sums;
+        for rest in &rest {
+            add(&mut sum, T::one(), rest);
         }
+        let flat = sum.as_flattened_mut();
+        let c = self.matrix.c.as_flattened();
+        for (key, x) in flat[..keys].iter_mut().enumerate() {
+            *x = x.plus(c[key * structure.key_lanes() * LANE + at]);
+        }
+        if let Some(right) = self.right {
+            flat[keys] = flat[keys].minus_product(right[structure.order + at], T::one());
+        }
+        sum
     }
 }
+
+impl<T: Scalar> Solves<T> for Whole<'_, T> {
+    fn substitute_one(&self, f: &[T], x: &mut [T]) {
+        let structure = self.structure();
+        let mut vector = vec![[T::zero(); LANE]; structure.lanes];
+        for block in &structure.blocks {
+            let (start, size) = (block.start, block.size);
+            let own = vector[block.at..].as_flattened_mut();
+            own[..size].copy_from_slice(&f[start..][..size]);
+            let group = &mut [&mut vector[..]];
+            for (first, width, range) in block.tiles() {
+                let positions = block.positions.iter().map(|&position| position as usize);
+                let panel = &self.matrix.left[range];
+                kernel::reduce(panel, width, width, positions, group, block.at + first);
+            }
+            let (factors, pivots) = self.diagonal.of(block);
+            kernel::solve(factors, block.lanes, pivots, group, block.at);
+            let own = vector[block.at..].as_flattened();
+            x[structure.keys + start..][..size].copy_from_slice(&own[..size]);
+        }
+    }
+
+    fn ignored_rest(&self, at: usize, f: &[T], x: &[T]) -> T {
+        let structure = self.structure();
+        let l = self.row_of_l(at);
+        let mut rests = [T::zero(); LANE];
+        for block in &structure.blocks {
+            let x = &x[structure.keys + block.start..][..block.size];
+            for (lane, x) in l[block.at..].iter().zip(x.chunks(LANE)) {
+                for ((rest, &l), &x) in rests.iter_mut().zip(lane).zip(x) {
+                    *rest = rest.minus_product(l, x);
+                }
+            }
+        }
+        let rest = rests.into_iter().fold(T::zero(), T::plus);
+        f[structure.order + at].plus(rest)
+    }
+}
+
+/// The most key unknowns where a right-hand side is eliminated with.
+const _: () = assert!(MAX_KEYS - 1 == 31);

@@ -5,15 +5,14 @@
 //! tile stays in registers while the sums run.
 
 use super::Scalar;
+use super::rows::{Lane, Row};
 use crate::linalg::LANE;
-
-pub(super) type Lane<T> = [T; LANE];
 
 /// Lanes in a tile.
 pub(super) const CHUNK: usize = 4;
 /// Columns in a tile: with four lanes, twelve of the sixteen AVX registers.
 pub(super) const GROUP: usize = 3;
-// The sizes that `reduce`, `factor` and `for_groups` choose from.
+// The sizes that `reduce` and `factor` choose from.
 const _: () = assert!(CHUNK == 4 && GROUP == 3);
 
 /// A few columns to work on at a time. All have the same length.
@@ -25,29 +24,6 @@ pub(super) fn group<T, const R: usize>(data: &mut [Lane<T>], lanes: usize) -> Gr
     let mut columns = data.chunks_exact_mut(lanes);
     std::array::from_fn(|_| columns.next().expect("R columns"))
 }
-
-/// Calls a function generic over a group of columns for every group in `data`.
-macro_rules! for_groups {
-    ($data:expr, $lanes:expr, |$group:ident| $body:expr) => {
-        for part in $data.chunks_mut(kernel::GROUP * $lanes) {
-            match part.len() / $lanes {
-                1 => {
-                    let mut $group = kernel::group::<_, 1>(part, $lanes);
-                    $body
-                }
-                2 => {
-                    let mut $group = kernel::group::<_, 2>(part, $lanes);
-                    $body
-                }
-                _ => {
-                    let mut $group = kernel::group::<_, 3>(part, $lanes);
-                    $body
-                }
-            }
-        }
-    };
-}
-pub(super) use for_groups;
 
 /// `v[at ..] −= Σ_j panel_j v[positions_j]` in a tile of `width` lanes, for every column `v`.
 /// Column j of the panel starts at lane `j * stride`.
@@ -254,33 +230,139 @@ pub(super) fn solve<T: Scalar, const R: usize>(
     backward(block, lanes, inverses, v, at);
 }
 
-/// `sum − Σ a_i b_i`, in as many partial sums as a tile has lanes.
-#[inline]
-pub(super) fn minus_dot<T: Scalar>(sum: T, a: &[Lane<T>], b: &[Lane<T>]) -> T {
-    let mut sums = [[T::zero(); LANE]; CHUNK];
-    let (whole_a, rest_a) = a.as_chunks::<CHUNK>();
-    let (whole_b, rest_b) = b.as_chunks::<CHUNK>();
-    for (a, b) in whole_a.iter().zip(whole_b) {
-        for l in 0..CHUNK {
-            for q in 0..LANE {
-                sums[l][q] = sums[l][q].minus_product(a[l][q], b[l][q]);
+/// So many rows of W lanes are worked on at a time: eight registers, as many as hide how long a product takes.
+const fn strip(width: usize) -> usize {
+    if width < 8 { 8 / width } else { 1 }
+}
+
+/// `own −= Σ_j panel_j done_j`, row by row, column j of the panel beginning at number `j * stride`: that of the
+/// first of these rows.
+#[inline(always)]
+pub(super) fn reduce_rows<'a, T: Scalar, const W: usize>(
+    panel: &[T],
+    stride: usize,
+    done: impl Iterator<Item = &'a Row<W, T>> + Clone,
+    own: &mut [Row<W, T>],
+) {
+    let tall = strip(W);
+    for (index, rows) in own.chunks_mut(tall).enumerate() {
+        let panel = panel.get(index * tall..).unwrap_or_default();
+        match (W, rows.len()) {
+            (1, 8) => strip_of::<T, W, 8>(panel, stride, done.clone(), rows),
+            (2, 4) => strip_of::<T, W, 4>(panel, stride, done.clone(), rows),
+            (4, 2) => strip_of::<T, W, 2>(panel, stride, done.clone(), rows),
+            _ => {
+                for (r, row) in rows.chunks_mut(1).enumerate() {
+                    let panel = panel.get(r..).unwrap_or_default();
+                    strip_of::<T, W, 1>(panel, stride, done.clone(), row);
+                }
             }
         }
     }
-    for (a, b) in rest_a.iter().zip(rest_b) {
-        for q in 0..LANE {
-            sums[0][q] = sums[0][q].minus_product(a[q], b[q]);
+}
+
+#[inline(always)]
+fn strip_of<'a, T: Scalar, const W: usize, const R: usize>(
+    panel: &[T],
+    stride: usize,
+    done: impl Iterator<Item = &'a Row<W, T>>,
+    own: &mut [Row<W, T>],
+) {
+    let own: &mut [Row<W, T>; R] = own.try_into().expect("R rows");
+    let mut sums = *own;
+    for (column, x) in panel.chunks(stride).zip(done) {
+        let a: &[T; R] = column.first_chunk().expect("R rows");
+        for r in 0..R {
+            for w in 0..W {
+                for l in 0..LANE {
+                    sums[r][w][l] = sums[r][w][l].minus_product(a[r], x[w][l]);
+                }
+            }
         }
     }
-    sums.as_flattened()
-        .iter()
-        .fold(sum, |sum, &part| sum.plus(part))
+    *own = sums;
+}
+
+/// Solves with a factored block for rows: one for each unknown of the block, with the numbers of several
+/// right-hand sides.
+#[inline]
+pub(super) fn solve_rows<T: Scalar, const W: usize>(
+    block: &[Lane<T>],
+    lanes: usize,
+    (inverses, swaps): (&[T], &[u32]),
+    v: &mut [Row<W, T>],
+) {
+    let (t, stride, tall) = (inverses.len(), lanes * LANE, strip(W));
+    let factors = block.as_flattened();
+    for (row, &other) in swaps.iter().enumerate() {
+        v.swap(row, other as usize);
+    }
+    let subtract = |sum: &mut Row<W, T>, factor: T, row: &Row<W, T>| {
+        for w in 0..W {
+            for l in 0..LANE {
+                sum[w][l] = sum[w][l].minus_product(factor, row[w][l]);
+            }
+        }
+    };
+    for from in (0..t).step_by(tall) {
+        let to = t.min(from + tall);
+        let (done, own) = v.split_at_mut(from);
+        let own = &mut own[..to - from];
+        reduce_rows(&factors[from..], stride, done.iter(), own);
+        for k in from..to {
+            let (before, after) = own.split_at_mut(k - from + 1);
+            for (r, row) in after.iter_mut().enumerate() {
+                subtract(row, factors[k * stride + k + 1 + r], &before[k - from]);
+            }
+        }
+    }
+    for from in (0..t).step_by(tall).rev() {
+        let to = t.min(from + tall);
+        let (own, done) = v.split_at_mut(to);
+        let own = &mut own[from..];
+        let panel = factors.get(to * stride + from..).unwrap_or_default();
+        reduce_rows(panel, stride, done.iter(), own);
+        for k in (from..to).rev() {
+            let (before, after) = own.split_at_mut(k - from);
+            let row = &mut after[0];
+            for x in row.as_flattened_mut() {
+                *x = x.times(inverses[k]);
+            }
+            for (r, other) in before.iter_mut().enumerate() {
+                subtract(other, factors[k * stride + from + r], row);
+            }
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::linalg::rstructure::Residue;
+
+    fn rows_are_solved<T: Scalar, const W: usize>(
+        block: &[Lane<T>],
+        lanes: usize,
+        factors: (&[T], &[u32]),
+        entry: impl Fn(usize, usize) -> T,
+        x: &[T],
+    ) {
+        let t = x.len();
+        let mut rows = vec![[[T::zero(); LANE]; W]; t];
+        for (i, row) in rows.iter_mut().enumerate() {
+            let product = |column: usize| {
+                let x = |j: usize| x[(j + column) % t];
+                (0..t).fold(T::zero(), |sum, j| sum.plus_product(entry(i, j), x(j)))
+            };
+            (row[0][0], row[W - 1][3]) = (product(0), product(1));
+        }
+        solve_rows(block, lanes, factors, &mut rows);
+        for (i, row) in rows.iter().enumerate() {
+            assert_eq!(row[0][0], x[i], "order {t}, {W} lanes");
+            assert_eq!(row[W - 1][3], x[(i + 1) % t], "order {t}, {W} lanes");
+            assert_eq!(row[0][1], T::zero());
+        }
+    }
 
     #[test]
     fn factors_need_pivoting_and_find_it() {
@@ -310,6 +392,11 @@ mod tests {
             let mut group = [v.as_mut_slice()];
             solve(&block, lanes, (&inverses, &swaps), &mut group, 1);
             assert_eq!(&v.as_flattened()[LANE..LANE + t], x, "order {t}");
+            // The same for rows of several right-hand sides, of which two are not zero.
+            rows_are_solved::<Z, 1>(&block, lanes, (&inverses, &swaps), entry, &x);
+            rows_are_solved::<Z, 2>(&block, lanes, (&inverses, &swaps), entry, &x);
+            rows_are_solved::<Z, 4>(&block, lanes, (&inverses, &swaps), entry, &x);
+            rows_are_solved::<Z, 8>(&block, lanes, (&inverses, &swaps), entry, &x);
         }
     }
 }

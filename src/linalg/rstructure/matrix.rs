@@ -1,7 +1,7 @@
 //! R-structured matrices.
 
 use super::Scalar;
-use super::kernel::Lane;
+use super::rows::Lane;
 use super::structure::{Place, Structure, StructureError};
 use crate::linalg::LANE;
 use std::sync::Arc;

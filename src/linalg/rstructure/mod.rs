@@ -17,7 +17,8 @@
 //!
 //! - [`Ordering`] finds the blocks, given equations, unknowns, key unknowns and ignored equations,
 //! - [`RMatrix`] stores what such a matrix has, and nothing else,
-//! - [`Factors`] solves with it, by the seven steps of 002, section 5,
+//! - [`Factors`] solves with it, by the seven steps of 002, section 5 (the crate's trackers take these steps
+//!   with Jacobians of their own),
 //! - [`Enclosure`] encloses solutions for interval right-hand sides (section 7, eq. 21),
 //! - [`hensel`] lifts roots modulo a prime to roots modulo its powers (section 6),
 //! - [`backward_error`] says how good a float solution is.
@@ -47,12 +48,14 @@
 //! assert!(backward_error(&matrix, &x, &b) < 1e-15);
 //! ```
 
+pub(crate) mod elimination;
 mod enclosure;
 mod factors;
 pub mod hensel;
 mod kernel;
 mod matrix;
 mod ordering;
+pub(crate) mod rows;
 mod scalar;
 mod structure;
 #[cfg(test)]

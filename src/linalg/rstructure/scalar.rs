@@ -10,8 +10,20 @@ pub trait Scalar: Copy + PartialEq + std::fmt::Debug + 'static {
     /// 0.
     fn zero() -> Self;
 
+    /// 1.
+    fn one() -> Self;
+
+    /// `−self`.
+    fn negated(self) -> Self;
+
+    /// Whether this is known to be below 0; residues have no sign.
+    fn is_negative(self) -> bool;
+
     /// `self + b`.
     fn plus(self, b: Self) -> Self;
+
+    /// `self + a b`.
+    fn plus_product(self, a: Self, b: Self) -> Self;
 
     /// `self − a b`.
     fn minus_product(self, a: Self, b: Self) -> Self;
@@ -31,9 +43,27 @@ impl Scalar for f64 {
         0.0
     }
 
+    fn one() -> Self {
+        1.0
+    }
+
+    #[inline(always)]
+    fn negated(self) -> Self {
+        -self
+    }
+
+    fn is_negative(self) -> bool {
+        self < 0.0
+    }
+
     #[inline(always)]
     fn plus(self, b: Self) -> Self {
         self + b
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        a.mul_add(b, self)
     }
 
     #[inline(always)]
@@ -68,9 +98,27 @@ impl Scalar for Interval {
         point(0.0)
     }
 
+    fn one() -> Self {
+        point(1.0)
+    }
+
+    #[inline]
+    fn negated(self) -> Self {
+        -self
+    }
+
+    fn is_negative(self) -> bool {
+        self.sup() < 0.0
+    }
+
     #[inline]
     fn plus(self, b: Self) -> Self {
         self + b
+    }
+
+    #[inline]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
     }
 
     #[inline]
@@ -143,6 +191,24 @@ impl<const M: u64> Residue<M> {
 impl<const M: u64> Scalar for Residue<M> {
     fn zero() -> Self {
         Residue(0)
+    }
+
+    fn one() -> Self {
+        Residue(1)
+    }
+
+    #[inline]
+    fn negated(self) -> Self {
+        Residue(if self.0 == 0 { 0 } else { M - self.0 })
+    }
+
+    fn is_negative(self) -> bool {
+        false
+    }
+
+    #[inline]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self.plus(a.times(b))
     }
 
     #[inline]

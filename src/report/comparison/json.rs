@@ -3,12 +3,13 @@
 use super::{Compared, status, switched_on, verdict};
 use crate::compare::{Fault, Row, Verdict};
 use crate::problem::Published;
+use crate::report::JSON_VERSION;
 use serde::Serialize;
 
 /// Comparisons as one line of JSON:
 ///
 /// ```json
-/// {"program": "krawl 0.1.0", "problems": [
+/// {"version": 1, "program": "krawl 0.1.0", "problems": [
 ///   {"problem": "...", "typical_length": 1.0, "interrupted": false, "reference": true,
 ///    "rows": [{"mode": "certified", "space": "full", "setting": null, "value": null,
 ///      "relative": null, "status": "closed", "reason": null, "steps": 0, "rejected": 0,
@@ -26,6 +27,7 @@ use serde::Serialize;
 /// `invented`, `order`, `length`, `not_closed`. Where there is nothing to say stands `null`.
 pub fn comparisons_to_json(compared: &[Compared]) -> String {
     let document = Document {
+        version: JSON_VERSION,
         program: concat!("krawl ", env!("CARGO_PKG_VERSION")),
         problems: compared.iter().map(problem).collect(),
     };
@@ -34,6 +36,7 @@ pub fn comparisons_to_json(compared: &[Compared]) -> String {
 
 #[derive(Serialize)]
 struct Document<'a> {
+    version: u32,
     program: &'static str,
     problems: Vec<ProblemEntry<'a>>,
 }

@@ -62,6 +62,7 @@ impl Page {
                 t: None,
                 folds: None,
                 points: solution.points.iter().flat_map(there).collect(),
+                outlines: Vec::new(),
                 digits: Some(digits(problem, &solution.points)),
             });
         }
@@ -123,9 +124,29 @@ impl Page {
                 t: None,
                 folds: None,
                 points: edited.points.iter().flatten().map(|x| x.mid()).collect(),
+                outlines: Vec::new(),
                 digits: Some(digits(problem, &edited.points)),
             });
         }
+        page.text = vec![Text::Paragraph(
+            match edited.ending {
+                Ending::Reached => {
+                    "The dimensions were led from the old values to the new ones together, with proof: all the way there is \
+                     exactly one figure that continues the old one, and none of them is singular. So it cannot have \
+                     flipped into another figure with the same dimensions."
+                }
+                Ending::Limit(_) => {
+                    "The dimensions were led towards the new values, with proof: up to the figure shown there is exactly \
+                     one that continues the old one, and beyond it there is none. There it can move for an instant with \
+                     all its dimensions as they are."
+                }
+                Ending::Passes(_) | Ending::Stopped(_) => {
+                    "The new values were not reached, so the figure stays what it was. What is said above is as far as \
+                     the proof got."
+                }
+            }
+            .to_owned(),
+        )];
         let count = |n: usize, what: &str| (what.to_owned(), n.to_string());
         page.rows = vec![
             count(edited.orientations.kept.len(), "orientations kept, proved"),

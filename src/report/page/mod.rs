@@ -6,7 +6,9 @@
 mod exchange;
 mod figures;
 mod moving;
+mod outlines;
 mod projection;
+mod ranges;
 mod result;
 mod still;
 mod swept;
@@ -32,6 +34,8 @@ pub struct Page {
     pub points: Vec<String>,
     /// Lines between points.
     pub bars: Vec<Bar>,
+    /// Lines, planes, circles, spheres and arcs.
+    pub shapes: Vec<Shape>,
     /// The figures, in the order of the list.
     pub figures: Vec<Figure>,
     /// The path on which they are, if there is one to travel.
@@ -77,6 +81,15 @@ pub struct Bar {
     pub target: Option<f64>,
 }
 
+/// A line, plane, circle, sphere or arc.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Shape {
+    /// Its name.
+    pub name: String,
+    /// `line`, `plane`, `circle`, `sphere` or `arc`.
+    pub kind: String,
+}
+
 /// A figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
@@ -96,6 +109,9 @@ pub struct Figure {
     pub folds: Option<usize>,
     /// Three coordinates of each point, one after the other.
     pub points: Vec<f64>,
+    /// For each of [`Page::shapes`] where it is drawn: both ends of a line, four corners of a plane, the centre of a
+    /// circle or sphere and its radius, the centre, start and end of an arc. Empty where that is not known.
+    pub outlines: Vec<Vec<f64>>,
     /// The coordinates of each point as they are to be read.
     pub digits: Option<Vec<Vec<String>>>,
 }
@@ -115,6 +131,19 @@ pub struct Path {
     pub samples: Vec<Sample>,
     /// Places where the path turns back in the parameter.
     pub marks: Vec<Mark>,
+    /// How narrowly the path and the figures on it are enclosed, where that is proved.
+    pub accuracy: Option<Accuracy>,
+}
+
+/// How narrowly a path is enclosed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// For each sample, how far the path may be from it in any coordinate.
+    pub samples: Vec<f64>,
+    /// For each figure of the page, half the width of its widest bounds. `None`: it has none.
+    pub figures: Vec<Option<f64>>,
+    /// What the picture's signs mean.
+    pub legend: String,
 }
 
 /// A value of the parameter.
@@ -135,6 +164,8 @@ pub struct Sample {
     pub t: f64,
     /// Three coordinates of each point, one after the other.
     pub points: Vec<f64>,
+    /// As in [`Figure::outlines`].
+    pub outlines: Vec<Vec<f64>>,
 }
 
 /// A place on the path.
@@ -183,9 +214,13 @@ impl Page {
             }
         };
         let mut page = self.clone();
-        page.figures.iter_mut().for_each(|f| round(&mut f.points));
+        for figure in &mut page.figures {
+            round(&mut figure.points);
+            figure.outlines.iter_mut().for_each(round);
+        }
         for sample in page.path.iter_mut().flat_map(|path| &mut path.samples) {
             round(&mut sample.points);
+            sample.outlines.iter_mut().for_each(round);
             sample.at = (sample.at * 1e7).round() / 1e7;
             sample.t = (sample.t * 1e7).round() / 1e7;
         }
@@ -208,6 +243,7 @@ mod tests {
             dimension: 2,
             points: vec![evil.into()],
             bars: Vec::new(),
+            shapes: Vec::new(),
             figures: Vec::new(),
             path: None,
             text: vec![Text::Paragraph(evil.into())],

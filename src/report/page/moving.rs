@@ -1,5 +1,6 @@
 //! The figure moving along its path: an animated picture (SVG).
 
+use super::outlines::Drawn;
 use super::projection::{Projection, colour, escaped};
 use super::still::begin;
 use super::{Page, Path, Sample};
@@ -21,6 +22,7 @@ struct Frame<'a> {
     at: f64,
     t: f64,
     points: &'a [f64],
+    outlines: &'a [Vec<f64>],
 }
 
 impl Page {
@@ -37,24 +39,25 @@ impl Page {
     fn frames<'a>(&'a self, path: &'a Path) -> Vec<Frame<'a>> {
         let length = path.samples.last().map_or(1.0, |s| s.at).max(1e-300);
         let step = path.samples.len().div_ceil(FRAMES).max(1);
-        let mut moments: Vec<(f64, f64, &[f64], bool)> = path
+        type Moment<'b> = (f64, f64, &'b [f64], &'b [Vec<f64>], bool);
+        let mut moments: Vec<Moment> = path
             .samples
             .iter()
             .enumerate()
             .filter(|(k, _)| k % step == 0 || k + 1 == path.samples.len())
-            .map(|(_, s): (usize, &Sample)| (s.at, s.t, s.points.as_slice(), false))
+            .map(|(_, s): (usize, &Sample)| (s.at, s.t, &s.points[..], &s.outlines[..], false))
             .collect();
         let stops = self.figures.iter().filter(|f| f.class.is_some());
         let rests = stops.clone().count() <= MOST_RESTS;
         for figure in stops {
             if let (Some(at), Some(t)) = (figure.at, figure.t) {
-                moments.push((at, t, &figure.points, rests));
+                moments.push((at, t, &figure.points, &figure.outlines, rests));
             }
         }
         moments.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut frames = Vec::new();
         let (mut seconds, mut before) = (0.0, 0.0);
-        for (at, t, points, rest) in moments {
+        for (at, t, points, outlines, rest) in moments {
             seconds += SECONDS * (at - before) / length;
             before = at;
             let frame = |seconds| Frame {
@@ -62,6 +65,7 @@ impl Page {
                 at,
                 t,
                 points,
+                outlines,
             };
             frames.push(frame(seconds));
             if rest {
@@ -80,8 +84,9 @@ impl Page {
             .map(|f| format!("{:.4}", f.seconds / total))
             .collect();
         let times = times.join(";");
-        let shown = frames.iter().map(|f| f.points);
-        let projection = Projection::of(self, shown);
+        let extents = frames.iter().map(|f| self.extent(f.points, f.outlines));
+        let extents: Vec<Vec<f64>> = extents.collect();
+        let projection = Projection::of(self, extents.iter().map(Vec::as_slice));
         let places: Vec<Vec<[f64; 2]>> = frames
             .iter()
             .map(|f| {
@@ -99,6 +104,26 @@ impl Page {
                 values.join(";")
             )
         };
+        for (k, shape) in self.shapes.iter().enumerate() {
+            let drawn = frames.iter().map(|f| {
+                let numbers = f.outlines.get(k)?;
+                let on_paper = |x: f64| SIDE / 2.0 + 0.44 * SIDE * x;
+                let places = projection.places(numbers).into_iter();
+                let places: Vec<[f64; 2]> =
+                    places.map(|[x, y, _]| [on_paper(x), on_paper(y)]).collect();
+                Drawn::new(shape, numbers, &places, 0.44 * SIDE / projection.size())
+            });
+            let Some(drawn) = drawn.collect::<Option<Vec<Drawn>>>() else {
+                continue;
+            };
+            let Some(first) = drawn.first() else {
+                continue;
+            };
+            let style = first.style(colour(Some(0)));
+            writeln!(out, "<path d=\"{}\" {style}>", first.path())?;
+            animate(out, "d", drawn.iter().map(Drawn::path).collect())?;
+            writeln!(out, "</path>")?;
+        }
         for bar in &self.bars {
             let [a, b] = bar.ends;
             let line = |p: &Vec<[f64; 2]>| {

@@ -44,12 +44,13 @@ function between(at) {
   const u = b.at > a.at ? Math.min(1, Math.max(0, (at - a.at) / (b.at - a.at))) : 0;
   const points = new Float64Array(3 * N);
   for (let i = 0; i < 3 * N; i++) points[i] = a.points[i] + u * (b.points[i] - a.points[i]);
-  return { points, t: a.t + u * (b.t - a.t) };
+  const outlines = a.outlines.map((numbers, k) => numbers.map((x, i) => x + u * ((b.outlines[k] || numbers)[i] - x)));
+  return { points, outlines, t: a.t + u * (b.t - a.t) };
 }
 function current() {
   if (state.at !== null) return between(state.at);
   const figure = data.figures[state.figure];
-  return { points: figure.points, t: figure.t };
+  return { points: figure.points, outlines: figure.outlines, t: figure.t };
 }
 
 // ---- faces: triangles of bars
@@ -71,26 +72,29 @@ function fit() {
   const lo = [Infinity, Infinity, Infinity], hi = [-Infinity, -Infinity, -Infinity];
   const grow = (p) => { for (let i = 0; i < 3 * N; i++) { const k = i % 3; if (p[i] < lo[k]) lo[k] = p[i]; if (p[i] > hi[k]) hi[k] = p[i]; } };
   data.figures.slice(0, 60).forEach((f) => grow(f.points));
+  // Circles and spheres reach further than their centres.
+  const round = (f, does) => f.outlines.forEach((o, k) => { if (o.length === 4) does([o[0], o[1], o[2]], o[3]); });
+  data.figures.slice(0, 60).forEach((f) => round(f, (c, r) => c.forEach((x, k) => { if (k < 2 || !flat) { lo[k] = Math.min(lo[k], x - r); hi[k] = Math.max(hi[k], x + r); } })));
   const middle = lo.map((x, k) => 0.5 * (x + hi[k]));
   let size = 0;
   const reach = (p) => { for (let i = 0; i < N; i++) size = Math.max(size, Math.hypot(p[3 * i] - middle[0], p[3 * i + 1] - middle[1], p[3 * i + 2] - middle[2])); };
-  data.figures.slice(0, 60).forEach((f) => reach(f.points));
+  data.figures.slice(0, 60).forEach((f) => { reach(f.points); round(f, (c, r) => { size = Math.max(size, r + Math.hypot(c[0] - middle[0], c[1] - middle[1], c[2] - middle[2])); }); });
   frame = { middle, size: size || 1, half: [0, 1].map((k) => 0.5 * (hi[k] - lo[k]) || size || 1) };
 }
-function project(points, width, height) {
+function project(points, width, height, count = N) {
   const m = state.turn, [cx, cy, cz] = frame.middle;
   // In the plane what is wide fills the width; in space a figure may turn.
   const room = flat ? Math.min(0.44 * width / frame.half[0], 0.38 * height / frame.half[1]) : 0.47 * Math.min(width, height) / frame.size;
   const scale = room * state.zoom;
   const x0 = width / 2 + state.shift[0], y0 = height / 2 + state.shift[1] - 8;
-  const x = new Float64Array(N), y = new Float64Array(N), z = new Float64Array(N);
-  for (let i = 0; i < N; i++) {
+  const x = new Float64Array(count), y = new Float64Array(count), z = new Float64Array(count);
+  for (let i = 0; i < count; i++) {
     const a = points[3 * i] - cx, b = points[3 * i + 1] - cy, c = points[3 * i + 2] - cz;
     x[i] = x0 + scale * (m[0] * a + m[1] * b + m[2] * c);
     y[i] = y0 - scale * (m[3] * a + m[4] * b + m[5] * c);
     z[i] = (m[6] * a + m[7] * b + m[8] * c) / frame.size; // towards the viewer
   }
-  return { x, y, z };
+  return { x, y, z, scale };
 }
 function size(canvas) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2.5);
@@ -103,11 +107,31 @@ function size(canvas) {
   pen.clearRect(0, 0, width, height);
   return [width, height];
 }
-function lines(p, colour, width) {
+function lines(p, colour, width, pen = view.getContext("2d")) {
   pen.strokeStyle = colour; pen.lineWidth = width; pen.lineCap = "round"; pen.lineJoin = "round";
   pen.beginPath();
   for (const { ends: [a, b] } of data.bars) { pen.moveTo(p.x[a], p.y[a]); pen.lineTo(p.x[b], p.y[b]); }
   pen.stroke();
+}
+// Lines, planes, circles, spheres and arcs. A sphere is seen as its circle whichever way it is turned.
+function outlines(figure, width, height, colour, wide, pen = view.getContext("2d")) {
+  figure.outlines.forEach((numbers, k) => {
+    const kind = data.shapes[k].kind, p = project(numbers, width, height, Math.floor(numbers.length / 3));
+    pen.save(); pen.strokeStyle = colour; pen.fillStyle = colour; pen.lineWidth = wide; pen.lineCap = "round"; pen.beginPath();
+    if (kind === "line") { pen.setLineDash([7, 4]); pen.lineWidth = 1; pen.moveTo(p.x[0], p.y[0]); pen.lineTo(p.x[1], p.y[1]); }
+    else if (kind === "plane") {
+      pen.lineWidth = 1; for (let i = 0; i < 4; i++) pen.lineTo(p.x[i], p.y[i]);
+      pen.closePath(); pen.save(); pen.globalAlpha *= 0.08; pen.fill(); pen.restore(); pen.globalAlpha *= 0.5;
+    } else if (kind === "arc") {
+      const at = (i) => Math.atan2(p.y[i] - p.y[0], p.x[i] - p.x[0]);
+      // Counter-clockwise from start to end, as the figure is seen.
+      pen.arc(p.x[0], p.y[0], Math.hypot(p.x[1] - p.x[0], p.y[1] - p.y[0]), at(1), at(2), true);
+    } else {
+      pen.arc(p.x[0], p.y[0], Math.max(0, numbers[3] * p.scale), 0, 2 * Math.PI);
+      if (kind === "sphere") { pen.save(); pen.globalAlpha *= 0.08; pen.fill(); pen.restore(); }
+    }
+    pen.stroke(); pen.restore();
+  });
 }
 function colourNow() {
   if (state.at === null) {
@@ -120,26 +144,38 @@ function lengthOf(bar, points) {
   const [a, b] = bar.ends, d = (k) => points[3 * a + k] - points[3 * b + k];
   return Math.hypot(d(0), d(1), d(2));
 }
+// All figures at once, kept until they are seen from elsewhere: the slider moves one figure before them.
+const crowd = document.createElement("canvas");
+let crowdOf = "";
+function drawAll(width, height, ghost) {
+  const key = [view.width, view.height, state.turn, state.zoom, state.shift, state.filter, state.dark].join();
+  if (key !== crowdOf) {
+    crowdOf = key; crowd.width = view.width; crowd.height = view.height;
+    const at = crowd.getContext("2d");
+    at.setTransform(view.width / width, 0, 0, view.height / height, 0, 0);
+    at.globalAlpha = Math.max(0.05, Math.min(0.5, 6 / data.figures.length));
+    for (const k of shown()) {
+      const figure = data.figures[k];
+      const colour = figure.class === null ? ghost : classColour(figure.class);
+      outlines(figure, width, height, colour, 1.2, at); lines(project(figure.points, width, height), colour, 1.2, at);
+    }
+  }
+  pen.drawImage(crowd, 0, 0, width, height);
+}
 function drawView() {
   const [width, height] = size(view);
   if (!width || !height || !data.figures.length) return;
   if (!frame) fit();
   const ink = css("--ink"), soft = css("--soft"), panel = css("--panel"), ghost = css("--ghost");
-  if (state.show.all) {
-    pen.globalAlpha = Math.max(0.05, Math.min(0.5, 6 / data.figures.length));
-    for (const k of shown()) {
-      const figure = data.figures[k];
-      lines(project(figure.points, width, height), figure.class === null ? ghost : classColour(figure.class), 1.2);
-    }
-    pen.globalAlpha = 1;
-  }
+  if (state.show.all) drawAll(width, height, ghost);
   const sketch = data.figures.find((f) => f.kind === "sketch");
   if (state.show.ghost && sketch && (state.at !== null || data.figures[state.figure] !== sketch)) {
     pen.setLineDash([5, 5]); pen.globalAlpha = 0.75;
-    lines(project(sketch.points, width, height), ghost, 1.3);
+    outlines(sketch, width, height, ghost, 1.3); lines(project(sketch.points, width, height), ghost, 1.3);
     pen.setLineDash([]); pen.globalAlpha = 1;
   }
   const now = current(), p = project(now.points, width, height), colour = colourNow();
+  outlines(now, width, height, colour, 2);
   const things = [];
   if (state.show.faces) for (const f of faces) things.push([(p.z[f[0]] + p.z[f[1]] + p.z[f[2]]) / 3 - 0.02, 0, f]);
   data.bars.forEach((bar) => things.push([(p.z[bar.ends[0]] + p.z[bar.ends[1]]) / 2, 1, bar]));
@@ -169,6 +205,8 @@ function drawView() {
     const w = pen.measureText(text).width, box = [x - w / 2 - 2, y - 8, x + w / 2 + 2, y + 8];
     if (!must && taken.some((b) => b[0] < box[2] && b[2] > box[0] && b[1] < box[3] && b[3] > box[1])) return;
     taken.push(box);
+    // A bar does not strike its own dimension through.
+    if (!must) { pen.globalAlpha = 0.85; pen.fillStyle = panel; pen.fillRect(x - w / 2 - 2, y - 7, w + 4, 14); pen.globalAlpha = 1; }
     pen.textAlign = "center"; pen.textBaseline = "middle"; pen.lineJoin = "round";
     pen.strokeStyle = panel; pen.lineWidth = 4; pen.strokeText(text, x, y);
     pen.fillStyle = colour; pen.fillText(text, x, y);
@@ -238,6 +276,44 @@ function drawChart() {
   }
   pen.restore();
 }
+
+// ---- the accuracy along the path: powers of ten of proved bounds
+const nearness = path && path.accuracy;
+function drawAccuracy() {
+  if (!nearness || !area || !$("how-near").open) return;
+  const canvas = $("accuracy"), [width, height] = size(canvas), pen = canvas.getContext("2d");
+  if (!width || !height) return;
+  const power = (x) => Math.log10(Math.max(x, 1e-18));
+  const all = nearness.samples.concat(nearness.figures.filter((x) => x !== null)).map(power);
+  let lo = Math.floor(all.reduce((a, b) => Math.min(a, b), 0)) - 0.5, hi = Math.ceil(all.reduce((a, b) => Math.max(a, b), -18)) + 0.5;
+  const { left, right, from, to } = area, top = 6, bottom = 6;
+  const x = (at) => left + (width - left - right) * (at - from) / (to - from || 1);
+  const y = (bound) => top + (height - top - bottom) * (hi - power(bound)) / (hi - lo);
+  const visible = (at) => at >= from && at <= to;
+  pen.font = "11px system-ui, 'DejaVu Sans', sans-serif"; pen.textBaseline = "middle"; pen.textAlign = "right";
+  for (let k = Math.ceil(lo / 4) * 4; k <= hi; k += 4) {
+    const level = 10 ** k;
+    pen.strokeStyle = css("--line"); pen.lineWidth = 1; pen.setLineDash([4, 4]);
+    pen.beginPath(); pen.moveTo(left, y(level)); pen.lineTo(width - right, y(level)); pen.stroke(); pen.setLineDash([]);
+    pen.fillStyle = css("--soft"); pen.fillText("1e" + k, left - 4, y(level));
+  }
+  pen.save(); pen.beginPath(); pen.rect(left - 7, 0, width - left - right + 14, height); pen.clip();
+  pen.strokeStyle = css("--ink"); pen.lineWidth = 1.3; pen.beginPath();
+  samples.forEach((s, k) => k ? pen.lineTo(x(s.at), y(nearness.samples[k])) : pen.moveTo(x(s.at), y(nearness.samples[k])));
+  pen.stroke();
+  data.figures.forEach((figure, k) => {
+    const bound = nearness.figures[k];
+    if (figure.at === null || bound === null || bound === undefined || !visible(figure.at)) return;
+    pen.beginPath(); pen.arc(x(figure.at), y(bound), k === state.figure && state.at === null ? 5.5 : 3.5, 0, 2 * Math.PI);
+    pen.fillStyle = figure.class === null ? css("--ghost") : classColour(figure.class); pen.fill();
+  });
+  const at = place();
+  if (at !== null && visible(at)) {
+    pen.strokeStyle = css("--accent"); pen.lineWidth = 1.5;
+    pen.beginPath(); pen.moveTo(x(at), 0); pen.lineTo(x(at), height); pen.stroke();
+  }
+  pen.restore();
+}
 function place() {
   if (state.at !== null) return state.at;
   const figure = data.figures[state.figure];
@@ -289,18 +365,18 @@ function fillList() {
   const list = $("list"); list.textContent = "";
   for (const k of shown()) {
     const f = data.figures[k], li = el("li", null, list);
-    li.setAttribute("role", "option"); li.dataset.k = k; li.id = "figure-" + k;
+    li.setAttribute("role", "option"); li.setAttribute("aria-selected", false); li.dataset.k = k; li.id = "figure-" + k;
     el("i", "", li).style.background = f.class === null ? css("--ghost") : classColour(f.class);
     el("span", f.name, li); el("small", f.note, li);
   }
   mark();
 }
+let marked = null;
 function mark() {
-  for (const li of $("list").children) {
-    const is = +li.dataset.k === state.figure && state.at === null;
-    li.setAttribute("aria-selected", is);
-    if (is) { $("list").setAttribute("aria-activedescendant", li.id); }
-  }
+  const li = state.at === null ? $("figure-" + state.figure) : null;
+  if (marked && marked !== li) marked.setAttribute("aria-selected", false);
+  if (li) { li.setAttribute("aria-selected", true); $("list").setAttribute("aria-activedescendant", li.id); }
+  marked = li;
 }
 function reveal() {
   const li = $("figure-" + state.figure), list = $("list");
@@ -312,7 +388,7 @@ function reveal() {
 
 // ---- what people do
 let asked = false;
-function redraw() { if (!asked) { asked = true; requestAnimationFrame(() => { asked = false; drawView(); drawChart(); }); } }
+function redraw() { if (!asked) { asked = true; requestAnimationFrame(() => { asked = false; drawView(); drawChart(); drawAccuracy(); }); } }
 function pick(k) { stop(); state.figure = k; state.at = null; says(); mark(); reveal(); redraw(); }
 function go(at) { state.at = Math.min(last, Math.max(start, at)); says(); mark(); redraw(); }
 function stop() { state.playing = false; $("play").textContent = "▶"; $("play").setAttribute("aria-label", "Play"); }
@@ -429,6 +505,7 @@ $("filters").hidden = filters.length < 2;
 if (path) {
   $("slider").min = start; $("slider").max = last;
   $("legend").textContent = path.legend;
+  if (nearness) { $("how-near").hidden = false; $("accuracy-legend").textContent = nearness.legend; }
 } else $("travel").hidden = true;
 if (!faces.length) document.querySelector('[data-show="faces"]').hidden = true;
 if (!data.figures.some((f) => f.kind === "sketch")) document.querySelector('[data-show="ghost"]').hidden = true;
@@ -439,4 +516,5 @@ const first = data.figures.findIndex((f) => f.folds === 0), any = data.figures.f
 if (data.figures.length) pick(first >= 0 ? first : any >= 0 ? any : 0);
 new ResizeObserver(redraw).observe(view);
 new ResizeObserver(redraw).observe(chart);
+$("how-near").addEventListener("toggle", redraw);
 })();

@@ -1,6 +1,6 @@
 //! The page of a result of `solve`, from its JSON (docs/json.md).
 
-use super::{Bar, Figure, Level, Mark, Page, Path, Sample, Text, Tone};
+use super::{Accuracy, Bar, Figure, Level, Mark, Page, Path, Sample, Shape, Text, Tone, outlines};
 use crate::interval::hull;
 use crate::report::certain_digits;
 use serde_json::{Map, Value};
@@ -51,6 +51,7 @@ impl Page {
             verdict: text(result, "verdict")?.to_owned(),
             dimension: reader.dimension,
             bars: reader.bars()?,
+            shapes: reader.shapes(),
             figures: reader.figures()?,
             path: reader.path()?,
             text: words(mode, closed, open, &reader),
@@ -108,6 +109,27 @@ fn bounds(value: &Value, dimension: usize) -> Option<Vec<(f64, f64)>> {
     given.iter().map(pair).collect()
 }
 
+/// A number, or the middle of two bounds.
+fn number_or_middle(x: &Value) -> Option<f64> {
+    match x.as_f64() {
+        Some(x) => Some(x),
+        None => {
+            let (low, high) = (x[0].as_f64()?, x[1].as_f64()?);
+            Some(low + 0.5 * (high - low))
+        }
+    }
+}
+
+/// Those of each coordinate, in the first places of three.
+fn middles(value: &Value, dimension: usize) -> Option<[f64; 3]> {
+    let given = value.as_array().filter(|given| given.len() == dimension)?;
+    let mut out = [0.0; 3];
+    for (out, x) in out.iter_mut().zip(given) {
+        *out = number_or_middle(x)?;
+    }
+    Some(out)
+}
+
 impl<'a> Reader<'a> {
     fn new(result: &'a Value) -> Result<Self, ShowError> {
         let dimension = match result["dimension"].as_u64() {
@@ -139,6 +161,16 @@ impl<'a> Reader<'a> {
         std::array::from_fn(|k| {
             self.origin[k] + (0..3).map(|axis| self.axes[axis][k] * p[axis]).sum::<f64>()
         })
+    }
+
+    /// A direction likewise.
+    fn turned(&self, v: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| (0..3).map(|axis| self.axes[axis][k] * v[axis]).sum())
+    }
+
+    /// The outlines of a figure in the coordinates of the reference.
+    fn seen(&self, points: &[f64], objects: &Value) -> Vec<Vec<f64>> {
+        self.outlines(points, objects, |p| self.there(p), |v| self.turned(v))
     }
 
     fn number(&self, name: &Value) -> Option<usize> {
@@ -197,12 +229,66 @@ impl<'a> Reader<'a> {
         Ok(bars)
     }
 
+    /// The objects that are drawn: all but rigid bodies, which are bars.
+    fn objects(&self) -> impl Iterator<Item = (&'a str, &'a str, &'a Value)> {
+        let objects = self.result["objects"].as_array().into_iter().flatten();
+        objects.filter_map(|object| {
+            let (name, kind) = (object["name"].as_str()?, object["kind"].as_str()?);
+            (kind != "body").then_some((name, kind, &object["points"]))
+        })
+    }
+
+    fn shapes(&self) -> Vec<Shape> {
+        self.objects()
+            .map(|(name, kind, _)| Shape {
+                name: name.into(),
+                kind: kind.into(),
+            })
+            .collect()
+    }
+
+    /// How the objects of a figure are drawn: what the document says of them, numbers or bounds, in the coordinates
+    /// that `there` and `turn` take to those of the sketch. Empty where it does not say it.
+    fn outlines(
+        &self,
+        points: &[f64],
+        objects: &Value,
+        there: impl Fn([f64; 3]) -> [f64; 3],
+        turn: impl Fn([f64; 3]) -> [f64; 3],
+    ) -> Vec<Vec<f64>> {
+        let point =
+            |k: usize| -> Option<[f64; 3]> { points.get(3 * k..3 * k + 3)?.try_into().ok() };
+        let outline = |(name, kind, through): (&str, &str, &Value)| {
+            let at = &objects[name];
+            let place = |key: &str| middles(&at[key], self.dimension);
+            Some(match kind {
+                "line" => outlines::line(points, there(place("point")?), turn(place("direction")?)),
+                "plane" => outlines::plane(points, there(place("point")?), turn(place("normal")?)),
+                "circle" | "sphere" => {
+                    let mut numbers = there(place("center")?).to_vec();
+                    numbers.push(number_or_middle(&at["radius"])?);
+                    numbers
+                }
+                "arc" => {
+                    let ends = through.as_array()?.iter();
+                    let ends = ends.map(|name| self.number(name).and_then(point));
+                    ends.collect::<Option<Vec<_>>>()?.concat()
+                }
+                _ => return None,
+            })
+        };
+        let all: Option<Vec<Vec<f64>>> = self.objects().map(outline).collect();
+        all.unwrap_or_default()
+    }
+
     fn figures(&self) -> Result<Vec<Figure>, ShowError> {
         let sketch = &self.result["sketch"];
         let mut points = Vec::new();
         for name in &self.names {
             points.extend(place(&sketch[name.as_str()], self.dimension, "sketch")?);
         }
+        let as_is = |p: [f64; 3]| p;
+        let outlines = self.outlines(&points, &self.result["sketch_objects"], as_is, as_is);
         let mut figures = vec![Figure {
             name: "Sketch".into(),
             note: "where the path begins, t = 0".into(),
@@ -212,6 +298,7 @@ impl<'a> Reader<'a> {
             t: Some(0.0),
             folds: None,
             points,
+            outlines,
             digits: None,
         }];
         for (k, solution) in list(self.result, "solutions")?.iter().enumerate() {
@@ -246,6 +333,9 @@ impl<'a> Reader<'a> {
         if let Some(other) = solution["mirror_of"].as_u64() {
             note += &format!(", mirror image of {}", other + 1);
         }
+        if solution["degenerate"].as_bool() == Some(true) {
+            note += ", degenerate (flat)";
+        }
         Some(Figure {
             name: format!("Solution {}", k + 1),
             note,
@@ -254,6 +344,7 @@ impl<'a> Reader<'a> {
             at: solution["arc"].as_f64(),
             t: Some(1.0),
             folds,
+            outlines: self.seen(&points, &solution["objects"]),
             points,
             digits: Some(digits),
         })
@@ -264,6 +355,7 @@ impl<'a> Reader<'a> {
             return Ok(None);
         };
         let mut samples = Vec::with_capacity(given.len());
+        let mut within = Vec::with_capacity(given.len());
         for sample in given {
             let at = sample["at"].as_f64().ok_or(wrong("samples"))?;
             let t = sample["t"].as_f64().ok_or(wrong("samples"))?;
@@ -274,7 +366,13 @@ impl<'a> Reader<'a> {
             if points.len() != 3 * self.names.len() {
                 return Err(wrong("samples"));
             }
-            samples.push(Sample { at, t, points });
+            samples.push(Sample {
+                at,
+                t,
+                outlines: self.seen(&points, &sample["objects"]),
+                points,
+            });
+            within.extend(sample["within"].as_f64());
         }
         if samples.len() < 2 {
             return Ok(None);
@@ -304,9 +402,27 @@ impl<'a> Reader<'a> {
                     label: label.into(),
                 })
                 .into(),
+            accuracy: (within.len() == samples.len()).then(|| self.accuracy(within)),
             samples,
             marks,
         }))
+    }
+
+    /// How narrowly the samples and the figures are enclosed.
+    fn accuracy(&self, samples: Vec<f64>) -> Accuracy {
+        let width = |solution: &Value| {
+            let points = solution["points"].as_object()?.values();
+            let bounds = points.filter_map(|p| bounds(p, self.dimension)).flatten();
+            Some(bounds.fold(0.0, |most: f64, (low, high)| most.max(0.5 * (high - low))))
+        };
+        let solutions = self.result["solutions"].as_array().into_iter().flatten();
+        Accuracy {
+            samples,
+            figures: std::iter::once(None).chain(solutions.map(width)).collect(),
+            legend: "How far the path can be from what is drawn, in any coordinate, and the solutions from their digits: \
+                     proved bounds, in the lengths of the problem, each line ten thousand times the next."
+                .into(),
+        }
     }
 
     fn rows(&self) -> Vec<(String, String)> {

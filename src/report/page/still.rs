@@ -1,5 +1,6 @@
 //! A still picture of the figures, side by side (SVG).
 
+use super::outlines::Drawn;
 use super::projection::{Projection, colour, escaped};
 use super::{Figure, Page};
 use std::fmt::{self, Write};
@@ -29,7 +30,8 @@ impl Page {
             40.0 + (SIDE + WORDS) * rows as f64 + 10.0,
         );
         // As large as the largest of them may be.
-        let alone = |figure: &&Figure| Projection::of(self, std::iter::once(&figure.points[..]));
+        let extent = |figure: &Figure| self.extent(&figure.points, &figure.outlines);
+        let alone = |figure: &&Figure| Projection::of(self, std::iter::once(&extent(figure)[..]));
         let largest = figures.iter().map(alone);
         let largest = largest.max_by(|a, b| a.size().total_cmp(&b.size()));
         begin(out, width, height, &self.title)?;
@@ -49,7 +51,7 @@ impl Page {
             let y = 40.0 + (SIDE + WORDS) * (k / columns) as f64;
             writeln!(out, "<g transform=\"translate({x},{y})\">")?;
             if let Some(largest) = &largest {
-                self.draw(out, &largest.centred(self, &figure.points), figure)?;
+                self.draw(out, &largest.centred(self, &extent(figure)), figure)?;
             }
             let middle = SIDE / 2.0;
             writeln!(
@@ -75,6 +77,16 @@ impl Page {
             .into_iter()
             .map(|[x, y, z]| [SIDE / 2.0 + radius * x, SIDE / 2.0 + radius * y, z])
             .collect();
+        for (shape, numbers) in self.shapes.iter().zip(&figure.outlines) {
+            let on_paper = projection.places(numbers).into_iter();
+            let on_paper: Vec<[f64; 2]> = on_paper
+                .map(|[x, y, _]| [SIDE / 2.0 + radius * x, SIDE / 2.0 + radius * y])
+                .collect();
+            if let Some(drawn) = Drawn::new(shape, numbers, &on_paper, radius / projection.size()) {
+                let style = drawn.style(colour(figure.class));
+                writeln!(out, "<path d=\"{}\" {style}/>", drawn.path())?;
+            }
+        }
         let depth = |ends: [usize; 2]| places[ends[0]][2] + places[ends[1]][2];
         let mut bars: Vec<[usize; 2]> = self.bars.iter().map(|bar| bar.ends).collect();
         bars.sort_by(|&a, &b| depth(a).total_cmp(&depth(b)));

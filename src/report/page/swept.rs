@@ -48,11 +48,13 @@ impl Page {
                 }
                 .into(),
                 kind: "solution",
-                class: Some(0),
+                // Frames are not congruent.
+                class: Some(usize::from(k != 0)),
                 at: Some(sample.at),
                 t: Some(sample.t),
                 folds: None,
                 points: sample.points.clone(),
+                outlines: Vec::new(),
                 digits: Some(super::figures::digits(problem, &frame.points)),
             });
         }
@@ -61,11 +63,12 @@ impl Page {
                 name: "At the limit".into(),
                 note: "no further this way".into(),
                 kind: "solution",
-                class: Some(1),
+                class: Some(2),
                 at: None,
                 t: None,
                 folds: None,
                 points: flat(&edited.points),
+                outlines: Vec::new(),
                 digits: Some(super::figures::digits(problem, &edited.points)),
             });
         }
@@ -92,6 +95,7 @@ impl Page {
             levels: levels.into_iter().flatten().collect(),
             samples,
             marks: Vec::new(),
+            accuracy: None,
         });
         page
     }
@@ -117,6 +121,7 @@ fn samples(sweep: &Sweep) -> Vec<Sample> {
             at,
             t: frame.value.mid(),
             points,
+            outlines: Vec::new(),
         });
     }
     out

@@ -25,6 +25,7 @@ use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
 use crate::system::Homotopy;
 use crate::track::arc::{Figure, Fold};
+use crate::track::full::newton::{End, UNTIL, Until};
 use crate::track::full::{Differences, Equations, Lengths, Tail};
 
 /// Newton's method is done where corrections are below this, or do not shrink any more.
@@ -58,6 +59,8 @@ pub struct FoldProver<const D: usize> {
     step: Vector,
     bound: Vector,
     ones: Vec<f64>,
+    /// q₀ and κ of the last test.
+    contraction: (f64, f64),
 }
 
 impl<const D: usize> FoldProver<D> {
@@ -98,6 +101,7 @@ impl<const D: usize> FoldProver<D> {
             step: Vector::zeros(n),
             bound: Vector::zeros(n),
             ones: vec![1.0; n],
+            contraction: (f64::NAN, f64::NAN),
         }
     }
 
@@ -118,30 +122,40 @@ impl<const D: usize> FoldProver<D> {
         self.v[m] = 0.0;
         self.look(equations, c);
         self.invert()?;
-        let mut last = f64::INFINITY;
-        for _ in 0..STEPS {
-            self.residual(equations, c);
-            self.y.multiply(&self.f[..n], &mut self.step);
-            let size = self.greatest_step(n);
-            let is_bounded = size <= LARGEST_STEP;
-            if !is_bounded {
-                return None;
-            }
-            for k in 0..=m {
-                self.x[k] -= self.step[k];
-            }
-            for k in 0..m {
-                self.v[k] -= self.step[m + 1 + k];
-            }
-            self.look(equations, c);
-            if size <= ACCURACY || size > 0.5 * last && last <= NEAR {
-                break;
-            }
-            // A guess too far away for the matrix that was made there.
-            if size > 0.25 * last {
-                self.invert()?;
-            }
-            last = size;
+        let until = Until {
+            goal: ACCURACY,
+            ratio: 0.5,
+            settled: NEAR,
+            largest: LARGEST_STEP,
+            steps: STEPS,
+            ..UNTIL
+        };
+        let mut is_stale = false;
+        let mut state = (&mut *self, &mut is_stale);
+        let seen = until.correct(
+            &mut state,
+            |(prover, is_stale)| {
+                if std::mem::take(*is_stale) && prover.invert().is_none() {
+                    return f64::NAN;
+                }
+                prover.residual(equations, c);
+                prover.y.multiply(&prover.f[..n], &mut prover.step);
+                prover.greatest_step(n)
+            },
+            |(prover, is_stale), ratio| {
+                for k in 0..=m {
+                    prover.x[k] -= prover.step[k];
+                }
+                for k in 0..m {
+                    prover.v[k] -= prover.step[m + 1 + k];
+                }
+                prover.look(equations, c);
+                // A guess too far away for the matrix that was made there.
+                **is_stale = ratio > 0.25;
+            },
+        );
+        if seen.end == End::Away {
+            return None;
         }
         self.invert()?;
         self.conclude(equations, homotopy, c)
@@ -211,7 +225,7 @@ impl<const D: usize> FoldProver<D> {
         let defect = self.greatest_step(n);
         let t = self.x[m].abs();
         // All entries of a row, twice for those that come from X and from v.
-        let per_entry = gamma(n + 40 + 2 * equations.tail.longest);
+        let per_entry = gamma(equations.roundings_of_entry(n + 40));
         let is_free = |end: usize| (end < m) as usize as f64;
         let mut width = Vector::zeros(n);
         for e in 0..m {
@@ -239,18 +253,22 @@ impl<const D: usize> FoldProver<D> {
             let curvature = homotopy.rights[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
             self.bound[e] = per_entry * (size + slope) + slope_radius;
             self.bound[m + e] = per_entry * (size + size_v);
-            let longest = 2 * equations.tail.longest;
-            width[e] = round_up(change + curvature.mag(), longest + 8);
-            width[m + e] = round_up(2.0 * change, longest + 8);
+            let roundings = equations.roundings_of_bound(8);
+            width[e] = round_up(change + curvature.mag(), roundings);
+            width[m + e] = round_up(2.0 * change, roundings);
         }
         let normal: f64 = c.iter().map(|c| c.abs()).sum();
         self.bound[2 * m] = per_entry * normal;
         self.y.multiply_abs(&self.bound[..n], &mut self.step);
         let rounding = self.greatest_step(n);
         // The ones of I pass through as many sums as the products that they are added to.
-        let q0 = round_up(defect + rounding + gamma(n + 4), 2 * n + 60);
+        let q0 = round_up(
+            defect + rounding + gamma(n + 4),
+            equations.roundings_of_bound(2 * n + 60),
+        );
         self.y.multiply_abs(&width[..n], &mut self.step);
         let kappa = round_up(self.greatest_step(n), n + 30);
+        self.contraction = (q0, kappa);
         if !(q0 < 0.5 && in_range(kappa)) {
             return None;
         }
@@ -280,6 +298,12 @@ impl<const D: usize> FoldProver<D> {
             normal: c.to_vec(),
             alone_within,
         })
+    }
+
+    /// The inverse Y of the last test, with its q₀ and κ.
+    #[cfg(test)]
+    pub fn test(&self) -> (&Matrix, (f64, f64)) {
+        (&self.y, self.contraction)
     }
 
     fn greatest_step(&self, n: usize) -> f64 {

@@ -108,6 +108,43 @@ impl<const D: usize> Ledger<D> {
         (self.length, self.t_range) = (mark.length, mark.t_range);
     }
 
+    /// Whether t is proved to rise all along, or to fall.
+    pub fn is_steady(&self, rising: bool) -> bool {
+        self.turns.is_steady(rising)
+    }
+
+    /// Takes over the account of a piece of path along which t rises throughout, or falls, kept for other equations
+    /// of the same path, in which it passes flat figures: `flat` are those in these unknowns. If it fails nothing
+    /// is changed.
+    pub fn pass_flat(
+        &mut self,
+        piece: &Self,
+        flat: Vec<SolutionBox>,
+        rising: bool,
+    ) -> Result<(), String> {
+        let known = self.found.len();
+        self.turns.go_on(rising);
+        let (folds, is_certain) = (self.turns.count(), self.turns.is_certain());
+        for (found, place) in flat.into_iter().zip(&piece.places) {
+            let mut others = self.found.iter();
+            if others.any(|other| found.is_same(other, |_| false) != Same::No) {
+                self.found.truncate(known);
+                self.places.truncate(known);
+                return Err("it cannot be told from another solution".to_owned());
+            }
+            self.found.push(found);
+            self.places.push(Place {
+                arc: self.length + place.arc,
+                rising,
+                folds: (folds > 0 || is_certain).then_some(folds),
+            });
+        }
+        self.length += piece.length;
+        let (low, high) = piece.t_range;
+        self.t_range = (self.t_range.0.min(low), self.t_range.1.max(high));
+        Ok(())
+    }
+
     /// The parameter before which the solution found last is, in the tube entered last.
     pub fn last_crossing(&self) -> f64 {
         self.last_crossing
@@ -437,7 +474,7 @@ impl<const D: usize> Ledger<D> {
         for (k, found) in self.found.iter().enumerate() {
             let (mut class, mut mirror) = (None, None);
             for (j, other) in self.found[..k].iter().enumerate() {
-                match self.is_congruent(homotopy, found, other) {
+                match is_congruent(homotopy, found, other) {
                     (Same::Yes, mirrored) => {
                         class = Some(classes[j]);
                         mirror = mirror.or(mirrored.then_some(j));
@@ -467,11 +504,13 @@ impl<const D: usize> Ledger<D> {
                 let points = found.points(homotopy);
                 let width = relative_width(&points);
                 Solution {
+                    objects: found.objects(homotopy, &points),
                     points,
                     class,
                     width,
                     place: Some(place),
                     mirror_of,
+                    is_degenerate: found.is_flat,
                 }
             })
             .collect();
@@ -482,71 +521,65 @@ impl<const D: usize> Ledger<D> {
     }
 }
 
-impl<const D: usize> Ledger<D> {
-    /// Whether two different solutions are congruent up to reflection, and if so, whether one is the
-    /// mirror image of the other (otherwise it is the other one moved).
-    ///
-    /// The isometries that keep the gauge change the signs of coordinates. The second reference
-    /// point's first coordinate and the third's second one tell which signs they must change;
-    /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
-    /// constraints fix the figure in its frame no isometry is left. Each of them goes with the changes of
-    /// sign that leave a figure as it is, of the directions of lines of their own.
-    fn is_congruent(
-        &self,
-        homotopy: &Homotopy,
-        one: &SolutionBox,
-        other: &SolutionBox,
-    ) -> (Same, bool) {
-        let gauge = &homotopy.gauge;
-        let mut turned = [false; 3];
-        for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
-            let i = gauge.variable[p * D + axis];
-            let side = |s: &SolutionBox| {
-                let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
-                (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
-            };
-            match (side(one), side(other)) {
-                (Some(a), Some(b)) => turned[axis] = a != b,
-                _ => return (Same::Unknown, false),
-            }
-        }
-        let twins = homotopy.twins();
-        // A motion first: a flat figure in space is its own mirror image.
-        let odd = turned.iter().filter(|&&turned| turned).count() % 2 == 1;
-        let last = match gauge.reference.is_empty() {
-            true => &[false][..],
-            false => &[odd, !odd][..],
+/// Whether two different solutions are congruent up to reflection, and if so, whether one is the
+/// mirror image of the other (otherwise it is the other one moved).
+///
+/// The isometries that keep the gauge change the signs of coordinates. The second reference
+/// point's first coordinate and the third's second one tell which signs they must change;
+/// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
+/// constraints fix the figure in its frame no isometry is left. Each of them goes with the changes of
+/// sign that leave a figure as it is, of the directions of lines of their own.
+pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> (Same, bool) {
+    let gauge = &homotopy.gauge;
+    let mut turned = [false; 3];
+    for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
+        let i = gauge.variable[p * homotopy.dimension + axis];
+        let side = |s: &SolutionBox| {
+            let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
+            (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
         };
-        for &last in last {
-            turned[D - 1] = last;
-            let reversed = turned.iter().filter(|&&turned| turned).count();
-            if reversed % 2 == 1 && !homotopy.tail.mirrors {
+        match (side(one), side(other)) {
+            (Some(a), Some(b)) => turned[axis] = a != b,
+            _ => return (Same::Unknown, false),
+        }
+    }
+    let twins = homotopy.twins();
+    // A motion first: a flat figure in space is its own mirror image.
+    let odd = turned.iter().filter(|&&turned| turned).count() % 2 == 1;
+    let last = match gauge.reference.is_empty() {
+        true => &[false][..],
+        false => &[odd, !odd][..],
+    };
+    for &last in last {
+        turned[homotopy.dimension - 1] = last;
+        let reversed = turned.iter().filter(|&&turned| turned).count();
+        if reversed % 2 == 1 && !homotopy.tail.mirrors {
+            continue;
+        }
+        let flips = |i: usize| {
+            let flips =
+                (0..homotopy.dimension).filter(|&axis| turned[axis] && homotopy.flips(i, axis));
+            flips.count() % 2 == 1
+        };
+        let Some(twins) = &twins else {
+            // They are too many to try all: figures differ where points do.
+            if one.may_be(other, flips, gauge.place.len()) {
+                return (Same::Unknown, false);
+            }
+            continue;
+        };
+        for twin in twins {
+            // Without any change of sign they are known to differ.
+            if reversed == 0 && !twin.contains(&true) {
                 continue;
             }
-            let flips = |i: usize| {
-                let flips = (0..D).filter(|&axis| turned[axis] && homotopy.flips(i, axis));
-                flips.count() % 2 == 1
-            };
-            let Some(twins) = &twins else {
-                // They are too many to try all: figures differ where points do.
-                if one.may_be(other, flips, gauge.place.len()) {
-                    return (Same::Unknown, false);
-                }
-                continue;
-            };
-            for twin in twins {
-                // Without any change of sign they are known to differ.
-                if reversed == 0 && !twin.contains(&true) {
-                    continue;
-                }
-                match one.is_same(other, |i| flips(i) ^ twin[i]) {
-                    Same::No => {}
-                    decided => return (decided, reversed % 2 == 1),
-                }
+            match one.is_same(other, |i| flips(i) ^ twin[i]) {
+                Same::No => {}
+                decided => return (decided, reversed % 2 == 1),
             }
         }
-        (Same::No, false)
     }
+    (Same::No, false)
 }
 
 /// Proves that a vector, of which each coordinate is the difference of two unknowns (from `zero` on: of none), does not

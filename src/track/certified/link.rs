@@ -9,9 +9,15 @@ use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
 /// What a preconditioner knows of the box in which a tube was proved.
 pub trait Frame<const D: usize>: Preconditioner<D> {
     /// By how much the box around ẑ(s), whose size is 1, must be scaled to hold a point, rounded up: `entry`
-    /// tells, for each index once and in their order, how far it is from ẑ(s), and the error of that.
-    /// `weights` are the tube's.
-    fn extent(&self, weights: &[f64], s: f64, entry: impl FnMut(usize) -> (f64, f64)) -> f64;
+    /// tells, for each index once and in their order, how far it is from ẑ(s), and the error of that;
+    /// `known` tells the same of any index at any time. `weights` are the tube's.
+    fn extent(
+        &self,
+        weights: &[f64],
+        s: f64,
+        known: impl Fn(usize) -> (f64, f64),
+        entry: impl FnMut(usize) -> (f64, f64),
+    ) -> f64;
 
     /// A bound on how fast the extent of a fixed point changes with s.
     fn speed(&self, proof: &Proof) -> f64;
@@ -20,7 +26,13 @@ pub trait Frame<const D: usize>: Preconditioner<D> {
 /// In the full space the box is |w|_u ≤ 1.
 impl<const D: usize> Frame<D> for Matrix {
     #[inline(always)]
-    fn extent(&self, weights: &[f64], _: f64, mut entry: impl FnMut(usize) -> (f64, f64)) -> f64 {
+    fn extent(
+        &self,
+        weights: &[f64],
+        _: f64,
+        _: impl Fn(usize) -> (f64, f64),
+        mut entry: impl FnMut(usize) -> (f64, f64),
+    ) -> f64 {
         let mut widest = 0.0f64;
         for (i, weight) in weights.iter().enumerate() {
             let (away, error) = entry(i);
@@ -67,7 +79,7 @@ pub struct Tube<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
 pub struct Ball {
     /// The middle.
     pub centre: Vector,
-    /// What the middle is more than that, in extended precision; otherwise zero.
+    /// The low words of the middle in extended precision (it is `centre` + `low`); otherwise zero.
     pub low: Vector,
     /// The radius of each entry.
     pub radius: Vector,
@@ -294,7 +306,11 @@ pub fn from_middle<const D: usize, const N: usize, Y: Frame<D>>(
     let c = &local.normal[..n];
     let mut lane = ([0.0; LANE], [0.0; LANE]);
     let (mut along, mut along_error) = (0.0, 0.0);
-    let extent = local.y.extent(weights, s, |i| {
+    let known = |i: usize| {
+        let (away, rounding) = offsets(local, i / LANE, s, ball);
+        (away[i % LANE], rounding[i % LANE] + radius(i))
+    };
+    let extent = local.y.extent(weights, s, known, |i| {
         if i % LANE == 0 {
             lane = offsets(local, i / LANE, s, ball);
         }

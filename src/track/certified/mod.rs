@@ -6,6 +6,7 @@
 //! `ledger` (what has been proved so far), `trace` (the path, kept to be drawn), `tracker` (the chain of
 //! tubes, in whichever space).
 
+mod figures;
 mod fold;
 mod ledger;
 pub(in crate::track) mod link;
@@ -19,6 +20,7 @@ pub(in crate::track) mod tracker;
 #[cfg(test)]
 mod validation;
 
+pub use figures::{FigureBox, FiguresSeen, Relation, prove_figure};
 pub use trace::{Fold, Sample, Trace};
 
 use crate::system::Homotopy;

@@ -6,7 +6,7 @@
 use super::link::{Frame, Tube};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
-use crate::system::Homotopy;
+use crate::system::{Homotopy, simplices};
 use crate::track::arc::{Figure, Orientation};
 
 /// A tube is cut into at most 2 to this power pieces to tell a sign.
@@ -35,28 +35,9 @@ impl Orientations {
     /// Of each point and as many of the points joined to it as there are dimensions.
     pub fn new(homotopy: &Homotopy, spare: &Vector) -> Self {
         let (d, m) = (homotopy.dimension, homotopy.equations);
-        let mut joined = vec![Vec::new(); homotopy.points];
-        for edge in &homotopy.edges {
-            let [a, b] = edge.points;
-            joined[a].push(b);
-            joined[b].push(a);
-        }
-        let mut all: Vec<Vec<usize>> = Vec::new();
-        for (centre, joined) in joined.iter_mut().enumerate() {
-            joined.sort_unstable();
-            for (i, &a) in joined.iter().enumerate() {
-                for (j, &b) in joined.iter().enumerate().skip(i + 1) {
-                    if d == 2 {
-                        all.push(vec![centre, a, b]);
-                    } else {
-                        let others = joined[j + 1..].iter();
-                        all.extend(others.map(|&c| vec![centre, a, b, c]));
-                    }
-                }
-            }
-        }
+        let pairs = homotopy.edges.iter().map(|edge| edge.points);
+        let mut all = simplices(d, homotopy.points, pairs);
         all.extend(homotopy.followed.iter().cloned());
-        // Points that are all joined turn up once for each of them.
         for points in &mut all {
             points.sort_unstable();
         }

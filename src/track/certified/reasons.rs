@@ -5,7 +5,6 @@
 
 use super::link::{Ball, Frame, Tube};
 use super::shortfall::Shortfall;
-use crate::interval::rounding::largest;
 use crate::system::Homotopy;
 use crate::track::events::Undecided;
 use crate::track::full::{Equations, LARGEST_TANGENT, Local, Preconditioner, RefineError};
@@ -46,7 +45,8 @@ pub enum Doubt {
     Turn(Undecided),
     /// Where the solution is: Newton's method does not converge after a correction so large.
     Newton(f64),
-    /// Nor can it begin: the smallest pivot of the Jacobian is so many times the largest.
+    /// Where the solution is: Newton's method cannot begin, as the smallest pivot of the Jacobian is so many times
+    /// the largest.
     Singular(f64),
     /// Whether an auxiliary unknown, of this number, is positive.
     Sign(usize),
@@ -54,7 +54,7 @@ pub enum Doubt {
     Vanishes(usize),
     /// Whether there is exactly one: |I − Y J| at its middle is this.
     Contraction(f64),
-    /// Nor here: it may be `radius` away, and is alone within `alone`.
+    /// Whether there is exactly one: it may be `radius` away from the middle, and is alone within `alone`.
     Wide { radius: f64, alone: f64 },
     /// Whether the solution, known up to `radius`, is in the stretch of the tube, which is so long.
     Outside { radius: f64, stretch: f64 },
@@ -110,14 +110,11 @@ pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
         ),
         RefineError::Diverged if local.is_extended => format!(
             "the corrector does not converge: its corrections stay at {:.1e}, after a first one of {:.1e}",
-            local.correction_extended(equations) * unit,
+            local.find_correction(equations) * unit,
             first * unit
         ),
         RefineError::Diverged => {
-            let before = local.z[0].clone();
-            local.correct(equations);
-            let sizes = local.z[0].iter().zip(before.iter());
-            let size = sizes.fold(0.0, |max, (x, y)| largest(max, (x - y).abs()));
+            let size = local.correct(equations);
             format!(
                 "the corrector does not converge: its corrections stay at {:.1e}, above {:.1e}",
                 size * unit,

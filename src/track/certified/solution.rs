@@ -4,7 +4,7 @@ use super::reasons::Doubt;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
-use crate::system::Homotopy;
+use crate::system::{Homotopy, Located};
 use crate::track::full::{Equations, InverseMaker, Local, Tail};
 
 /// A box around a figure that meets the dimensions, proved to hold exactly one.
@@ -12,7 +12,7 @@ use crate::track::full::{Equations, InverseMaker, Local, Tail};
 pub struct SolutionBox {
     /// The middle: (X, 1) in the homotopy's unit.
     pub centre: Vector,
-    /// What the middle is more than that, in extended precision; otherwise zero.
+    /// The low words of the middle in extended precision (it is `centre` + `low`); otherwise zero.
     pub low: Vector,
     /// How far the exact solution may be from it, entry by entry.
     pub radius: Vector,
@@ -20,6 +20,9 @@ pub struct SolutionBox {
     pub alone_within: f64,
     /// Whether t rises through 1 where the path meets it.
     pub rising: bool,
+    /// Whether it is a flat figure at which the equations are dependent: then others are as near as one likes, which
+    /// are not on the path, and `alone_within` is zero.
+    pub is_flat: bool,
 }
 
 /// Whether two boxes hold the same solution.
@@ -43,7 +46,9 @@ pub struct SolutionProver<const D: usize> {
     width: Vector,
     f: Vector,
     v: Vector,
-    /// E(1) of every equation.
+    /// Where the boxes are: t = 1, or t = 0.
+    t: f64,
+    /// E(t) of every equation there.
     targets: Vec<Interval>,
     /// The box proved last.
     found: SolutionBox,
@@ -61,6 +66,7 @@ impl<const D: usize> SolutionProver<D> {
             width: equations.vector(),
             f: equations.vector(),
             v: equations.vector(),
+            t: 1.0,
             targets: homotopy.rights.iter().map(|e| e.at_target()).collect(),
             found: SolutionBox {
                 centre: equations.vector(),
@@ -68,7 +74,18 @@ impl<const D: usize> SolutionProver<D> {
                 radius: equations.vector(),
                 alone_within: 0.0,
                 rising: false,
+                is_flat: false,
             },
+        }
+    }
+
+    /// The same for figures with t = 0, the equations being F(X, a(0)) = 0. Not in extended precision.
+    pub fn at_start(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+        let zero = point(0.0);
+        SolutionProver {
+            t: 0.0,
+            targets: homotopy.rights.iter().map(|e| e.enclose(zero)).collect(),
+            ..Self::new(homotopy, equations)
         }
     }
 
@@ -101,12 +118,12 @@ impl<const D: usize> SolutionProver<D> {
         local.is_extended = extended;
         // None may be made.
         local.first_correction = f64::INFINITY;
-        let polished = if extended {
-            local.polish_extended(equations, inverter)
+        let refined = if extended {
+            local.refine_at_target(equations, inverter)
         } else {
-            local.polish_at(equations, inverter, 1.0)
+            local.refine_at(equations, inverter, self.t)
         };
-        if polished.is_none() {
+        if refined.is_none() {
             let first = local.first_correction;
             return Err(if first.is_finite() {
                 Doubt::Newton(first)
@@ -156,7 +173,7 @@ impl<const D: usize> SolutionProver<D> {
         let (m, n) = (equations.m, equations.n());
         let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
-        let per_entry = gamma(m + 12 + 2 * equations.tail.longest);
+        let per_entry = gamma(equations.roundings_of_entry(m + 12));
         let is_free = |end: usize| (end < n) as usize as f64;
         let (rounding, width) = (&mut self.rounding, &mut self.width);
         for e in 0..m {
@@ -195,9 +212,12 @@ impl<const D: usize> SolutionProver<D> {
         let defect = greatest(&self.v[..n]);
         local.y.multiply_abs(&rounding[..n], &mut self.v);
         // The ones of I pass through as many sums as the products that they are added to.
-        let q0 = round_up(defect + greatest(&self.v[..n]) + gamma(m + 4), 2 * n + 40);
+        let q0 = round_up(
+            defect + greatest(&self.v[..n]) + gamma(m + 4),
+            equations.roundings_of_bound(2 * n + 40),
+        );
         local.y.multiply_abs(&width[..m], &mut self.v);
-        let kappa = round_up(greatest(&self.v[..n]), n + 20);
+        let kappa = round_up(greatest(&self.v[..n]), equations.roundings_of_bound(n + 20));
         (q0, kappa)
     }
 
@@ -208,7 +228,7 @@ impl<const D: usize> SolutionProver<D> {
         if extended {
             let (z, error) = ((&local.z[0][..], &local.low[..]), &mut self.v);
             let precise = equations.in_extended();
-            precise.residual_at_target(equations, z, &mut self.f, error);
+            precise.residual_at_target(equations, z, &mut self.f, Some(error));
             for e in 0..m {
                 self.f[e] = round_up(self.f[e].abs() + error[e], 1);
             }
@@ -321,15 +341,28 @@ impl SolutionBox {
                     if axis >= d || homotopy.gauge.variable[p * d + axis] == m {
                         return point(0.0);
                     }
-                    let i = homotopy.gauge.variable[p * d + axis];
-                    let (x, low, r) = (self.centre[i], self.low[i], self.radius[i]);
+                    let x = self.entry(homotopy.gauge.variable[p * d + axis]);
                     // Scaling by a power of two is exact.
-                    let lo = (x + (low - r).next_down()).next_down();
-                    let hi = (x + (low + r).next_up()).next_up();
-                    hull(lo * homotopy.unit, hi * homotopy.unit)
+                    hull(x.inf() * homotopy.unit, x.sup() * homotopy.unit)
                 })
             })
             .collect()
+    }
+
+    /// An unknown, in the homotopy's unit.
+    fn entry(&self, i: usize) -> Interval {
+        let (x, low, r) = (self.centre[i], self.low[i], self.radius[i]);
+        if low == 0.0 && r == 0.0 {
+            return point(x);
+        }
+        let lo = (x + (low - r).next_down()).next_down();
+        let hi = (x + (low + r).next_up()).next_up();
+        hull(lo, hi)
+    }
+
+    /// Where the problem's objects are, given all points in the problem's units.
+    pub fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
+        homotopy.locate(points, |i| self.entry(i))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::link::{Frame, Tube};
 use crate::interval::{Interval, hull, point};
-use crate::system::{Gauge, Homotopy};
+use crate::system::{Gauge, Homotopy, Located};
 use crate::track::full::path_length;
 use crate::track::turns::{Stretch, Turns};
 
@@ -31,7 +31,7 @@ use crate::track::turns::{Stretch, Turns};
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Trace {
-    gauge: Option<Gauge>,
+    homotopy: Option<Homotopy>,
     unit: f64,
     /// Free coordinates, and t.
     width: usize,
@@ -57,6 +57,8 @@ struct Piece {
     /// Length of the path up to `from`, and up to `to`.
     at: f64,
     end: f64,
+    /// How far the path may be from the tube's polynomial, in any coordinate, in the problem's units.
+    within: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -77,6 +79,11 @@ pub struct Sample {
     pub t: f64,
     /// All points, in the gauge and the units of the problem.
     pub points: Vec<[f64; 3]>,
+    /// The problem's objects, likewise: floats, as the points are.
+    pub objects: Vec<Located>,
+    /// The path's point in the cross-section through this place is no further from the middle of its tube, in any
+    /// coordinate: proved. What is rounded where `points` are computed from the tube comes on top of it.
+    pub within: f64,
 }
 
 /// A place where dt/ds changes its sign, and with it the direction in which the dimensions move.
@@ -96,7 +103,7 @@ impl Trace {
     /// A run begins: what was seen before is forgotten.
     pub(super) fn begin(&mut self, homotopy: &Homotopy) {
         *self = Trace {
-            gauge: Some(homotopy.gauge.clone()),
+            homotopy: Some(homotopy.clone()),
             unit: homotopy.unit,
             width: homotopy.equations + 1,
             ..Trace::default()
@@ -106,7 +113,7 @@ impl Trace {
     /// The way ahead came to an end: what follows goes the other way from the sketch.
     pub(super) fn turn_back(&mut self) {
         self.back = Some(Box::new(Trace {
-            gauge: self.gauge.clone(),
+            homotopy: self.homotopy.clone(),
             unit: self.unit,
             width: self.width,
             ..Trace::default()
@@ -143,6 +150,7 @@ impl Trace {
             to,
             at,
             end: length(to),
+            within: self.within(tube),
         });
         let (from, start) = (tube.entry.0.max(-tube.proof.h), tube.entry.1);
         let mut turns = std::mem::take(&mut self.turns);
@@ -159,6 +167,50 @@ impl Trace {
             }
         });
         self.turns = turns;
+    }
+
+    /// How far the path may be from the middle of a tube, in any coordinate.
+    fn within<const D: usize, const N: usize, Y: Frame<D>>(&self, tube: &Tube<D, N, Y>) -> f64 {
+        let (distance, unit) = (point(tube.proof.distance), point(self.unit));
+        let weights = tube.weights[..self.width - 1].iter();
+        let weights = weights.zip(&tube.local.low[..self.width - 1]);
+        let bound =
+            weights.map(|(&u, &low)| ((distance * point(u) + point(low.abs())) * unit).sup());
+        bound.fold(0.0, f64::max)
+    }
+
+    /// A piece of path along which t rises throughout, or falls, kept for other equations of the same path, of which the
+    /// first unknowns, `places` of them, are the same free coordinates.
+    pub(super) fn append(&mut self, piece: &Trace, places: usize, rising: bool) {
+        if let Some(back) = &mut self.back {
+            return back.append(piece, places, rising);
+        }
+        let before = self.length();
+        for z in piece.coefficients.chunks_exact(piece.width) {
+            let auxiliary = self.width - 1 - places;
+            self.coefficients.extend_from_slice(&z[..places]);
+            self.coefficients
+                .extend(std::iter::repeat_n(0.0, auxiliary));
+            self.coefficients.push(z[piece.width - 1]);
+        }
+        let pieces = piece.pieces.iter();
+        self.pieces.extend(pieces.map(
+            |&Piece {
+                 from,
+                 to,
+                 at,
+                 end,
+                 within,
+             }| Piece {
+                from,
+                to,
+                at: before + at,
+                end: before + end,
+                within,
+            },
+        ));
+        self.turns.go_on(rising);
+        self.open = None;
     }
 
     /// The path between two parameters of a tube belongs to what is open.
@@ -210,10 +262,10 @@ impl Trace {
     }
 
     fn fold(&self, open: Open, rising: bool) -> Fold {
-        let (gauge, unit) = (self.gauge.as_ref(), point(self.unit));
+        let (homotopy, unit) = (self.homotopy.as_ref(), point(self.unit));
         let m = self.width - 1;
-        let points = gauge.map_or(Vec::new(), |gauge| {
-            all_points(gauge, |i| open.z[i] * unit, point(0.0))
+        let points = homotopy.map_or(Vec::new(), |homotopy| {
+            all_points(&homotopy.gauge, |i| open.z[i] * unit, point(0.0))
         });
         Fold {
             at: open.at,
@@ -292,15 +344,13 @@ impl Trace {
             let (z, direction) = back.at(-at)?;
             return Some((z, direction.into_iter().map(|x| -x).collect()));
         }
-        let k = self.pieces.partition_point(|piece| piece.at <= at);
-        let k = k
-            .checked_sub(1)
-            .or((!self.pieces.is_empty()).then_some(0))?;
+        let k = self.piece(at)?;
         let Piece {
             from,
             to,
             at: start,
             end,
+            ..
         } = self.pieces[k];
         let part = if end > start {
             (at - start) / (end - start)
@@ -314,14 +364,32 @@ impl Trace {
         Some((self.free(k, s), direction))
     }
 
+    /// How far the path may be from the middle of its tube where it is so long.
+    fn within_at(&self, at: f64) -> Option<f64> {
+        match &self.back {
+            Some(back) if at < 0.0 => back.within_at(-at),
+            _ => Some(self.pieces[self.piece(at)?].within),
+        }
+    }
+
+    /// The number of the piece where the path is so long.
+    fn piece(&self, at: f64) -> Option<usize> {
+        let k = self.pieces.partition_point(|piece| piece.at <= at);
+        k.checked_sub(1).or((!self.pieces.is_empty()).then_some(0))
+    }
+
     /// The figure where the path is so long.
     pub fn sample(&self, at: f64) -> Option<Sample> {
         let (z, _) = self.at(at)?;
-        let gauge = self.gauge.as_ref()?;
+        let homotopy = self.homotopy.as_ref()?;
+        let points = all_points(&homotopy.gauge, |i| z[i], 0.0);
+        let places: Vec<[Interval; 3]> = points.iter().map(|p| p.map(point)).collect();
         Some(Sample {
             at,
             t: z[self.width - 1],
-            points: all_points(gauge, |i| z[i], 0.0),
+            points,
+            objects: homotopy.locate(&places, |i| point(z[i] / self.unit)),
+            within: self.within_at(at)?,
         })
     }
 

@@ -1,10 +1,13 @@
 //! The chain of tubes from the sketch back to the sketch.
 
 mod arc;
+mod crossing;
 mod extension;
 mod open;
-mod stride;
+mod starts;
+mod step_control;
 
+use super::figures::FigureBox;
 use super::ledger::Ledger;
 use super::link::{Ball, Frame, Tube};
 use super::proof::Proof;
@@ -12,18 +15,21 @@ use super::reasons::{
     Doubt, Rejection, no_direction, precision, undecided, unlinked, unproved, unrefined,
 };
 use super::shortfall::Shortfall;
+use super::solution::SolutionProver;
 use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::arc::Figure;
 use crate::track::ends::{Away, EndKind, PathEnd};
+use crate::track::flexible;
 use crate::track::full::{Equations, InverseMaker, Local, RefineError, condition, first_normal};
 use crate::track::{Control, Driving, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use arc::{Arc, Joining};
+use crossing::{Beyond, Crossing};
 use extension::Extension;
 use std::borrow::Cow;
 use std::time::Instant;
-use stride::Stride;
+use step_control::StepControl;
 
 pub use arc::Arcs;
 
@@ -134,6 +140,7 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
 ) -> Outcome {
     let clock = Instant::now();
     let mut tracker = Tracker::<D, N, T>::new(Cow::Borrowed(homotopy), options);
+    tracker.crossing = Crossing::new(homotopy);
     if let Some(witness) = &mut control.witness {
         witness.begin(homotopy.unit);
     }
@@ -144,7 +151,7 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
         Ok(()) => Status::Closed,
         Err(reason) => match tracker.path_end(reason) {
             Ok(end) => tracker.other_way(end, options, control),
-            Err(reason) => Status::Stopped(reason),
+            Err(reason) => Status::Stopped(tracker.with_flexibility(reason)),
         },
     };
     let checked = match status {
@@ -181,6 +188,9 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
             })
             .collect();
         witness.end(&status, &classes);
+    }
+    if let Some(seen) = &mut control.figures {
+        seen.solutions = tracker.ledger.found().iter().map(FigureBox::of).collect();
     }
     let (plan_changes, driving) = tracker.test.plans();
     Outcome {
@@ -221,6 +231,10 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     extension: Extension,
     /// What a run keeps whose end is t = 1; those whose end is the sketch again have none.
     arc: Option<Arc<D>>,
+    /// What it keeps if it may meet flat figures at t = 1.
+    crossing: Option<Crossing>,
+    /// Where it ends if it is a piece of another run.
+    beyond: Option<Beyond>,
     /// Whether the tube around the sketch was proved.
     has_set_out: bool,
     /// Whether the run is stuck near a place where the Jacobian loses rank.
@@ -231,6 +245,8 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     loses: bool,
     /// Whether it ended because no step could be proved, however short.
     is_stuck: bool,
+    /// Proves figures with t = 0, once somebody wants them.
+    at_start: Option<Box<SolutionProver<D>>>,
     /// How many of the solutions were found the other way from the sketch: the first ones.
     behind: usize,
     /// The largest coordinate of the sketch, or 1 if that is more.
@@ -268,11 +284,14 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             shortened: 0,
             extension: Extension::default(),
             arc: None,
+            crossing: None,
+            beyond: None,
             has_set_out: false,
             is_singular: false,
             away: None,
             loses: false,
             is_stuck: false,
+            at_start: None,
             behind: 0,
             size_of_sketch,
             typical: f64::NAN,
@@ -281,27 +300,43 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     }
 
     fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), String> {
+        let max_h = self.longest(options);
+        let is_done = self.start(options, max_h)?;
+        self.show_tube(control, 0);
+        self.note_starts(control);
+        match is_done {
+            true => Ok(()),
+            false => self.go_on(options, max_h, control),
+        }
+    }
+
+    /// The longest half length of a tube.
+    fn longest(&self, options: &Options) -> f64 {
         let max_h = options
             .step_in(self.homotopy.unit)
             .map_or(f64::INFINITY, |step| 0.5 * step);
-        let max_h = match self.arc {
+        match self.arc {
             Some(_) => max_h.min(arc::LONGEST),
             None => max_h,
-        };
-        let is_done = self.start(options, max_h)?;
-        self.show_tube(control, 0);
-        if is_done {
-            return Ok(());
         }
-        let mut stride = Stride::new(&self.equations);
+    }
+
+    /// Adds tubes to the last one until the path ends.
+    fn go_on(
+        &mut self,
+        options: &Options,
+        max_h: f64,
+        control: &mut Control,
+    ) -> Result<(), String> {
+        let mut steps_ahead = StepControl::new(&self.equations);
         // What could not be told of this tube when it was longer.
         let mut doubt = None;
         // A bound on the half length where t = 1 is hard to separate; it grows back.
         let mut limit = max_h;
         loop {
             let h = self.now.proof.h;
-            let reach = stride.reach(&self.now, limit);
-            self.typical = if T::FORESEES && stride.is_first() && limit > h {
+            let reach = steps_ahead.reach(&self.now, limit);
+            self.typical = if T::FORESEES && steps_ahead.is_first() && limit > h {
                 h * self.now.local.last_root()
             } else {
                 f64::NAN
@@ -311,31 +346,40 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 Ok(is_done) => {
                     self.steps += 1;
                     self.show_tube(control, known);
+                    self.note_starts(control);
                     if is_done {
                         return Ok(());
                     }
                     doubt = None;
-                    stride.accept(h);
+                    steps_ahead.accept(h);
                     limit = (2.0 * limit).min(max_h);
                     self.account_for_precision();
+                    if self.crossing.is_some()
+                        && self.is_at_crossing()
+                        && self.cross(options, control)
+                    {
+                        self.show_tube(control, self.ledger.solutions_so_far());
+                        steps_ahead = StepControl::new(&self.equations);
+                        limit = max_h;
+                    }
                 }
                 Err(rejection) => {
                     self.rejected += 1;
                     self.test.reject();
-                    stride.reject(rejection, &self.now, &self.next, reach);
+                    steps_ahead.reject(rejection, &self.now, &self.next, reach);
                     if let Rejection::Undecided(_) = rejection {
                         doubt = Some(rejection);
                         self.shortened += 1;
                         limit = 0.25 * self.next.proof.h.min(limit);
                     }
                     let smallest = self.smallest_step();
-                    if limit < smallest || stride.is_below(smallest) {
+                    if limit < smallest || steps_ahead.is_below(smallest) {
                         if !(options.extended && self.extend(rejection)) {
                             return Err(self.stuck(doubt.unwrap_or(rejection), reach, limit));
                         }
                         // That was in 53 bits.
                         (doubt, limit) = (None, max_h);
-                        stride.forget();
+                        steps_ahead.forget();
                     }
                 }
             }
@@ -488,13 +532,19 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             };
             return arc.enter(&joining, &mut self.inverter, &mut self.ledger);
         }
-        let closing = if first { None } else { self.closes(tube)? };
+        let closing = match first || self.beyond.is_some() {
+            true => None,
+            false => self.closes(tube)?,
+        };
         let between = closing.map_or((tube.exit_at, tube.exit_at), |at| {
             (at.1.max(tube.exit_at), at.1)
         });
         self.ledger
             .enter(&self.equations, &mut self.inverter, tube, between, extended)
             .map_err(Rejection::Undecided)?;
+        if let Some(beyond) = &self.beyond {
+            return Ok(beyond.is_reached(tube, tube.exit_at));
+        }
         Ok(closing.is_some())
     }
 
@@ -669,6 +719,19 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         )
     }
 
+    /// The reason why a run ends where no step can be proved, after the words for a figure that is not rigid at t = 1,
+    /// if that is what the path comes to.
+    fn with_flexibility(&self, reason: String) -> String {
+        if !self.is_stuck || self.arc.is_some() {
+            return reason;
+        }
+        let (z, m) = (&self.now.local.z[0], self.equations.m);
+        match flexible::in_words(&self.homotopy, z, z[m]) {
+            Some(words) => format!("{words}; {reason}"),
+            None => reason,
+        }
+    }
+
     /// Why it ends at the sketch.
     fn stuck_at_sketch(&mut self, rejection: Rejection, limit: f64) -> String {
         format!(
@@ -718,6 +781,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             ));
         }
         list.extend(self.extension.in_words());
+        list.extend(self.crossing.iter().filter_map(Crossing::in_words));
         list
     }
 }

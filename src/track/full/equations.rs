@@ -7,7 +7,7 @@
 
 use super::extended::Extended;
 use super::preconditioner::InverseMaker;
-use super::tail::Tail;
+use super::tail::{Forms, Tail};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::{Inverter, LANE, Sparse, Vector};
 use crate::system::Homotopy;
@@ -195,43 +195,34 @@ impl<const D: usize> Equations<D> {
     pub fn room(&self) -> Differences<D> {
         Differences {
             axes: std::array::from_fn(|_| self.per_edge()),
-            forms: Vector::zeros(self.tail.forms()),
+            forms: Forms::new(&self.tail),
         }
-    }
-
-    /// How many roundings any one term passes through, `base` being enough for distances. The one
-    /// place where the length of the longest equation enters error bounds: a sum of distances' squares
-    /// has up to three products, and each product more is one addition more.
-    pub fn roundings(&self, base: usize) -> usize {
-        base + self.tail.longest.saturating_sub(3)
-    }
-
-    /// How many roundings more than in the row of a distance there are in sums over a row of the Jacobian, at
-    /// three orders, and in its entries: each product of an equation has two differences of two unknowns,
-    /// so that its row has at most four entries for each product, of at most two parts for each.
-    pub fn row_roundings(&self) -> usize {
-        (3 * 4 + 2) * self.tail.longest
     }
 
     /// p_i − p_j for the point `z`, per axis and distance, and the tail's forms.
     #[inline(always)]
     pub fn differences(&self, z: &[f64], out: &mut Differences<D>) {
-        self.directions(z, out);
+        self.head_differences(z, out);
         if !self.tail.is_empty() {
-            out.forms[Tail::ONE] = 1.0;
+            self.tail.differences(z, 1.0, &mut out.forms);
         }
     }
 
     /// The same for a direction `v`: the tail's number 1 does not change along it.
     #[inline(always)]
     pub fn directions(&self, v: &[f64], out: &mut Differences<D>) {
+        self.head_differences(v, out);
+        if !self.tail.is_empty() {
+            self.tail.differences(v, 0.0, &mut out.forms);
+        }
+    }
+
+    #[inline(always)]
+    fn head_differences(&self, v: &[f64], out: &mut Differences<D>) {
         for (ends, out) in self.ends.iter().zip(&mut out.axes) {
             for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
                 *d = v[i as usize] - v[j as usize];
             }
-        }
-        if !self.tail.is_empty() {
-            self.tail.directions(v, &mut out.forms);
         }
     }
 
@@ -288,8 +279,7 @@ impl<const D: usize> Equations<D> {
             }
         }
         if !self.tail.is_empty() {
-            let forms = &differences.forms;
-            self.tail.add_half_products(1.0, forms, forms, out);
+            self.tail.add_squares(&differences.forms, out);
         }
     }
 
@@ -318,9 +308,30 @@ impl<const D: usize> Equations<D> {
             let more = per_term * size + radius;
             out[bend.edge] = round_up(out[bend.edge] + more, roundings);
         }
-        for e in self.m - self.tail.equations()..self.m {
+        for e in self.tail.first()..self.m {
             let size = self.tail.half_products_abs(e, &d.forms, &d.forms);
-            out[e] = round_up(out[e] + per_term * size, roundings);
+            out[e] = round_up(out[e] + per_term * size, self.roundings_of_bound(24));
+        }
+    }
+
+    /// F at the point z, or z + low in extended precision if there is a `low`, and if wanted how far the exact
+    /// value may be from that. `at` is work space: in 53 bits the point's differences and lengths.
+    #[inline(always)]
+    pub fn residual_at(
+        &self,
+        (z, low): (&[f64], Option<&[f64]>),
+        (d, lengths): (&mut Differences<D>, &mut Lengths),
+        f: &mut Vector,
+        error: Option<&mut Vector>,
+    ) {
+        if let Some(low) = low {
+            return self.in_extended().residual(self, (z, low), f, error);
+        }
+        self.differences(z, d);
+        self.expand_lengths(z[self.m], lengths);
+        self.residual(d, lengths, f);
+        if let Some(error) = error {
+            self.residual_error(d, z[self.m], error);
         }
     }
 
@@ -338,8 +349,7 @@ impl<const D: usize> Equations<D> {
             *out = product - lengths.terms[1][e] * vt;
         }
         if !self.tail.is_empty() {
-            self.tail.add_half_products(1.0, &d.forms, &dv.forms, out);
-            self.tail.add_half_products(1.0, &dv.forms, &d.forms, out);
+            self.tail.add_products(1.0, &d.forms, &dv.forms, out);
         }
     }
 
@@ -355,7 +365,7 @@ impl<const D: usize> Equations<D> {
     ) {
         let (t, vt) = (t.abs() + t_radius, vt.abs());
         // Either factor of a product passes through one sum more than a distance's difference does.
-        let per_term = gamma(self.roundings(20) + self.tail.longest);
+        let per_term = gamma(self.roundings_of_derivative(20));
         for (e, out) in out[..self.m].iter_mut().enumerate() {
             let (mut size, mut moved) = (0.0, 0.0);
             for axis in 0..D {
@@ -376,7 +386,7 @@ impl<const D: usize> Equations<D> {
             }
             let time = slope_radius + curvature * t_radius;
             let bound = per_term * (size + slope_size * vt) + moved + time * vt;
-            *out = round_up(bound, self.roundings(40) + self.tail.longest);
+            *out = round_up(bound, self.roundings_of_bound(40));
         }
     }
 
@@ -482,7 +492,7 @@ pub struct Differences<const D: usize> {
     /// p_i − p_j, per axis and distance.
     pub axes: [Vector; D],
     /// The factors of the tail's products.
-    pub forms: Vector,
+    pub forms: Forms,
 }
 
 impl<const D: usize> Deref for Differences<D> {

@@ -4,8 +4,10 @@
 //! is evaluated so: everything else in a proof tolerates relative errors of 2⁻⁵³.
 
 use super::equations::{Differences, Equations};
-use super::local::{Local, RefineError};
+use super::local::Local;
+use super::newton::{End, UNTIL, Until};
 use super::preconditioner::Preconditioner;
+use super::refine::{RefineError, SHRINKS};
 use super::tail::Tail;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
@@ -47,18 +49,17 @@ impl Extended {
                 *out = difference((z, low), equations.ends[axis][e].map(|end| end as usize)).hi;
             }
         }
-        for (form, out) in out.forms.iter_mut().enumerate() {
-            *out = form_value(equations, (z, low), form).hi;
-        }
+        let value = |form: usize| form_value(equations, (z, low), form).hi;
+        out.forms.set(&equations.tail, value);
     }
 
-    /// F(z) rounded to floats, and how far the exact value may be from that.
+    /// F(z) rounded to floats, and if wanted how far the exact value may be from that.
     pub fn residual<const D: usize>(
         &self,
         equations: &Equations<D>,
         (z, low): (&[f64], &[f64]),
         out: &mut Vector,
-        error: &mut Vector,
+        mut error: Option<&mut Vector>,
     ) {
         let m = equations.m;
         let t = DoubleDouble {
@@ -74,7 +75,11 @@ impl Extended {
                 size = size * size_of_t + coefficient.size();
                 radius = radius * size_of_t + r;
             }
-            (out[e], error[e]) = equation(equations, (z, low), e, length, size, radius);
+            let (f, bound) = equation(equations, (z, low), e, length, size, radius);
+            out[e] = f;
+            if let Some(error) = &mut error {
+                error[e] = bound;
+            }
         }
         refuse_overlap((z, low), error);
     }
@@ -85,11 +90,15 @@ impl Extended {
         equations: &Equations<D>,
         (z, low): (&[f64], &[f64]),
         out: &mut Vector,
-        error: &mut Vector,
+        mut error: Option<&mut Vector>,
     ) {
         for e in 0..equations.m {
             let (length, radius) = self.targets[e];
-            (out[e], error[e]) = equation(equations, (z, low), e, length, length.size(), radius);
+            let (f, bound) = equation(equations, (z, low), e, length, length.size(), radius);
+            out[e] = f;
+            if let Some(error) = &mut error {
+                error[e] = bound;
+            }
         }
         refuse_overlap((z, low), error);
     }
@@ -113,8 +122,10 @@ impl Extended {
 
 /// The bounds hold for double-doubles: where the low word is not below half a digit of the high one
 /// nothing is known.
-fn refuse_overlap((z, low): (&[f64], &[f64]), error: &mut Vector) {
-    if z.iter().zip(low).any(|(z, low)| z + low != *z) {
+fn refuse_overlap((z, low): (&[f64], &[f64]), error: Option<&mut Vector>) {
+    if let Some(error) = error
+        && z.iter().zip(low).any(|(z, low)| z + low != *z)
+    {
         error.fill(f64::INFINITY);
     }
 }
@@ -211,59 +222,52 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     fn chord_extended(&mut self, equations: &Equations<D>) -> Result<(), RefineError> {
         /// A first correction that shrank by so much is as good as rounding lets it be.
         const SHRUNK: f64 = 1e-6;
-        /// Nor do corrections below this have to shrink any more: the proof tells what they are worth.
+        /// Corrections below this need not shrink any more: the proof tells what they are worth.
         const NEAR: f64 = 1e-18;
-        /// Corrections below this are far below all radii.
-        const SMALLEST: f64 = 1e-26;
-        let n = equations.n();
-        let mut error = equations.per_edge();
-        let mut last = f64::INFINITY;
-        self.contraction = 0.0;
-        for iteration in 0..100 {
-            let size = self.find_correction(equations, &mut error);
-            match iteration {
-                0 => self.first_correction = size,
-                1 => self.contraction = size / last,
-                _ => {}
-            }
-            // A NaN is no less.
-            let shrinks = size <= 0.25 * last;
-            if !shrinks {
-                let done = last <= SHRUNK * self.first_correction || last <= NEAR;
-                return if done {
-                    Ok(())
-                } else {
-                    Err(RefineError::Diverged)
-                };
-            }
-            let delta = &self.delta;
-            shift(&mut self.z[0][..n], &mut self.low[..n], |i| -delta[i]);
-            if size <= SMALLEST {
-                return Ok(());
-            }
-            last = size;
-        }
-        Err(RefineError::Diverged)
+        let until = Until {
+            // Far below all radii.
+            goal: 1e-26,
+            ratio: SHRINKS,
+            makes_last: false,
+            ..UNTIL
+        };
+        let find = |local: &mut Self| local.find_correction(equations);
+        let seen = until.correct(self, find, |local, _| local.shift_by(equations.n()));
+        (self.first_correction, self.contraction) = (seen.first, seen.contraction);
+        let is_done = match seen.end {
+            End::Reached => true,
+            End::Stagnated | End::Away => seen.last <= SHRUNK * seen.first || seen.last <= NEAR,
+            End::Steps => false,
+        };
+        is_done.then_some(()).ok_or(RefineError::Diverged)
     }
 
-    /// Computes the next correction of `z[0]` and `low`, without making it. Returns its size; `error` is
-    /// overwritten.
-    fn find_correction(&mut self, equations: &Equations<D>, error: &mut Vector) -> f64 {
-        let (m, n) = (equations.m, equations.n());
-        let (extended, z) = (equations.in_extended(), (&self.z[0][..], &self.low[..]));
-        extended.residual(equations, z, &mut self.f, error);
-        self.y.solve(equations, &self.f[..m], &mut self.delta);
-        let sizes = self.delta[..n].iter();
+    /// Computes the next correction of `z[0]` and `low`, without making it. Returns its size.
+    pub fn find_correction(&mut self, equations: &Equations<D>) -> f64 {
+        let z = (&self.z[0][..], &self.low[..]);
+        let extended = equations.in_extended();
+        extended.residual(equations, z, &mut self.f, None);
+        self.solve_for_correction(equations, equations.n())
+    }
+
+    /// The correction for what F is, and the size of its first `entries`.
+    fn solve_for_correction(&mut self, equations: &Equations<D>, entries: usize) -> f64 {
+        self.y
+            .solve(equations, &self.f[..equations.m], &mut self.delta);
+        let sizes = self.delta[..entries].iter();
         sizes.fold(0.0, |size, x| largest(size, x.abs()))
     }
 
-    /// The size of the next correction, where the last ones did not shrink.
-    pub fn correction_extended(&mut self, equations: &Equations<D>) -> f64 {
-        self.find_correction(equations, &mut equations.per_edge())
+    /// Makes the correction in the first `entries`.
+    fn shift_by(&mut self, entries: usize) {
+        let delta = &self.delta;
+        shift(&mut self.z[0][..entries], &mut self.low[..entries], |i| {
+            -delta[i]
+        });
     }
 
-    /// [`Local::polish_at`] t = 1 in extended precision, by Newton's method.
-    pub fn polish_extended(
+    /// [`Local::refine_at`] t = 1 in extended precision, by Newton's method.
+    pub fn refine_at_target(
         &mut self,
         equations: &Equations<D>,
         maker: &mut Y::Maker,
@@ -273,30 +277,31 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         self.normal[m] = 1.0;
         self.is_extended = true;
         (self.z[0][m], self.low[m]) = (1.0, 0.0);
-        let mut error = equations.per_edge();
-        let mut last = f64::INFINITY;
-        // Near a double zero Newton's method needs one step for every halving of the distance.
-        for iteration in 0..60 {
-            self.precondition(equations, maker).ok()?;
-            let z = (&self.z[0][..], &self.low[..]);
-            let extended = equations.in_extended();
-            extended.residual_at_target(equations, z, &mut self.f, &mut error);
-            self.y.solve(equations, &self.f[..m], &mut self.delta);
-            let sizes = self.delta[..m].iter();
-            let size = sizes.fold(0.0, |size, x| largest(size, x.abs()));
-            if iteration == 0 {
-                self.first_correction = size;
-            }
-            if size.is_nan() || size > 1.0 {
-                return None;
-            }
-            let delta = &self.delta;
-            shift(&mut self.z[0][..m], &mut self.low[..m], |i| -delta[i]);
+        let until = Until {
+            goal: 1e-28,
+            ratio: SHRINKS,
             // The box tells whether that is good enough.
-            if size <= 1e-18 && size > 0.25 * last || size <= 1e-28 {
-                break;
+            settled: 1e-18,
+            largest: 1.0,
+            // Near a double zero Newton's method needs one step for every halving of the distance.
+            steps: 60,
+            ..UNTIL
+        };
+        let find = |local: &mut Self| {
+            if local.precondition(equations, maker).is_err() {
+                return f64::NAN;
             }
-            last = size;
+            let z = (&local.z[0][..], &local.low[..]);
+            let extended = equations.in_extended();
+            extended.residual_at_target(equations, z, &mut local.f, None);
+            local.solve_for_correction(equations, m)
+        };
+        let seen = until.correct(self, find, |local, _| local.shift_by(m));
+        if seen.first.is_finite() {
+            self.first_correction = seen.first;
+        }
+        if seen.end == End::Away {
+            return None;
         }
         self.precondition(equations, maker).ok()
     }

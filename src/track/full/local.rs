@@ -2,7 +2,6 @@
 
 use super::equations::{Differences, Equations, Lengths, MAX_DEGREE};
 use super::preconditioner::Preconditioner;
-use crate::interval::rounding::largest;
 use crate::linalg::{LANE, Matrix, Vector};
 
 /// Degree of the Taylor polynomials where nothing else is said.
@@ -14,15 +13,6 @@ const MAX_ORDER: usize = 8;
 /// Room for the powers of t(s).
 const POWERS: usize = MAX_DEGREE * MAX_ORDER + 1;
 
-/// Why a predicted point could not be brought onto the path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RefineError {
-    /// The Jacobian with the normal is singular in floating point.
-    Singular,
-    /// The corrections do not shrink as they should.
-    Diverged,
-}
-
 /// A point z₀ near the path, a unit normal c of the cross-section through it, a preconditioner
 /// Y ≈ [J; c]⁻¹, and the polynomial ẑ(s) = z₀ + s z₁ + … with c·ẑ(s) = c·z₀ + s that follows the path.
 /// It has N coefficients.
@@ -30,7 +20,7 @@ pub enum RefineError {
 pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// Coefficients z₀ … of ẑ.
     pub z: [Vector; N],
-    /// What z₀ is more than `z[0]`, in extended precision; otherwise zero.
+    /// The low words of z₀ in extended precision (it is `z[0]` + `low`); otherwise zero.
     pub low: Vector,
     /// Whether F(z₀) is taken in extended precision (`extended.rs`).
     pub is_extended: bool,
@@ -96,138 +86,6 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         equations.expand_lengths(self.z[0][equations.m], &mut self.lengths);
     }
 
-    /// Makes the preconditioner at `z[0]`.
-    pub fn precondition(
-        &mut self,
-        equations: &Equations<D>,
-        maker: &mut Y::Maker,
-    ) -> Result<(), RefineError> {
-        self.look(equations);
-        self.negative = self
-            .y
-            .make(maker, equations, (&self.d[0], &self.lengths, &self.normal))
-            .map_err(|_| RefineError::Singular)?;
-        Ok(())
-    }
-
-    /// Corrects `z[0]` onto the path with the preconditioner made at the prediction, moving in
-    /// the cross-section normal to `normal` (both to be set by the caller).
-    pub fn refine(
-        &mut self,
-        equations: &Equations<D>,
-        maker: &mut Y::Maker,
-        tolerance: f64,
-        max_iterations: usize,
-    ) -> Result<(), RefineError> {
-        let (m, n) = (equations.m, equations.n());
-        if self.is_extended {
-            self.is_extended = false;
-            self.low.fill(0.0);
-        }
-        self.precondition(equations, maker)?;
-        let mut last = f64::INFINITY;
-        self.contraction = 0.0;
-        for iteration in 0..max_iterations {
-            equations.residual(&self.d[0], &self.lengths, &mut self.f);
-            self.y.solve(equations, &self.f[..m], &mut self.delta);
-            let mut size = 0.0f64;
-            for (z, delta) in self.z[0][..n].iter_mut().zip(self.delta.iter()) {
-                *z -= delta;
-                size = largest(size, delta.abs());
-            }
-            self.look(equations);
-            match iteration {
-                0 => self.first_correction = size,
-                1 => self.contraction = size / last,
-                _ => {}
-            }
-            if size <= tolerance {
-                return Ok(());
-            }
-            // Quarter at least: a chord iteration that does worse started too far away.
-            if size.is_nan() || size > 0.25 * last {
-                return Err(RefineError::Diverged);
-            }
-            last = size;
-        }
-        Err(RefineError::Diverged)
-    }
-
-    /// Corrects `z[0]` once more with the preconditioner as it is.
-    pub fn correct(&mut self, equations: &Equations<D>) {
-        let m = equations.m;
-        equations.residual(&self.d[0], &self.lengths, &mut self.f);
-        self.y.solve(equations, &self.f[..m], &mut self.delta);
-        for (z, delta) in self.z[0][..=m].iter_mut().zip(self.delta.iter()) {
-            *z -= delta;
-        }
-        self.look(equations);
-    }
-
-    /// The path's point with t = `target` near the parameter `s`, found along the path: chord
-    /// corrections in the cross-section alternate with Newton steps in s. `None`: no convergence.
-    pub fn meet(
-        &self,
-        equations: &Equations<D>,
-        mut s: f64,
-        target: f64,
-        room: &mut Meeting<D>,
-        z: &mut Vector,
-    ) -> Option<()> {
-        let m = equations.m;
-        self.at(s, z);
-        for _ in 0..40 {
-            equations.differences(z, &mut room.d);
-            equations.expand_lengths(z[m], &mut room.lengths);
-            equations.residual(&room.d, &room.lengths, &mut room.f);
-            self.y.solve(equations, &room.f[..m], &mut room.delta);
-            self.slope(s, &mut room.slope);
-            // The next point is z − δ + ds ẑ'(s), with the ds that brings its t to the target.
-            let ds = (target - z[m] + room.delta[m]) / room.slope[m];
-            let mut size = 0.0f64;
-            for i in 0..=m {
-                let change = ds * room.slope[i] - room.delta[i];
-                z[i] += change;
-                size = largest(size, change.abs());
-            }
-            s += ds;
-            if size <= 1e-10 {
-                return Some(());
-            }
-            if size.is_nan() || size > 1.0 {
-                return None;
-            }
-        }
-        None
-    }
-
-    /// Corrects `z[0]` in X at a fixed t, as far as floats go.
-    pub fn polish_at(
-        &mut self,
-        equations: &Equations<D>,
-        maker: &mut Y::Maker,
-        t: f64,
-    ) -> Option<()> {
-        let m = equations.m;
-        self.normal.fill(0.0);
-        self.normal[m] = 1.0;
-        self.z[0][m] = t;
-        self.refine(equations, maker, 1e-6, 20).ok()?;
-        // Newton's method with the preconditioner of the refined point. It is done where corrections fall below
-        // 1e-13; where they stop shrinking before, at the limit of precision, the first one tells how near it was.
-        for _ in 0..3 {
-            self.z[0][m] = t;
-            match self.refine(equations, maker, 1e-13, 20) {
-                Ok(()) => break,
-                Err(_) if self.first_correction <= 1e-5 => {}
-                Err(_) => return None,
-            }
-        }
-        self.z[0][m] = t;
-        self.look(equations);
-        Some(())
-    }
-
     /// Computes the coefficients z₁ … by differentiating F(ẑ(s)) = 0: each solves the
     /// same linear system, with what the earlier ones leave as its right-hand side.
     pub fn expand(&mut self, equations: &Equations<D>) {
@@ -281,8 +139,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         }
         if !equations.tail.is_empty() {
             let (d0, dk) = (&self.d[0].forms, &self.d[k].forms);
-            equations.tail.add_half_products(-1.0, d0, dk, f);
-            equations.tail.add_half_products(-1.0, dk, d0, f);
+            equations.tail.add_products(-1.0, d0, dk, f);
         }
     }
 
@@ -346,17 +203,9 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
             }
         }
         if !equations.tail.is_empty() {
-            for a in least..=k / 2 {
-                let b = k - a;
-                if b > Self::ORDER {
-                    continue;
-                }
-                let (x, y) = (&self.d[a].forms, &self.d[b].forms);
-                equations.tail.add_half_products(1.0, x, y, out);
-                if a != b {
-                    equations.tail.add_half_products(1.0, y, x, out);
-                }
-            }
+            let forms = |k: usize| &self.d[k].forms;
+            let tail = &equations.tail;
+            tail.add_coefficient(k, least, Self::ORDER, forms, out);
         }
     }
 
@@ -497,27 +346,4 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     }
     let rest: f64 = a1.iter().zip(b1).map(|(x, y)| x * y).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
-/// Work space of [`Local::meet`].
-#[derive(Debug)]
-pub struct Meeting<const D: usize> {
-    d: Differences<D>,
-    lengths: Lengths,
-    f: Vector,
-    delta: Vector,
-    slope: Vector,
-}
-
-impl<const D: usize> Meeting<D> {
-    /// For one problem.
-    pub fn new(equations: &Equations<D>) -> Self {
-        Meeting {
-            d: equations.room(),
-            lengths: Lengths::new(equations),
-            f: equations.vector(),
-            delta: equations.vector(),
-            slope: equations.vector(),
-        }
-    }
 }

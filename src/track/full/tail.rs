@@ -1,7 +1,9 @@
 //! The equations that are no distances: sums of products of differences.
 
+use crate::linalg::{LANE, Vector};
 use crate::system::Homotopy;
 use std::collections::HashMap;
+use std::ops::Deref;
 
 /// Products of *forms*: differences of unknowns, and the number 1.
 #[derive(Debug, Clone)]
@@ -15,7 +17,7 @@ pub struct Tail {
     /// The number of the first equation of the tail.
     first: usize,
     /// The number of products of the longest equation; zero if there is none.
-    pub longest: usize,
+    longest: usize,
     /// What entries of the Jacobian are made of, by column, then by row.
     sources: Vec<Source>,
     /// Where each column's begin.
@@ -71,6 +73,69 @@ struct Product {
     right: u32,
     /// Half the factor, which is exact.
     half: f64,
+}
+
+/// The values of all forms, and the two factors of each product as vectors of their own: so products are
+/// multiplied four at a time, whatever forms they are of.
+#[derive(Debug, Clone)]
+pub struct Forms {
+    values: Vector,
+    /// By product.
+    left: Vector,
+    /// By product, times half the product's factor.
+    right: Vector,
+}
+
+impl Forms {
+    /// Room for the forms of a tail.
+    pub fn new(tail: &Tail) -> Self {
+        Forms {
+            values: Vector::zeros(tail.forms()),
+            left: Vector::zeros(tail.products.len()),
+            right: Vector::zeros(tail.products.len()),
+        }
+    }
+
+    /// Sets all of them.
+    #[inline(always)]
+    pub fn set(&mut self, tail: &Tail, value: impl Fn(usize) -> f64) {
+        for (form, out) in self.values.iter_mut().enumerate() {
+            *out = value(form);
+        }
+        let factors = self.left.iter_mut().zip(self.right.iter_mut());
+        for ((left, right), p) in factors.zip(&tail.products) {
+            *left = self.values[p.left as usize];
+            *right = p.half * self.values[p.right as usize];
+        }
+    }
+
+    /// The products of this and other forms in a lane of products.
+    #[inline(always)]
+    fn times(&self, other: &Self, lane: usize, mut sum: [f64; LANE]) -> [f64; LANE] {
+        let (left, right) = (&self.left.lanes()[lane], &other.right.lanes()[lane]);
+        for i in 0..LANE {
+            sum[i] = left[i].mul_add(right[i], sum[i]);
+        }
+        sum
+    }
+
+    /// The same without signs.
+    #[inline(always)]
+    fn times_abs(&self, other: &Self, lane: usize, mut sum: [f64; LANE]) -> [f64; LANE] {
+        let (left, right) = (&self.left.lanes()[lane], &other.right.lanes()[lane]);
+        for i in 0..LANE {
+            sum[i] += (left[i] * right[i]).abs();
+        }
+        sum
+    }
+}
+
+impl Deref for Forms {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.values
+    }
 }
 
 /// A form, times a factor, that is part of an entry of the Jacobian.
@@ -176,9 +241,10 @@ impl Tail {
         self.products.is_empty()
     }
 
-    /// The number of its equations, which are the last ones.
-    pub fn equations(&self) -> usize {
-        self.starts.len() - 1
+    /// The number of products of its longest equation; zero if there is none. Error bounds take it from
+    /// `roundings.rs`.
+    pub fn longest(&self) -> usize {
+        self.longest
     }
 
     /// The number of the first of its equations, as many as there are distances.
@@ -262,18 +328,27 @@ impl Tail {
         entries
     }
 
-    /// The forms of a direction; the number 1 has none.
-    pub fn directions(&self, v: &[f64], out: &mut [f64]) {
-        for (&[i, j], out) in self.ends.iter().zip(out) {
-            *out = v[i as usize] - v[j as usize];
-        }
+    /// The forms of a point, or of a direction, along which the number 1 does not change: `one` is 0 then.
+    #[inline(always)]
+    pub fn differences(&self, v: &[f64], one: f64, out: &mut Forms) {
+        out.set(self, |form| match form {
+            Self::ONE => one,
+            _ => {
+                let [i, j] = self.ends(form);
+                v[i] - v[j]
+            }
+        });
     }
 
     /// z_i + z_j in place of z_i − z_j.
-    pub fn sums(&self, z: &[f64], out: &mut [f64]) {
-        for (&[i, j], out) in self.ends.iter().zip(out) {
-            *out = z[i as usize] + z[j as usize];
-        }
+    pub fn sums(&self, z: &[f64], out: &mut Forms) {
+        out.set(self, |form| self.sum_of(form, z));
+    }
+
+    /// The same for one form; zero for the number 1.
+    pub fn sum_of(&self, form: usize, z: &[f64]) -> f64 {
+        let [i, j] = self.ends(form);
+        z[i] + z[j]
     }
 
     /// The entries of z that a form is the difference of; not for the number 1.
@@ -281,14 +356,69 @@ impl Tail {
         self.ends[form].map(|end| end as usize)
     }
 
-    /// Adds `factor · Σ half · x_left · y_right` to the equations, in the products' order.
-    #[inline]
-    pub fn add_half_products(&self, factor: f64, x: &[f64], y: &[f64], out: &mut [f64]) {
-        for p in &self.products {
-            let left = factor * p.half * x[p.left as usize];
-            let out = &mut out[p.equation as usize];
-            *out = left.mul_add(y[p.right as usize], *out);
+    /// Adds what each product has to its equation; `value` tells that of four products at a time.
+    ///
+    /// Fewer roundings than [`Equations::roundings`](super::Equations::roundings) counts: the products of an
+    /// equation are added up one after the other.
+    #[inline(always)]
+    fn add(&self, value: impl Fn(usize) -> [f64; LANE], out: &mut [f64]) {
+        for (lane, products) in self.products.chunks(LANE).enumerate() {
+            for (p, value) in products.iter().zip(value(lane)) {
+                out[p.equation as usize] += value;
+            }
         }
+    }
+
+    /// Adds `Σ half · x_left · x_right` to the equations.
+    pub fn add_squares(&self, x: &Forms, out: &mut [f64]) {
+        self.add(|lane| x.times(x, lane, [0.0; LANE]), out);
+    }
+
+    /// Adds `factor · Σ half · (x_left · y_right + y_left · x_right)`, factor being 1 or −1: J y at x.
+    pub fn add_products(&self, factor: f64, x: &Forms, y: &Forms, out: &mut [f64]) {
+        let value = |lane: usize| {
+            let sum = x.times(y, lane, [0.0; LANE]);
+            y.times(x, lane, sum).map(|sum| factor * sum)
+        };
+        self.add(value, out);
+    }
+
+    /// Adds the coefficient of sᵏ, from products of orders from `least` on, of all forms being polynomials in s.
+    pub fn add_coefficient<'a>(
+        &self,
+        k: usize,
+        least: usize,
+        order: usize,
+        forms: impl Fn(usize) -> &'a Forms,
+        out: &mut [f64],
+    ) {
+        let value = |lane: usize| {
+            let mut sum = [0.0; LANE];
+            for a in least.max(k.saturating_sub(order))..=k / 2 {
+                let (x, y) = (forms(a), forms(k - a));
+                sum = x.times(y, lane, sum);
+                if 2 * a != k {
+                    sum = y.times(x, lane, sum);
+                }
+            }
+            sum
+        };
+        self.add(value, out);
+    }
+
+    /// Adds `factor · Σ |half| |x_left| |x_right|`.
+    pub fn add_squares_abs(&self, factor: f64, x: &Forms, out: &mut [f64]) {
+        let value = |lane: usize| x.times_abs(x, lane, [0.0; LANE]).map(|sum| factor * sum);
+        self.add(value, out);
+    }
+
+    /// Adds `factor · Σ |half| (|x_left| |y_right| + |y_left| |x_right|)`.
+    pub fn add_products_abs(&self, factor: f64, x: &Forms, y: &Forms, out: &mut [f64]) {
+        let value = |lane: usize| {
+            let sum = x.times_abs(y, lane, [0.0; LANE]);
+            y.times_abs(x, lane, sum).map(|sum| factor * sum)
+        };
+        self.add(value, out);
     }
 
     /// `Σ |half| |x_left| |y_right|` of one equation, zero for distances.

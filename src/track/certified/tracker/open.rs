@@ -1,5 +1,6 @@
 //! Paths that do not come back to the sketch: both ways from it to their two ends.
 
+use super::crossing::Crossing;
 use super::{EndKind, PathEnd, Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
@@ -129,9 +130,14 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         } else if !leg.is_empty() {
             let what = leg.trim_start_matches("; ");
             (EndKind::Undefined, format!("{what}: {reason}"))
+        } else if let Some(why) = self.crossing.as_ref().and_then(Crossing::failure) {
+            let what =
+                "a degenerate (flat) figure at t = 1, beyond which the path could not be followed";
+            (EndKind::Degenerate, format!("{what}: {why}; {reason}"))
         } else if self.is_singular {
             let what = "the figure becomes degenerate, its constraints dependent on each other";
-            (EndKind::Degenerate, format!("{what}: {reason}"))
+            let reason = self.with_flexibility(format!("{what}: {reason}"));
+            (EndKind::Degenerate, reason)
         } else {
             return Err(reason);
         };
@@ -163,6 +169,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             ..options.clone()
         };
         let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &options);
+        back.crossing = Crossing::new(&self.homotopy);
         if let Some(witness) = &mut control.witness {
             witness.turn();
         }
@@ -186,6 +193,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
                 }
                 std::mem::swap(&mut self.ledger, &mut back.ledger);
                 std::mem::swap(&mut self.steps, &mut back.steps);
+                std::mem::swap(&mut self.crossing, &mut back.crossing);
                 return Status::Closed;
             }
             Err(reason) => back.path_end(reason),
@@ -194,6 +202,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         self.rejected += back.rejected;
         self.shortened += back.shortened;
         self.behind = back.ledger.found().len();
+        if let (Some(all), Some(back)) = (&mut self.crossing, &back.crossing) {
+            all.add(back);
+        }
         if let Err(reason) = self.ledger.go_on_from(back.ledger) {
             return Status::Stopped(reason);
         }

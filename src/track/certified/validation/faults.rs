@@ -83,7 +83,7 @@ impl Faults {
                     *x += spread * random.between(-1.0, 1.0);
                 }
                 let t = next.z[0][m];
-                if next.polish_at(equations, inverter, t).is_none() {
+                if next.refine_at(equations, inverter, t).is_none() {
                     *next = before;
                     return false;
                 }
@@ -318,4 +318,23 @@ fn no_fault_leads_to_a_false_claim_with_other_constraints() {
         "{injected:?}"
     );
     assert!(tally.closed > 5, "{tally:?}");
+}
+
+#[test]
+fn no_fault_leads_to_a_false_claim_with_mixed_kinds() {
+    let (mut random, mut tally) = (Random::new(19), Tally::default());
+    let mut sound = 0;
+    for round in 0..effort(60) {
+        let problem = mixed_problem(&mut random, 2 + round % 2);
+        let how = (-4.0, &[Space::Full, Space::Reduced][..]);
+        sound += usize::from(try_faults(&problem, how, 600, &mut random, &mut tally));
+    }
+    println!("{sound} {tally:?}");
+    let injected = tally.injected;
+    let others = (0..injected.len()).filter(|&kind| kind != 5);
+    assert!(
+        others.map(|kind| injected[kind]).all(|count| count > 20),
+        "{injected:?}"
+    );
+    assert!(sound > 25 && tally.closed > 30, "{tally:?}");
 }

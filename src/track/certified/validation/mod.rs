@@ -10,6 +10,9 @@ mod disguise;
 mod extended;
 mod faults;
 mod known_paths;
+#[path = "../../../../tests/common/mixed/mod.rs"]
+#[allow(dead_code, unused_imports)]
+mod mixed;
 mod precise;
 mod reduced;
 mod reruns;
@@ -29,6 +32,7 @@ use crate::problem::{Decimal, Problem};
 use crate::system::Homotopy;
 use crate::track::full::certified::KrawczykTest;
 use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
+use crate::track::{Control, Options, Space, Status, solve};
 use nalgebra::DMatrix;
 
 /// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
@@ -182,6 +186,26 @@ pub fn random_problem(
             return problem;
         }
     }
+}
+
+/// A problem in which constraints of all kinds stand in place of some distances.
+pub fn mixed_problem(random: &mut Random, dimension: usize) -> Problem {
+    loop {
+        if let Some((_, problem)) = mixed::Spec::random(dimension, &mut |n| random.below(n)) {
+            return problem;
+        }
+    }
+}
+
+/// Whether a short run round the path closes.
+pub fn closes(problem: &Problem, space: Space) -> bool {
+    let options = Options {
+        space,
+        max_steps: 600,
+        ..Options::certified()
+    };
+    let outcome = solve(problem, &options, &mut Control::default());
+    outcome.is_ok_and(|outcome| outcome.status == Status::Closed)
 }
 
 /// The homotopy in intervals, read off its own data rather than the trackers' arrays.
@@ -379,7 +403,7 @@ impl<const D: usize> Workshop<D> {
         weights[..n].fill(1.0);
         Workshop {
             inverter: equations.inverter(),
-            test: KrawczykTest::new(&equations),
+            test: KrawczykTest::new(&equations, 1),
             weights,
             equations,
             max_h,

@@ -36,7 +36,7 @@ struct Tally {
     most_keys: usize,
     points: usize,
     unresolved: usize,
-    tied: usize,
+    tightened: usize,
     untied: usize,
     located: usize,
     middle: f64,
@@ -80,7 +80,7 @@ impl<const D: usize> Proved<D> {
     /// Rows of numbers per key unknown, of a polynomial whose coefficients have one row each for
     /// many indices.
     fn polynomial(&self, rows: [&[[f64; LANE]]; 3], i: usize, s: f64) -> Vec<Interval> {
-        let width = self.tube.local.y.elimination.width;
+        let width = self.tube.local.y.elimination.reduced.width;
         let entry = |q: usize, l: usize| point(rows[q][i * width + l / LANE][l % LANE]);
         let s = point(s);
         (0..self.keys().len())
@@ -90,7 +90,7 @@ impl<const D: usize> Proved<D> {
 
     fn k(&self, i: usize, s: f64) -> Vec<Interval> {
         let y = &self.tube.local.y;
-        self.polynomial([&y.elimination.k, &y.k[0], &y.k[1]], i, s)
+        self.polynomial([&y.elimination.reduced.k, &y.k[0], &y.k[1]], i, s)
     }
 
     fn z(&self, e: usize, s: f64) -> Vec<Interval> {
@@ -460,11 +460,12 @@ fn check_tube<const D: usize>(
     let extent = |s: f64| {
         let there = middle(tube, s);
         let away: Vec<Interval> = (0..n).map(|i| point(fixed[i]) - there[i]).collect();
-        let stated = y.extent(&weights[..n], s, |i| {
+        let entry = |i: usize| {
             let away = fixed[i] - tube.local.entry_at(i, s);
             let error = evaluation_error(&tube.local, i, s);
             (away, error + 2.0 * f64::EPSILON * away.abs())
-        });
+        };
+        let stated = y.extent(&weights[..n], s, entry, entry);
         (sample.sheared(&away, s, -1.0), stated)
     };
     let (before, stated_extent) = extent(s);
@@ -491,7 +492,7 @@ fn exact_equations<const D: usize>(exact: &Exact) -> Equations<D> {
     Equations::new(exact.homotopy)
 }
 
-/// The exit's box holds the path's point, before and after it is tied; the next tube's entry.
+/// The exit's box holds the path's point, before and after it is tightened; the next tube's entry.
 fn check_link<const D: usize>(
     shop: &mut Shop<D>,
     exact: &Exact,
@@ -527,7 +528,7 @@ fn check_link<const D: usize>(
         in_ball(&z, &tight.exit);
         return;
     }
-    tally.tied += 1;
+    tally.tightened += 1;
     let (lo, hi) = tight.exit_between;
     assert!(tight.entry.1 < lo && hi <= tight.exit_at);
     let through: Vec<Interval> = (0..n).map(|i| point(tight.exit.centre[i])).collect();
@@ -610,7 +611,28 @@ fn reduced_proofs_hold_along_random_problems() {
     }
     println!("{tally:?}");
     assert!(
-        tally.tubes > 200 && tally.tied > 50 && tally.unresolved * 20 < tally.points,
+        tally.tubes > 200 && tally.tightened > 50 && tally.unresolved * 20 < tally.points,
+        "{tally:?}"
+    );
+}
+
+#[test]
+fn reduced_proofs_hold_along_problems_of_mixed_kinds() {
+    let mut tally = Tally::default();
+    let mut random = Random::new(24);
+    for round in 0..effort(40) {
+        let dimension = 2 + round % 2;
+        let homotopy = Homotopy::new(&mixed_problem(&mut random, dimension)).unwrap();
+        let alpha = [0.05, 0.1, 0.2, 0.4][random.below(4)];
+        let how = (alpha, [f64::INFINITY, 1e-2][random.below(2)]);
+        match dimension {
+            2 => check_problem::<2>(&homotopy, how, (8, 4), &mut random, &mut tally),
+            _ => check_problem::<3>(&homotopy, how, (8, 4), &mut random, &mut tally),
+        }
+    }
+    println!("{tally:?}");
+    assert!(
+        tally.tubes > 100 && tally.unresolved * 20 < tally.points,
         "{tally:?}"
     );
 }

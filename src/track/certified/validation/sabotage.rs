@@ -17,7 +17,7 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
     let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
     let chain = workshop.chain(&homotopy, 400);
     let n = exact.n;
-    let last_axis = |i: usize| i < exact.m && homotopy.gauge.place[i] % D == D - 1;
+    let last_axis = |i: usize| i < exact.m && homotopy.flips(i, D - 1);
     let stride = (chain.len() / 40).max(1);
     for k in (0..chain.len() - 1).step_by(stride) {
         let (from, next) = (&chain[k], &chain[k + 1]);
@@ -66,7 +66,7 @@ fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut 
             }
             let t = next.tube.local.z[0][n - 1];
             if local
-                .polish_at(&workshop.equations, &mut workshop.inverter, t)
+                .refine_at(&workshop.equations, &mut workshop.inverter, t)
                 .is_none()
             {
                 continue;
@@ -118,6 +118,27 @@ fn false_links_are_refused() {
     let mut tally = Tally::default();
     let mut random = Random::new(3);
     for problem in shipped() {
+        match problem.dimension {
+            2 => sabotage::<2>(&problem, &mut random, &mut tally),
+            _ => sabotage::<3>(&problem, &mut random, &mut tally),
+        }
+    }
+    println!("{tally:?}");
+    assert!(
+        tally.branches > 30 && tally.mirrored > 50 && tally.backwards > 50,
+        "too few cases: {tally:?}"
+    );
+}
+
+#[test]
+fn false_links_are_refused_with_mixed_kinds() {
+    let mut tally = Tally::default();
+    let mut random = Random::new(5);
+    for round in 0..effort(16) {
+        let problem = mixed_problem(&mut random, 2 + round % 2);
+        if !closes(&problem, Space::Full) {
+            continue;
+        }
         match problem.dimension {
             2 => sabotage::<2>(&problem, &mut random, &mut tally),
             _ => sabotage::<3>(&problem, &mut random, &mut tally),

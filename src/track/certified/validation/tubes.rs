@@ -310,3 +310,24 @@ fn proofs_hold_along_random_problems() {
         "too few cases: {tally:?}"
     );
 }
+
+/// Constraints of all kinds, each with its own auxiliary unknowns.
+#[test]
+fn proofs_hold_along_problems_of_mixed_kinds() {
+    let mut tally = Tally::default();
+    let mut random = Random::new(4);
+    for round in 0..effort(40) {
+        let dimension = 2 + round % 2;
+        let homotopy = Homotopy::new(&mixed_problem(&mut random, dimension)).unwrap();
+        let max_h = [f64::INFINITY, 1e-3][random.below(2)];
+        match dimension {
+            2 => check_problem::<2>(&homotopy, max_h, (8, 4), &mut random, &mut tally),
+            _ => check_problem::<3>(&homotopy, max_h, (8, 4), &mut random, &mut tally),
+        }
+    }
+    println!("{tally:?}");
+    assert!(
+        tally.tubes > 120 && tally.unresolved * 20 < tally.points,
+        "too few cases: {tally:?}"
+    );
+}

@@ -3,16 +3,25 @@
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
-use crate::track::certified::link::{Tube, from_middle};
+use crate::track::certified::link::{Ball, Tube, from_middle};
 use crate::track::certified::proof::Proof;
-use crate::track::full::{Equations, Local, dot};
+use crate::track::full::newton::{UNTIL, Until};
+use crate::track::full::{Equations, Local, dot, shift};
 
 /// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
 const ENOUGH: f64 = 2e-2;
-/// Steps that are more than enough where the contraction is that of a proved tube.
-pub(in crate::track) const MAX_STEPS: usize = 200;
-/// Corrections that shrink by less than this are at the limit of floats.
-pub(in crate::track) const STAGNATION: f64 = 0.98;
+
+/// Corrections with a proved tube's preconditioner, which shrink as far as precision goes.
+fn until(goal: f64) -> Until {
+    Until {
+        goal,
+        // Those that shrink by less are at the limit of floats.
+        ratio: 0.98,
+        // More than enough where the contraction is that of a proved tube.
+        steps: 200,
+        ..UNTIL
+    }
+}
 
 impl<const D: usize> KrawczykTest<D> {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
@@ -54,27 +63,27 @@ impl<const D: usize> KrawczykTest<D> {
         equations.sums(&exit.radius, &mut self.sums);
         equations.expand_lengths(exit.centre[m], &mut self.lengths);
         local.slope(s, v);
-        let mut correction = f64::INFINITY;
-        for _ in 0..MAX_STEPS {
-            equations.directions(v, &mut self.far);
-            equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
-            self.f[m] = dot(c, &v[..n]) - 1.0;
-            local.y.multiply(&self.f[..n], &mut self.v);
-            let last = correction;
-            correction = norm_of(&self.v, u, n);
-            if correction > STAGNATION * last {
-                break;
-            }
-            self.a.multiply(&self.v[..n], &mut self.f);
-            for i in 0..n {
-                v[i] -= self.v[i] - s * self.f[i];
-            }
-        }
+        let until = Until {
+            makes_last: false,
+            ..until(0.0)
+        };
+        until.correct(
+            &mut (&mut *self, &mut *v),
+            |(test, v)| {
+                test.tangent_defect(equations, v, c);
+                local.y.multiply(&test.f[..n], &mut test.v);
+                norm_of(&test.v, u, n)
+            },
+            |(test, v), _| {
+                test.a.multiply(&test.v[..n], &mut test.f);
+                for i in 0..n {
+                    v[i] -= test.v[i] - s * test.f[i];
+                }
+            },
+        );
         // The defect of the v reached, with what rounding and the exit's radius may hide of it.
-        equations.directions(v, &mut self.far);
-        equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
-        self.f[m] = dot(c, &v[..n]) - 1.0;
-        let hidden = &mut self.bounds[0];
+        self.tangent_defect(equations, v, c);
+        let hidden = &mut self.hidden;
         // The lengths are those at the upper word of t.
         let radius_of_t = round_up(exit.radius[m] + exit.low[m].abs(), 1);
         equations.jacobian_times_error(
@@ -88,7 +97,15 @@ impl<const D: usize> KrawczykTest<D> {
         self.radius_from_defect(local, proof, u, s)
     }
 
-    /// A bound on |Ỹ(s) g|_u / (1 − q) for any g within `bounds[0]` of `f`, entry by entry.
+    /// [J; c] v − e_n in floats, into `f`, J being that of the differences `near` and the lengths at hand.
+    fn tangent_defect(&mut self, equations: &Equations<D>, v: &Vector, c: &[f64]) {
+        let (m, n) = (equations.m, equations.n());
+        equations.directions(v, &mut self.far);
+        equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
+        self.f[m] = dot(c, &v[..n]) - 1.0;
+    }
+
+    /// A bound on |Ỹ(s) g|_u / (1 − q) for any g within `hidden` of `f`, entry by entry.
     pub(in crate::track) fn radius_from_defect(
         &mut self,
         local: &Local<D>,
@@ -97,7 +114,7 @@ impl<const D: usize> KrawczykTest<D> {
         s: f64,
     ) -> f64 {
         let n = u.len() - 1;
-        let hidden = &mut self.bounds[0];
+        let hidden = &mut self.hidden;
         for i in 0..n {
             // Rounding in Y f, fused sums of n products.
             hidden[i] += gamma(n + 2) * self.f[i].abs();
@@ -120,9 +137,7 @@ impl<const D: usize> KrawczykTest<D> {
         tube: &mut Tube<D>,
         accuracy: f64,
     ) -> Option<()> {
-        if self.precision.extended || tube.local.is_extended {
-            return self.enclose_extended(equations, tube, accuracy);
-        }
+        let extended = self.precision.extended || tube.local.is_extended;
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let out = &mut tube.exit;
@@ -130,45 +145,68 @@ impl<const D: usize> KrawczykTest<D> {
         out.radius[..n].fill(f64::INFINITY);
         local.at(s, &mut out.centre);
         out.low.fill(0.0);
-        let goal = accuracy * proof.r;
-        let mut step = f64::INFINITY;
-        for _ in 0..MAX_STEPS {
-            equations.differences(&out.centre, &mut self.near);
-            equations.expand_lengths(out.centre[m], &mut self.lengths);
-            equations.residual(&self.near, &self.lengths, &mut self.f);
-            local.y.multiply(&self.f[..m], &mut self.v);
-            self.a.multiply(&self.v[..n], &mut self.f);
-            // Beyond n all of these are zero.
-            let moved = self.v.lanes_mut().iter_mut().zip(self.f.lanes());
-            for ((v, f), centre) in moved.zip(out.centre.lanes_mut()) {
-                let (step, from) = (*v, *centre);
-                *v = std::array::from_fn(|i| step[i] - s * f[i]);
-                *centre = std::array::from_fn(|i| from[i] - (step[i] - s * f[i]));
-            }
-            debug_assert!(out.centre[n] == 0.0 || out.centre[n].is_nan());
-            let last = step;
-            step = norm_of(&self.v, u, n);
-            if step < goal || step > STAGNATION * last {
-                break;
-            }
-        }
+        until(accuracy * proof.r).correct(
+            &mut (&mut *self, &mut *out),
+            |(test, out)| {
+                test.residual_at(equations, out, extended, false);
+                let rows = if extended {
+                    // ẑ(s) was rounded to floats: that may have moved it out of the cross-section.
+                    test.f[m] = from_middle(local, &u[..n], s, out, |_| 0.0).0;
+                    n
+                } else {
+                    m
+                };
+                local.y.multiply(&test.f[..rows], &mut test.v);
+                test.a.multiply(&test.v[..n], &mut test.f);
+                // Beyond n all of these are zero.
+                for (v, f) in test.v.lanes_mut().iter_mut().zip(test.f.lanes()) {
+                    let step = *v;
+                    *v = std::array::from_fn(|i| step[i] - s * f[i]);
+                }
+                norm_of(&test.v, u, n)
+            },
+            |(test, out), _| {
+                if extended {
+                    let v = &test.v;
+                    return shift(&mut out.centre[..n], &mut out.low[..n], |i| -v[i]);
+                }
+                for (centre, v) in out.centre.lanes_mut().iter_mut().zip(test.v.lanes()) {
+                    let from = *centre;
+                    *centre = std::array::from_fn(|i| from[i] - v[i]);
+                }
+            },
+        );
+        debug_assert!(out.centre[n] == 0.0 || out.centre[n].is_nan());
         // The defect at the point reached, with what rounding may hide of it.
-        equations.differences(&out.centre, &mut self.near);
-        equations.expand_lengths(out.centre[m], &mut self.lengths);
-        equations.residual(&self.near, &self.lengths, &mut self.f);
-        let hidden = &mut self.bounds[0];
-        equations.residual_error(&self.near, out.centre[m], hidden);
+        self.residual_at(equations, out, extended, true);
         self.conclude(tube)
     }
 
-    /// Encloses the path's point at the exit, F at the middle of whose box, `f`, is known up to `bounds[0]`.
-    pub(in crate::track) fn conclude(&mut self, tube: &mut Tube<D>) -> Option<()> {
+    /// F at the middle of a box, into `f`, and if wanted how far the exact value may be, into `hidden`.
+    #[inline(always)]
+    fn residual_at(
+        &mut self,
+        equations: &Equations<D>,
+        at: &Ball,
+        extended: bool,
+        with_error: bool,
+    ) {
+        equations.residual_at(
+            (&at.centre, extended.then_some(&at.low[..])),
+            (&mut self.near, &mut self.lengths),
+            &mut self.f,
+            with_error.then_some(&mut self.hidden),
+        );
+    }
+
+    /// Encloses the path's point at the exit, F at the middle of whose box, `f`, is known up to `hidden`.
+    fn conclude(&mut self, tube: &mut Tube<D>) -> Option<()> {
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let n = u.len() - 1;
         let (along, error, extent) = from_middle(local, &u[..n], s, &tube.exit, |_| 0.0);
         // The last equation is that of the cross-section.
         self.f[n - 1] = along;
-        self.bounds[0][n - 1] = error;
+        self.hidden[n - 1] = error;
         let radius = self.radius_from_defect(local, proof, u, s);
         if !(extent < proof.r && radius < proof.r) {
             return None;

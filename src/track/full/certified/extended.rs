@@ -4,15 +4,13 @@
 //! Points are then sums of two floats, `high + low`. Jacobians, preconditioners, norms and all higher
 //! orders bear relative errors of 2⁻⁵³, as they multiply what is small.
 
-use super::exit::{MAX_STEPS, STAGNATION};
 use super::low_orders::LowOrders;
 use super::norms::Norms;
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
-use crate::track::certified::link::{Tube, from_middle};
 use crate::track::certified::proof::powers_of;
-use crate::track::full::{DEGREE, Equations, Local, ORDER, shift};
+use crate::track::full::{DEGREE, Equations, Local, ORDER};
 
 impl<const D: usize> KrawczykTest<D> {
     /// The bounds as they are in the precision of the point. `None`: out of range.
@@ -48,9 +46,9 @@ impl<const D: usize> KrawczykTest<D> {
         let (m, n) = (equations.m, equations.n());
         let hs: [f64; DEGREE + 1] = powers_of(h);
         let z = (&local.z[0][..], &local.low[..]);
-        let [constant, rest, ..] = &mut self.bounds;
+        let (constant, rest) = (&mut self.hidden, &mut self.rest);
         let extended = equations.in_extended();
-        extended.residual(equations, z, &mut self.coefficient, constant);
+        extended.residual(equations, z, &mut self.coefficient, Some(constant));
         for (constant, f) in constant[..m].iter_mut().zip(self.coefficient.iter()) {
             *constant += f.abs();
         }
@@ -58,7 +56,7 @@ impl<const D: usize> KrawczykTest<D> {
         let t_of = |k: usize| local.z[k][m].abs() * hs[k];
         let t = (0..=ORDER).map(t_of).sum();
         let t_rate: f64 = (1..=ORDER).map(|k| k as f64 * t_of(k)).sum();
-        let per_term = gamma(equations.roundings(200) + 6 * equations.tail.longest);
+        let per_term = gamma(equations.roundings_of_coefficient(200, ORDER + 1));
         for (e, rest) in rest[..m].iter_mut().enumerate() {
             // Of Σ_k f_k sᵏ in absolute values throughout, Σ_k k f_k sᵏ is the derivative times s; that of
             // ½ (Σ |d_k| sᵏ)² for the differences, of E(Σ |t_k| sᵏ) for the lengths.
@@ -87,53 +85,14 @@ impl<const D: usize> KrawczykTest<D> {
                 *rest += share * k as f64 * c.abs() * hs[k];
             }
         }
-        let [constant, rest, ..] = &self.bounds;
+        let roundings = equations.roundings_of_bound(n + 200);
         let mut bound = |g: &Vector| {
             local.y.multiply_abs(&g[..m], &mut self.v);
-            round_up(norm_of(&self.v, &self.u, n), n + 200)
+            round_up(norm_of(&self.v, &self.u, n), roundings)
         };
         LowOrders::Split {
-            constant: bound(constant),
-            rest: bound(rest),
+            constant: bound(&self.hidden),
+            rest: bound(&self.rest),
         }
-    }
-
-    /// [`KrawczykTest::enclose`] in extended precision, of the point and of the residual there.
-    pub(in crate::track) fn enclose_extended(
-        &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tube<D>,
-        accuracy: f64,
-    ) -> Option<()> {
-        let (m, n) = (equations.m, equations.n());
-        let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
-        let extended = equations.in_extended();
-        let out = &mut tube.exit;
-        // It could be anywhere until it is proved.
-        out.radius[..n].fill(f64::INFINITY);
-        local.at(s, &mut out.centre);
-        out.low.fill(0.0);
-        let goal = accuracy * proof.r;
-        let mut step = f64::INFINITY;
-        for _ in 0..MAX_STEPS {
-            let z = (&out.centre[..], &out.low[..]);
-            extended.residual(equations, z, &mut self.f, &mut self.bounds[0]);
-            // ẑ(s) was rounded to floats: that may have moved it out of the cross-section.
-            self.f[m] = from_middle(local, &u[..n], s, out, |_| 0.0).0;
-            local.y.multiply(&self.f[..n], &mut self.v);
-            self.a.multiply(&self.v[..n], &mut self.f);
-            let (v, f) = (&mut self.v, &self.f);
-            (0..n).for_each(|i| v[i] -= s * f[i]);
-            shift(&mut out.centre[..n], &mut out.low[..n], |i| -v[i]);
-            let last = step;
-            step = norm_of(&self.v, u, n);
-            if step < goal || step > STAGNATION * last {
-                break;
-            }
-        }
-        // The defect at the point reached, with what rounding may hide of it.
-        let z = (&out.centre[..], &out.low[..]);
-        extended.residual(equations, z, &mut self.f, &mut self.bounds[0]);
-        self.conclude(tube)
     }
 }

@@ -16,18 +16,19 @@
 //! exactly one zero of G_s in the box, at most η/(1 − q) from its centre, and [J; c] is regular
 //! on the whole tube (Krawczyk 1969; Rump, Acta Numerica 2010, section 13).
 
+use super::bounds::Bounds;
 use super::low_orders::LowOrders;
 use super::norms::Norms;
 use super::precision::Precision;
 use crate::interval::rounding::{gamma, in_range, largest, round_up};
-use crate::linalg::{LANE, Matrix, Vector};
+use crate::linalg::{LANE, Matrix, Vector, Workers};
 use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
 use crate::track::certified::proof::{Proof, powers_of};
 use crate::track::certified::shortfall::{MAX_CONTRACTION, Shortfall};
 use crate::track::certified::tracker::Test;
 use crate::track::full::{
-    DEGREE, Differences, Equations, InverseMaker, Lengths, Local, MAX_DEGREE, ORDER, RefineError,
+    Differences, Equations, Forms, InverseMaker, Lengths, Local, ORDER, RefineError,
 };
 use crate::track::{Driving, Options, Space};
 
@@ -47,11 +48,16 @@ pub struct KrawczykTest<const D: usize> {
     j1: Vec<f64>,
     j2: Vec<f64>,
     j0: Vec<f64>,
-    pub(in crate::track) bounds: [Vector; 5],
+    pub(super) bounds: Bounds,
+    /// How far F at a point may be from what was computed, and in extended precision what is of orders ≥ 1.
+    pub(super) hidden: Vector,
+    pub(super) rest: Vector,
     /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
     pub(in crate::track) near: Differences<D>,
     pub(in crate::track) far: Differences<D>,
     pub(in crate::track) sums: Differences<D>,
+    /// For the tail: Σ |d_k| sᵏ for all k.
+    pub(super) tail_sizes: Forms,
     pub(in crate::track) coefficient: Vector,
     pub(in crate::track) lengths: Lengths,
     pub(in crate::track) v: Vector,
@@ -62,6 +68,7 @@ pub struct KrawczykTest<const D: usize> {
     next_weights: Vector,
     kept_weights: Vector,
     maker: InverseMaker,
+    workers: Workers,
     /// |I − Y [J₀; c]|_u in the last proof that was tried.
     staleness: f64,
     /// Whether points and F at them are taken in extended precision, and what the last proof rested on.
@@ -69,8 +76,8 @@ pub struct KrawczykTest<const D: usize> {
 }
 
 impl<const D: usize> KrawczykTest<D> {
-    /// Room for the tubes of a problem.
-    pub fn new(equations: &Equations<D>) -> Self {
+    /// Room for the tubes of a problem. Large ones are proved on so many threads.
+    pub fn new(equations: &Equations<D>, threads: usize) -> Self {
         let n = equations.n();
         let entries = equations.pattern().entries();
         let mut ones = equations.vector();
@@ -81,10 +88,13 @@ impl<const D: usize> KrawczykTest<D> {
             j1: vec![0.0; entries],
             j2: vec![0.0; entries],
             j0: vec![0.0; equations.bordered_pattern().entries()],
-            bounds: std::array::from_fn(|_| equations.vector()),
+            bounds: Bounds::new(equations),
+            hidden: equations.vector(),
+            rest: equations.vector(),
             near: equations.room(),
             far: equations.room(),
             sums: equations.room(),
+            tail_sizes: Forms::new(&equations.tail),
             coefficient: equations.per_edge(),
             lengths: Lengths::new(equations),
             v: equations.vector(),
@@ -94,6 +104,7 @@ impl<const D: usize> KrawczykTest<D> {
             next_weights: ones.clone(),
             kept_weights: ones,
             maker: equations.inverter(),
+            workers: Workers::new(n, threads),
             staleness: 0.0,
             precision: Precision::default(),
         }
@@ -147,7 +158,7 @@ impl<const D: usize> KrawczykTest<D> {
         self.u.copy_from_slice(weights);
         // Differences, sums over a column, and the powers of t(s): fewer roundings than this. An entry of the
         // tail's is a sum of at most twice as many terms as there are products.
-        let per_entry = gamma(m + 120 + 2 * equations.tail.longest);
+        let per_entry = gamma(equations.roundings_of_entry(m + 120));
         let [a, a2, square, r0] = self.products(equations, local);
         self.staleness = r0;
         let a = round_up(a, n + 2);
@@ -162,17 +173,21 @@ impl<const D: usize> KrawczykTest<D> {
 
         let u = &self.u;
         let y = &local.y;
+        let roundings = equations.roundings_of_bound(n + 200);
         let mut bound = |g: &Vector, len: usize| {
             y.multiply_abs(&g[..len], &mut self.v);
-            round_up(norm_of(&self.v, u, n), n + 200)
+            round_up(norm_of(&self.v, u, n), roundings)
         };
-        let [rounding, higher, width, low, high] = &self.bounds;
+        let of = &self.bounds;
         // The ones of I pass through as many sums as the products that they are added to.
-        let r0 = round_up(round_up(r0, n + 4) + bound(rounding, n) + gamma(m + 4), 3);
-        let higher = bound(higher, m);
-        let width = bound(width, m);
-        let low = bound(low, m);
-        let high = bound(high, m);
+        let r0 = round_up(
+            round_up(r0, n + 4) + bound(&of.rounding, n) + gamma(m + 4),
+            3,
+        );
+        let higher = bound(&of.higher, m);
+        let width = bound(&of.width, m);
+        let low = bound(&of.low, m);
+        let high = bound(&of.high, m);
         // The leading term keeps its signs: Y first, absolute values after. Its rounding is in `low`.
         y.multiply(&self.f[..m], &mut self.v);
         let middle = round_up(norm_of(&self.v, u, n) * hs[ORDER + 1], n + 20);
@@ -203,181 +218,6 @@ impl<const D: usize> KrawczykTest<D> {
             radius: self.radius,
         };
         norms.is_in_range().then_some(norms)
-    }
-
-    /// Bounds per equation, into `bounds`: the rounding of J's products; the Jacobian's terms of
-    /// order ≥ 3 in s; its change over the width; F's orders ≤ ORDER with all of its rounding;
-    /// and > ORDER + 1. Order ORDER + 1, with its sign, into `f`.
-    fn bound_equations(
-        &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
-        hs: &[f64; DEGREE + 1],
-        per_entry: f64,
-    ) {
-        let (m, n) = (equations.m, equations.n());
-        let u = &self.u;
-        equations.sums(u, &mut self.sums);
-        for axis in 0..D {
-            let d = std::array::from_fn::<_, { ORDER + 1 }, _>(|k| local.d[k][axis].lanes());
-            let (near, far) = (self.near[axis].lanes_mut(), self.far[axis].lanes_mut());
-            for l in 0..near.len() {
-                for i in 0..LANE {
-                    let size = |k: usize| d[k][l][i].abs();
-                    near[l][i] = size(0) + (size(1) * hs[1] + size(2) * hs[2]);
-                    far[l][i] = (3..=ORDER).fold(0.0, |sum: f64, k| size(k).mul_add(hs[k], sum));
-                }
-            }
-        }
-        // What t can be along the tube, and its higher terms.
-        let ut = u[m];
-        let reach: f64 = (1..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
-        let t = local.z[0][m].abs() + reach;
-        let t_higher: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
-        let of_right = gamma(coefficient_roundings(equations));
-        let [rounding, higher, width, low, _] = &mut self.bounds;
-        let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
-        let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
-        for l in 0..e0.len() {
-            let (mut j_near, mut j_far) = ([0.0; LANE], [0.0; LANE]);
-            let (mut j_width, mut size) = ([0.0; LANE], [0.0; LANE]);
-            for axis in 0..D {
-                let of = |vectors: &Differences<D>| vectors[axis].lanes()[l];
-                let (sum, near, far) = (of(&self.sums), of(&self.near), of(&self.far));
-                for i in 0..LANE {
-                    j_near[i] += near[i] * sum[i];
-                    j_far[i] += far[i] * sum[i];
-                    j_width[i] += sum[i] * sum[i];
-                    size[i] += (near[i] + far[i]) * (near[i] + far[i]);
-                }
-            }
-            let [e0, e1, e2] = [e0[l], e1[l], e2[l]].map(|e| e.map(f64::abs));
-            let (r0, r1, r2) = (r0[l], r1[l], r2[l]);
-            rounding.lanes_mut()[l] = std::array::from_fn(|i| {
-                let slope_size = e1[i] + 2.0 * t * e2[i];
-                let slope_radius = r1[i] + 2.0 * t * r2[i];
-                per_entry * (j_near[i] + slope_size * ut) + slope_radius * ut
-            });
-            higher.lanes_mut()[l] = std::array::from_fn(|i| j_far[i] + 2.0 * e2[i] * t_higher * ut);
-            width.lanes_mut()[l] =
-                std::array::from_fn(|i| j_width[i] + 2.0 * (e2[i] + r2[i]) * (ut * ut));
-            low.lanes_mut()[l] = std::array::from_fn(|i| {
-                let length_size = e0[i] + t * (e1[i] + t * e2[i]);
-                let length_radius = r0[i] + t * (r1[i] + t * r2[i]);
-                of_right * (size[i] + length_size) + length_radius
-            });
-        }
-        for b in 0..equations.bends.len() {
-            self.bound_bend(b, local, equations, (t, ut), hs, per_entry);
-        }
-        if !equations.tail.is_empty() {
-            self.bound_tail(equations, local, hs, per_entry);
-        }
-
-        // The coefficients of F along the tube.
-        let [_, _, _, low, high] = &mut self.bounds;
-        high.fill(0.0);
-        for k in 0..=2 * ORDER {
-            if k == ORDER + 1 {
-                local.coefficient(equations, k, 0, &mut self.f);
-                continue;
-            }
-            local.coefficient(equations, k, 0, &mut self.coefficient);
-            // With k/(ORDER + 2) ≥ 1 above, so that it bounds the derivative by s too, see `proof`.
-            let (sum, factor) = if k <= ORDER {
-                (&mut *low, hs[k])
-            } else {
-                (&mut *high, hs[k] * (k as f64 / (ORDER + 2) as f64))
-            };
-            for (sum, c) in sum.lanes_mut().iter_mut().zip(self.coefficient.lanes()) {
-                for i in 0..LANE {
-                    sum[i] = c[i].abs().mul_add(factor, sum[i]);
-                }
-            }
-        }
-        for (b, bend) in equations.bends.iter().enumerate() {
-            let beyond = 2 * ORDER + 1..=DEGREE;
-            high[bend.edge] += beyond
-                .map(|k| {
-                    local.bend_excess(equations, b, k).abs()
-                        * hs[k]
-                        * (k as f64 / (ORDER + 2) as f64)
-                })
-                .sum::<f64>();
-        }
-        // Rounding in Y f_{ORDER + 1}, a fused sum of m products; relative to its terms.
-        for (low, f) in low[..m].iter_mut().zip(self.f.iter()) {
-            *low += gamma(n + 2) * f.abs() * hs[ORDER + 1];
-        }
-        let rounding = &mut self.bounds[0];
-        let normal: f64 = local.normal[..n]
-            .iter()
-            .zip(&self.u[..n])
-            .map(|(c, u)| c.abs() * u)
-            .sum();
-        rounding[m] = per_entry * normal;
-    }
-
-    /// Adds to the bounds what the tail's products bring: as for distances, whose two factors are alike.
-    fn bound_tail(
-        &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
-        hs: &[f64; DEGREE + 1],
-        per_entry: f64,
-    ) {
-        let tail = &equations.tail;
-        let per_term = gamma(coefficient_roundings(equations));
-        let [rounding, higher, width, low, _] = &mut self.bounds;
-        let (near, far) = (&mut self.near.forms, &mut self.far.forms);
-        for form in 0..tail.forms() {
-            let size = |k: usize| local.d[k].forms[form].abs() * hs[k];
-            near[form] = size(0) + size(1) + size(2);
-            far[form] = (3..=ORDER).map(size).sum();
-        }
-        let sums = &self.sums.forms;
-        // |J_k| u and |J'(w)| u: either factor changes while the other is there.
-        for e in equations.m - tail.equations()..equations.m {
-            let both = |x, y| tail.half_products_abs(e, x, y) + tail.half_products_abs(e, y, x);
-            rounding[e] += per_entry * both(near, sums);
-            higher[e] += both(far, sums);
-            width[e] += both(sums, sums);
-        }
-        for (near, far) in near.iter_mut().zip(far.iter()) {
-            *near += far;
-        }
-        for e in equations.m - tail.equations()..equations.m {
-            low[e] += per_term * (2.0 * tail.half_products_abs(e, near, near));
-        }
-    }
-
-    /// Adds to the bounds of an equation of degree 4 in t what its terms of degree > 2 in t bring.
-    fn bound_bend(
-        &mut self,
-        b: usize,
-        local: &Local<D>,
-        equations: &Equations<D>,
-        (t, ut): (f64, f64),
-        hs: &[f64; DEGREE + 1],
-        per_entry: f64,
-    ) {
-        let [rounding, higher, width, low, _] = &mut self.bounds;
-        let bend = &equations.bends[b];
-        let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
-        let cube = t * t * t;
-        let of_right = gamma(coefficient_roundings(equations));
-        low[at] += of_right * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
-        let slope_size = t * t * (3.0 * e[3] + 4.0 * t * e[4]);
-        let slope_radius = t * t * (3.0 * r[3] + 4.0 * t * r[4]);
-        rounding[at] += per_entry * slope_size * ut + slope_radius * ut;
-        // The width may add its share to t: |w_t| ≤ r u_t ≤ 1, as `proof` takes care.
-        let wide = t + 1.0;
-        width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
-        // All of the bend's terms, though the ones of e₂ are counted already.
-        let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER)
-            .map(|k| local.bend_slope(b, k).abs() * hs[k])
-            .sum();
-        higher[at] += terms * ut;
     }
 
     /// Makes A ≈ Y J₁.
@@ -422,17 +262,11 @@ impl<const D: usize> KrawczykTest<D> {
         self.a.square_minus_sparse_abs(
             (y, pattern, &self.j2),
             &u[..n],
-            &mut self.square_u,
-            &mut self.v,
+            (&mut self.square_u, &mut self.v),
+            &mut self.workers,
         );
         [a, norm_of(&self.v, u, n), norm_of(&self.square_u, u, n), r0]
     }
-}
-
-/// More roundings than any term of a coefficient of F along ẑ goes through, right-hand sides included: it is a
-/// sum of at most six products of orders for each product of the equation.
-fn coefficient_roundings<const D: usize>(equations: &Equations<D>) -> usize {
-    equations.roundings(200) + (ORDER + 1) * equations.tail.longest
 }
 
 /// |v|_u: one division per entry, to be covered by the caller's `round_up`.
@@ -470,7 +304,7 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
     fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
         KrawczykTest {
             radius: options.radius(homotopy.unit),
-            ..KrawczykTest::new(equations)
+            ..KrawczykTest::new(equations, options.threads)
         }
     }
 

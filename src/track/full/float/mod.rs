@@ -1,5 +1,6 @@
 //! Plain floating-point tracking in the full space: fast, and an observation, not a proof.
 
+mod crossing;
 mod paper;
 mod record;
 mod tracker;

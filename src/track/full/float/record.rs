@@ -1,5 +1,6 @@
 //! What a float run in the full space has seen so far.
 
+use crate::interval::point;
 use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner};
@@ -15,6 +16,8 @@ const SAME_LENGTH: f64 = 1e-9;
 #[derive(Debug)]
 pub struct Record<const D: usize, Y = Matrix> {
     found: Vec<Vector>,
+    /// Those of them that are flat figures at which the equations are dependent.
+    flat: Vec<Vector>,
     corrector: Local<D, { ORDER + 1 }, Y>,
     /// Accepted and rejected steps.
     pub steps: usize,
@@ -31,6 +34,7 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
     pub fn new(equations: &Equations<D>) -> Self {
         Record {
             found: Vec::new(),
+            flat: Vec::new(),
             corrector: Local::new(equations),
             steps: 0,
             rejected: 0,
@@ -52,18 +56,31 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
         inverter: &mut Y::Maker,
         guess: &[f64],
     ) -> Option<()> {
-        let m = equations.m;
         let local = &mut self.corrector;
         local.z[0].copy_from_slice(guess);
-        local.polish_at(equations, inverter, 1.0)?;
-        let x = &local.z[0];
+        local.refine_at(equations, inverter, 1.0)?;
+        let x = local.z[0].clone();
+        self.keep(x, equations.m);
+        Some(())
+    }
+
+    /// Keeps a flat figure at which the equations are dependent, if it is new.
+    pub fn flat(&mut self, x: Vector, m: usize) {
+        if self.keep(x.clone(), m) {
+            self.flat.push(x);
+        }
+    }
+
+    /// Tells whether it is new.
+    fn keep(&mut self, x: Vector, m: usize) -> bool {
         let size = x[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         let is_same =
             |known: &Vector| (0..m).all(|i| (known[i] - x[i]).abs() <= SAME_FIGURE * size);
-        if !self.found.iter().any(is_same) {
-            self.found.push(x.clone());
+        let is_new = !self.found.iter().any(is_same);
+        if is_new {
+            self.found.push(x);
         }
-        Some(())
+        is_new
     }
 
     /// Takes note of a t that was met.
@@ -92,6 +109,9 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
             })
             .collect();
         let mut solutions = observed_solutions(figures, SAME_LENGTH);
+        for (solution, x) in solutions.iter_mut().zip(&self.found) {
+            solution.objects = homotopy.locate(&solution.points, |i| point(x[i]));
+        }
         if !homotopy.tail.is_empty() {
             let classes = classes(homotopy, &self.found);
             for (solution, &class) in solutions.iter_mut().zip(&classes) {
@@ -99,6 +119,10 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
                 // Points can be mirrored where lines between them are not.
                 let same = |&other: &usize| classes[other] == class;
                 solution.mirror_of = solution.mirror_of.filter(same);
+            }
+            let is_flat = |x: &Vector| self.flat.iter().any(|flat| flat[..] == x[..]);
+            for (solution, x) in solutions.iter_mut().zip(&self.found) {
+                solution.is_degenerate = is_flat(x);
             }
         }
         Outcome {

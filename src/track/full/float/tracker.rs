@@ -1,11 +1,12 @@
 //! Predictor and corrector with steps chosen from the corrector's contraction.
 
 use super::Record;
+use super::crossing::Crossing as FlatCrossing;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{
-    Equations, Local, Meeting, ORDER, Preconditioner, dot, first_normal, path_length,
+    CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
 };
 use crate::track::{Control, Options, Outcome, Progress, Status};
 use std::time::Instant;
@@ -84,6 +85,7 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
     let longest = options.step_in(homotopy.unit).unwrap_or(f64::INFINITY);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations, tolerance);
+    let mut crossing = FlatCrossing::new(homotopy);
     let mut step = FIRST_STEP.min(longest);
     let mut failure = "";
     loop {
@@ -139,6 +141,20 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             None => previous = Some(now.z[0].clone()),
         }
         std::mem::swap(&mut now, &mut next);
+        let crossed = crossing.as_mut().and_then(|crossing| {
+            let system = (equations, &mut *inverter);
+            crossing.cross(homotopy, system, &now, &mut next, tolerance)
+        });
+        if let Some(crossed) = crossed {
+            record.flat(crossed.flat, m);
+            record.steps += 1;
+            record.meet(next.z[0][m]);
+            let scratch = &mut events.scratch;
+            record.length += path_length(&now, 0.0, crossed.advance, homotopy.unit, scratch);
+            previous = None;
+            step = crossed.advance.min(longest);
+            std::mem::swap(&mut now, &mut next);
+        }
         if record.steps >= options.max_steps {
             return Err(format!(
                 "the limit of {} steps was reached {}",
@@ -165,7 +181,7 @@ type Path<const D: usize, Y> = Local<D, { ORDER + 1 }, Y>;
 struct Events<const D: usize> {
     tolerance: f64,
     crossings: Vec<Crossing>,
-    meeting: Meeting<D>,
+    room: CrossingRoom<D>,
     scratch: Vector,
     other: Vector,
 }
@@ -175,7 +191,7 @@ impl<const D: usize> Events<D> {
         Events {
             tolerance,
             crossings: Vec::new(),
-            meeting: Meeting::new(equations),
+            room: CrossingRoom::new(equations),
             scratch: equations.vector(),
             other: equations.vector(),
         }
@@ -215,9 +231,9 @@ impl<const D: usize> Events<D> {
                 .map_err(|_| UNDECIDED)?;
             for k in 0..self.crossings.len() {
                 let (a, b) = self.crossings[k].between;
-                let (at, meeting) = (0.5 * (a + b), &mut self.meeting);
+                let (at, room) = (0.5 * (a + b), &mut self.room);
                 local
-                    .meet(equations, at, 1.0, meeting, &mut self.scratch)
+                    .crossing(equations, at, 1.0, room, &mut self.scratch)
                     .and_then(|()| record.solution(equations, inverter, &self.scratch))
                     .ok_or(UNDECIDED)?;
             }

@@ -5,10 +5,10 @@ use super::series::SIGNED;
 use super::tail::TailSizes;
 use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
+use crate::linalg::rstructure::rows::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};
-use crate::track::reduced::structure::passes::Lane;
 
 /// More roundings than any term of a distance's coefficient of F along ẑ goes through: the differences and
 /// their sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
@@ -19,8 +19,10 @@ const POINT: usize = 20;
 /// The same for all equations, COEFFICIENT and POINT: each product of an equation is a sum over a and b, of
 /// COEFFICIENTS terms at most, and one at z₀.
 fn roundings<const D: usize>(equations: &Equations<D>) -> (usize, usize) {
-    let longest = equations.tail.longest;
-    (COEFFICIENT + (COEFFICIENTS + 1) * longest, POINT + longest)
+    (
+        equations.roundings_of_coefficient(COEFFICIENT, COEFFICIENTS + 1),
+        equations.roundings_of_derivative(POINT),
+    )
 }
 
 /// Sizes over a tube of a length that was chosen last.

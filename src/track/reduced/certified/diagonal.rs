@@ -3,8 +3,9 @@
 use crate::interval::rounding::round_up;
 use crate::track::reduced::structure::passes::by_adjugate;
 
-/// How much more: far above rounding where R is not larger than this.
+/// R is made larger by this factor than I + B R asks for: far above rounding where R is at most [`LARGEST`].
 const MORE: f64 = 1e-9;
+/// A larger R is of no use.
 const LARGEST: f64 = 1e4;
 
 /// R ≥ (I − B)⁻¹ for B ≥ 0 of the given size: R ≥ I + B R, verified. `None`: there is none, or it

@@ -4,15 +4,16 @@ use super::frame::{Reduction, Tubes};
 use super::sides::Sides;
 use super::test::ReducedTest;
 use crate::interval::rounding::{largest, round_up};
-use crate::track::certified::link::from_middle;
+use crate::track::certified::link::{Ball, from_middle};
 use crate::track::certified::tracker::Test;
 use crate::track::full::Equations;
+use crate::track::full::newton::{End, UNTIL, Until};
 
 /// Newton's method needs two or three.
 const MAX_STEPS: usize = 8;
 /// Corrections that shrink by less than this are at the limit of floats.
 const STAGNATION: f64 = 0.5;
-/// Nor is there more to be had after one so much smaller than the box.
+/// A correction so much smaller than the box is the last: more accuracy is of no use.
 const NEGLIGIBLE: f64 = 1e-7;
 /// How far before a tube's exit its path is looked at more closely, in half lengths, and how short
 /// the tube is with which that is done.
@@ -31,35 +32,40 @@ impl<const D: usize> ReducedTest<D> {
         // It could be anywhere until it is proved.
         out.radius[..n].fill(f64::INFINITY);
         local.at(s, &mut out.centre);
-        let mut last = f64::INFINITY;
         let layout = &local.y.elimination.layout;
-        for step in 0..MAX_STEPS {
-            equations.differences(&out.centre, &mut self.d);
-            equations.expand_lengths(out.centre[m], &mut self.lengths);
-            equations.residual(&self.d, &self.lengths, &mut self.f);
+        let until = Until {
+            goal: NEGLIGIBLE * tube.proof.r,
+            ratio: STAGNATION,
+            steps: MAX_STEPS,
+            ..UNTIL
+        };
+        let mut is_made = false;
+        let find = |(test, out): &mut (&mut Self, &mut Ball)| {
+            test.residual_at(equations, out, false);
             // The steps stay in the cross-section.
-            self.f[m] = 0.0;
-            if step == 0 {
-                let at = (&self.d, &self.lengths, &local.normal);
-                self.there.make_like(layout, equations, at).ok()?;
+            test.f[m] = 0.0;
+            if !is_made {
+                is_made = true;
+                let at = (&test.d, &test.lengths, &local.normal);
+                if test.there.make_like(layout, equations, at).is_err() {
+                    return f64::NAN;
+                }
             }
-            self.there.solve(equations, &self.f[..n], &mut self.step);
+            test.there.solve(equations, &test.f[..n], &mut test.step);
             let mut size = 0.0f64;
-            for (i, (x, step)) in out.centre[..n].iter_mut().zip(self.step.iter()).enumerate() {
+            for (i, (x, step)) in out.centre[..n].iter_mut().zip(test.step.iter()).enumerate() {
                 *x -= step;
                 let ratio = step.abs() / tube.weights[i];
                 size = largest(size, ratio);
             }
-            if size.is_nan() || size > STAGNATION * last || size <= NEGLIGIBLE * tube.proof.r {
-                break;
-            }
-            last = size;
+            size
+        };
+        let seen = until.correct(&mut (&mut *self, &mut *out), find, |_, _| {});
+        if seen.end == End::Away {
+            return None;
         }
         // The defect at the point reached, with what rounding may hide of it.
-        equations.differences(&out.centre, &mut self.d);
-        equations.expand_lengths(out.centre[m], &mut self.lengths);
-        equations.residual(&self.d, &self.lengths, &mut self.f);
-        equations.residual_error(&self.d, out.centre[m], &mut self.hidden);
+        self.residual_at(equations, out, true);
         let (along, error, extent) = from_middle(local, &tube.weights[..n], s, out, |_| 0.0);
         (self.f[m], self.hidden[m]) = (along, error);
         let radius = self.radius_from_defect(equations, &local.y, tube.proof.q)?;
@@ -73,60 +79,73 @@ impl<const D: usize> ReducedTest<D> {
         Some(())
     }
 
+    /// F at the middle of a box, into `f`, and if wanted how far the exact value may be, into `hidden`.
+    fn residual_at(&mut self, equations: &Equations<D>, at: &Ball, with_error: bool) {
+        equations.residual_at(
+            (&at.centre, None),
+            (&mut self.d, &mut self.lengths),
+            &mut self.f,
+            with_error.then_some(&mut self.hidden),
+        );
+    }
+
     /// Encloses the path's point and tangent a little before the exit of a tube proved earlier, much
     /// more tightly: by a very short tube of its own there, in whose box the bound on A(s)⁻¹ is that at
     /// a point. Its zero is the path's if it is in the long tube's box.
-    pub(super) fn tie(
+    pub(super) fn enclose_by_short_tube(
         &mut self,
         equations: &Equations<D>,
         tube: &mut Tubes<D>,
-        knot: &mut Tubes<D>,
+        short: &mut Tubes<D>,
     ) -> Option<()> {
         let at = tube.exit_at - BEFORE * tube.proof.h;
-        tube.local.at(at, &mut knot.local.z[0]);
-        knot.local.normal.copy_from_slice(&tube.local.normal);
-        self.refine(equations, &mut knot.local, POINT_TOLERANCE)
-            .and_then(|()| self.expand(equations, &mut knot.local))
+        tube.local.at(at, &mut short.local.z[0]);
+        short.local.normal.copy_from_slice(&tube.local.normal);
+        self.refine(equations, &mut short.local, POINT_TOLERANCE)
+            .and_then(|()| self.expand(equations, &mut short.local))
             .ok()?;
-        self.tie_to(equations, tube, knot)
+        self.enclose_by(equations, tube, short)
     }
 
     /// The same with what is known of the path a little before the exit given: any numbers will do.
-    pub(in crate::track) fn tie_to(
+    pub(in crate::track) fn enclose_by(
         &mut self,
         equations: &Equations<D>,
         tube: &mut Tubes<D>,
-        knot: &mut Tubes<D>,
+        short: &mut Tubes<D>,
     ) -> Option<()> {
         let (n, last) = (equations.n(), tube.exit_at);
-        if !self.prove(equations, knot, SHORT * tube.proof.h) {
+        if !self.prove(equations, short, SHORT * tube.proof.h) {
             return None;
         }
         // |v| ≤ |Φ(0)| + |Φ'| |v|, row by row, with |Φ'|_ρ as it is within the distance that was proved.
-        let (bounds, distance) = (&self.last, knot.proof.distance);
+        let (bounds, distance) = (&self.last, short.proof.distance);
         let share = bounds.constant + bounds.cubic + bounds.width * distance;
-        let rho = &knot.local.y.rho;
+        let rho = &short.local.y.rho;
         for (i, defect) in self.defect[..n].iter_mut().enumerate() {
             *defect = round_up(*defect + share * distance * rho[i], 8);
         }
-        let exit = &mut knot.exit;
-        exit.centre.copy_from_slice(&knot.local.z[0]);
-        knot.local.y.take_along(&self.defect, &mut exit.radius);
+        let exit = &mut short.exit;
+        exit.centre.copy_from_slice(&short.local.z[0]);
+        short
+            .local
+            .y
+            .bound_unsheared(&self.defect, &mut exit.radius);
         let slope_radius = (0..n).fold(0.0, |max, i| {
-            let ratio = knot.proof.slope_distance * knot.weights[i] / tube.weights[i];
+            let ratio = short.proof.slope_distance * short.weights[i] / tube.weights[i];
             largest(max, ratio)
         });
         // Both are followed in the direction of the normal that they have in common.
-        knot.least_advance()?;
+        short.least_advance()?;
         // What lies between this point and the tube's exit is travelled twice, and nothing is left
         // out; what lies before the entry is not gone back to.
         let between = tube
-            .locate(&knot.exit)
+            .locate(&short.exit)
             .filter(|between| tube.entry.1 < between.0 && between.1 <= last)?;
-        tube.exit.centre.copy_from_slice(&knot.exit.centre);
-        tube.exit.radius.copy_from_slice(&knot.exit.radius);
+        tube.exit.centre.copy_from_slice(&short.exit.centre);
+        tube.exit.radius.copy_from_slice(&short.exit.radius);
         tube.exit_between = between;
-        tube.exit_slope.copy_from_slice(&knot.local.z[1]);
+        tube.exit_slope.copy_from_slice(&short.local.z[1]);
         tube.exit_slope_radius = round_up(slope_radius, 4);
         tube.exit_is_tight = true;
         Some(())

@@ -6,8 +6,8 @@ use super::along::Along;
 use super::frame::{Reduction, SERIES};
 use super::series::{SIGNED, Series, add_product};
 use crate::linalg::LANE;
+use crate::linalg::rstructure::rows::{Row, add};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::passes::{Row, add};
 
 /// The two parts of a bound by key unknown.
 pub type Parts<const W: usize> = [Row<W>; 2];

@@ -1,4 +1,13 @@
-//! Tubes proved through the R-structure of a construction plan: see `test.rs` for the theorem.
+//! Tubes proved through the R-structure of a construction plan. `test` has the theorem.
+//!
+//! What a tube keeps: `frame` (the box, in coordinates in which the key unknowns stand apart), `shape` (how large
+//! that box is for each unknown), `series` (the eliminating transformation K(s) and the preconditioner Z(s)).
+//!
+//! How it is proved: `along` says how large everything is along the tube's polynomial (`tail`: the same for equations
+//! that are no distances), `resolvent` bounds |A(s)⁻¹| (`diagonal`: of one of its blocks), `sides` what that and the
+//! preconditioner make of right-hand sides, `left_over` what the key unknowns' rows leave over; `rounds` puts the
+//! bounds together, `bounds` finds the longest tube that they prove, `speed` how fast points move through the box.
+//! `exit` encloses the point where the path leaves a tube.
 
 mod along;
 mod bounds;

@@ -14,10 +14,11 @@
 
 use super::diagonal::bound_on_inverse;
 use crate::interval::rounding::round_up;
+use crate::linalg::rstructure::rows::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, Layout};
-use crate::track::reduced::structure::passes::{Inverse, Lane};
+use crate::track::reduced::structure::passes::Inverse;
 
 /// See above.
 #[derive(Debug, Clone)]
@@ -277,7 +278,7 @@ impl<const D: usize> Resolvent<D> {
         self.x.resize(at, [0.0; LANE]);
         self.n.resize(at, [0.0; LANE]);
         // A row of the tail has more entries than that of a distance.
-        let largest = layout.order + D + 10 + equations.row_roundings();
+        let largest = equations.roundings_of_row(layout.order + D + 10);
         self.roundings = (layout.blocks.len() + 4) * 2 * largest + 200;
     }
 

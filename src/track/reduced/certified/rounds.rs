@@ -10,13 +10,36 @@ use super::speed::speed;
 use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
+use crate::linalg::rstructure::rows::{MAX_KEYS, Row};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::elimination::MAX_KEYS;
 use crate::track::reduced::structure::layout::Layout;
-use crate::track::reduced::structure::passes::Row;
 
 /// The contraction that comes with the reference length may be that at most.
 const TOO_LONG: f64 = 0.8;
+
+/// What the four right-hand sides of the first round are.
+mod first {
+    /// F's orders that do not get smaller with s.
+    pub const LOW: usize = 0;
+    /// The Jacobian's that get smaller like s³.
+    pub const CUBIC: usize = 1;
+    /// Its change over the box.
+    pub const WIDTH: usize = 2;
+    /// F's that get smaller.
+    pub const HIGH: usize = 3;
+}
+
+/// What those of the second round are.
+mod second {
+    /// The Jacobian's orders that do not get smaller with s.
+    pub const CONSTANT: usize = 0;
+    /// Its change over the box.
+    pub const WIDTH: usize = 1;
+    /// What the box adds to the right-hand side of the path's derivative.
+    pub const TURN: usize = 2;
+    /// The derivative by s of F's orders that do not get smaller.
+    pub const SLOPE: usize = 3;
+}
 
 /// Where bounds are taken.
 struct Place<'a, const D: usize, const W: usize> {
@@ -61,7 +84,7 @@ impl<const D: usize> ReducedTest<D> {
         // Differences and the powers of t(s), sums over the normal or the distances of a point (m
         // each, the latter at three orders), over A's rows at two orders and key unknowns at three:
         // in all fewer roundings than this.
-        let per_entry = gamma(4 * m + 4 * MAX_KEYS + 200 + equations.row_roundings());
+        let per_entry = gamma(equations.roundings_of_row(4 * m + 4 * MAX_KEYS + 200));
         let entries = &self.series.entries;
         self.along.measure(equations, &tube.local, entries, h);
         let entries = [&entries[0][..], &entries[1]];
@@ -71,7 +94,7 @@ impl<const D: usize> ReducedTest<D> {
         }
         let layout = tube.local.y.elimination.layout.clone();
         let kappa = self.shape.kappa::<W>(&layout);
-        self.shape.take_along(&mut tube.local.y, &kappa, h);
+        self.shape.measure(&mut tube.local.y, &kappa, h);
         self.along.measure_residual(equations, &tube.local);
         let mut place = Place {
             equations,
@@ -80,7 +103,7 @@ impl<const D: usize> ReducedTest<D> {
             kappa,
             scale: 0.0,
             per_entry,
-            roundings: tube.local.y.resolvent.roundings() + 4 * m + 200 + equations.row_roundings(),
+            roundings: tube.local.y.resolvent.roundings() + equations.roundings_of_row(4 * m + 200),
         };
         let left = self.first_round(&mut place)?;
         self.shape.fill(&layout, &self.sides, place.scale);
@@ -98,7 +121,7 @@ impl<const D: usize> ReducedTest<D> {
             &bounds,
             slope_of,
         ));
-        let width: [f64; MAX_KEYS] = self.sides.keys.map(|[_, width, ..]| width);
+        let width: [f64; MAX_KEYS] = self.sides.keys.map(|sides| sides[second::WIDTH]);
         self.shape
             .set_next_weights(&layout, kappa.as_flattened(), &width[..layout.keys()]);
         let y = &mut tube.local.y;
@@ -136,13 +159,16 @@ impl<const D: usize> ReducedTest<D> {
                 width += both(omega, ends).powi(2);
             }
             width += along.curvature[e] * (omega[t] * omega[t]);
-            sides.g[e] = [along.low[e], cubic, width, along.high[e]];
+            let g = &mut sides.g[e];
+            (g[first::LOW], g[first::CUBIC]) = (along.low[e], cubic);
+            (g[first::WIDTH], g[first::HIGH]) = (width, along.high[e]);
         }
         for e in first..equations.m {
             let [_, _, from3, from4, from5] = &along.tail.entries;
             let times = |entries, moved| along.tail.times(equations, e, entries, moved);
-            sides.g[e][1] += times(from5, moved0) + times(from4, moved1) + times(from3, moved2);
-            sides.g[e][2] += along.tail.width(equations, e);
+            sides.g[e][first::CUBIC] +=
+                times(from5, moved0) + times(from4, moved1) + times(from3, moved2);
+            sides.g[e][first::WIDTH] += along.tail.width(equations, e);
         }
         sides.g[t] = [0.0; LANE];
         sides.gather(y);
@@ -152,7 +178,7 @@ impl<const D: usize> ReducedTest<D> {
         for block in &layout.blocks {
             for r in 0..block.size {
                 let e = block.rows[r] as usize;
-                sides.g_a[block.start + r][1] +=
+                sides.g_a[block.start + r][first::CUBIC] +=
                     h3 * weigh(&jk3[e], &place.kappa) + h4 * weigh(&jk4[e], &place.kappa);
             }
         }
@@ -240,13 +266,16 @@ impl<const D: usize> ReducedTest<D> {
             turn += curvature * along.time.speed * ut;
             let constant = place.per_entry * (rounding + along.slope_size[e] * ut)
                 + along.slope_radius[e] * ut;
-            sides.g[e] = [constant, width, turn, along.low_slope[e]];
+            let g = &mut sides.g[e];
+            (g[second::CONSTANT], g[second::WIDTH]) = (constant, width);
+            (g[second::TURN], g[second::SLOPE]) = (turn, along.low_slope[e]);
         }
         for e in first..m {
             let [all, ..] = &along.tail.entries;
-            sides.g[e][0] += place.per_entry * along.tail.times(equations, e, all, omega);
-            sides.g[e][1] += along.tail.width(equations, e);
-            sides.g[e][2] += along.tail.turn(equations, e);
+            sides.g[e][second::CONSTANT] +=
+                place.per_entry * along.tail.times(equations, e, all, omega);
+            sides.g[e][second::WIDTH] += along.tail.width(equations, e);
+            sides.g[e][second::TURN] += along.tail.turn(equations, e);
         }
         sides.g[m] = [
             place.per_entry * sum_of_sizes(&local.normal[..n], omega),
@@ -259,7 +288,8 @@ impl<const D: usize> ReducedTest<D> {
             for &e in &block.rows[..block.size] {
                 let e = e as usize;
                 for (jk, power) in jk.iter().zip(along.powers) {
-                    sides.g[e][0] += place.scale * power * weigh(&jk[e], &place.kappa);
+                    sides.g[e][second::CONSTANT] +=
+                        place.scale * power * weigh(&jk[e], &place.kappa);
                 }
             }
         }

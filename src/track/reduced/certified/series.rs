@@ -3,9 +3,10 @@
 
 use super::COEFFICIENTS;
 use super::frame::{Locals, SERIES};
+use crate::linalg::rstructure::rows::{Lane, Row, add};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::passes::{Derivative, Lane, Row, add, slices};
+use crate::track::reduced::structure::passes::{Derivative, slices};
 
 /// Orders of J K that are looked at with their signs: two more than the series have.
 pub const SIGNED: usize = SERIES + 2;
@@ -73,7 +74,7 @@ impl<const D: usize> Series<D> {
         }
         // K: order by order, (J K)_q = 0 in the rows of A.
         let [k1, k2] = &mut y.k;
-        let k0 = y.elimination.k.as_chunks::<W>().0;
+        let k0 = y.elimination.reduced.k.as_chunks::<W>().0;
         let (k1, k2) = (k1.as_chunks_mut::<W>().0, k2.as_chunks_mut::<W>().0);
         let [jk0, jk1, jk2, jk3, jk4] = self.jk.each_mut().map(|rows| rows.as_chunks_mut::<W>().0);
         jacobians[0].times(k0, jk0);
@@ -98,7 +99,7 @@ impl<const D: usize> Series<D> {
         // (Zᵀ J)_q = 0 in the columns of A.
         let keys = layout.keys();
         let rows_of_s = layout.rows_of_s(m);
-        let p0 = y.elimination.p.as_chunks::<W>().0;
+        let p0 = y.elimination.reduced.p.as_chunks::<W>().0;
         for q in 0..=SERIES {
             let (before, after) = y.z.split_at_mut(q);
             let z = after[0].as_chunks_mut::<W>().0;

@@ -3,20 +3,19 @@
 use super::frame::{Reduction, SERIES};
 use super::sides::{PerKey, Sides, row_of, weigh};
 use crate::interval::rounding::round_up;
+use crate::linalg::rstructure::rows::{Lane, MAX_KEYS, Row};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::elimination::MAX_KEYS;
 use crate::track::reduced::structure::layout::Layout;
-use crate::track::reduced::structure::passes::{Lane, Row};
 
 /// The box of A's unknowns is so much larger than what was found to be needed.
 const ROOM: f64 = 2.5;
 /// For what is left of F at a point the box has to be larger, as the defect may be an eighth of it at
 /// most where the rest is small (`Contraction`).
 const ROOM_FOR_ROUNDING: f64 = 10.0;
-/// And at least this part of what the key unknowns' own box takes along.
+/// The box of A's unknowns is at least this part of how far the key unknowns' box moves them.
 const LEAST: f64 = 0.25;
-/// Unknowns that no key unknown takes along count as if one did, by this part of the most.
+/// Unknowns that no key unknown moves count as if one did, by this part of the most that any is moved.
 const STILL: f64 = 0.01;
 /// The smallest weight of a key unknown beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.05;
@@ -57,7 +56,7 @@ impl Shape {
     }
 
     /// Returns to the weights that were kept.
-    pub fn give_back(&mut self) {
+    pub fn restore(&mut self) {
         self.weights.copy_from_slice(&self.kept);
     }
 
@@ -72,7 +71,7 @@ impl Shape {
 
     /// What key unknowns of the given weights take along for |s| ≤ h; and bounds on |K(s)|, |K'(s)| and
     /// |Z(s)| there, into the frame.
-    pub fn take_along<const D: usize, const W: usize>(
+    pub fn measure<const D: usize, const W: usize>(
         &mut self,
         y: &mut Reduction<D>,
         kappa: &Row<W>,
@@ -84,7 +83,8 @@ impl Shape {
         resize(&mut y.k_size, n + 1);
         resize(&mut y.k_slope, n + 1);
         resize(&mut y.z_size, n);
-        let [k0, k1, k2] = [&y.elimination.k, &y.k[0], &y.k[1]].map(|k| &k.as_chunks::<W>().0[..n]);
+        let [k0, k1, k2] =
+            [&y.elimination.reduced.k, &y.k[0], &y.k[1]].map(|k| &k.as_chunks::<W>().0[..n]);
         let sizes = &mut y.k_size.as_chunks_mut::<W>().0[..n];
         let slopes = &mut y.k_slope.as_chunks_mut::<W>().0[..n];
         let [m0, m1, m2] = self.moved.each_mut().map(|moved| &mut moved[..n]);

@@ -2,9 +2,8 @@
 
 use super::frame::Reduction;
 use crate::linalg::LANE;
+use crate::linalg::rstructure::rows::{Lane, MAX_KEYS, Row, with_width};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::elimination::MAX_KEYS;
-use crate::track::reduced::structure::passes::{Lane, Row, with_width};
 
 /// One number per key unknown.
 pub type PerKey = [f64; MAX_KEYS];
@@ -55,7 +54,7 @@ impl Sides {
         let layout = &y.elimination.layout;
         y.resolvent
             .bound(equations, layout, &self.g_a, &mut self.y_a, &mut self.a);
-        with_width!(y.elimination.width, self.through_z(&y.z_size));
+        with_width!(y.elimination.reduced.width, self.through_z(&y.z_size));
     }
 
     fn through_z<const W: usize>(&mut self, z: &[Lane]) {

@@ -56,7 +56,7 @@ impl TailSizes {
         tail.row_sizes(&self.all, all);
         // An entry is a sum of terms with signs: the computed one is off by γ times these at most, one
         // rounding for the form, one for the product, and one for each part.
-        let hidden = gamma(equations.row_roundings() + 2 * COEFFICIENTS);
+        let hidden = gamma(equations.roundings_of_row(2 * COEFFICIENTS));
         for entry in 0..tail.entries() {
             let size = |k: usize| values[k][entry].abs() * hs[k];
             let five = (5..=ORDER).rev().map(size).sum::<f64>() + hidden * all[entry];
@@ -83,7 +83,9 @@ impl TailSizes {
 
     /// Takes the sizes of unknowns.
     pub fn set_sums<const D: usize>(&mut self, equations: &Equations<D>, omega: &[f64]) {
-        equations.tail.sums(omega, &mut self.sums);
+        for (form, sum) in self.sums.iter_mut().enumerate() {
+            *sum = equations.tail.sum_of(form, omega);
+        }
     }
 
     /// A bound on (J(ẑ + w) − J(ẑ)) w' for |w|, |w'| ≤ ω, as either factor of a product changes while the other

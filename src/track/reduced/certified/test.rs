@@ -38,6 +38,7 @@ use super::shape::Shape;
 use super::sides::Sides;
 use super::{COEFFICIENTS, ORDER};
 use crate::linalg::Vector;
+use crate::linalg::rstructure::rows::with_width;
 use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
 use crate::track::certified::shortfall::Shortfall;
@@ -45,17 +46,16 @@ use crate::track::certified::tracker::Test;
 use crate::track::full::{Differences, Equations, Lengths, RefineError};
 use crate::track::reduced::structure::elimination::{Elimination, Maker};
 use crate::track::reduced::structure::layout::{Layout, Order};
-use crate::track::reduced::structure::passes::with_width;
 use crate::track::{Driving, Options, Space};
 use std::sync::Arc;
 #[cfg(test)]
 use {super::speed::speed, crate::interval::rounding::round_up};
 
-/// Bounds are taken for a tube so much longer than the last one, if its polynomial reaches as far,
+/// Bounds are taken for a tube at most so many times as long as the last one.
 const GROWTH: f64 = 1.25;
-/// and otherwise by as much as it reaches further, but for extremes.
+/// The length for which they are taken changes by at most this factor where the polynomial's own reach does.
 const CHANGE: f64 = 3.0;
-/// And tried again with so much of that.
+/// Where nothing is proved for a length, a tube of so much of it is tried next.
 const SHRINK: f64 = 0.75;
 /// So many lengths are tried.
 const ATTEMPTS: i32 = 120;
@@ -86,7 +86,7 @@ pub struct ReducedTest<const D: usize> {
     pub(super) hidden: Vector,
     pub(super) step: Vector,
     /// A very short tube, see `exit.rs`.
-    knot: Option<Box<Tubes<D>>>,
+    short: Option<Box<Tubes<D>>>,
     last_layout: Option<Arc<Layout>>,
     plan_changes: usize,
     tubes: usize,
@@ -118,7 +118,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
             f: equations.vector(),
             hidden: equations.vector(),
             step: equations.vector(),
-            knot: None,
+            short: None,
             last_layout: None,
             plan_changes: 0,
             tubes: 0,
@@ -150,7 +150,10 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         local.correct(equations);
         local.expand(equations);
         let series = &mut self.series;
-        with_width!(local.y.elimination.width, series.make(equations, local));
+        with_width!(
+            local.y.elimination.reduced.width,
+            series.make(equations, local)
+        );
         Ok(())
     }
 
@@ -175,7 +178,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         self.shape.keep();
         let mut h = self.first_length(tube, max_h);
         for _ in 0..ATTEMPTS {
-            let width = tube.local.y.elimination.width;
+            let width = tube.local.y.elimination.reduced.width;
             let bounds = with_width!(width, self.bounds(equations, tube, h));
             let proof = bounds.and_then(|bounds| bounds.longest::<COEFFICIENTS>());
             match proof {
@@ -190,7 +193,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
                 }
                 None => h *= SHRINK,
             }
-            self.shape.give_back();
+            self.shape.restore();
         }
         false
     }
@@ -202,7 +205,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         max_h: f64,
     ) -> Option<Shortfall> {
         let longest = self.first_length(tube, max_h);
-        let width = tube.local.y.elimination.width;
+        let width = tube.local.y.elimination.reduced.width;
         Shortfall::least((0..ATTEMPTS).map(|k| {
             let h = longest * SHRINK.powi(k);
             let Some(bounds) = with_width!(width, self.bounds(equations, tube, h)) else {
@@ -231,7 +234,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     }
 
     fn reject(&mut self) {
-        self.shape.give_back();
+        self.shape.restore();
     }
 
     fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
@@ -241,14 +244,14 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
     }
 
     fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
-        let mut knot = self
-            .knot
+        let mut short = self
+            .short
             .take()
             .unwrap_or_else(|| Box::new(Tube::new(equations)));
         let kept = (self.shape.weights.clone(), self.shape.kept.clone());
-        let tightened = self.tie(equations, tube, &mut knot);
+        let tightened = self.enclose_by_short_tube(equations, tube, &mut short);
         (self.shape.weights, self.shape.kept) = kept;
-        self.knot = Some(knot);
+        self.short = Some(short);
         tightened
     }
 
@@ -276,7 +279,7 @@ impl<const D: usize> ReducedTest<D> {
         tube: &mut Tubes<D>,
         h: f64,
     ) -> Option<Bounds> {
-        let (width, series) = (tube.local.y.elimination.width, &mut self.series);
+        let (width, series) = (tube.local.y.elimination.reduced.width, &mut self.series);
         with_width!(width, series.make(equations, &mut tube.local));
         let bounds = with_width!(width, self.bounds(equations, tube, h))?;
         let n = equations.n();
@@ -304,7 +307,7 @@ impl<const D: usize> ReducedTest<D> {
             ..*b
         };
         let slope_of = |i: usize| self.along.slope_of(&tube.local, i);
-        let speed = match y.elimination.width {
+        let speed = match y.elimination.reduced.width {
             1 => speed::<D, 1>(y, &rho, &bounds, slope_of),
             2 => speed::<D, 2>(y, &rho, &bounds, slope_of),
             4 => speed::<D, 4>(y, &rho, &bounds, slope_of),

@@ -2,7 +2,7 @@
 
 use super::elimination::Elimination;
 use super::lane;
-use super::station::{Station, distance, dot};
+use super::path_point::{PathPoint, distance, dot};
 use crate::plan::{Differences, Evaluation, Lanes};
 
 /// Work space: parameters, corrections, factorizations.
@@ -21,13 +21,13 @@ pub(super) struct Corrector {
     orientation: f64,
     /// How much the second correction was smaller than the first; zero if one was enough.
     pub contraction: f64,
-    /// How far a station may be from the path, in the figure, by default and as in the paper.
+    /// How far a point may be from the path, in the figure, by default and as in the paper.
     small: f64,
     converged: f64,
     places: usize,
 }
 
-/// A station is at most about this far from the path (in the figure, homotopy's unit), if nothing
+/// A point is at most about this far from the path (in the figure, homotopy's unit), if nothing
 /// else is asked for.
 const SMALL: f64 = 1e-6;
 
@@ -125,7 +125,7 @@ impl Corrector {
         squared.sqrt()
     }
 
-    /// From `q`, already evaluated, to the path. Writes the station; false if there is none. `h` is the
+    /// From `q`, already evaluated, to the path. Writes the point; false if there is none. `h` is the
     /// length of the step, against which the corrections are measured.
     ///
     /// A correction that finds the derivatives changed since they were computed computes them
@@ -134,9 +134,9 @@ impl Corrector {
         &mut self,
         evaluation: &mut Evaluation<D>,
         h: f64,
-        next: &mut Station,
+        next: &mut PathPoint,
     ) -> bool {
-        let Station { z, tangent } = next;
+        let PathPoint { z, tangent } = next;
         if !self.differentiate(evaluation) {
             return false;
         }
@@ -200,7 +200,7 @@ impl Corrector {
         evaluation: &mut Evaluation<D>,
         z: &[f64],
         delta: f64,
-        next: &mut Station,
+        next: &mut PathPoint,
         differences: &mut Differences<D>,
     ) -> Option<f64> {
         evaluation.parameters(&z[..self.places], z[self.places], &mut self.q);

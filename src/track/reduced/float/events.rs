@@ -1,8 +1,8 @@
-//! What happens between two stations: solutions, and the return to the sketch.
+//! What happens between two points: solutions, and the return to the sketch.
 
 use super::Tracker;
 use super::cubic::Passages;
-use super::station::{Piece, distance, dot};
+use super::path_point::{Piece, distance, dot};
 
 /// Points nearer than this, relative to the figure, are the same.
 const SAME: f64 = 2e-8;
@@ -18,7 +18,7 @@ pub(super) enum Events {
 }
 
 impl<const D: usize> Tracker<'_, D> {
-    /// Looks at the piece from the current station to the next, `h` long. `error` is about how
+    /// Looks at the piece from the current point to the next, `h` long. `error` is about how
     /// far it may be from the cubic.
     pub(super) fn look_between(&mut self, h: f64, error: f64) -> Events {
         let piece = Piece {

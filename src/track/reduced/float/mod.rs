@@ -2,7 +2,7 @@
 //!
 //! The unknowns are the driving parameters and t; figures come from evaluating the plan, and the
 //! equations are the removed constraints. Prediction looks at the figures, whose path is smooth
-//! whatever the plan: it is the cubic through the last two stations, seen by the plan through
+//! whatever the plan: it is the cubic through the last two points, seen by the plan through
 //! ϕ' (RR 8705, (4)). So a change of plan costs no history, and the step control measures what
 //! happens to the figure. That is for distances; `structured` is for other constraints.
 
@@ -11,20 +11,20 @@ mod cubic;
 mod elimination;
 mod events;
 mod paper;
-mod station;
+mod path_point;
 mod steps;
 mod structured;
 #[cfg(test)]
 mod tests;
 
-use crate::plan::{Evaluation, Lanes, Lookout, Plan};
+use crate::plan::{Evaluation, Lanes, Plan, Situation};
 use crate::system::Homotopy;
 use crate::track::{
     Control, Driving, Mode, Options, Outcome, Preset, Progress, Space, Status, observed_solutions,
 };
 use corrector::Corrector;
 pub use paper::LONGEST_STEP as LARGEST_STEP_OF_PAPER;
-use station::{Piece, Station, distance};
+use path_point::{PathPoint, Piece, distance};
 use std::time::Instant;
 
 /// Steps below this end the run.
@@ -61,12 +61,12 @@ struct Tracker<'a, const D: usize> {
     plan: Plan,
     evaluation: Evaluation<D>,
     corrector: Corrector,
-    start: Station,
-    /// The station before the current one and the arc length from it, once there is one.
-    previous: Station,
+    start: PathPoint,
+    /// The point before the current one and the arc length from it, once there is one.
+    previous: PathPoint,
     behind: Option<f64>,
-    current: Station,
-    next: Station,
+    current: PathPoint,
+    next: PathPoint,
     predicted: Vec<f64>,
     /// a(t) of all distances, for changes of plan.
     lengths: Vec<f64>,
@@ -86,7 +86,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         let plan = Plan::derive(homotopy);
         let evaluation = Evaluation::new(homotopy, &plan, options.alpha);
         let places = homotopy.sketch.len();
-        let station = Station::new(places);
+        let point = PathPoint::new(places);
         Tracker {
             homotopy,
             options,
@@ -94,11 +94,11 @@ impl<'a, const D: usize> Tracker<'a, D> {
             corrector: Corrector::new(places, options.tolerance_in(homotopy.unit)),
             evaluation,
             plan,
-            start: station.clone(),
-            previous: station.clone(),
+            start: point.clone(),
+            previous: point.clone(),
             behind: None,
-            current: station.clone(),
-            next: station,
+            current: point.clone(),
+            next: point,
             predicted: vec![0.0; places + 1],
             lengths: vec![0.0; homotopy.edges.len()],
             t_range: (0.0, 0.0),
@@ -135,13 +135,13 @@ impl<'a, const D: usize> Tracker<'a, D> {
         Ok(())
     }
 
-    /// Algorithm 2 at the current station, with a look at what is ahead if wanted. Original
+    /// Algorithm 2 at the current point, with a look at what is ahead if wanted. Original
     /// instructions come back where their γ is more than `restore` times alpha. Returns whether
     /// the plan changed.
     fn change_plan(&mut self, look_ahead: bool, restore: f64) -> Result<bool, Status> {
         measure_lengths(self.homotopy, self.current.t(), &mut self.lengths);
         let alpha = self.options.alpha;
-        let changed = self.plan.change(&Lookout {
+        let changed = self.plan.change(&Situation {
             figure: self.current.figure(),
             ahead: look_ahead.then(|| &self.predicted[..self.homotopy.sketch.len()]),
             lengths: &self.lengths,
@@ -163,7 +163,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         }
         measure_lengths(self.homotopy, self.current.t(), &mut self.lengths);
         let alpha = self.options.alpha;
-        self.plan.restorable(&Lookout {
+        self.plan.restorable(&Situation {
             figure: self.current.figure(),
             ahead: None,
             lengths: &self.lengths,
@@ -172,10 +172,10 @@ impl<'a, const D: usize> Tracker<'a, D> {
         })
     }
 
-    /// Takes over the plan at the current station: branch, parameters, tangent.
+    /// Takes over the plan at the current point: branch, parameters, tangent.
     fn settle(&mut self) -> Result<(), Status> {
         self.evaluation.recover_branch(self.current.figure());
-        let Station { z, tangent } = &mut self.current;
+        let PathPoint { z, tangent } = &mut self.current;
         if self
             .corrector
             .settle(&mut self.evaluation, z, tangent, &mut self.next.tangent)
@@ -195,7 +195,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         }
     }
 
-    /// Makes `next`, which is `h` away, the current station. The path is measured up to the arc
+    /// Makes `next`, which is `h` away, the current point. The path is measured up to the arc
     /// length `s`, less than `h` only where it ends.
     fn advance(&mut self, h: f64, s: f64) {
         let piece = Piece {
@@ -224,7 +224,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         self.driving_max = self.driving_max.max(d);
     }
 
-    /// The arc length from the current station to the next, from chord and turn.
+    /// The arc length from the current point to the next, from chord and turn.
     fn arc_length(&self) -> f64 {
         let chord = distance(&self.current.z, &self.next.z);
         let turn = distance(&self.current.tangent, &self.next.tangent);

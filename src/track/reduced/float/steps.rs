@@ -1,14 +1,14 @@
 //! The default way of stepping: adaptive, cubic predictor, exact derivatives.
 
 use super::events::Events;
-use super::station::{Piece, distance};
+use super::path_point::{Piece, distance};
 use super::{SMALLEST_STEP, Tracker, UNCLEAR};
 use crate::track::{Control, Status};
 
 /// The first step from the sketch, while there is no history.
 const FIRST_STEP: f64 = 0.01;
 
-/// A station may be off its prediction by this part of the step. (With this and [`TURN`] both four
+/// A point may be off its prediction by this part of the step. (With this and [`TURN`] both four
 /// times larger, the results on the shipped problems are the same: there is room.)
 const ERROR: f64 = 0.05;
 
@@ -36,19 +36,19 @@ const RESTORE_EVERY: usize = 4;
 struct Pace {
     h: f64,
     longest: f64,
-    /// Changes of plan since the last station.
+    /// Changes of plan since the last point.
     looks: usize,
-    /// Failures since the last station.
+    /// Failures since the last point.
     failures: usize,
 }
 
 enum Attempt {
-    /// `next` is a station, `length` away, `error` from its prediction, with the tangent turned
+    /// `next` is a point, `length` away, `error` from its prediction, with the tangent turned
     /// by the angle `turn`.
-    Station { length: f64, error: f64, turn: f64 },
+    Point { length: f64, error: f64, turn: f64 },
     /// The predicted figure is near or beyond a boundary configuration.
     Boundary,
-    /// No station found, or one that cannot be trusted.
+    /// No point found, or one that cannot be trusted.
     Failed,
 }
 
@@ -78,7 +78,7 @@ impl<const D: usize> Tracker<'_, D> {
             return Err(self.stopped("the limit on steps is reached"));
         }
         let (length, error, turn) = match self.attempt(pace.h) {
-            Attempt::Station {
+            Attempt::Point {
                 length,
                 error,
                 turn,
@@ -90,7 +90,7 @@ impl<const D: usize> Tracker<'_, D> {
             }
             Attempt::Boundary | Attempt::Failed => return self.reject(pace),
         };
-        // Looking between the stations evaluates the plan elsewhere.
+        // Looking between the points evaluates the plan elsewhere.
         let contraction = self.corrector.contraction;
         let near = self.evaluation.is_near_boundary() || self.evaluation.is_out_of_order();
         match self.look_between(length, 0.25 * error + 1e-9) {
@@ -130,7 +130,7 @@ impl<const D: usize> Tracker<'_, D> {
             return Err(self.no_step());
         }
         if pace.failures == RENEW_AFTER {
-            // The station's own tangent may be what is wrong.
+            // The point's own tangent may be what is wrong.
             self.settle()?;
         }
         Ok(())
@@ -145,8 +145,8 @@ impl<const D: usize> Tracker<'_, D> {
             }
             .at(behind + h, &mut self.predicted),
             None => {
-                let station = self.current.z.iter().zip(&self.current.tangent);
-                for (out, (z, u)) in self.predicted.iter_mut().zip(station) {
+                let point = self.current.z.iter().zip(&self.current.tangent);
+                for (out, (z, u)) in self.predicted.iter_mut().zip(point) {
                     *out = h.mul_add(*u, *z);
                 }
             }
@@ -166,7 +166,7 @@ impl<const D: usize> Tracker<'_, D> {
         let error = distance(&self.next.z, &self.predicted);
         let turn = distance(&self.next.tangent, &self.current.tangent);
         if error <= ERROR * h && turn <= TURN {
-            Attempt::Station {
+            Attempt::Point {
                 length: self.arc_length(),
                 error,
                 turn,

@@ -1,8 +1,10 @@
 //! Elimination through the R-structure at one point: what refines and expands the path.
 
 use super::layout::{Layout, Order};
-use super::passes::{Derivative, Inverse, Lane, Row, add, invert, slices, width_for, with_width};
-use crate::linalg::{LANE, Singular, Vector};
+use super::passes::{Derivative, Inverse, invert, slices};
+use crate::linalg::rstructure::elimination::{Blocks, Elimination as Reduced, Solves};
+use crate::linalg::rstructure::rows::{MAX_KEYS, Row, add, zeros};
+use crate::linalg::{Singular, Vector};
 use crate::track::full::{Differences, Equations, Lengths, dot};
 use std::sync::Arc;
 
@@ -40,20 +42,14 @@ const SINES: f64 = 2.5;
 #[derive(Debug, Clone)]
 pub struct Elimination<const D: usize> {
     pub layout: Arc<Layout>,
-    /// Lanes of a row.
-    pub width: usize,
     pub inverses: Vec<Inverse>,
-    /// K₀ = −A⁻¹H with the identity for the key unknowns: a row per unknown and one of zeros.
-    pub k: Vec<Lane>,
-    /// S₀⁻¹ transposed: for each ignored equation (the normal's last) a row over key unknowns.
-    pub p: Vec<Lane>,
+    /// K₀ = −A⁻¹H, a row per unknown and one of zeros, and S₀⁻¹ transposed, the normal's row last.
+    pub reduced: Reduced,
     d: [Vector; D],
     slope: Vector,
     normal: Vector,
     /// Values of the tail's entries.
     entries: Vec<f64>,
-    /// Whether det S₀ is negative.
-    schur_is_negative: bool,
 }
 
 impl<const D: usize> Elimination<D> {
@@ -61,15 +57,12 @@ impl<const D: usize> Elimination<D> {
     pub fn new(equations: &Equations<D>) -> Self {
         Elimination {
             layout: Arc::new(Layout::default()),
-            width: 1,
             inverses: Vec::new(),
-            k: Vec::new(),
-            p: Vec::new(),
+            reduced: Reduced::default(),
             d: std::array::from_fn(|_| equations.per_edge()),
             slope: equations.per_edge(),
             normal: equations.vector(),
             entries: vec![0.0; equations.tail.entries()],
-            schur_is_negative: false,
         }
     }
 
@@ -113,36 +106,24 @@ impl<const D: usize> Elimination<D> {
         let jacobian = self.jacobian(equations);
         inverses.extend(layout.blocks.iter().map(|block| invert(block, &jacobian)));
         self.inverses = inverses;
-        let width = width_for(self.layout.keys()).filter(|_| self.layout.is_square());
-        self.width = width.ok_or(Singular)?;
-        with_width!(self.width, self.eliminate(equations))
+        if !layout.is_square() {
+            return Err(Singular);
+        }
+        let mut reduced = std::mem::take(&mut self.reduced);
+        let made = reduced.make(&self.bordered(equations), 0);
+        self.reduced = reduced;
+        made.map_err(|_| Singular)
     }
 
-    fn eliminate<const W: usize>(&mut self, equations: &Equations<D>) -> Result<(), Singular> {
-        let (n, keys) = (equations.n(), self.layout.keys());
-        let mut k = std::mem::take(&mut self.k);
-        k.clear();
-        k.resize((n + 1) * W, [0.0; LANE]);
-        let (rows, _) = k.as_chunks_mut::<W>();
-        for (at, &key) in self.layout.keys.iter().enumerate() {
-            rows[key as usize][at / LANE][at % LANE] = 1.0;
+    /// [J; c] at this point, its diagonal blocks inverted.
+    fn bordered<'a>(&'a self, equations: &'a Equations<D>) -> Bordered<'a, D> {
+        Bordered {
+            jacobian: self.jacobian(equations),
+            layout: &self.layout,
+            inverses: &self.inverses,
+            normal: &self.normal[..equations.n()],
+            equations: equations.m,
         }
-        let jacobian = self.jacobian(equations);
-        jacobian.substitute_alone(&self.layout, &self.inverses, rows);
-        // S₀: the ignored equations' rows of J K, and the normal's.
-        let mut schur = [[[[0.0; LANE]; W]; LANE]; W];
-        let s = schur.as_flattened_mut();
-        for (s, &e) in s.iter_mut().zip(&self.layout.ignored) {
-            *s = jacobian.any_row(e as usize, rows);
-        }
-        for (c, row) in self.normal[..n].iter().zip(rows.iter()) {
-            add(&mut s[keys - 1], *c, row);
-        }
-        self.k = k;
-        self.p.resize(keys * W, [0.0; LANE]);
-        let inverted = invert_transposed(&mut s[..keys], self.p.as_chunks_mut::<W>().0);
-        self.schur_is_negative = inverted.ok_or(Singular)?;
-        Ok(())
     }
 
     /// Why none could be made last, where that is not because the matrix is singular.
@@ -160,7 +141,7 @@ impl<const D: usize> Elimination<D> {
     /// columns.
     pub fn is_negative(&self, equations: &Equations<D>) -> bool {
         let layout = &*self.layout;
-        let mut negative = self.schur_is_negative;
+        let mut negative = self.reduced.is_negative;
         for (block, inverse) in layout.blocks.iter().zip(&self.inverses) {
             negative ^= determinant(inverse, block.size) < 0.0;
         }
@@ -187,78 +168,71 @@ impl<const D: usize> Elimination<D> {
 
     /// `x = [J; c]⁻¹ f`; entries of `f` beyond its end are zero.
     pub fn solve(&self, equations: &Equations<D>, f: &[f64], x: &mut Vector) {
-        with_width!(self.width, self.solve_in(equations, f, x))
-    }
-
-    fn solve_in<const W: usize>(&self, equations: &Equations<D>, f: &[f64], x: &mut Vector) {
-        let (m, n) = (equations.m, equations.n());
-        let jacobian = self.jacobian(equations);
-        x.fill(0.0);
-        jacobian.solve(&self.layout, &self.inverses, f, x);
-        let mut values = [[0.0; LANE]; W];
-        let (rows, last) = self.p.as_chunks::<W>().0.split_at(self.layout.keys() - 1);
-        for (row, &e) in rows.iter().zip(&self.layout.ignored) {
-            let e = e as usize;
-            add(&mut values, f[e] - jacobian.any_row_of(e, x), row);
-        }
-        let rest = f.get(m).copied().unwrap_or(0.0) - dot(&self.normal[..n], &x[..n]);
-        add(&mut values, rest, &last[0]);
-        // The key unknowns' own rows are the identity.
-        for (x, row) in x[..n].iter_mut().zip(self.k.as_chunks::<W>().0) {
-            let mut sums = [0.0; LANE];
-            for w in 0..W {
-                for l in 0..LANE {
-                    sums[l] = row[w][l].mul_add(values[w][l], sums[l]);
-                }
-            }
-            *x += (sums[0] + sums[1]) + (sums[2] + sums[3]);
-        }
+        self.reduced.solve(&self.bordered(equations), f, x);
     }
 }
 
-/// More key unknowns than that are not supported.
-pub const MAX_KEYS: usize = 8 * LANE;
+/// [J; c] with its diagonal blocks inverted, as elimination reads it.
+struct Bordered<'a, const D: usize> {
+    jacobian: Derivative<'a, D>,
+    layout: &'a Layout,
+    inverses: &'a [Inverse],
+    normal: &'a [f64],
+    /// The number of equations, that of the normal's row.
+    equations: usize,
+}
 
-/// The inverse's transpose of the square matrix with these rows, padded with zeros to whole lanes.
-/// They are overwritten. Tells whether the determinant is negative; `None`: singular.
-fn invert_transposed<const W: usize>(a: &mut [Row<W>], out: &mut [Row<W>]) -> Option<bool> {
-    let n = a.len();
-    let mut negative = false;
-    // Gauss and Jordan in place; `from[k]` is the row that became row k.
-    let mut from: [usize; MAX_KEYS] = std::array::from_fn(|k| k);
-    for k in 0..n {
-        let (w, l) = (k / LANE, k % LANE);
-        let best = (k..n)
-            .max_by(|&i, &j| a[i][w][l].abs().total_cmp(&a[j][w][l].abs()))
-            .unwrap_or(k);
-        a.swap(k, best);
-        from.swap(k, best);
-        let pivot = a[k][w][l];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return None;
+impl<const D: usize> Blocks<f64> for Bordered<'_, D> {
+    fn keys(&self) -> usize {
+        self.layout.keys()
+    }
+
+    fn unknowns(&self) -> usize {
+        self.normal.len()
+    }
+
+    /// One for each unknown, and one of zeros for fixed coordinates.
+    fn rows(&self) -> usize {
+        self.normal.len() + 1
+    }
+
+    fn key(&self, at: usize) -> usize {
+        self.layout.keys[at] as usize
+    }
+
+    fn substitute<const W: usize>(&self, rows: &mut [Row<W>]) {
+        self.jacobian
+            .substitute_alone(self.layout, self.inverses, rows);
+    }
+
+    #[inline(always)]
+    fn ignored_row<const W: usize>(&self, at: usize, rows: &[Row<W>]) -> Row<W> {
+        if let Some(&e) = self.layout.ignored.get(at) {
+            return self.jacobian.any_row(e as usize, rows);
         }
-        negative ^= (best != k) != (pivot < 0.0);
-        let scale = 1.0 / pivot;
-        a[k][w][l] = 1.0;
-        for lane in &mut a[k] {
-            *lane = lane.map(|x| x * scale);
+        let mut sum = zeros();
+        for (c, row) in self.normal.iter().zip(rows) {
+            add(&mut sum, *c, row);
         }
-        let row = a[k];
-        for (i, other) in a.iter_mut().enumerate() {
-            if i != k {
-                let factor = -other[w][l];
-                other[w][l] = 0.0;
-                add(other, factor, &row);
+        sum
+    }
+}
+
+impl<const D: usize> Solves<f64> for Bordered<'_, D> {
+    fn substitute_one(&self, f: &[f64], x: &mut [f64]) {
+        self.jacobian.solve(self.layout, self.inverses, f, x);
+    }
+
+    #[inline(always)]
+    fn ignored_rest(&self, at: usize, f: &[f64], x: &[f64]) -> f64 {
+        match self.layout.ignored.get(at) {
+            Some(&e) => f[e as usize] - self.jacobian.any_row_of(e as usize, x),
+            None => {
+                let given = f.get(self.equations).copied().unwrap_or(0.0);
+                given - dot(self.normal, &x[..self.normal.len()])
             }
         }
     }
-    // Column k of the result belongs to the row that was brought there.
-    for (i, a) in a.iter().enumerate() {
-        for (a, &from) in a.as_flattened().iter().zip(&from[..n]) {
-            out[from][i / LANE][i % LANE] = *a;
-        }
-    }
-    Some(negative)
 }
 
 /// Of a diagonal block's inverse.

@@ -1,7 +1,7 @@
 //! Which unknowns are key and which equations ignored at a point of the path.
 
-use super::elimination::MAX_KEYS;
 use super::sequence::groups_in_order;
+use crate::linalg::rstructure::rows::MAX_KEYS;
 use crate::plan::Plan;
 use crate::system::Homotopy;
 use crate::track::full::{Differences, Equations};

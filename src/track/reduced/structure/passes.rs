@@ -7,13 +7,9 @@
 //! other equations, whose differences are zero; one comparison per row tells them apart.
 
 use super::layout::{Block, Layout};
+use crate::linalg::rstructure::rows::{Row, add};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Tail;
-
-/// Four numbers in one register.
-pub type Lane = [f64; LANE];
-/// The numbers of one row.
-pub type Row<const W: usize> = [Lane; W];
 
 /// A derivative of the Jacobian along the path: differences per axis, the slopes of the right-hand sides,
 /// and the entries of the tail's rows.
@@ -28,15 +24,6 @@ pub struct Derivative<'a, const D: usize> {
     pub tail: &'a Tail,
     /// Values of the tail's entries.
     pub entries: &'a [f64],
-}
-
-#[inline(always)]
-pub fn add<const W: usize>(sum: &mut Row<W>, factor: f64, row: &Row<W>) {
-    for w in 0..W {
-        for i in 0..LANE {
-            sum[w][i] = row[w][i].mul_add(factor, sum[w][i]);
-        }
-    }
 }
 
 impl<const D: usize> Derivative<'_, D> {
@@ -374,28 +361,4 @@ pub fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
 /// Views of d as slices.
 pub fn slices<const D: usize>(d: &[Vector; D]) -> [&[f64]; D] {
     d.each_ref().map(|d| &d[..])
-}
-
-/// Calls a function generic over the number of lanes in a row.
-macro_rules! with_width {
-    ($width:expr, $self:ident . $f:ident ( $($arg:expr),* $(,)? )) => {
-        match $width {
-            1 => $self.$f::<1>($($arg),*),
-            2 => $self.$f::<2>($($arg),*),
-            4 => $self.$f::<4>($($arg),*),
-            _ => $self.$f::<8>($($arg),*),
-        }
-    };
-}
-pub(in crate::track::reduced) use with_width;
-
-/// Lanes for so many key unknowns; `None`: too many.
-pub fn width_for(keys: usize) -> Option<usize> {
-    match keys.div_ceil(LANE) {
-        0 | 1 => Some(1),
-        2 => Some(2),
-        3 | 4 => Some(4),
-        5..=8 => Some(8),
-        _ => None,
-    }
 }

@@ -120,6 +120,31 @@ impl Figure {
         (0..self.m).map(row).collect()
     }
 
+    /// How the columns of J that belong to X change as X moves in the direction v: the derivative of J v by X.
+    pub fn change_of_jacobian(&self, v: &[Big]) -> Rows {
+        let value = |i: usize| match i < self.m {
+            true => v[i].clone(),
+            false => Big::of(0.0),
+        };
+        let row = |e: usize| {
+            let mut row = vec![Big::of(0.0); self.n + 1];
+            for term in &self.terms[e] {
+                let half = Big::of(0.5 * f64::from(term.factor));
+                for (of, other) in [(term.left, term.right), (term.right, term.left)] {
+                    // The number 1 does not move.
+                    if let (Some([i, j]), Some([k, l])) = (of, other) {
+                        let d = &half * &(value(k) - value(l));
+                        row[i] += d.clone();
+                        row[j] -= d;
+                    }
+                }
+            }
+            row.truncate(self.n);
+            row
+        };
+        (0..self.m).map(row).collect()
+    }
+
     /// J with the row c below.
     pub fn bordered(&self, z: &[Big], c: &[f64]) -> Rows {
         let mut rows = self.jacobian(z);

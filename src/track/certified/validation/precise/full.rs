@@ -341,6 +341,11 @@ fn full_bounds_dominate_exact_values_of_tails() {
     check_homotopies(tails(48, 24).into_iter(), (4, 2), 49);
 }
 
+#[test]
+fn full_bounds_dominate_exact_values_of_mixed_kinds() {
+    check_homotopies(mixed(53, 30).into_iter(), (3, 2), 54);
+}
+
 /// See the test of the same name in the reduced space: t moves alone, with the highest order that ẑ
 /// has, where E' vanishes.
 #[test]

@@ -9,12 +9,13 @@ mod big;
 mod contraction;
 mod extended;
 mod figure;
+mod folds;
 mod full;
 mod given;
-mod knots;
 mod moved;
 mod reduced;
 mod shears;
+mod short_tubes;
 mod view;
 
 use super::disguise::{Disguised, run};
@@ -117,6 +118,20 @@ pub fn tails(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
         })
         .collect();
     assert!(3 * list.len() > 2 * count - 2);
+    list
+}
+
+/// Problems with constraints of all kinds, whose paths close.
+pub fn mixed(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
+    let mut random = Random::new(seed);
+    let list: Vec<(Problem, Homotopy)> = (0..count)
+        .filter_map(|round| {
+            let problem = mixed_problem(&mut random, 2 + round % 2);
+            let homotopy = Homotopy::new(&problem).ok()?;
+            closes(&problem, Space::Full).then_some((problem, homotopy))
+        })
+        .collect();
+    assert!(2 * list.len() > count, "{} of {count} close", list.len());
     list
 }
 

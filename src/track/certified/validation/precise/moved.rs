@@ -74,13 +74,14 @@ fn change<const D: usize>(
         Change::Schur => local
             .y
             .elimination
+            .reduced
             .p
             .as_flattened_mut()
             .iter_mut()
             .for_each(scale),
         Change::Shear => {
-            let row = local.y.elimination.width * LANE;
-            let k = local.y.elimination.k.as_flattened_mut();
+            let row = local.y.elimination.reduced.width * LANE;
+            let k = local.y.elimination.reduced.k.as_flattened_mut();
             for i in inner {
                 k[i * row..(i + 1) * row].iter_mut().for_each(&mut scale);
             }

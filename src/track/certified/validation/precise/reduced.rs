@@ -70,7 +70,7 @@ pub fn check_bounds<const D: usize>(
     ratios.check("turn", &view.norm(&column(2)), bound);
 
     // K(s), its derivative and Z(s), entry by entry; what T makes of the box; the normal.
-    let width = y.elimination.width;
+    let width = y.elimination.reduced.width;
     let entry = |rows: &[[f64; LANE]], i: usize, l: usize| rows[i * width + l / LANE][l % LANE];
     let k_slope = view.k_slope(&s);
     for (at, &i) in view.unknowns.iter().enumerate() {
@@ -214,11 +214,12 @@ pub fn check_path<const D: usize>(
         .map(|(z, x)| Big::of(*z) - x)
         .collect();
     let extent = view.norm(&view.sheared(&k, &away, true));
-    let stated = Frame::<D>::extent(y, &tube.weights[..n], at, |i| {
+    let entry = |i: usize| {
         let away = near[i] - tube.local.entry_at(i, at);
         let error = evaluation_error(&tube.local, i, at) + 2.0 * f64::EPSILON * away.abs();
         (away, error)
-    });
+    };
+    let stated = Frame::<D>::extent(y, &tube.weights[..n], at, entry, entry);
     ratios.check("extent", &extent, stated);
     for (i, x) in through.iter().enumerate() {
         let error = (Big::of(tube.local.entry_at(i, at)) - x).abs();
@@ -279,7 +280,7 @@ pub fn within(name: &'static str, x: &Big, (lo, hi): (f64, f64), ratios: &mut Ra
     );
 }
 
-/// The exit's box, before and after it is tied, and the next tube's entry.
+/// The exit's box, before and after it is tightened, and the next tube's entry.
 pub fn check_exit<const D: usize>(
     shop: &mut Shop<D>,
     figure: &Figure,
@@ -313,7 +314,7 @@ pub fn check_exit<const D: usize>(
     check_tied(figure, tube, &tight, ratios)
 }
 
-/// The exit of a tube that was tied: its point, its parameter, its tangent.
+/// The exit of a tube that was tightened: its point, its parameter, its tangent.
 pub fn check_tied<const D: usize>(
     figure: &Figure,
     tube: &ReducedTube<D>,
@@ -326,14 +327,17 @@ pub fn check_tied<const D: usize>(
     assert!(tube.entry.1 < lo && lo <= hi && hi <= tube.exit_at);
     let through = exact(&tight.exit.centre[..n]);
     let (z, x) = figure.point_near(&through, c)?;
-    assert!(is_between(tube, &z, (lo, hi)), "the tied exit's parameter");
+    assert!(
+        is_between(tube, &z, (lo, hi)),
+        "the tightened exit's parameter"
+    );
     let advance = dot(&exact(c), &exact(&tight.exit_slope[..n]));
     for i in 0..n {
         let away = (&z[i] - &through[i]).abs();
-        ratios.check("tied exit", &away, tight.exit.radius[i]);
+        ratios.check("tightened exit", &away, tight.exit.radius[i]);
         let turned = (&x[i] * &advance - Big::of(tight.exit_slope[i])).abs();
         let bound = round_up(tight.exit_slope_radius * tight.weights[i], 1);
-        ratios.check("tied tangent", &turned, bound);
+        ratios.check("tightened tangent", &turned, bound);
     }
     Some(())
 }
@@ -460,4 +464,9 @@ fn reduced_bounds_dominate_exact_values_near_singular_places() {
 fn reduced_bounds_dominate_exact_values_of_tails() {
     let ratios = check_homotopies(tails(51, 24).into_iter(), (4, 2), 52);
     ratios.come_near(&NEAR);
+}
+
+#[test]
+fn reduced_bounds_dominate_exact_values_of_mixed_kinds() {
+    check_homotopies(mixed(55, 30).into_iter(), (3, 2), 56);
 }

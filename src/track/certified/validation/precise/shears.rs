@@ -73,7 +73,7 @@ fn check_problem<const D: usize>(
             let v: Vec<f64> = (0..n).map(|_| random.between(-1.0, 1.0)).collect();
             let sizes: Vec<f64> = v.iter().map(|v| v.abs()).collect();
             let mut bound = vec![0.0; n];
-            tube.local.y.take_along(&sizes, &mut bound);
+            tube.local.y.bound_unsheared(&sizes, &mut bound);
             for (w, bound) in view.sheared(&k, &exact(&v), false).iter().zip(bound) {
                 ratios.check("T v", &w.abs(), bound);
             }
@@ -94,17 +94,24 @@ fn check_problem<const D: usize>(
                 .map(Big::to_f64)
                 .collect();
             let extent = view.sheared(&k, &exact(&away), true);
-            let stated = tube
-                .local
-                .y
-                .extent(&tube.weights[..n], place, |i| (away[i], 0.0));
+            let stated = tube.local.y.extent(
+                &tube.weights[..n],
+                place,
+                |i| (away[i], 0.0),
+                |i| (away[i], 0.0),
+            );
             ratios.check("extent of T v", &view.norm(&extent), stated);
             // Without the key unknowns' own, which are much larger.
             let mut own = tube.local.y.clone();
             view.keys
                 .iter()
                 .for_each(|&key| own.rho[key] = f64::INFINITY);
-            let stated = own.extent(&tube.weights[..n], place, |i| (away[i], 0.0));
+            let stated = own.extent(
+                &tube.weights[..n],
+                place,
+                |i| (away[i], 0.0),
+                |i| (away[i], 0.0),
+            );
             let inner = view
                 .unknowns
                 .iter()

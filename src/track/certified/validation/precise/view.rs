@@ -41,13 +41,13 @@ impl<'a, const D: usize> View<'a, D> {
 
     /// Coefficients of row i, entry l of a series.
     fn series(&self, rows: [&[[f64; LANE]]; 3], i: usize, l: usize) -> [f64; 3] {
-        let width = self.tube.local.y.elimination.width;
+        let width = self.tube.local.y.elimination.reduced.width;
         rows.map(|rows| rows[i * width + l / LANE][l % LANE])
     }
 
     fn k_of(&self, i: usize, l: usize) -> [f64; 3] {
         let y = &self.tube.local.y;
-        self.series([&y.elimination.k, &y.k[0], &y.k[1]], i, l)
+        self.series([&y.elimination.reduced.k, &y.k[0], &y.k[1]], i, l)
     }
 
     pub fn z_of(&self, e: usize, l: usize) -> [f64; 3] {

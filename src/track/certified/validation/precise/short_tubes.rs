@@ -1,4 +1,4 @@
-//! Exits that are enclosed again by a very short tube (`reduced/exit.rs`, `tie`): what once went wrong
+//! Exits that are enclosed again by a very short tube (`reduced/exit.rs`, `enclose_by_short_tube`): what once went wrong
 //! there, and what its box rests on.
 
 use super::super::reduced::{Proved, Shop};
@@ -34,7 +34,7 @@ fn a_tie_that_fails_leaves_the_exit_as_it_was_proved() {
         assert!(shop.test.tighten_exit(&shop.equations, &mut tube).is_none());
         assert!(
             is_untouched(sample, &tube),
-            "the ball of a knot that was not proved to be on the path"
+            "the ball of a short tube that was not proved to be on the path"
         );
     }
 }
@@ -42,15 +42,15 @@ fn a_tie_that_fails_leaves_the_exit_as_it_was_proved() {
 #[test]
 fn a_tie_is_not_made_before_the_entry() {
     let (_, mut shop, chain) = chain_of("octahedron", 30);
-    let mut tied = 0;
+    let mut tightened = 0;
     for sample in &chain {
         let mut tube = sample.tube.clone();
         let usual = shop.test.tighten_exit(&shop.equations, &mut tube);
         if usual.is_none() {
             continue;
         }
-        tied += 1;
-        // The knot is 1e-5 h before the exit: an entry nearer to the exit than that is not gone behind.
+        tightened += 1;
+        // The short tube is 1e-5 h before the exit: an entry nearer to the exit than that is not gone behind.
         let mut late = sample.tube.clone();
         let entry = late.exit_at - 1e-7 * late.proof.h;
         late.entry = (entry, entry.next_up());
@@ -59,13 +59,13 @@ fn a_tie_is_not_made_before_the_entry() {
         assert!(is_untouched(sample, &late));
     }
     assert!(
-        tied > 20,
-        "{tied} of {} exits were tied at all",
+        tightened > 20,
+        "{tightened} of {} exits were tightened at all",
         chain.len()
     );
 }
 
-/// The exit, its parameter and its tangent where one test has tied other tubes since and before.
+/// The exit, its parameter and its tangent where one test has tightened other tubes since and before.
 #[test]
 fn a_tie_expands_the_path_at_its_own_point() {
     let (figure, mut shop, chain) = chain_of("icosahedron-c1", 40);
@@ -77,65 +77,72 @@ fn a_tie_expands_the_path_at_its_own_point() {
             check_tied(&figure, &sample.tube, &tube, &mut ratios).expect("a regular point");
         }
     }
-    ratios.come_near(&[("tied exit", 1e-3)]);
-    assert!(ratios.count("tied exit") > 20 * figure.n);
+    ratios.come_near(&[("tightened exit", 1e-3)]);
+    assert!(ratios.count("tightened exit") > 20 * figure.n);
 }
 
-/// A knot that is off the path on purpose: its box must reach as far, in all that hangs on the key unknowns.
+/// A short tube that is off the path on purpose: its box must reach as far, in all that hangs on the key unknowns.
 #[test]
-fn the_box_of_a_tied_exit_reaches_the_path_from_wherever_the_knot_is() {
+fn the_box_of_a_tightened_exit_reaches_the_path_from_wherever_the_short_tube_is() {
     let (figure, mut shop, chain) = chain_of("icosahedron-c1", 40);
     let (mut ratios, mut random) = (Ratios::default(), Random::new(37));
-    let mut tied = [0; 3];
+    let mut tightened = [0; 3];
     for round in 0..120 {
         let sample = &chain[random.below(chain.len())];
         let (equations, n) = (&shop.equations, figure.n);
-        let mut knot = Tube::new(equations);
+        let mut short = Tube::new(equations);
         let at = sample.tube.exit_at - 1e-5 * sample.tube.proof.h;
-        sample.tube.local.at(at, &mut knot.local.z[0]);
-        knot.local.normal.copy_from_slice(&sample.tube.local.normal);
+        sample.tube.local.at(at, &mut short.local.z[0]);
+        short
+            .local
+            .normal
+            .copy_from_slice(&sample.tube.local.normal);
         shop.test
-            .refine(equations, &mut knot.local, 1e-11)
+            .refine(equations, &mut short.local, 1e-11)
             .expect("a point");
         shop.test
-            .expand(equations, &mut knot.local)
+            .expand(equations, &mut short.local)
             .expect("a point");
-        let layout = knot.local.y.elimination.layout.clone();
+        let layout = short.local.y.elimination.layout.clone();
         let size = sample.tube.proof.h * 10f64.powf(random.between(-10.0, -6.0));
         // Along the figures that the key unknowns move, or one unknown of A alone; or the direction.
         let kind = round % 3;
         if kind == 0 {
-            let width = knot.local.y.elimination.width;
+            let width = short.local.y.elimination.reduced.width;
             for l in 0..layout.keys() {
                 let step = size * random.between(-1.0, 1.0);
                 for i in 0..n {
-                    let k = knot.local.y.elimination.k.as_flattened()[i * width * 4 + l];
-                    knot.local.z[0][i] += k * step;
+                    let k = short.local.y.elimination.reduced.k.as_flattened()[i * width * 4 + l];
+                    short.local.z[0][i] += k * step;
                 }
             }
         } else {
             let block = &layout.blocks[random.below(layout.blocks.len())];
             let i = block.unknowns[random.below(block.size)] as usize;
-            knot.local.z[kind - 1][i] += random.sign() * size;
+            short.local.z[kind - 1][i] += random.sign() * size;
         }
-        settle(equations, &mut knot.local);
+        settle(equations, &mut short.local);
         // For its series.
         if shop
             .test
-            .bounds_at(equations, &mut knot, 1e-4 * sample.tube.proof.h)
+            .bounds_at(equations, &mut short, 1e-4 * sample.tube.proof.h)
             .is_none()
         {
             continue;
         }
         let mut tube = sample.tube.clone();
-        if shop.test.tie_to(equations, &mut tube, &mut knot).is_some() {
-            tied[kind] += 1;
+        if shop
+            .test
+            .enclose_by(equations, &mut tube, &mut short)
+            .is_some()
+        {
+            tightened[kind] += 1;
             check_tied(&figure, &sample.tube, &tube, &mut ratios).expect("a regular point");
         }
     }
-    println!("{tied:?}");
-    ratios.come_near(&[("tied exit", 0.3), ("tied tangent", 1e-3)]);
-    assert!(tied.iter().all(|&count| count > 10), "{tied:?}");
+    println!("{tightened:?}");
+    ratios.come_near(&[("tightened exit", 0.3), ("tightened tangent", 1e-3)]);
+    assert!(tightened.iter().all(|&count| count > 10), "{tightened:?}");
 }
 
 /// A tube by hand that runs backwards where its exit's ball is, and forwards at `exit_at`.

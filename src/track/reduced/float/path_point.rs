@@ -5,15 +5,15 @@ use super::cubic::{Cubic, weights};
 /// A point of the path in the full space, with its tangent: whatever plan is in use, the path is
 /// this one. Free and fixed places, then t.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Station {
+pub(super) struct PathPoint {
     pub z: Vec<f64>,
     /// The unit tangent in the direction of travel.
     pub tangent: Vec<f64>,
 }
 
-impl Station {
+impl PathPoint {
     pub fn new(places: usize) -> Self {
-        Station {
+        PathPoint {
             z: vec![0.0; places + 1],
             tangent: vec![0.0; places + 1],
         }
@@ -32,10 +32,10 @@ impl Station {
     }
 }
 
-/// The piece of the path between two stations, `h` long.
+/// The piece of the path between two points, `h` long.
 pub(super) struct Piece<'a> {
-    pub from: &'a Station,
-    pub to: &'a Station,
+    pub from: &'a PathPoint,
+    pub to: &'a PathPoint,
     pub h: f64,
 }
 

@@ -7,19 +7,21 @@ use crate::track::full::Equations;
 
 /// The next tube is expected to reach back over this fraction of its half length, as predicted.
 const REACH: f64 = 0.65;
-/// The same where a rejected tube has shown how long tubes are there.
+/// It reaches back over this fraction where a rejected tube has shown how long tubes are there.
 const REACH_SEEN: f64 = 0.85;
-/// How a rejection changes what is believed, and each accepted tube after it.
+/// A rejection multiplies what is believed of the expected length by this.
 const DISTRUST: f64 = 0.93;
+/// Each accepted tube after it multiplies it by this.
 const RECOVERY: f64 = 1.005;
-/// Where nothing is rejected, as where it is a bound on the radius that keeps tubes short.
+/// Expectations are believed up to this factor where nothing is rejected, as where a bound on the radius keeps
+/// tubes short.
 const MOST_TRUST: f64 = 1.3;
 /// Tubes are predicted to be longer by no more than this times, or shorter.
 const GROWTH: (f64, f64) = (0.3, 1.5);
 
 /// What is known of the next tube's place.
 #[derive(Debug)]
-pub(super) struct Stride {
+pub(super) struct StepControl {
     /// How much of the expectation to believe: less after a rejection, then more again.
     trust: f64,
     /// What rejections taught about this tube: the next one must reach back over less.
@@ -29,9 +31,9 @@ pub(super) struct Stride {
     room: Vector,
 }
 
-impl Stride {
+impl StepControl {
     pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
-        Stride {
+        StepControl {
             trust: 1.0,
             shorter: f64::INFINITY,
             before: f64::INFINITY,

@@ -1,0 +1,347 @@
+//! Which equations follow from others exactly, at every figure: an identity of polynomials with rational coefficients.
+//!
+//! With the left-hand sides L of equations L = E and rational numbers c and d,
+//!
+//! ```text
+//! L_r = Σ c_i L_i + Σ d_kj (L_k − E_k) x_j,
+//! ```
+//!
+//! where the k are linear equations with constant rational right-hand sides and the x_j unknowns, means that wherever the
+//! others hold L_r is Σ c_i E_i: so the equation r holds if E_r is that, and not otherwise. This is found by elimination over
+//! the rational numbers. What follows for another reason (of two lines parallel to a third, by cases) is not found.
+
+use super::Row;
+use crate::constraint::{Entry, Form, Product};
+use crate::interval::Real;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Larger eliminations are not made: nothing is said then.
+const MOST: usize = 600;
+
+/// A product of unknowns, none, one or two of them, in order.
+type Monomial = Vec<usize>;
+
+/// A polynomial.
+type Polynomial = BTreeMap<Monomial, BigRational>;
+
+/// An equation that holds.
+#[derive(Debug, Clone)]
+pub struct Given {
+    left: Polynomial,
+    /// Its right-hand side, if that is a constant ratio and the left-hand side linear.
+    constant: Option<BigRational>,
+}
+
+/// How an equation follows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combination {
+    /// The equations i, by their places among those given, with their factors.
+    pub sum: Vec<(usize, BigRational)>,
+    /// The equations k, which must keep their right-hand sides.
+    pub kept: BTreeSet<usize>,
+}
+
+impl Given {
+    /// A row with its right-hand side.
+    pub fn row(row: &Row, right: &[Real]) -> Self {
+        let left = polynomial(&row.products);
+        let is_linear = left.keys().all(|monomial| monomial.len() <= 1);
+        Given {
+            constant: constant(right).filter(|_| is_linear),
+            left,
+        }
+    }
+
+    /// An unknown that is held at a number.
+    pub fn held(unknown: usize, at: &Real) -> Self {
+        Given {
+            left: BTreeMap::from([(vec![unknown], BigRational::one())]),
+            constant: at.as_rational().cloned(),
+        }
+    }
+}
+
+/// The value of a right-hand side that is a constant ratio.
+fn constant(right: &[Real]) -> Option<BigRational> {
+    let (first, rest) = right.split_first()?;
+    let stays = rest.iter().all(Real::is_zero);
+    first.as_rational().filter(|_| stays).cloned()
+}
+
+/// ½ Σ factor · left · right, multiplied out.
+fn polynomial(products: &[Product]) -> Polynomial {
+    let form = |form: Form| -> Vec<(Option<usize>, i32)> {
+        match form {
+            Form::One => vec![(None, 1)],
+            Form::Difference(a, b) => [(a, 1), (b, -1)]
+                .into_iter()
+                .filter_map(|(entry, sign)| match entry {
+                    Entry::Unknown(u) => Some((Some(u), sign)),
+                    _ => None,
+                })
+                .collect(),
+        }
+    };
+    let mut out = Polynomial::new();
+    for p in products {
+        for (a, sign_a) in form(p.left) {
+            for (b, sign_b) in form(p.right) {
+                let mut monomial: Monomial = [a, b].into_iter().flatten().collect();
+                monomial.sort_unstable();
+                let factor = BigRational::new(BigInt::from(p.factor * sign_a * sign_b), 2.into());
+                add(&mut out, monomial, &factor);
+            }
+        }
+    }
+    out
+}
+
+fn add(to: &mut Polynomial, monomial: Monomial, factor: &BigRational) {
+    let entry = to.entry(monomial).or_insert_with(BigRational::zero);
+    *entry += factor;
+    let is_gone = entry.is_zero();
+    if is_gone {
+        to.retain(|_, factor| !factor.is_zero());
+    }
+}
+
+/// A polynomial, and the given equations, times unknowns or not, that it is made of.
+#[derive(Debug, Clone)]
+struct Made {
+    polynomial: Polynomial,
+    of: BTreeMap<(usize, Option<usize>), BigRational>,
+}
+
+impl Made {
+    /// Takes a multiple of another away.
+    fn reduce(&mut self, other: &Made, factor: &BigRational) {
+        for (monomial, value) in &other.polynomial {
+            add(&mut self.polynomial, monomial.clone(), &-(factor * value));
+        }
+        for (source, value) in &other.of {
+            *self.of.entry(*source).or_insert_with(BigRational::zero) -= factor * value;
+        }
+        self.of.retain(|_, value| !value.is_zero());
+    }
+}
+
+/// How the left-hand side of a row is made of those given; `None`: it is not, or nothing can be said.
+pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
+    let target = polynomial(&row.products);
+    let mut made: Vec<Made> = Vec::new();
+    for (index, one) in given.iter().enumerate() {
+        made.push(Made {
+            polynomial: one.left.clone(),
+            of: BTreeMap::from([((index, None), BigRational::one())]),
+        });
+    }
+    // Unknowns that stand beside another one in a product.
+    let all = given.iter().map(|one| &one.left).chain([&target]);
+    let mut partners: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for monomial in all.flat_map(|left| left.keys()) {
+        if let [a, b] = monomial[..] {
+            partners.entry(a).or_default().insert(b);
+            partners.entry(b).or_default().insert(a);
+        }
+    }
+    for (index, one) in given.iter().enumerate() {
+        let Some(constant) = &one.constant else {
+            continue;
+        };
+        let unknowns = one.left.keys().flatten();
+        let beside = unknowns.filter_map(|u| partners.get(u)).flatten();
+        for &x in beside.collect::<BTreeSet<_>>() {
+            let mut polynomial = Polynomial::new();
+            for (monomial, factor) in &one.left {
+                let mut product = [monomial.as_slice(), &[x]].concat();
+                product.sort_unstable();
+                add(&mut polynomial, product, factor);
+            }
+            add(&mut polynomial, vec![x], &-constant);
+            made.push(Made {
+                polynomial,
+                of: BTreeMap::from([((index, Some(x)), BigRational::one())]),
+            });
+        }
+    }
+    if made.len() > MOST {
+        return None;
+    }
+    let mut basis: BTreeMap<Monomial, Made> = BTreeMap::new();
+    let reduced = |mut one: Made, basis: &BTreeMap<Monomial, Made>| {
+        let mut done: Option<Monomial> = None;
+        loop {
+            let next = one.polynomial.iter().rev();
+            let mut next = next.filter(|(monomial, _)| done.as_ref().is_none_or(|d| *monomial < d));
+            let Some((monomial, factor)) = next.next().map(|(m, f)| (m.clone(), f.clone())) else {
+                return one;
+            };
+            if let Some(other) = basis.get(&monomial) {
+                one.reduce(other, &factor);
+            }
+            done = Some(monomial);
+        }
+    };
+    for one in made {
+        let mut one = reduced(one, &basis);
+        let Some((monomial, factor)) = one.polynomial.iter().next_back() else {
+            continue;
+        };
+        let (monomial, per) = (monomial.clone(), factor.recip());
+        one.polynomial.values_mut().for_each(|x| *x *= &per);
+        one.of.values_mut().for_each(|x| *x *= &per);
+        basis.insert(monomial, one);
+    }
+    let wanted = Made {
+        polynomial: target,
+        of: BTreeMap::new(),
+    };
+    let left = reduced(wanted, &basis);
+    if !left.polynomial.is_empty() {
+        return None;
+    }
+    let mut out = Combination {
+        sum: Vec::new(),
+        kept: BTreeSet::new(),
+    };
+    for ((index, times), factor) in left.of {
+        match times {
+            None => out.sum.push((index, -factor)),
+            Some(_) => {
+                out.kept.insert(index);
+            }
+        }
+    }
+    Some(out)
+}
+
+impl Combination {
+    /// Whether with these right-hand sides, polynomials in t, the equation holds wherever the given ones do, for every t.
+    /// `before`: the right-hand sides with which it was found.
+    pub fn holds<'r>(
+        &self,
+        right: &[Real],
+        of: impl Fn(usize) -> Vec<Real>,
+        before: impl Fn(usize) -> Option<&'r BigRational>,
+    ) -> bool {
+        let is_kept = |&k: &usize| constant(&of(k)).as_ref() == before(k);
+        if !self.kept.iter().all(is_kept) {
+            return false;
+        }
+        let mut terms: Vec<(BigRational, Vec<Real>)> = vec![(-BigRational::one(), right.to_vec())];
+        terms.extend(self.sum.iter().map(|(i, factor)| (factor.clone(), of(*i))));
+        let longest = terms.iter().map(|(_, right)| right.len()).max();
+        (0..longest.unwrap_or(0)).all(|power| {
+            let at_power = terms
+                .iter()
+                .filter_map(|(factor, right)| Some((factor, right.get(power)?)));
+            is_zero(at_power)
+        })
+    }
+}
+
+/// Whether a sum of multiples of numbers is zero; numbers that are no ratios are told apart by how they are written.
+fn is_zero<'r>(terms: impl Iterator<Item = (&'r BigRational, &'r Real)>) -> bool {
+    let mut ratio = BigRational::zero();
+    let mut others: Vec<(&Real, BigRational)> = Vec::new();
+    for (factor, number) in terms {
+        match number.as_rational() {
+            Some(value) => ratio += factor * value,
+            None => match others.iter_mut().find(|(other, _)| *other == number) {
+                Some((_, sum)) => *sum += factor,
+                None => others.push((number, factor.clone())),
+            },
+        }
+    }
+    ratio.is_zero() && others.iter().all(|(_, sum)| sum.is_zero())
+}
+
+impl Given {
+    /// Its right-hand side, if it may be multiplied by unknowns.
+    pub fn constant(&self) -> Option<&BigRational> {
+        self.constant.as_ref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::{difference, product};
+
+    fn row(products: Vec<Product>) -> Row {
+        // Equations have ½ on the left.
+        let twice = |p: Product| Product {
+            factor: 2 * p.factor,
+            ..p
+        };
+        Row {
+            index: 0,
+            products: products.into_iter().map(twice).collect(),
+            unknowns: Vec::new(),
+        }
+    }
+
+    fn between(a: usize, b: usize) -> Form {
+        difference(Entry::Unknown(a), Entry::Unknown(b))
+    }
+
+    fn whole(x: i64) -> Vec<Real> {
+        vec![Real::whole(x)]
+    }
+
+    #[test]
+    fn a_chain_of_differences_gives_the_last_one() {
+        let one = row(vec![product(1, between(0, 1), Form::One)]);
+        let two = row(vec![product(1, between(1, 2), Form::One)]);
+        let sum = row(vec![product(1, between(0, 2), Form::One)]);
+        let rights = [whole(3), whole(4)];
+        let given = [Given::row(&one, &rights[0]), Given::row(&two, &rights[1])];
+        let found = combination(&sum, &given).unwrap();
+        let of = |rights: [Vec<Real>; 2]| move |i: usize| rights[i].clone();
+        let before = |k: usize| given[k].constant();
+        assert!(found.holds(&whole(7), of(rights.clone()), before));
+        assert!(!found.holds(&whole(8), of(rights.clone()), before));
+        // Both move, and the sum with them.
+        let moving = |from: i64, by: i64| vec![Real::whole(from), Real::whole(by)];
+        let rights = [moving(3, 1), moving(4, 2)];
+        assert!(found.holds(&moving(7, 3), of(rights.clone()), before));
+        assert!(!found.holds(&moving(7, 2), of(rights), before));
+        let other = row(vec![product(1, between(0, 3), Form::One)]);
+        assert_eq!(combination(&other, &given), None);
+    }
+
+    /// A bar of which both ends have the same y is as long as its ends are apart in x: (x0 − x1)² follows from
+    /// x0 − x1 = 5.
+    #[test]
+    fn a_square_follows_from_what_is_squared() {
+        let line = row(vec![product(1, between(0, 1), Form::One)]);
+        let square = row(vec![product(1, between(0, 1), between(0, 1))]);
+        let given = [Given::row(&line, &whole(5))];
+        let found = combination(&square, &given).unwrap();
+        // L_r = (x0 − x1 − 5)(x0 − x1) + 5 (x0 − x1).
+        assert_eq!(found.kept.len(), 1);
+        let before = |k: usize| given[k].constant();
+        assert!(found.holds(&whole(25), |_| whole(5), before));
+        assert!(!found.holds(&whole(24), |_| whole(5), before));
+        // That the length moves is another identity, which was not found.
+        assert!(!found.holds(&whole(36), |_| whole(6), before));
+    }
+
+    #[test]
+    fn equal_squares_add_up() {
+        let square = |a: usize, b: usize| product(1, between(a, b), between(a, b));
+        let minus = |p: Product| Product {
+            factor: -p.factor,
+            ..p
+        };
+        let ab = row(vec![square(0, 1), minus(square(2, 3))]);
+        let bc = row(vec![square(2, 3), minus(square(4, 5))]);
+        let ac = row(vec![square(0, 1), minus(square(4, 5))]);
+        let given = [Given::row(&ab, &whole(0)), Given::row(&bc, &whole(0))];
+        let found = combination(&ac, &given).unwrap();
+        assert!(found.holds(&whole(0), |_| whole(0), |k| given[k].constant()));
+    }
+}

@@ -1,0 +1,170 @@
+//! The check of sets of complex solutions of distances: that each exists, that no two are congruent, which are real, and that
+//! there is no other, where their number meets the multi-homogeneous Bézout bound.
+//!
+//! No path is needed for that: how solutions were found does not matter once each is proved to be one, and a bound says
+//! how many there are at most. The equations, Krawczyk's test and the bound are made here from the problem alone; what
+//! is trusted is in this folder, and the intervals and the problem beside it.
+
+mod bezout;
+mod figure;
+mod numbers;
+
+use crate::problem::Problem;
+use figure::{Equations, Proved};
+use serde::{Deserialize, Serialize};
+
+/// The first line of a file.
+pub const FIRST_LINE: &str = "krawl complex set 1";
+
+/// A set as it stands in a file: after the first line, one line of JSON.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComplexSet {
+    /// The text of the problem's file.
+    pub problem: String,
+    /// The points that stand still, by name: two joined ones in the plane, three mutually joined ones in space.
+    pub fixed: Vec<String>,
+    /// For each solution and each point (in the problem's order) real and imaginary part of each coordinate: the first
+    /// fixed point is at the origin, the second on the x axis at its positive distance, the third in the upper half of the
+    /// xy plane. In the problem's unit.
+    pub solutions: Vec<Vec<Vec<[f64; 2]>>>,
+    /// Whether the set is claimed to have all isolated solutions.
+    pub complete: bool,
+}
+
+/// Why a file cannot be checked.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct ComplexSetError(pub String);
+
+/// What a set proves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComplexVerdict {
+    /// The problem that it is about.
+    pub problem: Problem,
+    /// Solutions up to isometry, no two congruent.
+    pub isometry: usize,
+    /// The same up to rotation.
+    pub rotation: usize,
+    /// How many of the former are real.
+    pub real: usize,
+    /// The bound on those up to rotation.
+    pub bound: Option<u128>,
+    /// Whether all was claimed.
+    pub claims_all: bool,
+    /// What is wrong or could not be proved: then nothing is.
+    pub flaw: Option<ComplexFlaw>,
+}
+
+/// What is wrong with a set.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ComplexFlaw {
+    /// A claim is false.
+    False(String),
+    /// A claim may be true, and could not be proved.
+    NotProved(String),
+}
+
+impl ComplexVerdict {
+    /// Whether the solutions are proved to be all isolated ones.
+    pub fn proves_all(&self) -> bool {
+        self.flaw.is_none() && self.bound == Some(self.rotation as u128)
+    }
+
+    /// Whether this is about the points and distances of a problem, whatever its sketch.
+    pub fn is_about(&self, problem: &Problem) -> bool {
+        let names = |p: &Problem| p.points.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+        problem.is_distances_only()
+            && self.problem.dimension == problem.dimension
+            && names(&self.problem) == names(problem)
+            && self.problem.distances == problem.distances
+    }
+}
+
+impl ComplexSet {
+    /// The text of a file.
+    pub fn to_text(&self) -> String {
+        let json = serde_json::to_string(self).expect("numbers and strings have a form in JSON");
+        format!("{FIRST_LINE}\n{json}\n")
+    }
+
+    /// Reads the text of a file.
+    pub fn from_text(text: &str) -> Result<Self, ComplexSetError> {
+        let rest = text
+            .strip_prefix(FIRST_LINE)
+            .and_then(|rest| rest.strip_prefix('\n'))
+            .ok_or_else(|| {
+                ComplexSetError(format!("it does not begin with the line `{FIRST_LINE}`"))
+            })?;
+        serde_json::from_str(rest).map_err(|error| ComplexSetError(format!("line 2: {error}")))
+    }
+}
+
+/// Checks a set.
+pub fn verify_complex_set(text: &str) -> Result<ComplexVerdict, ComplexSetError> {
+    let set = ComplexSet::from_text(text)?;
+    let problem = Problem::parse(&set.problem, "the set's problem")
+        .map_err(|e| ComplexSetError(e.to_string()))?;
+    let mut verdict = ComplexVerdict {
+        problem,
+        isometry: 0,
+        rotation: 0,
+        real: 0,
+        bound: None,
+        claims_all: set.complete,
+        flaw: None,
+    };
+    verdict.flaw = check(&set, &mut verdict).err();
+    Ok(verdict)
+}
+
+fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFlaw> {
+    let wrong = |text: String| ComplexFlaw::False(text);
+    let doubt = |text: String| ComplexFlaw::NotProved(text);
+    let problem = &verdict.problem;
+    let fixed: Option<Vec<usize>> = set
+        .fixed
+        .iter()
+        .map(|name| problem.points.iter().position(|p| p.name == *name))
+        .collect();
+    let fixed =
+        fixed.ok_or_else(|| wrong("a fixed point is no point of the problem".to_owned()))?;
+    let equations = Equations::new(problem, &fixed).map_err(doubt)?;
+    let mut proved: Vec<Proved> = Vec::new();
+    for (index, places) in set.solutions.iter().enumerate() {
+        let number = index + 1;
+        let one = equations
+            .prove(places)
+            .ok_or_else(|| doubt(format!("solution {number} is not proved to exist")))?;
+        if let Some(other) = proved.iter().position(|other| !other.is_apart(&one)) {
+            return Err(wrong(format!(
+                "solutions {} and {number} are not two: their boxes are not apart, as they are or mirrored",
+                other + 1
+            )));
+        }
+        let flat = one
+            .is_its_own_mirror_image()
+            .ok_or_else(|| doubt(format!("whether solution {number} is flat is not clear")))?;
+        let real = one
+            .is_real()
+            .ok_or_else(|| doubt(format!("whether solution {number} is real is not clear")))?;
+        verdict.isometry += 1;
+        verdict.rotation += if flat { 1 } else { 2 };
+        verdict.real += usize::from(real);
+        proved.push(one);
+    }
+    verdict.bound = bezout::bound(problem, &fixed);
+    match verdict.bound {
+        Some(bound) if bound < verdict.rotation as u128 => Err(wrong(format!(
+            "{} solutions are proved and the bound is {bound}: this is a bug in krawl, please report it",
+            verdict.rotation
+        ))),
+        Some(bound) if set.complete && bound != verdict.rotation as u128 => Err(doubt(format!(
+            "all solutions are claimed, there are {} up to rotation, and the bound that is checked here is {bound}",
+            verdict.rotation
+        ))),
+        None if set.complete => Err(doubt(
+            "all solutions are claimed, and no bound is known".to_owned(),
+        )),
+        _ => Ok(()),
+    }
+}

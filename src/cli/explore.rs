@@ -1,0 +1,263 @@
+//! `krawl explore`: new sketches from solutions, and their paths, until nothing new comes.
+
+use super::output::{self, Beside, Destination};
+use super::verify::check_written;
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, input, interrupt};
+use krawl::certificate::Writer;
+use krawl::complete::{self, all};
+use krawl::explore::{ExploreError, Explorer, Finish, Options, Progress};
+use krawl::problem::{Problem, Published};
+use krawl::report::{AllReal, Explored, ProgressLine, explore_to_json, explore_to_table};
+use krawl::track::{self, Control, Witness};
+use std::collections::BTreeSet;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Duration;
+
+/// Look for more real solutions: new sketches from those found, their paths, and so on
+///
+/// From every solution found, the branches of a construction plan give new sketches. Each is followed with proof, unless
+/// a path that is proved already passes through it; then the same with other plans and other lengths that bend, until
+/// nothing new comes or the budget ends. All is kept in a store, so that no path that was finished is ever lost: the
+/// same command goes on where the last run ended, however that was. That there are no other solutions is not
+/// claimed; `krawl all` proves that, where it can.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl explore problems/disulfide.toml --store disulfide
+  krawl explore problems/icosahedron.toml --store ico --time 3600 --json ico.json
+  krawl explore problems/disulfide.toml --store disulfide --proofs proofs    a certificate for each solution
+
+On several machines:
+  krawl explore problems/icosahedron.toml --store ico --time 10 --shard 100  ico/unit-0.krawl-unit, ...
+  krawl work ico/unit-0.krawl-unit                                           on any machine
+  krawl merge ico ico/*.krawl-result                                         back into the store
+
+Exit codes: 0 nothing new came, 4 the budget ended or sketches are in work units (the same command goes on), 2 bad
+input, or another process has the store open.")]
+pub struct Arguments {
+    /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
+    file: PathBuf,
+    /// The folder of the store; it is made where there is none
+    #[arg(long, value_name = "DIR")]
+    store: PathBuf,
+    /// Which molecule of a file that holds several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
+    /// Stop after so many seconds; paths that are not done by then are followed by the next run
+    #[arg(long, value_name = "S", value_parser = super::all::seconds)]
+    time: Option<f64>,
+    /// Stop when this run has followed so many paths; 0 shows what the store has
+    #[arg(long, value_name = "N")]
+    paths: Option<u64>,
+    /// Paths to follow at the same time [default: one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// The end: so many ways (plan, length that bends, coefficient) in a row without a new solution
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    patience: u16,
+    /// A path that takes more tubes is given up
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    max_tubes: usize,
+    /// Then put all sketches that wait into so many work units, files in the store's folder
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    shard: Option<u32>,
+    /// Follow sketches that are in work units here, too
+    #[arg(long, conflicts_with = "shard")]
+    take_back: bool,
+    /// Write into this folder, for each path that first found a solution, the problem with its sketch and its certificate
+    #[arg(long, value_name = "DIR")]
+    proofs: Option<PathBuf>,
+    /// How long `krawl all` may look for all real solutions, to compare; 0 leaves it out
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = seconds_or_none)]
+    all_time: f64,
+    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Print the coordinates of all solutions
+    #[arg(long)]
+    all: bool,
+    /// Print no table and no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn seconds_or_none(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (0.0..1e9).contains(&x) => Ok(x),
+        _ => Err("must be a number, 0 or greater".to_owned()),
+    }
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let file = arguments.file.display();
+    let (problem, published) = read(arguments)?;
+    let json = arguments
+        .json
+        .as_deref()
+        .map(Destination::new)
+        .transpose()?;
+    if let Some(json) = &arguments.json
+        && output::is_same_file(json, &arguments.file)
+    {
+        return Err(format!(
+            "{file}: is the problem itself; name another file for the results"
+        ));
+    }
+    let cancel = interrupt::flag();
+    let at = |error: ExploreError| match error {
+        ExploreError::Problem(_) | ExploreError::Unserved(_) => format!("{file}: {error}"),
+        _ => error.to_string(),
+    };
+    let mut explorer = Explorer::open(&problem, &arguments.store).map_err(at)?;
+    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let tell = |now: Progress| {
+        if let Ok(mut line) = line.lock() {
+            line.show_text(format!(
+                "{} paths   {} solutions   {} sketches waiting   way {}   {:.1} paths/s",
+                now.paths, now.solutions, now.queue, now.way, now.rate
+            ));
+        }
+    };
+    let options = Options {
+        time: arguments.time.map(Duration::from_secs_f64),
+        paths: arguments.paths,
+        jobs: arguments.jobs.unwrap_or(0).into(),
+        patience: arguments.patience.into(),
+        most_tubes: arguments.max_tubes,
+        take_back: arguments.take_back,
+        cancel: Some(cancel),
+        progress: Some(&tell),
+    };
+    let finish = explorer.run(&options);
+    if let Ok(line) = line.into_inner() {
+        line.clear();
+    }
+    let finish = finish.map_err(at)?;
+    let mut written = true;
+    if let Some(count) = arguments.shard {
+        let units = share(&mut explorer, count as usize).map_err(at)?;
+        if !arguments.quiet {
+            eprintln!(
+                "{units} work units in {}; `krawl work` follows one, `krawl merge` takes what comes of it",
+                arguments.store.display()
+            );
+        }
+    }
+    if let Some(folder) = &arguments.proofs {
+        written &= prove(&explorer, folder, arguments.quiet)?;
+    }
+    let explored = Explored {
+        explorer: &explorer,
+        finish: Some(finish),
+        all_real: all_real(&problem, arguments.all_time),
+        published: &published,
+    };
+    if let AllReal::Proved(all) = explored.all_real
+        && all < explorer.contents().classes.len()
+    {
+        output::complain(&format!(
+            "{file}: {} solutions are proved to exist, and `krawl all` proves that there are {all}: this is a bug in \
+             krawl, please report it",
+            explorer.contents().classes.len()
+        ));
+    }
+    if let Some(json) = &json {
+        written &= json.write(&(explore_to_json(&explored) + "\n"));
+    }
+    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+        written &= output::print(&explore_to_table(&explored, arguments.all));
+    }
+    Ok(match finish {
+        _ if !written => BAD_INPUT,
+        _ if !explorer.contents().out.is_empty() => INCOMPLETE,
+        Finish::Ended => CLOSED,
+        _ => INCOMPLETE,
+    })
+}
+
+fn read(arguments: &Arguments) -> Result<(Problem, Vec<Published>), String> {
+    let is_toml = arguments.file.extension().is_some_and(|e| e == "toml");
+    if is_toml && arguments.sketch.is_none() {
+        return Problem::read_with_published(&arguments.file).map_err(|e| e.to_string());
+    }
+    let problem = input::read(&arguments.file, arguments.sketch.as_deref())?;
+    Ok((problem, Vec::new()))
+}
+
+/// How many real solutions there are, if that can be proved in so much time.
+fn all_real(problem: &Problem, seconds: f64) -> AllReal {
+    if seconds == 0.0 {
+        return AllReal::Unknown("`--all-time 0`".to_owned());
+    }
+    let options = complete::Options {
+        cancel: Some(interrupt::flag()),
+        time: Some(Duration::from_secs_f64(seconds)),
+        ..complete::Options::default()
+    };
+    match all(problem, &options) {
+        Ok(found) if found.status == complete::Status::Complete => {
+            let classes: BTreeSet<usize> = found.solutions.iter().map(|s| s.class).collect();
+            AllReal::Proved(classes.len())
+        }
+        Ok(_) => AllReal::Unknown(format!(
+            "`krawl all` did not prove it within {seconds} s (`--all-time`)"
+        )),
+        Err(unserved) => AllReal::Unknown(format!("`krawl all`: {unserved}")),
+    }
+}
+
+/// Writes work units into the store's folder, before the store knows of them.
+fn share(explorer: &mut Explorer, count: usize) -> Result<usize, ExploreError> {
+    let folder = explorer.folder().to_owned();
+    explorer.share(count, &mut |unit, share| {
+        let path = folder.join(format!("unit-{unit}.krawl-unit"));
+        let failed = |error: String| ExploreError::File(path.clone(), error);
+        let beside = Beside::new(&path).map_err(&failed)?;
+        let whole = std::io::Write::write_all(&mut beside.file(), share.write().as_bytes());
+        match beside.commit(whole) {
+            true => Ok(()),
+            false => Err(failed("the work unit cannot be written".to_owned())),
+        }
+    })
+}
+
+/// Follows the paths that first found solutions once more, and writes their problems and certificates.
+fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let classes = explorer.contents().classes.iter();
+    let paths: BTreeSet<u64> = classes.map(|class| class.path).collect();
+    let mut well = true;
+    for id in paths {
+        let Some(problem) = explorer.problem_of(id) else {
+            continue;
+        };
+        let text = folder.join(format!("path-{id}.toml"));
+        well &= Destination::new(&text)?.write(&problem.to_toml());
+        let cert = folder.join(format!("path-{id}.krawl"));
+        let beside = Beside::new(&cert)?;
+        let mut writer = Writer::new(BufWriter::new(beside.file()), &problem);
+        let mut control = Control {
+            cancel: Some(interrupt::flag()),
+            witness: Some(&mut writer as &mut dyn Witness),
+            ..Control::default()
+        };
+        track::solve_in_best_space(&problem, &track::Options::certified(), &mut control)
+            .map_err(|error| format!("{}: {error}", text.display()))?;
+        if control
+            .cancel
+            .is_some_and(|flag| flag.load(std::sync::atomic::Ordering::Relaxed))
+        {
+            return Ok(well);
+        }
+        let whole = writer.finish().map(|_| ());
+        well &= beside.commit(whole) && check_written(Some(&cert), quiet)?.is_none();
+    }
+    Ok(well)
+}

@@ -1,0 +1,309 @@
+//! From constraints to equations: the unknowns and equations so far, and what kinds of constraints
+//! build them with.
+
+mod geometry;
+mod relations;
+mod symmetry;
+
+pub use geometry::{Arrow, Place};
+pub use relations::Measured;
+
+use super::frame::Frame;
+use super::polynomial::{Polynomial, ramp};
+use super::quadratic::{
+    Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, product, value,
+};
+use crate::interval::Real;
+use crate::problem::{Problem, Target};
+use num_traits::Zero;
+use std::collections::HashMap;
+
+/// Why a constraint cannot be put to work: what is wrong, and what to do about it.
+pub type Fault = String;
+
+/// How a number that stands for itself changes where an axis is reversed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parity {
+    /// It stays.
+    Even,
+    /// It changes its sign, as a triple product does.
+    Odd,
+}
+
+/// Unknowns and equations, as they come to be.
+pub struct Lowering<'a> {
+    /// What they are made of.
+    pub problem: &'a Problem,
+    /// Where coordinates are counted from.
+    pub frame: Frame,
+    tail: Tail,
+    /// The exact values of the unknowns in the sketch.
+    values: Vec<Real>,
+    /// For each equation whether its right-hand side is zero at t = 1.
+    vanishing: Vec<bool>,
+    /// What each equation is a part of: a count of objects, then constraints.
+    owners: Vec<usize>,
+    owner: usize,
+    /// Where the path begins.
+    from: Start<'a>,
+    /// Whether left-hand sides must not depend on the values of dimensions.
+    editable: bool,
+    /// What dimensions were led to, and which senses were read off the sketch.
+    record: Record,
+    /// Index of the distance between two points, the lower first.
+    distances: HashMap<[usize; 2], usize>,
+    /// Lengths that are entries of equations already.
+    lengths: HashMap<[Form; 3], Entry>,
+    /// Cross products likewise.
+    crosses: HashMap<[[Form; 3]; 2], Arrow>,
+    /// Unknowns of objects, by index of the object.
+    pub(super) objects: HashMap<usize, Vec<Entry>>,
+}
+
+/// Where a path begins, at t = 0.
+#[derive(Debug, Clone, Copy)]
+pub enum Start<'a> {
+    /// At the sketch, which need not meet any constraint.
+    Sketch,
+    /// At a figure that meets all constraints, but has these distances.
+    Distances(&'a [Target]),
+    /// At a figure that meets all constraints with the dimensions of another lowering of the same problem, but for the
+    /// values of dimensions.
+    Dimensions(&'a Record),
+}
+
+/// What a lowering decided by values: dimensions in the order in which they were met, and senses read off the sketch.
+#[derive(Debug, Clone, Default)]
+pub struct Record {
+    targets: Vec<Target>,
+    leads: Vec<Real>,
+    senses: Vec<bool>,
+}
+
+/// A finished lowering.
+pub struct Lowered {
+    /// What edits of it begin with.
+    pub record: Record,
+    /// The unknowns and equations.
+    pub tail: Tail,
+    /// The exact values of the unknowns in the sketch.
+    pub values: Vec<Real>,
+    /// For each equation the object, or the number of objects plus the constraint, that it comes from.
+    /// Numbers beyond are the problem's own: places that krawl pins.
+    pub owners: Vec<usize>,
+    /// For each equation whether its right-hand side is zero at t = 1.
+    pub vanishing: Vec<bool>,
+}
+
+impl<'a> Lowering<'a> {
+    /// Nothing yet. With `editable`, the left-hand sides will be the same whatever the values of dimensions are.
+    pub fn new(problem: &'a Problem, from: Start<'a>, editable: bool) -> Self {
+        let pairs = problem.distances.iter().enumerate();
+        Lowering {
+            problem,
+            from,
+            editable,
+            record: Record {
+                targets: problem.distances.iter().map(|d| d.target.clone()).collect(),
+                ..Record::default()
+            },
+            frame: Frame::new(problem),
+            tail: Tail::default(),
+            values: Vec::new(),
+            vanishing: Vec::new(),
+            owners: Vec::new(),
+            owner: 0,
+            distances: pairs
+                .map(|(index, d)| {
+                    let [a, b] = d.points;
+                    ([a.min(b), a.max(b)], index)
+                })
+                .collect(),
+            lengths: HashMap::new(),
+            crosses: HashMap::new(),
+            objects: HashMap::new(),
+        }
+    }
+
+    /// From here on equations belong to this object or constraint.
+    pub fn begin(&mut self, owner: usize) {
+        self.owner = owner;
+    }
+
+    /// The result.
+    pub fn finish(mut self) -> Lowered {
+        self.tail.twins = super::twins::twins(&self.tail, &self.vanishing, &self.same_sign());
+        self.tail.mirrors = !self.problem.is_absolute()
+            && (0..self.problem.dimension).all(|axis| self.is_symmetric(axis));
+        self.tail.objects = (0..self.problem.objects.len())
+            .map(|object| self.objects.remove(&object).unwrap_or_default())
+            .collect();
+        Lowered {
+            record: self.record,
+            tail: self.tail,
+            values: self.values,
+            owners: self.owners,
+            vanishing: self.vanishing,
+        }
+    }
+
+    /// The dimension.
+    pub fn dimension(&self) -> usize {
+        self.problem.dimension
+    }
+
+    /// The name of a point.
+    pub fn name(&self, point: usize) -> &str {
+        &self.problem.points[point].name
+    }
+
+    /// A new unknown, with its value in the sketch.
+    pub fn unknown(
+        &mut self,
+        name: String,
+        role: Role,
+        power: i32,
+        flips: [bool; 3],
+        at: Real,
+    ) -> Entry {
+        self.tail.unknowns.push(Unknown {
+            name,
+            role,
+            power,
+            flips,
+            sketch: at.enclose(),
+        });
+        self.values.push(at);
+        Entry::Unknown(self.tail.unknowns.len() - 1)
+    }
+
+    /// A new unknown that is a number for itself.
+    pub fn scalar(&mut self, name: String, power: i32, parity: Parity, at: Real) -> Entry {
+        let flips = std::array::from_fn(|k| k < self.dimension() && parity == Parity::Odd);
+        self.unknown(name, Role::Free, power, flips, at)
+    }
+
+    /// A new unknown for each coordinate of a vector: a place (`power` 1), a direction or a normal.
+    pub fn coordinates(
+        &mut self,
+        name: &str,
+        power: i32,
+        axial: bool,
+        at: [Real; 3],
+    ) -> [Entry; 3] {
+        let mut entries = [Entry::Zero; 3];
+        for (axis, at) in at.into_iter().enumerate().take(self.dimension()) {
+            let flips = std::array::from_fn(|k| k < self.dimension() && (k == axis) != axial);
+            let name = format!("{name}, {}", ["x", "y", "z"][axis]);
+            entries[axis] = self.unknown(name, Role::Free, power, flips, at);
+        }
+        entries
+    }
+
+    /// The equation Σ products = right, which is zero on the right at t = 1 if `vanishing`.
+    fn push(
+        &mut self,
+        name: String,
+        products: Vec<Product>,
+        right: Polynomial,
+        power: i32,
+        vanishing: bool,
+    ) {
+        assert!(
+            right.len() <= MAX_DEGREE + 1,
+            "{name}: the degree is too high"
+        );
+        // Equations have ½ on the left. Coordinates of an axis are zero but for one.
+        let is_zero = |form: Form| form == value(Entry::Zero);
+        let products = products
+            .into_iter()
+            .filter(|p| !is_zero(p.left) && !is_zero(p.right));
+        let products = products.map(|p| Product {
+            factor: 2 * p.factor,
+            ..p
+        });
+        self.tail.equations.push(Equation {
+            name,
+            products: products.collect(),
+            right,
+            power,
+        });
+        self.vanishing.push(vanishing);
+        self.owners.push(self.owner);
+    }
+
+    /// The equation Σ products = right.
+    pub fn equate(&mut self, name: &str, products: Vec<Product>, right: Polynomial, power: i32) {
+        let vanishing = right.iter().all(Real::is_zero);
+        self.push(name.to_owned(), products, right, power, vanishing);
+    }
+
+    /// The equation Σ products = 0 that has to hold at t = 1, where Σ products is `start` in the
+    /// sketch: led there linearly, or, where the sketch meets it, kept (see
+    /// [`crate::problem::HomotopyChoices::detour`]).
+    pub fn vanish(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
+        let detour = self.problem.homotopy.detour.value();
+        let right = if !matches!(self.from, Start::Sketch) {
+            vec![Real::zero()]
+        } else if !start.is_zero() {
+            let back = -&start;
+            vec![start, back]
+        } else if detour.is_zero() {
+            vec![Real::zero()]
+        } else {
+            let there = Real::from(detour.clone());
+            vec![Real::zero(), there.clone(), -&there]
+        };
+        self.push(name.to_owned(), products, right, power, true);
+    }
+
+    /// The same for linear conditions, which hold all along the path where the sketch meets them: they
+    /// are never singular.
+    pub fn vanish_linear(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
+        let right = if start.is_zero() || !matches!(self.from, Start::Sketch) {
+            vec![Real::zero()]
+        } else {
+            let back = -&start;
+            vec![start, back]
+        };
+        self.push(name.to_owned(), products, right, power, true);
+    }
+
+    /// A number's way from what it is in the sketch to what it is wanted to be; where the path begins at a figure
+    /// that meets all constraints, from what it is there. The degree is the same for both, so that the equations are.
+    pub fn lead(&mut self, now: Real, then: Real) -> Polynomial {
+        let before = match self.from {
+            Start::Sketch => None,
+            Start::Distances(_) => Some(then.clone()),
+            Start::Dimensions(record) => Some(record.leads[self.record.leads.len()].clone()),
+        };
+        self.record.leads.push(then.clone());
+        match before {
+            None => ramp(now, then),
+            Some(before) if before == then => vec![then, Real::zero()],
+            Some(before) => ramp(before, then),
+        }
+    }
+
+    /// A sense that is read off the sketch and the value of a dimension: as `seen` there, and the same in edits of it.
+    pub fn sense(&mut self, seen: bool) -> bool {
+        let sense = match self.from {
+            Start::Dimensions(record) => record.senses[self.record.senses.len()],
+            _ => seen,
+        };
+        self.record.senses.push(sense);
+        sense
+    }
+
+    /// Whether left-hand sides must not depend on the values of dimensions.
+    pub fn is_editable(&self) -> bool {
+        self.editable
+    }
+
+    /// A new unknown that is the polynomial `of`: a coefficient that varies, or is no whole number.
+    pub fn coefficient(&mut self, name: &str, power: i32, parity: Parity, of: Polynomial) -> Entry {
+        let entry = self.scalar(name.to_owned(), power, parity, of[0].clone());
+        self.equate(name, vec![product(1, value(entry), Form::One)], of, power);
+        entry
+    }
+}

@@ -1,0 +1,126 @@
+//! Constraints that are left out because they follow from others at the figure: by proof, or as far as floats tell.
+
+use super::{Known, Parts, Used, moves};
+use crate::blocks::{Given, Row, combination};
+use crate::constraint::{Entry, Form};
+use crate::interval::{Interval, Real, point};
+use crate::system::Right;
+
+/// What a right-hand side is at t = 1, for all t.
+fn at_rest(right: &[Real]) -> Vec<Real> {
+    vec![right.iter().fold(Real::zero(), |sum, c| &sum + c)]
+}
+
+/// The same of all right-hand sides.
+pub(super) fn at_rest_all(rights: &[Vec<Real>]) -> Vec<Vec<Real>> {
+    rights.iter().map(|right| at_rest(right)).collect()
+}
+
+impl Parts {
+    /// Looks for identities by which the equations that were left out follow from the others.
+    pub(super) fn find_what_follows(&mut self, rights: &[Vec<Real>]) {
+        if self.redundant.is_empty() {
+            return;
+        }
+        let given = |used: &Used| match *used {
+            Used::Row(row) => {
+                let row = &self.system.rows[row];
+                Given::row(row, &at_rest(&rights[row.index]))
+            }
+            Used::Held(u) => Given::held(u, &self.system.values[u]),
+        };
+        self.given = self.used.iter().map(given).collect();
+        let rows = self.redundant.iter().map(|&row| &self.system.rows[row]);
+        self.follows = rows.map(|row| combination(row, &self.given)).collect();
+        let rights = at_rest_all(rights);
+        let count = 0..self.redundant.len();
+        self.proved = count.map(|k| self.is_proved(k, &rights)).collect();
+    }
+
+    /// Whether an equation that was left out, by its place among these, is proved to hold wherever the others do, with these
+    /// right-hand sides and for every t.
+    pub(super) fn is_proved(&self, redundant: usize, rights: &[Vec<Real>]) -> bool {
+        let Some(Some(how)) = self.follows.get(redundant) else {
+            return false;
+        };
+        let row = &self.system.rows[self.redundant[redundant]];
+        let of = |i: usize| self.rights_of(self.used[i], rights);
+        how.holds(&rights[row.index], of, |k| self.given[k].constant())
+    }
+
+    /// Notes what is proved to follow with these right-hand sides at rest at t = 1; where one does not any more, looks anew.
+    pub(super) fn note_what_follows(&mut self, rights: &[Vec<Real>]) {
+        let rights = at_rest_all(rights);
+        let all = |parts: &Self| -> Vec<bool> {
+            let count = 0..parts.redundant.len();
+            count.map(|k| parts.is_proved(k, &rights)).collect()
+        };
+        let now = all(self);
+        if now
+            .iter()
+            .zip(&self.proved)
+            .any(|(now, before)| *before && !now)
+        {
+            self.find_what_follows(&rights);
+            return;
+        }
+        self.proved = now;
+    }
+
+    /// An equation that was left out, is not proved to follow, and does not hold at the figure.
+    /// `end`: where the figure is a limit's, t there, and otherwise nothing.
+    pub(super) fn broken(
+        &self,
+        figure: &[Known],
+        rights: &[Vec<Real>],
+        end: Option<Interval>,
+    ) -> Option<String> {
+        let side = |form: Form| match form {
+            Form::One => point(1.0),
+            Form::Difference(a, b) => {
+                let [a, b] = [a, b].map(|entry| match entry {
+                    Entry::Unknown(u) => figure[u].enclosure(),
+                    _ => point(0.0),
+                });
+                a - b
+            }
+        };
+        for (k, &row) in self.redundant.iter().enumerate() {
+            if self.is_proved(k, rights) {
+                continue;
+            }
+            let Row {
+                index, products, ..
+            } = &self.system.rows[row];
+            let left = products.iter().fold(point(0.0), |sum, p| {
+                sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
+            });
+            let right = Right::polynomial(&rights[*index], self.scale(*index));
+            let right = match end {
+                Some(t) => right.enclose(t),
+                None => right.at_target(),
+            };
+            let off = (left - right).mig();
+            if off > 1e-7 {
+                return Some(format!(
+                    "{} seemed to follow from the other constraints, but contradicts them",
+                    self.name(*index)
+                ));
+            }
+        }
+        None
+    }
+
+    /// A dimension that is to move but follows from others, and not so as these move.
+    pub(super) fn unmovable(&self, rights: &[Vec<Real>]) -> Option<String> {
+        let redundant = self.redundant.iter().enumerate();
+        let redundant = redundant.filter(|(k, _)| !self.is_proved(*k, rights));
+        let redundant = redundant.map(|(_, &row)| self.system.rows[row].index);
+        let mut all = redundant.chain(self.system.implied.iter().copied());
+        let fixed = all.find(|&index| moves(&rights[index]))?;
+        Some(format!(
+            "{} follows from the other constraints at this figure and cannot change by itself",
+            self.name(fixed)
+        ))
+    }
+}

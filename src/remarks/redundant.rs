@@ -1,0 +1,243 @@
+//! Constraints that follow from others in every figure that meets them, though not from their equations alone: the last
+//! of three lines' three parallelisms, a right angle opposite to three others.
+//!
+//! The sketch, moved a little at random, is led to a figure that meets everything but the dimensions (Gauss and Newton,
+//! least changes). Where the Jacobian of all equations is singular there, and is so from several beginnings, it is
+//! singular wherever they hold: the run ends where they are met. These are floats: what is said is an observation.
+
+use super::Remark;
+use crate::constraint::try_lower;
+use crate::problem::Problem;
+use crate::system::{Homotopy, Term};
+use nalgebra::{DMatrix, DVector};
+
+/// More unknowns are not looked at: it would take seconds.
+const MANY: usize = 250;
+/// Beginnings that have to agree.
+const BEGINNINGS: u64 = 3;
+/// How far the sketch is moved, as a part of the unit.
+const MOVED: f64 = 0.02;
+/// Singular values below this part of the largest count as zero.
+const ZERO: f64 = 1e-9;
+/// Those below this are not clearly more than that: nothing is said.
+const CLEAR: f64 = 1e-6;
+
+/// The constraints that follow from each other, if there are such.
+pub fn redundant(problem: &Problem) -> Vec<Remark> {
+    if problem.is_distances_only() {
+        return Vec::new();
+    }
+    let Ok(lowered) = try_lower(problem) else {
+        return Vec::new();
+    };
+    let Ok(homotopy) = Homotopy::new(problem) else {
+        return Vec::new();
+    };
+    if homotopy.equations > MANY {
+        return Vec::new();
+    }
+    let system = System::new(&homotopy, &lowered.vanishing);
+    let mut found: Option<Vec<usize>> = None;
+    for seed in 0..BEGINNINGS {
+        let rows = system
+            .figure(seed)
+            .and_then(|x| system.dependent_rows(&x))
+            .unwrap_or_default();
+        if rows.is_empty() {
+            return Vec::new();
+        }
+        found = Some(match found {
+            None => rows,
+            Some(before) => before
+                .into_iter()
+                .filter(|row| rows.contains(row))
+                .collect(),
+        });
+    }
+    let head = problem.distances.len();
+    let objects = problem.objects.len();
+    let mut names: Vec<String> = Vec::new();
+    for row in found.unwrap_or_default() {
+        let name = match row.checked_sub(head) {
+            None => format!("the distance {}", problem.distance_name(row)),
+            Some(e) => match lowered.owners[e].checked_sub(objects) {
+                None => problem.objects[lowered.owners[e]].name.clone(),
+                Some(c) if c < problem.constraints.len() => problem.constraint_name(c),
+                Some(_) => continue,
+            },
+        };
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    match names.is_empty() {
+        true => Vec::new(),
+        false => vec![Remark::Redundant(names)],
+    }
+}
+
+/// All equations in floats.
+struct System<'a> {
+    homotopy: &'a Homotopy,
+    terms: Vec<Vec<Term>>,
+    /// Whether an equation has to hold with zero on the right.
+    vanishes: Vec<bool>,
+    sketch: Vec<f64>,
+}
+
+impl<'a> System<'a> {
+    fn new(homotopy: &'a Homotopy, vanishing: &[bool]) -> Self {
+        let head = homotopy.edges.len();
+        System {
+            homotopy,
+            terms: (0..homotopy.equations).map(|e| homotopy.terms(e)).collect(),
+            vanishes: (0..head)
+                .map(|_| false)
+                .chain(vanishing.iter().copied())
+                .collect(),
+            sketch: homotopy.sketch_of_unknowns().map(|x| x.mid()).collect(),
+        }
+    }
+
+    /// The value of an equation's left-hand side, and its derivatives added to a row.
+    fn evaluate(&self, equation: usize, x: &[f64], mut add: impl FnMut(usize, f64)) -> f64 {
+        let at = |i: usize| x.get(i).copied().unwrap_or(0.0);
+        let factor = |ends: Option<[usize; 2]>| ends.map_or(1.0, |[i, j]| at(i) - at(j));
+        let mut sum = 0.0;
+        for term in &self.terms[equation] {
+            let half = 0.5 * f64::from(term.factor);
+            let (left, right) = (factor(term.left), factor(term.right));
+            sum += half * left * right;
+            for (ends, other) in [(term.left, right), (term.right, left)] {
+                if let Some([i, j]) = ends {
+                    add(i, half * other);
+                    add(j, -half * other);
+                }
+            }
+        }
+        sum
+    }
+
+    /// The Jacobian of some equations, rows scaled to length 1, and their scaled values.
+    fn linearise(&self, rows: &[usize], x: &[f64]) -> (DMatrix<f64>, DVector<f64>) {
+        let n = x.len();
+        let mut jacobian = DMatrix::zeros(rows.len(), n);
+        let mut values = DVector::zeros(rows.len());
+        for (r, &equation) in rows.iter().enumerate() {
+            values[r] = self.evaluate(equation, x, |i, d| {
+                if i < n {
+                    jacobian[(r, i)] += d;
+                }
+            });
+            let size = jacobian.row(r).norm();
+            if size > 0.0 {
+                jacobian.row_mut(r).scale_mut(1.0 / size);
+                values[r] /= size;
+            }
+        }
+        (jacobian, values)
+    }
+
+    /// A figure near the sketch that meets all equations with zero on the right.
+    fn figure(&self, seed: u64) -> Option<Vec<f64>> {
+        let rows: Vec<usize> = (0..self.terms.len())
+            .filter(|&e| self.vanishes[e])
+            .collect();
+        let mut state = seed + 1;
+        let mut x: Vec<f64> = self
+            .sketch
+            .iter()
+            .map(|x| x + MOVED * noise(&mut state))
+            .collect();
+        for _ in 0..60 {
+            let (jacobian, values) = self.linearise(&rows, &x);
+            if values.amax() < 1e-13 * (1.0 + x.iter().fold(0.0, |max: f64, x| max.max(x.abs()))) {
+                return self.homotopy.is_proper(&x).then_some(x);
+            }
+            let step = jacobian.svd(true, true).solve(&values, 1e-10).ok()?;
+            x.iter_mut()
+                .zip(step.iter())
+                .for_each(|(x, step)| *x -= step);
+            if x.iter().any(|x| !x.is_finite()) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The rows of a combination that vanishes, where the Jacobian of all equations is singular. `None`: it is not, or
+    /// that cannot be told.
+    fn dependent_rows(&self, x: &[f64]) -> Option<Vec<usize>> {
+        let all: Vec<usize> = (0..self.terms.len()).collect();
+        let svd = self.linearise(&all, x).0.svd(true, false);
+        let values = &svd.singular_values;
+        let largest = values.max();
+        let zeros: Vec<usize> = (0..values.len())
+            .filter(|&k| values[k] < ZERO * largest)
+            .collect();
+        let unclear = values
+            .iter()
+            .any(|&v| v >= ZERO * largest && v < CLEAR * largest);
+        if zeros.is_empty() || unclear {
+            return None;
+        }
+        let u = svd.u?;
+        let weight = |row: usize| {
+            zeros
+                .iter()
+                .fold(0.0, |max: f64, &k| max.max(u[(row, k)].abs()))
+        };
+        Some(all.into_iter().filter(|&row| weight(row) > 1e-6).collect())
+    }
+}
+
+/// Uniform between −1 and 1 (SplitMix64: Steele, Lea, Flood 2014).
+fn noise(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^= z >> 31;
+    (z >> 11) as f64 * 2f64.powi(-52) - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(constraints: &str, reference: &str) -> Vec<Remark> {
+        let text = format!(
+            "name = \"special\"\ndimension = 2\n[points]\na = [0, 0]\nb = [3, 0.1]\nc = [3.2, 2]\nd = [0.1, 2.2]\n\
+             e = [0.3, 4]\nf = [3.1, 4.3]\n[constraints]\n{constraints}\n{reference}"
+        );
+        redundant(&Problem::parse(&text, "special.toml").unwrap_or_else(|e| panic!("{e}")))
+    }
+
+    #[test]
+    fn the_last_of_three_parallelisms_follows() {
+        let distances = "distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2], [\"a\", \"d\", 2], [\"d\", \"c\", 3], \
+                         [\"d\", \"e\", 2], [\"c\", \"f\", 2]]";
+        let parallel = "parallel = [[\"a\", \"b\", \"d\", \"c\"], [\"d\", \"c\", \"e\", \"f\"], [\"a\", \"b\", \
+                        \"e\", \"f\"]]";
+        let found = of(&format!("{distances}\n{parallel}"), "");
+        let [Remark::Redundant(names)] = &found[..] else {
+            panic!("{found:?}")
+        };
+        assert!(
+            names
+                .iter()
+                .filter(|name| name.starts_with("parallel"))
+                .count()
+                == 3,
+            "{names:?}"
+        );
+    }
+
+    #[test]
+    fn others_do_not() {
+        let distances = "distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2], [\"a\", \"d\", 2], [\"a\", \"c\", 3.5], \
+                         [\"d\", \"e\", 2], [\"c\", \"f\", 2], [\"a\", \"e\", 4]]";
+        let parallel = "parallel = [[\"a\", \"b\", \"d\", \"c\"], [\"d\", \"c\", \"e\", \"f\"]]";
+        assert_eq!(of(&format!("{distances}\n{parallel}"), ""), []);
+    }
+}

@@ -1,0 +1,401 @@
+//! What came of exploring, for people and for programs.
+
+use super::certain_digits;
+use super::json::Points;
+use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
+use crate::interval::Interval;
+use crate::problem::{Problem, Published, counted};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// What is known of all real solutions, by other means.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AllReal {
+    /// They are so many up to congruence, proved.
+    Proved(usize),
+    /// The search was not tried, or did not come to its end: why.
+    Unknown(String),
+}
+
+/// What there is to tell.
+#[derive(Debug)]
+pub struct Explored<'a> {
+    /// The process.
+    pub explorer: &'a Explorer,
+    /// How the run ended. `None`: there was none.
+    pub finish: Option<Finish>,
+    /// All real solutions.
+    pub all_real: AllReal,
+    /// What others published.
+    pub published: &'a [Published],
+}
+
+/// Numbers of paths by how they ended.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+struct Counts {
+    followed: usize,
+    closed: usize,
+    open: usize,
+    stopped: usize,
+    recognised: usize,
+    unusable: usize,
+    repeated: u64,
+    waiting: usize,
+    in_units: usize,
+    degenerate: usize,
+    tubes: usize,
+}
+
+/// Points are in one plane where none is farther from it, in parts of the figure's size: in floats.
+const FLAT: f64 = 1e-9;
+
+impl Explored<'_> {
+    fn problem(&self) -> &Problem {
+        self.explorer.problem()
+    }
+
+    fn counts(&self) -> Counts {
+        let contents = self.explorer.contents();
+        let mut counts = Counts {
+            repeated: contents.state.repeated,
+            waiting: contents.queue().len(),
+            in_units: contents.out.len(),
+            ..Counts::default()
+        };
+        for path in contents.paths.values() {
+            counts.tubes += path.tubes;
+            counts.degenerate += path.degenerate;
+            match path.end {
+                End::Closed => counts.closed += 1,
+                End::Open => counts.open += 1,
+                End::Stopped => counts.stopped += 1,
+                End::Recognised => counts.recognised += 1,
+                End::Unusable => counts.unusable += 1,
+            }
+        }
+        counts.followed = counts.closed + counts.open + counts.stopped;
+        counts
+    }
+
+    fn flat(&self) -> usize {
+        let classes = self.explorer.contents().classes.iter();
+        classes
+            .filter(|class| is_flat(self.problem(), class))
+            .count()
+    }
+
+    /// Where a sketch comes from, in words.
+    fn origin(&self, id: u64) -> String {
+        match self.explorer.contents().sketches.get(&id) {
+            Some(sketch) => match sketch.from {
+                None => "the drawn sketch".to_owned(),
+                Some((class, branch)) => format!("solution {}, branch {branch}", class + 1),
+            },
+            None => String::new(),
+        }
+    }
+
+    fn path(&self, id: u64) -> Option<&PathRecord> {
+        self.explorer.contents().paths.get(&id)
+    }
+}
+
+fn is_flat(problem: &Problem, class: &Class) -> bool {
+    if problem.dimension == 2 {
+        return false;
+    }
+    let places: Vec<[f64; 3]> = class
+        .points
+        .iter()
+        .map(|p| p.map(|[a, b]| 0.5 * (a + b)))
+        .collect();
+    let from = |p: usize| -> [f64; 3] { std::array::from_fn(|k| places[p][k] - places[0][k]) };
+    let cross = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            a[i] * b[j] - a[j] * b[i]
+        })
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+    let n = places.len();
+    let size = (1..n)
+        .map(|p| dot(from(p), from(p)))
+        .fold(0.0, f64::max)
+        .sqrt();
+    let normals = (1..n).flat_map(|p| (1..p).map(move |q| (p, q)));
+    let normal = normals
+        .map(|(p, q)| cross(from(p), from(q)))
+        .max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))
+        .unwrap_or([0.0; 3]);
+    let long = dot(normal, normal).sqrt();
+    (1..n).all(|p| dot(from(p), normal).abs() <= FLAT * size * long)
+}
+
+/// The result as a text of several lines; with the coordinates of all solutions where they are wanted.
+pub fn explore_to_table(explored: &Explored, coordinates: bool) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_table(&mut out, explored, coordinates);
+    out
+}
+
+fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std::fmt::Result {
+    let (problem, contents) = (explored.problem(), explored.explorer.contents());
+    let (counts, found) = (explored.counts(), contents.classes.len());
+    let flat = match explored.flat() {
+        0 => String::new(),
+        flat => format!(", {flat} of them flat"),
+    };
+    writeln!(
+        out,
+        "{}: {} found{flat}, each proved, no two congruent. That there are no others is not claimed.",
+        problem.name,
+        counted(found, "solution")
+    )?;
+    let waiting = sketches(counts.waiting);
+    match explored.finish {
+        Some(Finish::Ended) => {
+            let idle = contents.state.idle + 1;
+            writeln!(
+                out,
+                "Nothing new came of the last {}; `--patience` tries more.",
+                counted(idle, "way")
+            )?
+        }
+        Some(Finish::Budget) => writeln!(
+            out,
+            "The budget ended with {waiting} waiting: the same command goes on from here."
+        )?,
+        Some(Finish::Interrupted) => writeln!(
+            out,
+            "Interrupted with {waiting} waiting: the same command goes on from here."
+        )?,
+        Some(Finish::Shared(count)) => writeln!(
+            out,
+            "{} left in work units: `krawl merge` takes their results, `--take-back` follows them here.",
+            sketches(count)
+        )?,
+        None => {}
+    }
+    writeln!(out)?;
+    match &explored.all_real {
+        AllReal::Proved(all) => writeln!(
+            out,
+            "of all real ones  {found} of {all} reached (`krawl all` proves that there are {all})"
+        )?,
+        AllReal::Unknown(why) => writeln!(out, "of all real ones  not known: {why}")?,
+    }
+    for published in explored.published {
+        if let Some(solutions) = published.solutions {
+            let seconds = match published.seconds {
+                Some(seconds) => format!(", {seconds} s"),
+                None => String::new(),
+            };
+            writeln!(
+                out,
+                "published         {solutions}: {}{seconds}",
+                published.method
+            )?;
+        }
+    }
+    writeln!(
+        out,
+        "paths             {} followed: {} closed, {} open, {} stopped; {} tubes",
+        counts.followed, counts.closed, counts.open, counts.stopped, counts.tubes
+    )?;
+    writeln!(
+        out,
+        "sketches          {} waiting, {} in work units, {} on proved paths at t = 0, {} unusable, {} drawn before",
+        counts.waiting, counts.in_units, counts.recognised, counts.unusable, counts.repeated
+    )?;
+    if counts.degenerate > 0 {
+        writeln!(
+            out,
+            "degenerate        {} flat figures on paths, with others as near as one likes: not counted as solutions",
+            counts.degenerate
+        )?;
+    }
+    if contents.state.undecided > 0 {
+        writeln!(
+            out,
+            "undecided         {} solutions of paths could not be told from others, and are not counted",
+            contents.state.undecided
+        )?;
+    }
+    writeln!(
+        out,
+        "ways              {} (plan, length that bends, coefficient)",
+        contents.state.ways
+    )?;
+    writeln!(out, "seconds           {:.2}", contents.state.seconds)?;
+    if found > 0 {
+        writeln!(
+            out,
+            "\n{:>8}  {:>6}  {:<10}  {:<24}  bend",
+            "solution", "path", "ends", "sketch from"
+        )?;
+    }
+    for class in &contents.classes {
+        let end = explored.path(class.path).map_or("", |path| path.end.name());
+        let way = contents
+            .sketches
+            .get(&class.path)
+            .map(|s| explored.explorer.way(s.way));
+        let bend = way.map_or(String::new(), |way| {
+            format!("{} by {}", problem.distance_name(way.bend), way.coefficient)
+        });
+        writeln!(
+            out,
+            "{:>8}  {:>6}  {end:<10}  {:<24}  {bend}",
+            class.id + 1,
+            class.path,
+            explored.origin(class.path)
+        )?;
+    }
+    if coordinates {
+        for class in &contents.classes {
+            writeln!(out, "\nSolution {}", class.id + 1)?;
+            for (point, place) in problem.points.iter().zip(intervals(&class.points)) {
+                write!(out, "  {}", point.name)?;
+                for x in place.iter().take(problem.dimension) {
+                    write!(out, "  {:>18}", certain_digits(*x))?;
+                }
+                writeln!(out)?;
+            }
+        }
+        writeln!(
+            out,
+            "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
+        )?;
+    }
+    Ok(())
+}
+
+fn sketches(count: usize) -> String {
+    match count {
+        1 => "1 sketch".to_owned(),
+        _ => format!("{count} sketches"),
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    version: u32,
+    problem: &'a str,
+    /// `null`: nothing was run.
+    status: Option<&'static str>,
+    reference: Vec<&'a str>,
+    solutions: Vec<Entry<'a>>,
+    paths: BTreeMap<String, Path<'a>>,
+    counts: Counts,
+    undecided: u64,
+    ways: usize,
+    all_real: Option<usize>,
+    published: Vec<Beside<'a>>,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    points: Points<'a, [Interval; 3]>,
+    flat: bool,
+    path: u64,
+}
+
+#[derive(Serialize)]
+struct Path<'a> {
+    status: &'static str,
+    from: Option<Origin>,
+    sketch: Points<'a, [f64; 3]>,
+    bend: String,
+    bend_coefficient: String,
+    tubes: usize,
+}
+
+#[derive(Serialize)]
+struct Origin {
+    solution: u64,
+    branch: u64,
+}
+
+#[derive(Serialize)]
+struct Beside<'a> {
+    method: &'a str,
+    solutions: usize,
+    seconds: Option<f64>,
+}
+
+/// The result as one line of JSON; docs/explore.md and docs/schema/explore.schema.json describe it.
+pub fn explore_to_json(explored: &Explored) -> String {
+    let (problem, contents) = (explored.problem(), explored.explorer.contents());
+    let reference = problem.homotopy.reference.iter();
+    let mut paths = BTreeMap::new();
+    for class in &contents.classes {
+        let (Some(sketch), Some(path)) = (
+            contents.sketches.get(&class.path),
+            contents.paths.get(&class.path),
+        ) else {
+            continue;
+        };
+        let way = explored.explorer.way(sketch.way);
+        let own = problem.points.iter();
+        let own = own.map(|p| p.sketch.each_ref().map(|x| x.to_f64()));
+        paths.insert(
+            class.path.to_string(),
+            Path {
+                status: path.end.name(),
+                from: sketch
+                    .from
+                    .map(|(solution, branch)| Origin { solution, branch }),
+                sketch: Points(
+                    problem,
+                    sketch
+                        .places()
+                        .map_or_else(|| own.collect(), <[[f64; 3]]>::to_vec),
+                ),
+                bend: problem.distance_name(way.bend),
+                bend_coefficient: way.coefficient.to_string(),
+                tubes: path.tubes,
+            },
+        );
+    }
+    let document = Document {
+        version: super::JSON_VERSION,
+        problem: &problem.name,
+        status: explored.finish.map(Finish::name),
+        reference: reference
+            .map(|&p| problem.points[p].name.as_str())
+            .collect(),
+        solutions: contents
+            .classes
+            .iter()
+            .map(|class| Entry {
+                points: Points(problem, intervals(&class.points)),
+                flat: is_flat(problem, class),
+                path: class.path,
+            })
+            .collect(),
+        paths,
+        counts: explored.counts(),
+        undecided: contents.state.undecided,
+        ways: contents.state.ways,
+        all_real: match explored.all_real {
+            AllReal::Proved(all) => Some(all),
+            AllReal::Unknown(_) => None,
+        },
+        published: explored
+            .published
+            .iter()
+            .filter_map(|published| {
+                Some(Beside {
+                    method: &published.method,
+                    solutions: published.solutions?,
+                    seconds: published.seconds,
+                })
+            })
+            .collect(),
+        seconds: contents.state.seconds,
+    };
+    serde_json::to_string(&document).expect("strings, numbers and lists have a form in JSON")
+}

@@ -1,0 +1,122 @@
+//! A problem's equations with the heights over the reference plane divided by 1 − t, beside the given ones: see
+//! [`crate::constraint::divide`].
+
+use super::Homotopy;
+use crate::constraint::{Origin, divide};
+use crate::interval::{Interval, point};
+
+/// The divided equations of a problem, and how points go from the given unknowns to theirs and back.
+#[derive(Debug, Clone)]
+pub struct Heights {
+    /// The divided equations.
+    pub homotopy: Homotopy,
+    origins: Vec<Origin>,
+    /// The number of free coordinates, which come first in both.
+    places: usize,
+    /// The number of given unknowns.
+    given: usize,
+}
+
+impl Homotopy {
+    /// The equations with heights divided by 1 − t, for paths through flat figures at t = 1. The error says why there
+    /// are none.
+    pub fn over_heights(&self) -> Result<Heights, String> {
+        if self.dimension != 3 || self.gauge.reference.is_empty() {
+            return Err(
+                "flat figures are sought in the plane of three reference points only".to_owned(),
+            );
+        }
+        let height = |p: usize| {
+            // Its enclosure as the tail counts lengths.
+            self.coordinate(p, 2)
+                .map(|_| self.sketch_box[3 * p + 2] * point(self.unit))
+        };
+        let heights: Vec<Option<Interval>> = (0..self.points).map(height).collect();
+        let divided = divide(&self.tail, &heights)?;
+        Ok(Heights {
+            homotopy: self.with_other_tail(divided.tail),
+            origins: divided.origins,
+            places: self.gauge.place.len(),
+            given: self.equations,
+        })
+    }
+}
+
+impl Heights {
+    /// A point (X, t) of the given path, with t ≠ 1, in the unknowns of the divided equations. `None`: t may be 1.
+    pub fn divide(&self, z: &[Interval]) -> Option<Vec<Interval>> {
+        let t = z[self.given];
+        let s = point(1.0) - t;
+        if s.contains(0.0) {
+            return None;
+        }
+        let gauge = &self.homotopy.gauge;
+        let auxiliary = |origin: &Origin| match *origin {
+            Origin::Scale => s,
+            Origin::Same(u) => z[self.places + u],
+            Origin::Divided(u) => z[self.places + u] / s,
+            Origin::Height(p) => z[gauge.variable[3 * p + 2]] / s,
+        };
+        let coordinates = z[..self.places].iter().copied();
+        let others = self.origins.iter().map(auxiliary);
+        Some(coordinates.chain(others).chain([t]).collect())
+    }
+
+    /// A point of the path of the divided equations in the given unknowns.
+    pub fn multiply(&self, z: &[Interval]) -> Vec<Interval> {
+        let (m, given) = (self.homotopy.equations, self.given);
+        let mut out = vec![point(0.0); given + 1];
+        out[..self.places].copy_from_slice(&z[..self.places]);
+        out[given] = z[m];
+        let s = point(1.0) - z[m];
+        let is_one = z[m].inf() == 1.0 && z[m].sup() == 1.0;
+        // Where an unknown is there as it is and divided, the first is the better one, but not where it is zero.
+        for (k, origin) in self.origins.iter().enumerate() {
+            if let Origin::Divided(u) = *origin {
+                out[self.places + u] = s * z[self.places + k];
+            }
+        }
+        for (k, origin) in self.origins.iter().enumerate() {
+            match *origin {
+                Origin::Same(u) if !(is_one && self.is_odd(u)) => {
+                    out[self.places + u] = z[self.places + k];
+                }
+                Origin::Height(p) if is_one => {
+                    out[self.homotopy.gauge.variable[3 * p + 2]] = point(0.0);
+                }
+                _ => {}
+            }
+        }
+        out
+    }
+
+    /// Where the path passes a flat figure, about its unknowns from those given there (`x`) and their derivatives by t:
+    /// floats.
+    pub fn at_flat(&self, x: &[f64], per_t: impl Fn(usize) -> f64) -> Vec<f64> {
+        let gauge = &self.homotopy.gauge;
+        let auxiliary = |origin: &Origin| match *origin {
+            Origin::Scale => 0.0,
+            Origin::Same(u) => x[self.places + u],
+            // u = (1 − t) u'.
+            Origin::Divided(u) => -per_t(self.places + u),
+            Origin::Height(p) => -per_t(gauge.variable[3 * p + 2]),
+        };
+        let coordinates = x[..self.places].iter().copied();
+        coordinates
+            .chain(self.origins.iter().map(auxiliary))
+            .collect()
+    }
+
+    /// The given unknowns at a flat figure, in floats.
+    pub fn flat_figure(&self, z: &[f64]) -> Vec<f64> {
+        let m = self.homotopy.equations;
+        let z: Vec<Interval> = z[..m].iter().map(|&x| point(x)).collect();
+        let z = [&z[..], &[point(1.0)]].concat();
+        let given = self.multiply(&z);
+        given[..self.given].iter().map(|x| x.mid()).collect()
+    }
+
+    fn is_odd(&self, unknown: usize) -> bool {
+        self.origins.contains(&Origin::Divided(unknown))
+    }
+}

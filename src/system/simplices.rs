@@ -1,0 +1,86 @@
+//! Triangles in the plane and tetrahedra in space whose orientation tells figures of the same dimensions apart.
+
+use crate::interval::vector::{cross, dot, minus};
+use crate::interval::{Interval, point};
+
+/// Each point with as many of the points joined to it as there are dimensions, in order, each set once.
+pub fn simplices(
+    dimension: usize,
+    points: usize,
+    pairs: impl IntoIterator<Item = [usize; 2]>,
+) -> Vec<Vec<usize>> {
+    let mut joined = vec![Vec::new(); points];
+    for [a, b] in pairs {
+        joined[a].push(b);
+        joined[b].push(a);
+    }
+    let mut all: Vec<Vec<usize>> = Vec::new();
+    for (centre, joined) in joined.iter_mut().enumerate() {
+        joined.sort_unstable();
+        joined.dedup();
+        for (i, &a) in joined.iter().enumerate() {
+            for (j, &b) in joined.iter().enumerate().skip(i + 1) {
+                if dimension == 2 {
+                    all.push(vec![centre, a, b]);
+                } else {
+                    let others = joined[j + 1..].iter();
+                    all.extend(others.map(|&c| vec![centre, a, b, c]));
+                }
+            }
+        }
+    }
+    // Points that are all joined turn up once for each of them.
+    for points in &mut all {
+        points.sort_unstable();
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// The sign of the determinant of the differences of some points, three in the plane and four in space, from the first of
+/// them: twice a signed area, six times a signed volume. 0 where the boxes do not tell.
+pub fn orientation(points: &[[Interval; 3]], simplex: &[usize]) -> i8 {
+    let side = |k: usize| minus(points[simplex[k]], points[simplex[0]]);
+    let determinant = match simplex.len() {
+        3 => cross(side(1), side(2))[2],
+        4 => dot(side(1), cross(side(2), side(3))),
+        _ => point(0.0),
+    };
+    match (determinant.inf() > 0.0, determinant.sup() < 0.0) {
+        (true, _) => 1,
+        (_, true) => -1,
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_set_of_joined_points_turns_up_once() {
+        let triangle = [[0, 1], [1, 2], [2, 0]];
+        assert_eq!(simplices(2, 3, triangle), [vec![0, 1, 2]]);
+        let path = [[2, 1], [1, 0], [3, 2]];
+        assert_eq!(simplices(2, 4, path), [vec![0, 1, 2], vec![1, 2, 3]]);
+        let star = [[0, 1], [0, 2], [0, 3], [0, 4]];
+        assert_eq!(simplices(3, 5, star).len(), 4);
+    }
+
+    #[test]
+    fn signs_are_those_of_areas_and_volumes() {
+        let at = |x: f64, y: f64, z: f64| [point(x), point(y), point(z)];
+        let points = [
+            at(0.0, 0.0, 0.0),
+            at(1.0, 0.0, 0.0),
+            at(0.0, 1.0, 0.0),
+            at(0.0, 0.0, 1.0),
+        ];
+        assert_eq!(orientation(&points, &[0, 1, 2]), 1);
+        assert_eq!(orientation(&points, &[0, 2, 1]), -1);
+        assert_eq!(orientation(&points, &[0, 1, 2, 3]), 1);
+        assert_eq!(orientation(&points, &[0, 1, 3, 2]), -1);
+        assert_eq!(orientation(&points, &[0, 1, 1]), 0);
+    }
+}

@@ -1,0 +1,75 @@
+//! Where the path meets t = 0: at the sketch, and perhaps again.
+
+use super::{Test, Tracker};
+use crate::track::Control;
+use crate::track::certified::figures::FigureBox;
+use crate::track::certified::solution::{Same, SolutionProver};
+
+/// Pieces of a tube's stretch on which t is looked at.
+const PIECES: usize = 16;
+
+impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+    /// Hands over the figures with t = 0 in the tube that joined the chain last: each is proved to exist, to be
+    /// alone in its box, and to be on the path, as the box lies in the tube. That all are found is not claimed.
+    pub(super) fn note_starts(&mut self, control: &mut Control) {
+        let Some(seen) = &mut control.figures else {
+            return;
+        };
+        let (tube, equations) = (&self.now, &self.equations);
+        let (m, h) = (equations.m, tube.proof.h);
+        // The sketch itself is at the first tube's entry, known but for rounding.
+        let from = (tube.entry.0 - 1e-3 * h).max(-h);
+        let to = tube.exit_at;
+        // Of t - 1.
+        let ((low, high), _) = tube.time().bounds(from, to);
+        if low > -1.0 || high < -1.0 {
+            return;
+        }
+        let prover = self
+            .at_start
+            .get_or_insert_with(|| Box::new(SolutionProver::at_start(&self.homotopy, equations)));
+        let mut x = equations.vector();
+        let mut t_at = |s: f64| {
+            tube.local.at(s, &mut x);
+            x[m]
+        };
+        let place = |k: usize| from + (to - from) * (k as f64 / PIECES as f64);
+        let mut crossings = Vec::new();
+        for k in 0..PIECES {
+            let (mut a, mut b) = (place(k), place(k + 1));
+            let is_above = t_at(a) > 0.0;
+            if (t_at(b) > 0.0) == is_above {
+                continue;
+            }
+            for _ in 0..60 {
+                let middle = 0.5 * (a + b);
+                match (t_at(middle) > 0.0) == is_above {
+                    true => a = middle,
+                    false => b = middle,
+                }
+            }
+            crossings.push(0.5 * (a + b));
+        }
+        for s in crossings {
+            tube.local.at(s, &mut x);
+            let Ok(found) = prover.prove(equations, &mut self.inverter, &x, (true, false)) else {
+                continue;
+            };
+            let mut ball = super::Ball::new(equations);
+            ball.centre.copy_from_slice(&found.centre);
+            ball.low.copy_from_slice(&found.low);
+            ball.radius.copy_from_slice(&found.radius);
+            if tube.locate(&ball).is_none() {
+                continue;
+            }
+            let figure = FigureBox::of(found);
+            let known = seen
+                .start
+                .iter()
+                .any(|other| figure.same(other) != Same::No);
+            if !known {
+                seen.start.push(figure);
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Over flat figures at t = 1, at which the equations are dependent, by a step from t = 1 − ε to t = 1 + ε, as paper 001
+//! has it in 7.1. Nothing is proved by it.
+//!
+//! The path's coordinates have a Taylor expansion through such a figure, though Newton's method has no way to it:
+//! so the expansion before it predicts the point behind it, and the figure itself, which is then corrected with
+//! heights divided by 1 − t ([`Heights`]).
+
+use crate::linalg::Vector;
+use crate::system::{Heights, Homotopy};
+use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
+
+/// Steps over t = 1 are tried where t is nearer to 1 than this,
+const NEAR: f64 = 0.05;
+/// and farther than this.
+const NEAREST: f64 = 1e-6;
+/// After a trial in vain the next is made at this part of the distance.
+const NEARER: f64 = 0.5;
+/// A path runs into a flat figure where heights would be so small at t = 1, beside what they are, if they went on as
+/// they do.
+const VANISHING: f64 = 0.1;
+/// A corrected point may be away from its prediction by this part of the step.
+const OFF: f64 = 0.02;
+
+/// What steps over flat figures need.
+pub struct Crossing<const D: usize> {
+    heights: Heights,
+    equations: Equations<D>,
+    inverter: InverseMaker,
+    local: Local<D>,
+    /// How far from t = 1 the last trial was that failed on this approach.
+    failed: Option<f64>,
+}
+
+/// What a step over t = 1 has found.
+pub struct Crossed {
+    /// The flat figure: all unknowns, and t = 1.
+    pub flat: Vector,
+    /// The parameter of the expansion before it that predicted the point behind it.
+    pub advance: f64,
+}
+
+type Path<const D: usize, Y> = Local<D, { ORDER + 1 }, Y>;
+
+impl<const D: usize> Crossing<D> {
+    /// For a problem in which flat figures can come in continua.
+    pub fn new(homotopy: &Homotopy) -> Option<Self> {
+        if homotopy.tail.is_empty() {
+            return None;
+        }
+        let heights = homotopy.over_heights().ok()?;
+        let equations = Equations::<D>::new(&heights.homotopy);
+        Some(Crossing {
+            inverter: equations.inverter(),
+            local: Local::new(&equations),
+            equations,
+            heights,
+            failed: None,
+        })
+    }
+
+    /// Whether the path runs into a flat figure, and a step over it is to be tried at this point.
+    fn is_due<Y>(&mut self, homotopy: &Homotopy, now: &Path<D, Y>) -> bool {
+        let t = homotopy.equations;
+        let (left, slope) = (1.0 - now.z[0][t], now.z[1][t]);
+        if left.abs() > NEAR || left * slope <= 0.0 {
+            self.failed = None;
+            return false;
+        }
+        if self.failed.is_some_and(|at| left.abs() > NEARER * at) || left.abs() < NEAREST {
+            return false;
+        }
+        let (mut largest, mut remaining) = (0.0f64, 0.0f64);
+        for p in 0..homotopy.points {
+            if let Some(i) = homotopy.coordinate(p, 2) {
+                let (z, dz) = (now.z[0][i], now.z[1][i]);
+                largest = largest.max(z.abs());
+                remaining = remaining.max((z + dz * (left / slope)).abs());
+            }
+        }
+        remaining <= VANISHING * largest
+    }
+
+    /// If the path runs into a flat figure from `now`, finds that and the point behind it, `next`, with its
+    /// expansion.
+    pub fn cross<Y: Preconditioner<D>>(
+        &mut self,
+        homotopy: &Homotopy,
+        (equations, inverter): (&Equations<D>, &mut Y::Maker),
+        now: &Path<D, Y>,
+        next: &mut Path<D, Y>,
+        tolerance: f64,
+    ) -> Option<Crossed> {
+        if !self.is_due(homotopy, now) {
+            return None;
+        }
+        let distance = (1.0 - now.z[0][equations.m]).abs();
+        let crossed = self.step(equations, inverter, now, next, tolerance);
+        if crossed.is_none() {
+            self.failed = Some(distance);
+        }
+        crossed
+    }
+
+    fn step<Y: Preconditioner<D>>(
+        &mut self,
+        equations: &Equations<D>,
+        inverter: &mut Y::Maker,
+        now: &Path<D, Y>,
+        next: &mut Path<D, Y>,
+        tolerance: f64,
+    ) -> Option<Crossed> {
+        let m = equations.m;
+        let left = 1.0 - now.z[0][m];
+        let (mut figure, mut slope) = (equations.vector(), equations.vector());
+        let middle = parameter_at(now, m, 1.0)?;
+        now.at(middle, &mut figure);
+        now.slope(middle, &mut slope);
+        let per_t = 1.0 / slope[m];
+        let guess = self.heights.at_flat(&figure, |i| slope[i] * per_t);
+        let local = &mut self.local;
+        local.z[0][..guess.len()].copy_from_slice(&guess);
+        local.refine_at(&self.equations, &mut self.inverter, 1.0)?;
+        let flat = self.heights.flat_figure(&local.z[0]);
+        let size = distance(&figure[..m], &now.z[0][..m]);
+        if distance(&flat, &figure[..m]) > OFF * size {
+            return None;
+        }
+
+        let behind = parameter_at(now, m, 1.0 + left)?;
+        now.at(behind, &mut next.z[0]);
+        let predicted = next.z[0].clone();
+        next.refine_at(equations, inverter, 1.0 + left)?;
+        if distance(&next.z[0][..m], &predicted[..m]) > OFF * size {
+            return None;
+        }
+        first_normal(equations, inverter, next, left < 0.0).ok()?;
+        next.refine(equations, inverter, tolerance, 8).ok()?;
+        next.expand(equations);
+        figure[..m].copy_from_slice(&flat);
+        figure[m] = 1.0;
+        Some(Crossed {
+            flat: figure,
+            advance: behind,
+        })
+    }
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()))
+}
+
+/// Where an expansion has this t, if it goes straight there.
+fn parameter_at<const D: usize, Y>(local: &Path<D, Y>, m: usize, t: f64) -> Option<f64> {
+    let mut s = (t - local.z[0][m]) / local.z[1][m];
+    for _ in 0..20 {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for k in (0..=ORDER).rev() {
+            slope = slope * s + value;
+            value = value * s + local.z[k][m];
+        }
+        s -= (value - t) / slope;
+    }
+    (s.is_finite() && s > 0.0).then_some(s)
+}
