@@ -3,7 +3,7 @@
 mod common;
 
 use common::certificate::{Certificate, shipped};
-use krawl::certificate::{Flaw, Outcome, Record, Settings, verify};
+use krawl::certificate::{Ending, Flaw, Outcome, Record, Settings, TubeClaim, verify};
 
 fn outcome(certificate: &Certificate) -> Outcome {
     let bytes = certificate.bytes();
@@ -92,6 +92,66 @@ fn a_path_that_turns_back_closes_no_loop() {
     back.records.push(end);
     back.recount();
     assert_eq!(outcome(&back), Outcome::Refuted(Flaw::Direction(4)));
+}
+
+/// The parameter of a point with t = 1 in a tube, about.
+fn parameter(tube: &TubeClaim, solution: &[f64]) -> f64 {
+    let point = solution.iter().chain([&1.0]);
+    let away = point.zip(&tube.centre).map(|(x, z)| x - z);
+    away.zip(&tube.normal).map(|(x, &c)| x * f64::from(c)).sum()
+}
+
+/// The end of a stopped chain's last tube holds points of the path that the arc does not reach.
+#[test]
+fn a_stopped_chain_meets_nothing_beyond_its_last_exit() {
+    let mut tried = 0;
+    for name in ["k33", "prism", "disulfide"] {
+        let good = Certificate::read(&shipped(name));
+        let at = good.solution_at(0);
+        let Record::Solution(solution) = good.records[at].clone() else {
+            unreachable!()
+        };
+        let mut cut = good.clone();
+        cut.records.truncate(at + 1);
+        cut.records.push(good.records.last().unwrap().clone());
+        cut.recount();
+        cut.classes_mut().truncate(1);
+        if let Some(Record::End(end)) = cut.records.last_mut() {
+            end.ending = Ending::Stopped("cut".to_owned());
+        }
+        let last = cut.tubes() - 1;
+        let tube = cut.tube_mut(last);
+        let there = parameter(tube, &solution.centre);
+        if !(there < tube.exit) {
+            // Listed with the tube before the one that meets it.
+            continue;
+        }
+        let step = 0.02 * tube.h;
+        tube.exit = there + step;
+        let short = |exit: f64| {
+            let mut short = cut.clone();
+            short.tube_mut(last).exit = exit;
+            outcome(&short)
+        };
+        assert_eq!(outcome(&cut), Outcome::Partial("cut".to_owned()), "{name}");
+        match short(there - step) {
+            // The tube is entered behind that.
+            Outcome::Refuted(Flaw::Backwards(_)) | Outcome::NotProved(Flaw::Backwards(_)) => {
+                continue;
+            }
+            found => assert_eq!(found, Outcome::Refuted(Flaw::Unmet(1)), "{name}"),
+        }
+        // As near as numbers are, it is one or the other, or not known.
+        let near = short(there);
+        let known = [
+            Outcome::Partial("cut".to_owned()),
+            Outcome::Refuted(Flaw::Unmet(1)),
+            Outcome::NotProved(Flaw::Unmet(1)),
+        ];
+        assert!(known.contains(&near), "{name}: {near:?}");
+        tried += 1;
+    }
+    assert!(tried > 0);
 }
 
 /// A box that reaches to another solution, where both are met: one of them claims what it cannot.

@@ -607,7 +607,9 @@ def check(data):
         for k, (_, narrow) in enumerate(listed):
             s = tube.locate(narrow)
             if s:
-                met.add(k)
+                # A tube of an arc reaches beyond its last exit; that is not of the arc.
+                if "turn" not in kinds or entry[1] <= s[0] and s[1] <= leave[0]:
+                    met.add(k)
                 here.append(s)
         tube.account(entry[0], leave[1], here)
         before = None if closes else tube.exit()

@@ -4,7 +4,7 @@ use super::arc::{Fold, keeps, rises};
 use super::equations::{Equations, ZERO};
 use super::place::{Place, Spot, component};
 use super::refute;
-use super::tube::{Stretch, Tube, direction};
+use super::tube::{Met, Stretch, Tube, direction};
 use crate::certificate::format::{ArcClaim, EndClaim, Ending, Record, SolutionClaim, TubeClaim};
 use crate::certificate::verdict::{Arc, Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
@@ -21,8 +21,8 @@ pub struct Chain {
     start: Vec<Interval>,
     last: Option<Tube>,
     pub solutions: Vec<Place>,
-    /// Whether the path meets each of them, if that is known.
-    met: Vec<Option<bool>>,
+    /// Whether the path meets each of them: the best that any tube says.
+    met: Vec<Met>,
     /// Whether the tubes to come are those behind the turn.
     turned: bool,
     /// The problem with its dimensions as they are now, and the edit that is followed.
@@ -92,7 +92,7 @@ impl Chain {
             }
             listed.push(self.solutions.len());
         }
-        self.met.resize(self.solutions.len(), Some(false));
+        self.met.resize(self.solutions.len(), Met::No);
         if let (None, Some((claim, _))) = (&self.last, claims.first()) {
             let start = direction(eq, claim, &self.from).unwrap_or_default();
             if self.turned {
@@ -146,13 +146,9 @@ impl Chain {
             let (low, high) = verdict.t_range;
             let t = stretch.t + point(1.0);
             verdict.t_range = (low.min(t.inf()), high.max(t.sup()));
-            for k in stretch.unknown {
-                self.met[k] = self.met[k].filter(|&met| met);
+            for (all, met) in self.met.iter_mut().zip(stretch.met) {
+                *all = met.max(*all);
             }
-            stretch
-                .met
-                .into_iter()
-                .for_each(|k| self.met[k] = Some(true));
         }
         self.last = tubes
             .into_iter()
@@ -268,7 +264,7 @@ impl Chain {
         }
         let range = hull(entry.inf(), exit.sup());
         let Some(edit) = &self.arc else {
-            let stretch = tube.account(range, listed);
+            let stretch = tube.account(entry, exit, listed);
             return stretch.map_err(|part| {
                 let claim = Flaw::Unlisted(number, part.inf(), part.sup());
                 flaw(refute::missing(tube, part, listed), claim)
@@ -290,7 +286,6 @@ impl Chain {
         keeps(&self.eq, tube, range, &edit.kept).map_err(fault(Flaw::Kept))?;
         Ok(Stretch {
             met: Vec::new(),
-            unknown: Vec::new(),
             t: tube.time(entry).convex_hull(tube.time(exit)),
         })
     }
@@ -302,8 +297,13 @@ impl Chain {
         }
         for (k, solution) in self.solutions.iter().enumerate() {
             verdict.margin = verdict.margin.min(solution.margin);
-            if self.met[k] != Some(true) {
-                return Err(flaw(self.met[k].is_some(), Flaw::Unmet(k + 1)));
+            // A point of a tube is on the path; on an arc it is where it lies between entry and exit.
+            let enough = match end.ending {
+                Ending::Complete => Met::InTube,
+                _ => Met::Yes,
+            };
+            if self.met[k] < enough {
+                return Err(flaw(self.met[k] == Met::No, Flaw::Unmet(k + 1)));
             }
             let mut class = verdict.classes.iter().max().map_or(0, |c| c + 1);
             for (j, other) in self.solutions[..k].iter().enumerate() {

@@ -36,12 +36,20 @@ pub struct Tube {
     pub margin: f64,
 }
 
+/// Whether the path, from a tube's entry to its exit, meets a solution: from what is false to what is true.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Met {
+    No,
+    Unknown,
+    /// It is on the path in the tube, perhaps before the entry or beyond the exit: met by a path that is closed.
+    InTube,
+    Yes,
+}
+
 /// What a tube adds to the account, from its entry to its exit.
 pub struct Stretch {
-    /// Solutions in the tube.
-    pub met: Vec<usize>,
-    /// Solutions of which it is not known whether they are in it.
-    pub unknown: Vec<usize>,
+    /// Of each solution listed so far.
+    pub met: Vec<Met>,
     /// The range of t − 1.
     pub t: Interval,
 }
@@ -237,26 +245,38 @@ impl Tube {
         self.slope(self.u.len() - 1, s)
     }
 
-    /// Accounts for all parameters of a range: the path meets t = 1 in no other point of it than
+    /// Accounts for all parameters from the entry to the exit: the path meets t = 1 in no other point of these than
     /// these solutions, which have t = 1. `Err`: a range where this fails.
-    pub fn account(&self, range: Interval, solutions: &[Place]) -> Result<Stretch, Interval> {
+    pub fn account(
+        &self,
+        entry: Interval,
+        exit: Interval,
+        solutions: &[Place],
+    ) -> Result<Stretch, Interval> {
+        let range = hull(entry.inf(), exit.sup());
         let times = parts(range).map(|part| self.time(part));
         let t = times
             .reduce(|a, b| a.convex_hull(b))
             .unwrap_or(Interval::ENTIRE);
-        let (met, unknown) = (Vec::new(), Vec::new());
-        let mut stretch = Stretch { met, unknown, t };
+        let met = vec![Met::No; solutions.len()];
+        let mut stretch = Stretch { met, t };
         if !t.contains(0.0) {
             return Ok(stretch);
         }
         // The solutions that are in this tube, and where.
         let mut here = Vec::new();
         for (k, solution) in solutions.iter().enumerate() {
-            if let Some(s) = self.locate(&solution.spot) {
-                stretch.met.push(k);
-                here.push(s);
-            } else if !refute::elsewhere(self, &solution.spot) {
-                stretch.unknown.push(k);
+            stretch.met[k] = match self.locate(&solution.spot) {
+                Some(s) => {
+                    here.push(s);
+                    match s {
+                        s if entry.sup() <= s.inf() && s.sup() <= exit.inf() => Met::Yes,
+                        s if s.sup() < entry.inf() || exit.sup() < s.inf() => Met::No,
+                        _ => Met::InTube,
+                    }
+                }
+                None if refute::elsewhere(self, &solution.spot) => Met::No,
+                None => Met::Unknown,
             }
         }
         // Where t is monotone from a solution on, it is the only one.
