@@ -129,10 +129,9 @@ impl Chain {
                 _ => Some(tubes[k - 1].as_ref().map_err(Outcome::clone)?),
             };
             let tube = tubes[k].as_ref().map_err(Outcome::clone)?;
-            let goal = if k + 1 == tubes.len() {
-                &goal
-            } else {
-                &Goal::On
+            let goal = match k + 1 == tubes.len() {
+                true => &goal,
+                false => &Goal::On,
             };
             let solutions = &self.solutions[..listed[k]];
             let stretch = self.join((first + k as u64, arc), before, tube, goal, solutions)?;
@@ -146,9 +145,8 @@ impl Chain {
             let (low, high) = verdict.t_range;
             let t = stretch.t + point(1.0);
             verdict.t_range = (low.min(t.inf()), high.max(t.sup()));
-            for (all, met) in self.met.iter_mut().zip(stretch.met) {
-                *all = met.max(*all);
-            }
+            let both = self.met.iter_mut().zip(stretch.met);
+            both.for_each(|(all, met)| *all = met.max(*all));
         }
         self.last = tubes
             .into_iter()
@@ -264,7 +262,7 @@ impl Chain {
         }
         let range = hull(entry.inf(), exit.sup());
         let Some(edit) = &self.arc else {
-            let stretch = tube.account(entry, exit, listed);
+            let stretch = tube.account([entry, exit], listed);
             return stretch.map_err(|part| {
                 let claim = Flaw::Unlisted(number, part.inf(), part.sup());
                 flaw(refute::missing(tube, part, listed), claim)
@@ -292,16 +290,14 @@ impl Chain {
 
     /// What remains to be proved when all tubes are linked.
     pub fn conclude(&self, end: &EndClaim, verdict: &mut Verdict) -> Result<(), Outcome> {
-        if self.last.is_none() && end.ending == Ending::Complete {
+        let closed = end.ending == Ending::Complete;
+        if self.last.is_none() && closed {
             return Err(flaw(true, Flaw::Empty));
         }
         for (k, solution) in self.solutions.iter().enumerate() {
             verdict.margin = verdict.margin.min(solution.margin);
             // A point of a tube is on the path; on an arc it is where it lies between entry and exit.
-            let enough = match end.ending {
-                Ending::Complete => Met::InTube,
-                _ => Met::Yes,
-            };
+            let enough = if closed { Met::InTube } else { Met::Yes };
             if self.met[k] < enough {
                 return Err(flaw(self.met[k] == Met::No, Flaw::Unmet(k + 1)));
             }

@@ -247,36 +247,27 @@ impl Tube {
 
     /// Accounts for all parameters from the entry to the exit: the path meets t = 1 in no other point of these than
     /// these solutions, which have t = 1. `Err`: a range where this fails.
-    pub fn account(
-        &self,
-        entry: Interval,
-        exit: Interval,
-        solutions: &[Place],
-    ) -> Result<Stretch, Interval> {
+    pub fn account(&self, ends: [Interval; 2], listed: &[Place]) -> Result<Stretch, Interval> {
+        let [entry, exit] = ends;
         let range = hull(entry.inf(), exit.sup());
         let times = parts(range).map(|part| self.time(part));
-        let t = times
-            .reduce(|a, b| a.convex_hull(b))
-            .unwrap_or(Interval::ENTIRE);
-        let met = vec![Met::No; solutions.len()];
+        let t = times.reduce(|a, b| a.convex_hull(b));
+        let t = t.unwrap_or(Interval::ENTIRE);
+        let met = vec![Met::No; listed.len()];
         let mut stretch = Stretch { met, t };
         if !t.contains(0.0) {
             return Ok(stretch);
         }
-        // The solutions that are in this tube, and where.
+        // Where in this tube the solutions are that it holds.
         let mut here = Vec::new();
-        for (k, solution) in solutions.iter().enumerate() {
-            stretch.met[k] = match self.locate(&solution.spot) {
-                Some(s) => {
-                    here.push(s);
-                    match s {
-                        s if entry.sup() <= s.inf() && s.sup() <= exit.inf() => Met::Yes,
-                        s if s.sup() < entry.inf() || exit.sup() < s.inf() => Met::No,
-                        _ => Met::InTube,
-                    }
-                }
-                None if refute::elsewhere(self, &solution.spot) => Met::No,
-                None => Met::Unknown,
+        for (k, solution) in listed.iter().enumerate() {
+            let place = self.locate(&solution.spot);
+            here.extend(place);
+            stretch.met[k] = match place {
+                Some(s) if entry.sup() <= s.inf() && s.sup() <= exit.inf() => Met::Yes,
+                Some(s) if entry.inf() <= s.sup() && s.inf() <= exit.sup() => Met::InTube,
+                None if !refute::elsewhere(self, &solution.spot) => Met::Unknown,
+                _ => Met::No,
             }
         }
         // Where t is monotone from a solution on, it is the only one.
@@ -284,7 +275,7 @@ impl Tube {
             let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
             !self.time(part).contains(0.0) || here.iter().any(only)
         };
-        everywhere(range, holds, |part| refute::missing(self, part, solutions))?;
+        everywhere(range, holds, |part| refute::missing(self, part, listed))?;
         Ok(stretch)
     }
 }
