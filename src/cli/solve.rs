@@ -78,8 +78,10 @@ pub struct Arguments {
     /// Follow the loop the other way round
     #[arg(long)]
     reverse: bool,
-    /// Threads for problems of 127 free coordinates and more that are proved in the full space; others have no use
-    /// for them. 0 is one for each processor. The result does not depend on it
+    /// Threads for one run in certified mode; 0 is one for each processor. With two or more a path of distances alone is
+    /// followed both ways from the sketch at once, until these meet; with 127 free coordinates and more in the full space
+    /// products of matrices take several too. What is proved is the same, bounds may differ in their last digits. Runs with
+    /// --cert, --json or a picture go one way, as what they keep is in the order of the path
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=1024))]
     threads: u16,
     /// Write a certificate, and check it as `verify` does; only for runs in certified mode. Where a

@@ -37,9 +37,11 @@ pub struct Options {
     /// Whether certified mode in the full space may switch extended precision on where 53 bits do not
     /// suffice; otherwise it stops there. Where they do suffice this changes nothing.
     pub extended: bool,
-    /// Threads for tubes of the full space with 127 free coordinates or more, whose tests are products of large
-    /// matrices; smaller ones and the reduced space have no use for them. 0 means one for each processor. The result does
-    /// not depend on it.
+    /// Threads for one certified run; 0 means one for each processor. With two or more a path of distances alone is followed
+    /// both ways from the sketch at once, until these meet, unless the [`Control`](crate::track::Control) keeps what is in the
+    /// order of the path (a certificate, samples); and tubes of the full space with 127 free coordinates or more, whose
+    /// tests are products of large matrices, take several. What is proved is the same; bounds may differ in
+    /// their last digits, and from run to run.
     pub threads: usize,
     /// The run ends `stopped` after so many steps.
     pub max_steps: usize,
@@ -141,7 +143,7 @@ impl Options {
         }
     }
 
-    /// On several threads, where that helps; 0 means one for each processor.
+    /// On several threads, where that helps; 0 means one for each processor: see [`Options::threads`].
     pub fn with_threads(self, threads: usize) -> Self {
         Options { threads, ..self }
     }

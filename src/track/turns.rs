@@ -62,6 +62,19 @@ impl Turns {
         self.be_certain(0.0, rising);
     }
 
+    /// Changes along a path that goes on from here against the direction of `back`, from its end to where it began; and
+    /// whether it is certain that there are no others, if these are none.
+    pub fn closed_by(&self, back: &Turns) -> (usize, bool) {
+        let between = match (self.rising, back.rising) {
+            (Some(ahead), Some(back)) => usize::from(ahead == back),
+            _ => 0,
+        };
+        let is_certain = [self, back]
+            .iter()
+            .all(|t| !t.may_hide && !t.is_open && t.rising.is_some());
+        (self.count + between + back.count, is_certain)
+    }
+
     /// Goes on along a tube, from a parameter to another, and tells what it sees, in order.
     pub fn follow<const N: usize>(
         &mut self,
@@ -164,6 +177,21 @@ mod tests {
                 assert!(first <= at && at <= last && last - first < 4.0 * band + 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn folds_are_counted_across_a_meeting() {
+        let along = |signs: &[bool]| {
+            let mut turns = Turns::default();
+            signs.iter().for_each(|&rising| turns.go_on(rising));
+            turns
+        };
+        // Ahead t rises and falls; back it falls, seen from there, so that it rises ahead.
+        let ahead = along(&[true, false]);
+        assert_eq!(ahead.closed_by(&along(&[true])), (1, true));
+        assert_eq!(ahead.closed_by(&along(&[false])), (2, true));
+        assert_eq!(ahead.closed_by(&along(&[true, false])), (3, true));
+        assert_eq!(ahead.closed_by(&Turns::default()), (1, false));
     }
 
     #[test]

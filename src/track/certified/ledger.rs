@@ -443,6 +443,37 @@ impl<const D: usize> Ledger<D> {
         Ok(())
     }
 
+    /// Takes over the account of the way from the sketch in the other direction, where the two have met: solutions are in
+    /// the order of the closed path, from the sketch on. Fails where it cannot be told whether a solution was found on
+    /// both; what is left is then neither's account.
+    pub fn close_with(&mut self, back: Self) -> Result<(), String> {
+        let (folds, is_certain) = self.turns.closed_by(&back.turns);
+        self.length += back.length;
+        let ahead = self.found.len();
+        for (mut found, place) in back.found.into_iter().zip(back.places).rev() {
+            let others = self.found[..ahead].iter();
+            let mut answers = others.map(|other| found.is_same(other, |_| false));
+            match answers.find(|&same| same != Same::No) {
+                // Where they met.
+                Some(Same::Yes) => continue,
+                Some(_) => return Err("two solutions could not be told apart".to_owned()),
+                None => {}
+            }
+            found.rising = !found.rising;
+            self.found.push(found);
+            // Those of the whole path but for those between it and the sketch, on the way back.
+            let folds = folds.saturating_sub(place.folds.unwrap_or(0));
+            self.places.push(Place {
+                arc: self.length - place.arc,
+                rising: !place.rising,
+                folds: (folds > 0 || is_certain).then_some(folds),
+            });
+        }
+        let (low, high) = back.t_range;
+        self.t_range = (self.t_range.0.min(low), self.t_range.1.max(high));
+        Ok(())
+    }
+
     /// Claim 3: a_i(t) > 0 on the whole range of t.
     fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), String> {
         let range = hull(self.t_range.0, self.t_range.1);

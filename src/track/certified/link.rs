@@ -95,6 +95,13 @@ impl Ball {
         }
     }
 
+    /// Becomes another box, of as many entries.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.centre.copy_from_slice(&other.centre);
+        self.low.copy_from_slice(&other.low);
+        self.radius.copy_from_slice(&other.radius);
+    }
+
     /// Whether the middle has more digits than floats have.
     pub fn is_extended(&self) -> bool {
         self.low.iter().any(|&x| x != 0.0)

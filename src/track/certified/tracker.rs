@@ -6,6 +6,7 @@ mod extension;
 mod open;
 mod starts;
 mod step_control;
+mod two_ways;
 
 use super::figures::FigureBox;
 use super::ledger::Ledger;
@@ -30,6 +31,7 @@ use extension::Extension;
 use std::borrow::Cow;
 use std::time::Instant;
 use step_control::StepControl;
+use two_ways::Way;
 
 pub use arc::Arcs;
 
@@ -44,9 +46,9 @@ const POINT_TOLERANCE: f64 = 1e-9;
 const SINGULAR: f64 = 1e7;
 
 /// A way of proving tubes: with polynomials of N coefficients, in frames of its own.
-pub trait Test<const D: usize, const N: usize>: Sized + std::fmt::Debug {
+pub trait Test<const D: usize, const N: usize>: Sized + Send + std::fmt::Debug {
     /// The preconditioner of a tube, which also describes its box.
-    type Frame: Frame<D> + std::fmt::Debug;
+    type Frame: Frame<D> + Send + std::fmt::Debug;
     /// The space in which it works.
     const SPACE: Space;
     /// Whether the last coefficient of the expansion tells how long the tube will be.
@@ -147,7 +149,11 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     if let Some(trace) = &mut control.trace {
         trace.begin(homotopy);
     }
-    let mut status = match tracker.run(options, control) {
+    let result = match two_ways::is_wanted(homotopy, options, control) {
+        true => tracker.run_both_ways(options, control),
+        false => tracker.run(options, control),
+    };
+    let mut status = match result {
         Ok(()) => Status::Closed,
         Err(reason) => match tracker.path_end(reason) {
             Ok(end) => tracker.other_way(end, options, control),
@@ -249,6 +255,10 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     at_start: Option<Box<SolutionProver<D>>>,
     /// How many of the solutions were found the other way from the sketch: the first ones.
     behind: usize,
+    /// The run that goes the other way at the same time, if there is one.
+    way: Option<Way>,
+    /// The tubes of both if they met.
+    ways: Option<[usize; 2]>,
     /// The largest coordinate of the sketch, or 1 if that is more.
     size_of_sketch: f64,
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
@@ -293,6 +303,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             is_stuck: false,
             at_start: None,
             behind: 0,
+            way: None,
+            ways: None,
             size_of_sketch,
             typical: f64::NAN,
             equations,
@@ -399,6 +411,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 self.loses = true;
                 return Err(format!("{what}, {}", self.place()));
             }
+            if self.way.as_ref().is_some_and(Way::is_over) {
+                return Err(two_ways::OVER.to_owned());
+            }
             if self.steps >= options.max_steps {
                 return Err(format!(
                     "the limit of {} tubes was reached, the last of which is {:.1e} long, {}",
@@ -463,6 +478,11 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             match self.tube_at_sketch(max_h) {
                 Ok(is_done) => {
                     self.has_set_out = true;
+                    if let Some(way) = &self.way
+                        && self.now.goes_along(self.now.entry, &self.first_normal)
+                    {
+                        way.sets_out(&self.first_normal);
+                    }
                     self.account_for_precision();
                     return Ok(is_done);
                 }
@@ -539,9 +559,28 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let between = closing.map_or((tube.exit_at, tube.exit_at), |at| {
             (at.1.max(tube.exit_at), at.1)
         });
-        self.ledger
-            .enter(&self.equations, &mut self.inverter, tube, between, extended)
-            .map_err(Rejection::Undecided)?;
+        let (equations, inverter) = (&self.equations, &mut self.inverter);
+        let mut account = |ledger: &mut Ledger<D>, between| {
+            let entered = ledger.enter(equations, inverter, tube, between, extended);
+            entered.map_err(Rejection::Undecided)
+        };
+        let before = self.way.is_some().then(|| self.ledger.mark());
+        account(&mut self.ledger, between)?;
+        if let (Some(way), Some(before)) = (&self.way, before) {
+            let steps = self.steps + usize::from(!first);
+            let meeting = way.meets(tube, (self.ledger.mark(), steps));
+            if let (None, Some(meeting)) = (closing, meeting) {
+                // What lies beyond is the other's.
+                self.ledger.return_to(before);
+                let until = meeting.at.1;
+                if account(&mut self.ledger, (until, until)).is_ok() && way.decide(meeting) {
+                    return Ok(true);
+                }
+                // The other's account may count on all of it.
+                self.ledger.return_to(before);
+                account(&mut self.ledger, between)?;
+            }
+        }
         if let Some(beyond) = &self.beyond {
             return Ok(beyond.is_reached(tube, tube.exit_at));
         }
@@ -778,6 +817,12 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             list.push(format!(
                 "shorter tubes, {times}: t = 1 could not be separated from a fold or another \
                  solution in the longer ones"
+            ));
+        }
+        if let Some([ahead, back]) = self.ways {
+            list.push(format!(
+                "two threads: the path was followed both ways from the sketch at once, {ahead} tubes ahead and \
+                 {back} back, until these met (several threads were asked for)"
             ));
         }
         list.extend(self.extension.in_words());
