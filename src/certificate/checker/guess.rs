@@ -5,6 +5,8 @@ use super::krawczyk::{Curve, LARGE, ORDER, Section, magnitude, weight};
 use super::whole::{J_BITS, Whole, power};
 use crate::certificate::format::{FoldClaim, TubeClaim, WEIGHT_UNIT};
 use crate::certificate::verdict::Fault;
+use faer::MatRef;
+use faer::linalg::solvers::DenseSolveCore;
 
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
@@ -298,8 +300,25 @@ fn directional(eq: &Equations, (z, one): (&[f64], f64), v: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A float inverse, or nothing where there is none: Gauss and Jordan in place, with row pivots.
-fn invert(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
+/// Matrices of so many rows and more are inverted by a library that works in blocks.
+const LARGE_INVERSE: usize = 96;
+
+/// A float inverse, or nothing where there is none.
+fn invert(n: usize, a: Vec<f64>) -> Option<Vec<f64>> {
+    if n < LARGE_INVERSE {
+        return eliminate(n, a);
+    }
+    // Row by row as column by column: the inverse of the transposed matrix is that of the matrix, transposed.
+    let inverse = MatRef::from_column_major_slice(&a, n, n)
+        .partial_piv_lu()
+        .inverse();
+    let columns = (0..n).map(|j| inverse.col_as_slice(j));
+    let all: Vec<f64> = columns.flatten().copied().collect();
+    all.iter().all(|x| x.is_finite()).then_some(all)
+}
+
+/// Gauss and Jordan in place, with row pivots.
+fn eliminate(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
     let mut pivots = Vec::with_capacity(n);
     for k in 0..n {
         let size = |i: &usize| a[i * n + k].abs();

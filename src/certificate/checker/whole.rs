@@ -5,19 +5,18 @@
 //! the like are *exact* in integers, and no error analysis has to be believed.
 
 use crate::interval::{Interval, point};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
 
 /// Jacobians, whose rows are scaled so that entries are about 1, are in units of 2 to minus this.
 pub const J_BITS: i32 = 44;
 /// Y is in units of 2 to minus some number between these.
 const Y_BITS: [i32; 2] = [8, 60];
-/// A is in units of 2 to minus this.
-const A_BITS: i32 = 24;
+/// A is in units of 2 to minus some number between these.
+const A_BITS: [i32; 2] = [16, 24];
 /// Entries of Y and J are smaller: they are floats too, and 2²⁰ products of two of them fit into
 /// an `i128`.
 pub const LIMIT: f64 = (1u64 << 53) as f64;
-/// No row of |A| has a larger sum, 64: then all sums of products of two entries fit into an `i64`.
-const A_LIMIT: i64 = 1 << (A_BITS + 6);
-
 /// A square matrix with few entries: (row, entry) for each column.
 pub type Columns = Vec<Vec<(usize, i64)>>;
 
@@ -80,16 +79,15 @@ pub fn above(x: u128, bits: i32) -> Interval {
 
 /// At least the largest sum of a row's sizes, for n × n entries in units of 2^−`bits`.
 ///
-/// Nothing overflows, whatever is in the file. Entries of A fit into an `i32`; all others are below
-/// 2¹²⁷, as they fit into an `i128`, and below 2¹¹¹ without their last 16 bits, so that rows of fewer
-/// than 2¹⁶ of them do not reach 2¹²⁸. What is dropped is less than the one that is added.
+/// Nothing overflows, whatever is in the file: entries are below 2¹²⁷, as they fit into an `i128`, and below 2¹¹¹ without
+/// their last 16 bits, so that rows of fewer than 2¹⁶ of them do not reach 2¹²⁸. What is dropped is less than the one
+/// that is added.
 fn norm(n: usize, bits: i32, entries: impl Iterator<Item = i128>) -> Interval {
-    let dropped = if bits == A_BITS { 0 } else { 16 };
     let mut sums = vec![0u128; n];
     for (k, entry) in entries.enumerate() {
-        sums[k / n] += (entry.unsigned_abs() >> dropped) + 1;
+        sums[k / n] += (entry.unsigned_abs() >> 16) + 1;
     }
-    above(sums.into_iter().max().unwrap_or(0), bits - dropped)
+    above(sums.into_iter().max().unwrap_or(0), bits - 16)
 }
 
 impl Whole {
@@ -140,33 +138,30 @@ impl Whole {
     /// A is Y J₁, rounded.
     pub fn moving(&self, j1: &Columns, j2: &Columns) -> Option<Moving> {
         let (n, bits) = (self.n, self.product_bits());
-        let shift = bits - A_BITS;
         let product: Vec<i128> = self.times(j1).collect();
-        let nearest = |&x: &i128| i32::try_from((x + (1 << (shift - 1))) >> shift).ok();
-        let a = product.iter().map(nearest).collect::<Option<Vec<i32>>>()?;
-        // Every partial sum is below 2³⁰ 2³¹: the row that multiplies is checked first, and the entries of
-        // the others fit into an `i32`.
-        let mut square = vec![0i64; n * n];
-        for (row, out) in a.chunks(n).zip(square.chunks_mut(n)) {
-            if row.iter().map(|&x| i64::from(x).abs()).sum::<i64>() > A_LIMIT {
-                return None;
-            }
-            for (&x, row) in row.iter().zip(a.chunks(n)) {
-                for (out, &y) in out.iter_mut().zip(row) {
-                    *out += i64::from(x) * i64::from(y);
-                }
-            }
+        // Sums of sizes in rows of Y J₁ are below 2^(25 − b), however the logarithm is rounded, so that in units of 2^−b those
+        // of A's entries are below 2²⁵ + n/2 < 2²⁶. Then all sums of products of entries in a row and a column
+        // are whole numbers below 2⁵², in any order: floats are exact, fused or not.
+        let largest = norm(n, bits, product.iter().copied()).sup();
+        let b = (25 - largest.max(1.0).log2().ceil() as i32 - 1).min(A_BITS[1]);
+        if b < A_BITS[0] {
+            return None;
         }
+        let shift = bits - b;
+        let nearest = |x: &i128| ((x + (1 << (shift - 1))) >> shift) as f64;
+        let a: Vec<f64> = product.iter().map(nearest).collect();
+        let mut square = vec![0.0; n * n];
+        // Row by row as column by column: of the transposed matrices, whose product is the square's.
+        let factor = MatRef::from_column_major_slice(&a, n, n);
+        let out = MatMut::from_column_major_slice_mut(&mut square, n, n);
+        matmul(out, Accum::Replace, factor, factor, 1.0, Par::Seq);
         let second: Vec<i128> = self.times(j2).collect();
-        let rests = product
-            .iter()
-            .zip(&a)
-            .map(|(x, &a)| x - (i128::from(a) << shift));
+        let again = |a: &f64| i128::from(*a as i64) << shift;
         let squares = square.iter().zip(&second);
-        let squares = squares.map(|(&x, y)| (i128::from(x) << (bits - 2 * A_BITS)) - y);
+        let squares = squares.map(|(&x, y)| (i128::from(x as i64) << (bits - 2 * b)) - y);
         Some(Moving {
-            norm: norm(n, A_BITS, a.iter().map(|&a| a.into())),
-            rest: norm(n, bits, rests),
+            norm: norm(n, bits, a.iter().map(again)),
+            rest: norm(n, bits, product.iter().zip(&a).map(|(x, a)| x - again(a))),
             square: norm(n, bits, squares),
             second: norm(n, bits, second.iter().copied()),
         })
@@ -229,19 +224,68 @@ mod tests {
             let exact = n as f64 * power(127 - 70);
             assert!((exact..1.001 * exact).contains(&bound), "{bound:e}");
         }
-        let bound = norm(n, A_BITS, repeat_n(i32::MIN.into(), n)).sup();
-        let exact = n as f64 * power(31 - A_BITS);
-        assert!((exact..1.001 * exact).contains(&bound), "{bound:e}");
     }
 
-    /// The sum of the second row's sizes, 3 · 2⁴⁰ + 2, in units of 2⁻⁷⁰, and 7 in units of 2⁻²⁴.
+    /// With entries as large as they may be, and where the unit has to be coarser for that.
+    #[test]
+    fn squares_are_exact() {
+        let n = 70;
+        let entries = |seed: i64, bits: u32| -> Vec<i64> {
+            let mut x = seed;
+            let mut next = || {
+                x = x
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                (x >> 11) >> (53 - bits)
+            };
+            (0..n * n).map(|_| next()).collect()
+        };
+        for size in [1.0, 30.0, 200.0] {
+            // Y is a diagonal matrix nearly, J₁ and J₂ are full.
+            let mut floats = vec![1e-3; n * n];
+            (0..n).for_each(|i| floats[i * n + i] = 1.0 - 0.01 * i as f64);
+            let y = Whole::nearest(&floats, &vec![0; n]).unwrap();
+            let columns = |seed| -> Columns {
+                let all = entries(seed, 40);
+                let scale = size / n as f64 * 32.0;
+                let column = |k: usize| {
+                    let entry = |e: usize| (e, (all[k * n + e] as f64 * scale) as i64);
+                    (0..n).map(entry).collect()
+                };
+                (0..n).map(column).collect()
+            };
+            let (j1, j2) = (columns(1), columns(2));
+            let Some(moving) = y.moving(&j1, &j2) else {
+                panic!("{size} is no reason to give up");
+            };
+            // The square of Y J₁ with all of its digits but sixty, in an i128.
+            let product: Vec<i128> = y.times(&j1).map(|x| x >> (y.product_bits() - 40)).collect();
+            let second: Vec<i128> = y.times(&j2).map(|x| x >> (y.product_bits() - 40)).collect();
+            let row = |i: usize| -> f64 {
+                let entry = |j: usize| {
+                    let terms = (0..n).map(|k| product[i * n + k] * product[k * n + j]);
+                    let sum = terms.sum::<i128>() >> 40;
+                    (sum - second[i * n + j]).unsigned_abs() as f64 * power(-40)
+                };
+                (0..n).map(entry).sum()
+            };
+            let exact = (0..n).map(row).fold(0.0, f64::max);
+            let norm = moving.norm.sup();
+            let error = 2.0 * norm * moving.rest.sup() + n as f64 * norm * 1e-10;
+            assert!(
+                (moving.square.sup() - exact).abs() <= error,
+                "{size}: {exact} {error}"
+            );
+            assert!(error < 1e-2 * exact, "{size}: {error}");
+        }
+    }
+
+    /// The sum of the second row's sizes, 3 · 2⁴⁰ + 2, in units of 2⁻⁷⁰.
     #[test]
     fn norms_are_those_of_the_largest_row() {
         let large = 1i128 << 40;
         let bound = norm(2, 70, [1, -1, 1 - 2 * large, large + 1].into_iter());
         let exact = (3 * large) as f64 * power(-70);
         assert!(exact < bound.inf() && bound.sup() < 1.001 * exact);
-        let bound = norm(2, A_BITS, [1, -1, -3, 4].into_iter()).sup();
-        assert!((7.0 * power(-24)..=10.0 * power(-24)).contains(&bound));
     }
 }
