@@ -343,20 +343,24 @@ pub(super) fn bounds(x: Interval) -> Value {
     json!([x.inf() + 0.0, x.sup() + 0.0])
 }
 
-/// What of a session's figure stays put because nothing determines it, and which constraints are left out of proofs
-/// because they follow from others: lines of text, none where there is nothing to say.
-pub fn freedom_in_words(session: &Session) -> String {
+/// What of a figure stays put because nothing determines it, and which constraints are left out of proofs because they
+/// follow from others: lines of text, none where there is nothing to say.
+pub fn freedom_in_words(found: &Decomposition) -> String {
     let mut out = String::new();
-    let (free, redundant) = (session.free(), session.redundant());
+    let Decomposition {
+        free,
+        redundant,
+        follows,
+        ..
+    } = found;
     if !free.is_empty() {
-        let _ = writeln!(out, "free, stay put      {}", list(&free, LISTED));
+        let _ = writeln!(out, "free, stay put      {}", list(free, LISTED));
     }
-    let follows = session.follows();
     if !follows.is_empty() {
         let _ = writeln!(
             out,
             "left out            {}: follow from the others, proved",
-            list(&follows, LISTED)
+            list(follows, LISTED)
         );
     }
     if !redundant.is_empty() {
@@ -364,7 +368,7 @@ pub fn freedom_in_words(session: &Session) -> String {
             out,
             "left out            {}: follow from the others at this figure, as far as floats tell; they hold to 1e-7 \
              still, which is looked at, not proved",
-            list(&redundant, LISTED)
+            list(redundant, LISTED)
         );
     }
     out
