@@ -243,6 +243,8 @@ impl Chain {
             along(&self.start, claim)?;
         }
         let range = hull(entry.inf(), exit.sup());
+        let stands = tube.stands(&self.eq, range);
+        stands.map_err(|fault| flaw(false, Flaw::Tube(number, fault)))?;
         let Some(edit) = &self.arc else {
             let stretch = tube.account([entry, exit], listed);
             return stretch.map_err(|part| {
