@@ -458,6 +458,70 @@ distances = [["a", "b", 8], ["a", "p", 5]]
     assert!(verdict.is_about(&whole) && !verdict.is_about(&loose));
 }
 
+/// The program: what is held is said, what follows from others is refused, sketches of other programs are compared.
+#[test]
+fn the_program_certifies_sketches_that_are_not_complete() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let krawl = |arguments: &[&str]| {
+        let mut command = assert_cmd::Command::cargo_bin("krawl").unwrap();
+        let output = command.args(arguments).output().unwrap();
+        let text = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
+        (output.status.code().unwrap(), text.concat())
+    };
+    let (cert, out) = (path("c.krawl"), path("out.toml"));
+    let (cert, out) = (cert.to_str().unwrap(), out.to_str().unwrap());
+    let loose = path("loose.toml");
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [8, 0]\np = [4, 3]\n[constraints]\nfixed = [\"a\"]\n\
+                distances = [[\"a\", \"b\", 8], [\"a\", \"p\", 5]]\n";
+    std::fs::write(&loose, text).unwrap();
+    let loose = loose.to_str().unwrap();
+    let (code, text) = krawl(&[
+        "edit", loose, "--set", "a-p=6", "--cert", cert, "--out", out,
+    ]);
+    assert!(code == 0 && text.contains("free, stay put"), "{text}");
+    let edited = std::fs::read_to_string(out).unwrap();
+    assert!(
+        edited.contains("[\"a\", \"p\", 6.0]") && !edited.contains("x ="),
+        "{edited}"
+    );
+    let (code, text) = krawl(&["verify", cert, loose]);
+    assert!(
+        code == 0 && text.contains("held where the sketch has it: b, p"),
+        "{text}"
+    );
+    let (code, text) = krawl(&["verify", cert, out]);
+    assert!(
+        code == 1 && text.contains("REFUTED: the problem is not"),
+        "{text}"
+    );
+    let (code, text) = krawl(&[
+        "sweep", loose, "--vary", "a-p", "--from", "5", "--to", "9", "--frames", "5", "--cert",
+        cert,
+    ]);
+    assert!(code == 0, "{text}");
+    assert_eq!(krawl(&["verify", cert, loose]).0, 0);
+
+    let bracket = "problems/sketches/bracket.slvs";
+    let (code, text) = krawl(&["edit", bracket, "--set", "c011=52", "--cert", cert]);
+    assert!(code == 0, "{text}");
+    let (code, text) = krawl(&["verify", cert, bracket]);
+    assert!(code == 0 && text.contains("exactly"), "{text}");
+
+    let twice = path("twice.toml");
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [8, 0]\nc = [8, 5]\nd = [0, 5]\n[constraints]\nfixed = [\"a\"]\n\
+                distances = [[\"a\", \"b\", 8], [\"b\", \"c\", 5], [\"a\", \"d\", 5]]\n\
+                horizontal = [[\"a\", \"b\"], [\"c\", \"d\"]]\nvertical = [[\"a\", \"d\"], [\"b\", \"c\"]]\n";
+    std::fs::write(&twice, text).unwrap();
+    let twice = twice.to_str().unwrap();
+    assert_eq!(krawl(&["edit", twice, "--set", "a-b=9"]).0, 0);
+    let (code, text) = krawl(&["edit", twice, "--set", "a-b=9", "--cert", cert]);
+    assert!(
+        code == 2 && text.contains("would say nothing of `b-c`"),
+        "{text}"
+    );
+}
+
 /// Both ways from the sketch, to two ends.
 #[test]
 fn an_open_path_is_verified() {

@@ -447,3 +447,32 @@ fn cost() {
     }
     println!("digest {digest:016x}, reached, limit, passes, stopped: {counts:?}");
 }
+
+/// The range of an angle goes up to nearly 180 degrees, from wherever it is.
+#[test]
+fn the_range_of_an_angle_stays_below_180_degrees() {
+    for degrees in ["1", "53", "145", "179", "179.9999"] {
+        let text = format!(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [{}, {}]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3]]\nangles = [[\"b\", \"a\", \"c\", {degrees}]]\n",
+            3.0 * degrees.parse::<f64>().unwrap().to_radians().cos(),
+            3.0 * degrees.parse::<f64>().unwrap().to_radians().sin(),
+        );
+        let problem = Problem::parse(&text, "test.toml").unwrap();
+        let mut session = Session::open(&problem).unwrap();
+        let range = session.range(2, &mut krawl::track::Control::default());
+        let (low, high) = (range.low.value(), range.high.value());
+        let now: f64 = degrees.parse().unwrap();
+        for end in [&range.low, &range.high] {
+            assert!(
+                matches!(end, krawl::edit::End::Beyond(_)),
+                "{degrees}: {end:?}"
+            );
+        }
+        assert!(
+            low.sup() < 0.01 * now
+                && high.inf() > 180.0 - 0.01 * (180.0 - now)
+                && high.sup() < 180.0
+        );
+    }
+}

@@ -23,7 +23,8 @@ use std::path::{Path, PathBuf};
 Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
-  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl   and `krawl verify edit.krawl`
+  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl
+  krawl verify edit.krawl problems/mechanisms/four-bar.toml
   krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
@@ -54,7 +55,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
-    /// that of `verify`
+    /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE", conflicts_with = "serve")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written

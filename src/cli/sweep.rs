@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Which sketch of a .slvs or .FCStd file, where it holds several
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// The dimension that is driven, such as a-b
+    /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
     #[arg(long, value_name = "NAME")]
     vary: String,
     /// Its first value
@@ -50,7 +50,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
-    /// that of `verify`
+    /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written

@@ -2,7 +2,7 @@
 
 use super::JSON_VERSION;
 use super::certain_digits;
-use crate::edit::{Decomposition, Edited, Ending, Limit, Moved, Session};
+use crate::edit::{Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted, list};
 use serde_json::{Map, Value, json};
@@ -28,6 +28,16 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         format!("{name} from {} to {}", short(d.from), short(d.to))
     });
     let changes = changes.collect::<Vec<_>>().join(", ");
+    // Beside so long a way what happens on it is not to be told from its beginning.
+    let is_far = |d: &Dimension| (d.to - d.from).mag() > 1e6 * d.from.mag() && d.from.mag() > 0.0;
+    let far = match edited.dimensions.iter().find(|d| is_far(d)) {
+        Some(d) => format!(
+            " The new value is {:.0e} times what {} is: try one that is nearer, or `krawl limits` for how far it can go.",
+            (d.to / d.from).mag(),
+            problem.dimension_name(d.index)
+        ),
+        None => String::new(),
+    };
     match &edited.ending {
         Ending::Reached => format!(
             "Reached, proved: the figure is the one and only continuation of the old one, {changes}."
@@ -56,11 +66,11 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         }
         Ending::Passes(reason) => format!(
             "Passes: near t = {:.6} of the way ({changes}) branches of figures seem to meet, so that none of \
-                 them continues this one more than another; proved up to there ({reason}).",
+                 them continues this one more than another; proved up to there ({reason}).{far}",
             edited.t.0
         ),
         Ending::Stopped(reason) => format!(
-            "Stopped: proved up to t = {:.6} of the way ({changes}), and not further: {reason}.",
+            "Stopped: proved up to t = {:.6} of the way ({changes}), and not further: {reason}.{far}",
             edited.t.0
         ),
     }
