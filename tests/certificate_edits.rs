@@ -54,8 +54,8 @@ fn an_edit_is_verified() {
     let [correction, edit] = &verdict.arcs[..] else {
         panic!("{:?}", verdict.arcs);
     };
-    assert!(correction.claim.lengths.is_empty());
-    assert_eq!(edit.claim.lengths, [(2, "40".parse().unwrap())]);
+    assert!(correction.claim.dimensions.is_empty());
+    assert_eq!(edit.claim.dimensions, [(2, "40".parse().unwrap())]);
     assert_eq!(edit.claim.kept.len(), 9);
     let [c, d] = [2, 3].map(|p| edit.figure[p]);
     let length = ((c[0] - d[0]).sqr() + (c[1] - d[1]).sqr()).sqrt();
@@ -193,6 +193,335 @@ angles = [["a", "b", "c", 90], ["b", "a", "d", 80]]
     assert_eq!(verdict.arcs.len(), 2);
 }
 
+/// A crank with its angle, of a linkage: up to motions, or with the ground fixed.
+fn crank(is_fixed: bool) -> Problem {
+    let fixed = ["", "fixed = [\"A\"]\nhorizontal = [[\"A\", \"D\"]]"][usize::from(is_fixed)];
+    let text = format!(
+        r#"
+dimension = 2
+[points]
+A = [0, 0]
+D = [6, 0]
+B = [1, 2.6]
+C = [5, 4.1]
+[constraints]
+{fixed}
+distances = [["A", "D", 6], ["A", "B", 3], ["B", "C", 4], ["C", "D", 4]]
+angles = [["D", "A", "B", 70]]
+"#
+    );
+    Problem::parse(&text, "crank.toml").unwrap()
+}
+
+/// A hole that touches an edge, its centre at a distance from a corner.
+fn hole(is_fixed: bool) -> Problem {
+    let fixed = ["", "fixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"]]"][usize::from(is_fixed)];
+    let text = format!(
+        r#"
+dimension = 2
+[points]
+a = [0, 0]
+b = [8, 0]
+m = [4, 3]
+[lines]
+edge = ["a", "b"]
+[circles]
+hole = {{ center = "m", radius = 3 }}
+[constraints]
+{fixed}
+distances = [["a", "b", 8], ["a", "m", 5]]
+radii = [["hole", 3]]
+tangent = [["hole", "edge"]]
+"#
+    );
+    Problem::parse(&text, "hole.toml").unwrap()
+}
+
+/// A point at a distance from a line and one from its end.
+fn height(is_fixed: bool) -> Problem {
+    let fixed = ["", "fixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"]]"][usize::from(is_fixed)];
+    let text = format!(
+        r#"
+dimension = 2
+[points]
+a = [0, 0]
+b = [8, 0]
+p = [4, 3]
+[lines]
+edge = ["a", "b"]
+[constraints]
+{fixed}
+distances = [["a", "b", 8], ["a", "p", 5], ["p", "edge", 2.9]]
+"#
+    );
+    Problem::parse(&text, "height.toml").unwrap()
+}
+
+/// Figures, an edit that is reached, and one that is not, with the value at which it ends.
+type Case = (fn(bool) -> Problem, &'static str, &'static str, f64);
+const CASES: [Case; 3] = [
+    // There B, C and D are on one line: 8² = 3² + 6² − 36 cos.
+    (
+        crank,
+        "angles:D-A-B=80",
+        "angles:D-A-B=150",
+        121.855_430_824,
+    ),
+    (hole, "radii:hole=4.5", "radii:hole=6", 5.0),
+    (height, "distances:p-edge=4", "distances:p-edge=7", 5.0),
+];
+
+/// Angles, radii and distances from lines, in both frames: reached, or up to the limit.
+#[test]
+fn edits_of_other_dimensions_are_verified() {
+    for (problem, to, beyond, most) in CASES {
+        for problem in [problem(false), problem(true)] {
+            let (ending, bytes) = edit(&problem, &[to]);
+            assert_eq!(ending, Ending::Reached, "{to}");
+            let verdict = check(&bytes);
+            assert_eq!(verdict.outcome, Outcome::Verified, "{to}");
+            assert!(verdict.is_about(&problem));
+            let last = verdict.arcs.last().unwrap();
+            let (name, value) = to.split_once('=').unwrap();
+            let index = Setting::find(&problem, name).unwrap();
+            let led = [(index as u32, value.parse().unwrap())];
+            assert_eq!((&last.claim.dimensions[..], last.t.mid()), (&led[..], 1.0));
+            // A second edit sets out from where the first one came.
+            let ((), bytes) = certified(&problem, |session, control| {
+                for text in [to, beyond] {
+                    let setting = Setting::parse(&problem, text).unwrap();
+                    session.edit_with(&[setting], control);
+                }
+            });
+            let twice = check(&bytes);
+            assert_eq!(twice.outcome, Outcome::Verified, "{to}, {beyond}");
+            assert_eq!(twice.arcs.len(), verdict.arcs.len() + 1);
+
+            let mut session = Session::open(&problem).unwrap();
+            let setting = Setting::parse(&problem, beyond).unwrap();
+            let limit = session.edit(&[setting]).dimensions[0].value;
+            assert!((limit.mid() - most).abs() < 1e-8, "{limit:?}");
+            let (ending, bytes) = edit(&problem, &[beyond]);
+            assert!(matches!(ending, Ending::Limit(_)), "{beyond}: {ending:?}");
+            let verdict = check(&bytes);
+            assert_eq!(verdict.outcome, Outcome::Verified, "{beyond}");
+            assert!(verdict.arcs.last().unwrap().t.sup() < 1.0);
+        }
+    }
+}
+
+/// Everything in them that is damaged is refused.
+#[test]
+fn damaged_edits_of_other_dimensions_are_refused() {
+    let outcome = |good: &Certificate, damage: &dyn Fn(&mut Vec<Record>)| {
+        let mut broken = good.clone();
+        damage(&mut broken.records);
+        broken.recount();
+        verify(&broken.bytes()[..], &Settings::default(), &mut |_| ()).map(|v| v.outcome)
+    };
+    for (problem, to, beyond, _) in CASES {
+        for (problem, set) in [
+            (problem(false), to),
+            (problem(true), to),
+            (problem(false), beyond),
+            (problem(true), beyond),
+        ] {
+            let good = Certificate::read(&edit(&problem, &[set]).1);
+            assert_eq!(outcome(&good, &|_| ()).unwrap(), Outcome::Verified);
+            let refused = |what: &str, damage: &dyn Fn(&mut Vec<Record>)| {
+                let outcome = outcome(&good, damage);
+                println!("{set}, {what}: {outcome:?}");
+                assert!(!matches!(outcome, Ok(Outcome::Verified)), "{set}: {what}");
+            };
+            let value: f64 = set.split_once('=').unwrap().1.parse().unwrap();
+            let last = |records: &[Record]| {
+                records
+                    .iter()
+                    .rposition(|r| matches!(r, Record::Arc(_)))
+                    .unwrap()
+            };
+            let led = |records: &mut Vec<Record>, index: u32, value: f64| {
+                let at = last(records);
+                if let Record::Arc(arc) = &mut records[at] {
+                    arc.dimensions = vec![(index, value.to_string().parse().unwrap())];
+                }
+            };
+            let (name, _) = set.split_once('=').unwrap();
+            let index = Setting::find(&problem, name).unwrap() as u32;
+            for other in [value + 1e-3, value - 1e-3, 181.5 - value, -value, 0.0] {
+                refused("another value", &|records| led(records, index, other));
+            }
+            let all = (problem.distances.len() + problem.constraints.len()) as u32;
+            for other in (0..all + 1).filter(|&other| other != index) {
+                refused("another dimension", &|records| led(records, other, value));
+            }
+            refused("no dimension", &|records| {
+                let at = last(records);
+                if let Record::Arc(arc) = &mut records[at] {
+                    arc.dimensions.clear();
+                }
+            });
+            refused("the other kind of record", &|records| {
+                arcs(records)
+                    .into_iter()
+                    .for_each(|arc| arc.is_general = false);
+            });
+            let kept = good.records.iter().rev().find_map(|r| match r {
+                Record::Arc(arc) => Some(arc.kept.len()),
+                _ => None,
+            });
+            assert!(kept.unwrap() > 0, "{set}");
+            for k in 0..kept.unwrap() {
+                refused("a sign turned round", &|records| {
+                    let at = last(records);
+                    if let Record::Arc(arc) = &mut records[at] {
+                        arc.kept[k].1 = !arc.kept[k].1;
+                    }
+                });
+            }
+            if arcs(&mut good.records.clone()).len() > 1 {
+                refused("the first arc left out", &|records| {
+                    drop(records.drain(..last(records)))
+                });
+            }
+            for k in 0..good.tubes() {
+                refused("a tube off the path", &|records| {
+                    let tube = tube(records, k);
+                    let r = f64::from(tube.r);
+                    tube.centre.iter_mut().for_each(|x| *x += 30.0 * r);
+                });
+            }
+            let end = good.records.len() - 2;
+            match &good.records[end] {
+                Record::Fold(fold) => {
+                    let fold = fold.clone();
+                    for by in [1e-7, -1e-7] {
+                        refused("a fold moved", &|records| {
+                            let mut moved = fold.clone();
+                            moved.t += by;
+                            records[end] = Record::Fold(moved);
+                        });
+                    }
+                    refused("its figure moved", &|records| {
+                        let mut moved = fold.clone();
+                        moved.figure.centre[1] += 1e-4;
+                        records[end] = Record::Fold(moved);
+                    });
+                    refused("a fold is no end", &|records| {
+                        records[end] = Record::Reached(fold.figure.clone());
+                    });
+                }
+                Record::Reached(figure) => refused("another end", &|records| {
+                    let mut moved = figure.clone();
+                    moved.centre[1] += 1e-4;
+                    records[end] = Record::Reached(moved);
+                }),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
+
+/// What nothing determines is held: the certificate is of the sketch made so.
+#[test]
+fn a_figure_that_is_not_held_is_completed() {
+    let text = r#"
+dimension = 2
+[points]
+a = [0, 0]
+b = [8, 0]
+p = [4, 3]
+[constraints]
+fixed = ["a"]
+distances = [["a", "b", 8], ["a", "p", 5]]
+"#;
+    let loose = Problem::parse_loosely(text, "loose.toml").unwrap();
+    let mut writer = Writer::new(Vec::new(), &loose);
+    let mut control = Control {
+        witness: Some(&mut writer as &mut dyn Witness),
+        ..Control::default()
+    };
+    let error = Session::open_with(&loose, &Options::certified(), &mut control).unwrap_err();
+    assert!(
+        error.to_string().contains("as many equations as unknowns"),
+        "{error}"
+    );
+    let whole = krawl::edit::completed(&loose).unwrap();
+    let setting = Setting::parse(&loose, "a-p=6").unwrap();
+    let setting = setting.carried(&loose, &whole).unwrap();
+    let (ending, bytes) = certified(&whole, |session, control| {
+        session.edit_with(&[setting], control).ending
+    });
+    assert_eq!(ending, Ending::Reached);
+    let verdict = check(&bytes);
+    assert_eq!(verdict.outcome, Outcome::Verified);
+    assert!(verdict.is_about(&whole) && !verdict.is_about(&loose));
+}
+
+/// The program: what is held is said, what follows from others is refused, sketches of other programs are compared.
+#[test]
+fn the_program_certifies_sketches_that_are_not_complete() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let krawl = |arguments: &[&str]| {
+        let mut command = assert_cmd::Command::cargo_bin("krawl").unwrap();
+        let output = command.args(arguments).output().unwrap();
+        let text = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
+        (output.status.code().unwrap(), text.concat())
+    };
+    let (cert, out) = (path("c.krawl"), path("out.toml"));
+    let (cert, out) = (cert.to_str().unwrap(), out.to_str().unwrap());
+    let loose = path("loose.toml");
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [8, 0]\np = [4, 3]\n[constraints]\nfixed = [\"a\"]\n\
+                distances = [[\"a\", \"b\", 8], [\"a\", \"p\", 5]]\n";
+    std::fs::write(&loose, text).unwrap();
+    let loose = loose.to_str().unwrap();
+    let (code, text) = krawl(&[
+        "edit", loose, "--set", "a-p=6", "--cert", cert, "--out", out,
+    ]);
+    assert!(code == 0 && text.contains("free, stay put"), "{text}");
+    let edited = std::fs::read_to_string(out).unwrap();
+    assert!(
+        edited.contains("[\"a\", \"p\", 6.0]") && !edited.contains("x ="),
+        "{edited}"
+    );
+    let (code, text) = krawl(&["verify", cert, loose]);
+    assert!(
+        code == 0 && text.contains("held where the sketch has it: b, p"),
+        "{text}"
+    );
+    let (code, text) = krawl(&["verify", cert, out]);
+    assert!(
+        code == 1 && text.contains("REFUTED: the problem is not"),
+        "{text}"
+    );
+    let (code, text) = krawl(&[
+        "sweep", loose, "--vary", "a-p", "--from", "5", "--to", "9", "--frames", "5", "--cert",
+        cert,
+    ]);
+    assert!(code == 0, "{text}");
+    assert_eq!(krawl(&["verify", cert, loose]).0, 0);
+
+    let bracket = "problems/sketches/bracket.slvs";
+    let (code, text) = krawl(&["edit", bracket, "--set", "c011=52", "--cert", cert]);
+    assert!(code == 0, "{text}");
+    let (code, text) = krawl(&["verify", cert, bracket]);
+    assert!(code == 0 && text.contains("exactly"), "{text}");
+
+    let twice = path("twice.toml");
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [8, 0]\nc = [8, 5]\nd = [0, 5]\n[constraints]\nfixed = [\"a\"]\n\
+                distances = [[\"a\", \"b\", 8], [\"b\", \"c\", 5], [\"a\", \"d\", 5]]\n\
+                horizontal = [[\"a\", \"b\"], [\"c\", \"d\"]]\nvertical = [[\"a\", \"d\"], [\"b\", \"c\"]]\n";
+    std::fs::write(&twice, text).unwrap();
+    let twice = twice.to_str().unwrap();
+    assert_eq!(krawl(&["edit", twice, "--set", "a-b=9"]).0, 0);
+    let (code, text) = krawl(&["edit", twice, "--set", "a-b=9", "--cert", cert]);
+    assert!(
+        code == 2 && text.contains("would say nothing of `b-c`"),
+        "{text}"
+    );
+}
+
 /// Both ways from the sketch, to two ends.
 #[test]
 fn an_open_path_is_verified() {
@@ -231,16 +560,16 @@ fn damaged_edits_are_refused() {
         assert_eq!(change(good, &|_| ()).unwrap(), Outcome::Verified);
         // Another length, no length, another dimension.
         refused(good, "another length", &|records| {
-            arcs(records)[1].lengths[0].1 = "40.001".parse().unwrap();
+            arcs(records)[1].dimensions[0].1 = "40.001".parse().unwrap();
         });
         refused(good, "another dimension", &|records| {
-            arcs(records)[1].lengths[0].0 = 3;
+            arcs(records)[1].dimensions[0].0 = 3;
         });
         refused(good, "no length", &|records| {
-            arcs(records)[1].lengths.clear()
+            arcs(records)[1].dimensions.clear()
         });
         refused(good, "lengths in the first arc", &|records| {
-            arcs(records)[0].lengths = vec![(2, "49.5".parse().unwrap())];
+            arcs(records)[0].dimensions = vec![(2, "49.5".parse().unwrap())];
         });
         for k in 0..9 {
             refused(good, "a sign turned round", &|records| {

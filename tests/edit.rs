@@ -377,3 +377,102 @@ fn the_limit_of_an_angle_is_enclosed() {
         "{value:?} {most}"
     );
 }
+
+/// Two lines become parallel on the way and their point runs away: the reason names it, after few tubes, in both frames.
+#[test]
+fn a_figure_that_grows_without_end_is_named() {
+    for frame in ["", "fixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"]]\n"] {
+        for scale in ["e-5", "", "e5"] {
+            let text = format!(
+                "dimension = 2\n[points]\na = [0, 0]\nb = [4{scale}, 0]\nc = [2{scale}, 3.4{scale}]\n[constraints]\n\
+                 {frame}distances = [[\"a\", \"b\", 4{scale}]]\nangles = [[\"b\", \"a\", \"c\", 60], [\"a\", \"b\", \"c\", 60]]\n"
+            );
+            let problem = Problem::parse(&text, "test.toml").unwrap();
+            let mut session = Session::open(&problem).unwrap();
+            let edited = session.edit(&[Setting::parse(&problem, "a-b-c=130").unwrap()]);
+            let Ending::Stopped(reason) = &edited.ending else {
+                panic!("{edited:?}")
+            };
+            assert!(reason.contains("grow without end: c is"), "{reason}");
+            assert!(edited.tubes < 100, "{}", edited.tubes);
+            // Parallel at 120 degrees.
+            let angle = edited.dimensions[0].value;
+            assert!(angle.sup() < 120.0 && angle.inf() > 117.0, "{angle:?}");
+            // Beside that all is reached.
+            let edited = session.edit(&[Setting::parse(&problem, "a-b-c=119.9").unwrap()]);
+            assert_eq!(edited.ending, Ending::Reached);
+            let edited = session.edit(&[Setting::parse(&problem, "a-b-c=30").unwrap()]);
+            assert_eq!(edited.ending, Ending::Reached);
+        }
+    }
+}
+
+/// For a profiler: prints a digest of all results, which a change for speed must not change. `KRAWL_EDIT_COST` is the
+/// dimension, the number of points and how often each edit is done that is reached.
+#[test]
+#[ignore = "for a profiler"]
+fn cost() {
+    let text = std::env::var("KRAWL_EDIT_COST").unwrap_or("3 12 5".to_owned());
+    let [dimension, points, times] = text
+        .split(' ')
+        .map(|n| n.parse().unwrap())
+        .collect::<Vec<usize>>()[..]
+    else {
+        panic!("three numbers")
+    };
+    let (mut random, mut digest) = (Random(4), 0u64);
+    let mut counts = [0; 4];
+    for _ in 0..60 {
+        let case = case(&mut random, dimension, points, (0.95, 1.05));
+        let setting = Setting::new(&case.problem, case.index, case.length.parse().unwrap());
+        let setting = [setting.unwrap()];
+        let mut session = Session::open(&case.problem).unwrap();
+        for _ in 0..times {
+            let edited = session.probe(&setting, &mut krawl::track::Control::default());
+            for x in edited.points.iter().flatten() {
+                for bits in [x.inf().to_bits(), x.sup().to_bits()] {
+                    digest = digest.rotate_left(7) ^ bits.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                }
+            }
+            let kept = edited.orientations.kept.len() + 1000 * edited.tubes;
+            digest = digest.rotate_left(7) ^ kept as u64;
+            counts[["reached", "limit", "passes", "stopped"]
+                .iter()
+                .position(|name| *name == edited.ending.name())
+                .unwrap()] += 1;
+            if edited.ending != Ending::Reached {
+                break;
+            }
+        }
+    }
+    println!("digest {digest:016x}, reached, limit, passes, stopped: {counts:?}");
+}
+
+/// The range of an angle goes up to nearly 180 degrees, from wherever it is.
+#[test]
+fn the_range_of_an_angle_stays_below_180_degrees() {
+    for degrees in ["1", "53", "145", "179", "179.9999"] {
+        let text = format!(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [{}, {}]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3]]\nangles = [[\"b\", \"a\", \"c\", {degrees}]]\n",
+            3.0 * degrees.parse::<f64>().unwrap().to_radians().cos(),
+            3.0 * degrees.parse::<f64>().unwrap().to_radians().sin(),
+        );
+        let problem = Problem::parse(&text, "test.toml").unwrap();
+        let mut session = Session::open(&problem).unwrap();
+        let range = session.range(2, &mut krawl::track::Control::default());
+        let (low, high) = (range.low.value(), range.high.value());
+        let now: f64 = degrees.parse().unwrap();
+        for end in [&range.low, &range.high] {
+            assert!(
+                matches!(end, krawl::edit::End::Beyond(_)),
+                "{degrees}: {end:?}"
+            );
+        }
+        assert!(
+            low.sup() < 0.01 * now
+                && high.inf() > 180.0 - 0.01 * (180.0 - now)
+                && high.sup() < 180.0
+        );
+    }
+}

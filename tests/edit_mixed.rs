@@ -5,8 +5,10 @@
 mod common;
 
 use common::edits::Random;
+use krawl::certificate::{Outcome, Settings, Writer, verify};
 use krawl::edit::{Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
+use krawl::track::{Control, Options, Witness};
 use nalgebra::{DMatrix, DVector};
 use std::fmt::Write;
 
@@ -393,7 +395,7 @@ fn compare(seed: u64, rounds: usize, absolute: bool) -> Counts {
                 of.collect()
             };
             let (from, to) = (all(None), all(Some((g, wanted.round()))));
-            let edited = session.probe(&[setting], &mut krawl::track::Control::default());
+            let edited = session.probe(&[setting], &mut Control::default());
             let Some(truth) = truth(&sketch, &start, &from, &to) else {
                 counts.others += 1;
                 continue;
@@ -443,6 +445,97 @@ fn compare(seed: u64, rounds: usize, absolute: bool) -> Counts {
     counts
 }
 
+/// What is proved with a certificate is what is proved without one, and the certificate is verified. Counts edits that are
+/// verified, and those that come to an end in one of the two ways only.
+fn certified(seed: u64, rounds: usize, absolute: bool) -> [usize; 2] {
+    let (mut random, mut counts) = (Random(seed), [0; 2]);
+    for _ in 0..rounds {
+        let points = 4 + random.below(3);
+        let sketch = Sketch::random(&mut random, points, absolute);
+        let text = sketch.toml();
+        let Ok(problem) = Problem::parse(&text, "random.toml") else {
+            continue;
+        };
+        let Ok(mut session) = Session::open(&problem) else {
+            continue;
+        };
+        let dimensions: Vec<usize> = problem.dimensions().collect();
+        let index = dimensions[random.below(dimensions.len())];
+        let now = session.length(index).mid();
+        let wanted = (1e3 * now * random.between(0.7, 1.35)).round();
+        let wanted = format!("{wanted}e-3").parse().unwrap();
+        let Ok(setting) = Setting::new(&problem, index, wanted) else {
+            continue;
+        };
+        let plain = session.edit(&[setting.clone()]);
+        let mut writer = Writer::new(Vec::new(), &problem);
+        let mut control = Control {
+            witness: Some(&mut writer as &mut dyn Witness),
+            ..Control::default()
+        };
+        let Ok(mut whole) = Session::open_with(&problem, &Options::certified(), &mut control)
+        else {
+            counts[1] += 1;
+            continue;
+        };
+        let edited = whole.edit_with(&[setting], &mut control);
+        let bytes = writer.finish().unwrap();
+        let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
+        let about = || format!("{text}\n{plain:?}\n{edited:?}\n{:?}", verdict.outcome);
+        match (&plain.ending, &edited.ending) {
+            (Ending::Reached, Ending::Reached) | (Ending::Limit(_), Ending::Limit(_)) => {
+                // Of tubes in more than 53 bits the checker proves most, not all.
+                let extended = edited.switched_on.iter().any(|r| r.starts_with("extended"));
+                if extended && matches!(verdict.outcome, Outcome::NotProved(_)) {
+                    counts[1] += 1;
+                    continue;
+                }
+                assert_eq!(verdict.outcome, Outcome::Verified, "{}", about());
+                assert!(verdict.is_about(&problem), "{}", about());
+                let t = verdict.arcs.last().unwrap().t;
+                assert!(t.sup() >= plain.t.0 && t.inf() <= plain.t.1, "{}", about());
+                // Up to motions the checker's figure stands elsewhere.
+                let there = plain
+                    .points
+                    .iter()
+                    .zip(&edited.points)
+                    .flat_map(|(a, b)| a.iter().zip(b));
+                for (a, b) in there {
+                    assert!(
+                        (a.mid() - b.mid()).abs() < 1e-7 * (1.0 + a.mid().abs()),
+                        "{}",
+                        about()
+                    );
+                }
+                counts[0] += 1;
+            }
+            (Ending::Reached, Ending::Limit(_)) | (Ending::Limit(_), Ending::Reached) => {
+                panic!("{}", about())
+            }
+            (_, Ending::Passes(_) | Ending::Stopped(_)) => {
+                assert!(
+                    matches!(verdict.outcome, Outcome::Partial(_)),
+                    "{}",
+                    about()
+                );
+                counts[1] +=
+                    usize::from(matches!(plain.ending, Ending::Reached | Ending::Limit(_)));
+            }
+            _ => counts[1] += 1,
+        }
+    }
+    counts
+}
+
+#[test]
+fn certificates_of_edits_are_verified_in_both_frames() {
+    for (seed, absolute) in [(19, true), (20, false)] {
+        let counts = certified(seed, 60, absolute);
+        println!("{counts:?}");
+        assert!(counts[0] > 15 && counts[1] <= counts[0] / 8, "{counts:?}");
+    }
+}
+
 #[test]
 fn edits_in_the_sketchs_own_frame_are_the_continuation() {
     let counts = compare(15, 70, true);
@@ -462,4 +555,6 @@ fn edits_up_to_motions_are_the_continuation() {
 fn edits_of_mixed_constraints_many_times() {
     println!("{:?}", compare(17, 1500, true));
     println!("{:?}", compare(18, 1500, false));
+    println!("{:?}", certified(21, 1000, true));
+    println!("{:?}", certified(22, 1000, false));
 }

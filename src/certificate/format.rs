@@ -15,9 +15,9 @@ pub const MAX_PROBLEM: usize = 1 << 20;
 pub const MAX_FREE_COORDINATES: usize = 6000;
 /// Units are between 2⁻²²⁰ and 2²²⁰: lengths in files are between 10⁻⁶⁰ and 10⁶⁰.
 pub const MAX_UNIT_EXPONENT: i16 = 220;
-/// Longest decimal that is a length.
+/// Longest decimal that is a new value of a dimension.
 pub const MAX_DECIMAL: usize = 512;
-/// Most distances that one edit changes, and most signs that it claims to keep.
+/// Most signs that an edit claims to keep.
 pub const MAX_LISTED: usize = 1 << 20;
 /// More solutions than any path of a real problem has.
 pub const MAX_SOLUTIONS: usize = 4096;
@@ -42,6 +42,8 @@ pub const TAG_REACHED: u8 = 6;
 pub const TAG_FOLD: u8 = 7;
 /// See [`TAG_TUBE`].
 pub const TAG_EXTENDED: u8 = 8;
+/// See [`TAG_TUBE`].
+pub const TAG_ARC_OF_DIMENSIONS: u8 = 9;
 
 /// What stands before the chain of tubes.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,9 +109,11 @@ pub struct SolutionClaim {
 /// What an edit changes, and what it claims to keep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArcClaim {
-    /// The distances that are led, by their numbers in the problem, and their new lengths. None: the sketch is
-    /// led to the problem's own dimensions.
-    pub lengths: Vec<(u32, Decimal)>,
+    /// Whether the problem has more than distances: then the record is of another kind, and so are the equations.
+    pub is_general: bool,
+    /// The dimensions that are led, by their numbers in the problem, distances first, and their new values. None: the
+    /// sketch is led to the problem's own dimensions.
+    pub dimensions: Vec<(u32, Decimal)>,
     /// Triangles in the plane, tetrahedra in space, that keep the sign of their area or volume along the arc:
     /// their points, and whether it is positive.
     pub kept: Vec<(Vec<u32>, bool)>,

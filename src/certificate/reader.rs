@@ -3,8 +3,8 @@
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAGIC, MAX_DECIMAL,
     MAX_FREE_COORDINATES, MAX_LISTED, MAX_NUMBER, MAX_PROBLEM, MAX_SOLUTIONS, MAX_TEXT,
-    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_END, TAG_EXTENDED, TAG_FOLD,
-    TAG_REACHED, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION,
+    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_END,
+    TAG_EXTENDED, TAG_FOLD, TAG_REACHED, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION,
 };
 use crate::constraint;
 use crate::problem::{Decimal, Problem};
@@ -79,11 +79,7 @@ impl<R: Read> Reader<R> {
             true => free,
             false => constraint::size(&problem).0,
         };
-        if free.max(unknowns) > MAX_FREE_COORDINATES {
-            return Err(FormatError::Malformed(format!(
-                "the problem has {unknowns} free coordinates, more than the {MAX_FREE_COORDINATES} that are read"
-            )));
-        }
+        check_size(free.max(unknowns))?;
         let unit_exponent = i16::from_le_bytes(array(&mut input, "the unit")?);
         if unit_exponent.abs() > MAX_UNIT_EXPONENT {
             return Err(malformed("the unit is out of range"));
@@ -122,11 +118,11 @@ impl<R: Read> Reader<R> {
             (TAG_TUBE | TAG_EXTENDED, stage @ (Stage::Path { .. } | Stage::Along)) => stage,
             (TAG_SOLUTION, stage @ Stage::Path { .. }) => stage,
             (TAG_TURN, stage) if stage == path => Stage::Turned,
-            (TAG_ARC, Stage::Begun | Stage::Reached) => Stage::Arc,
+            (TAG_ARC | TAG_ARC_OF_DIMENSIONS, Stage::Begun | Stage::Reached) => Stage::Arc,
             (TAG_REACHED, Stage::Along) => Stage::Reached,
             (TAG_FOLD, Stage::Along) => Stage::Fold,
             (TAG_END, stage) => stage,
-            (1..=8, _) => {
+            (1..=9, _) => {
                 return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
             }
             _ => return Err(self.fault(&format!("there is no kind {tag} of record"))),
@@ -134,7 +130,7 @@ impl<R: Read> Reader<R> {
         let record = match tag {
             TAG_SOLUTION => Record::Solution(self.solution()?),
             TAG_TURN => Record::Turn,
-            TAG_ARC => Record::Arc(self.arc()?),
+            TAG_ARC | TAG_ARC_OF_DIMENSIONS => Record::Arc(self.arc(tag == TAG_ARC_OF_DIMENSIONS)?),
             TAG_REACHED => Record::Reached(self.figure()?),
             TAG_FOLD => Record::Fold(self.fold()?),
             TAG_END => Record::End(self.end()?),
@@ -213,25 +209,44 @@ impl<R: Read> Reader<R> {
         Ok(fold)
     }
 
-    fn arc(&mut self) -> Result<ArcClaim> {
+    fn arc(&mut self, is_general: bool) -> Result<ArcClaim> {
         const WHAT: &str = "an arc";
+        let (dimensions, kept) = (Vec::new(), Vec::new());
         let mut claim = ArcClaim {
-            lengths: Vec::new(),
-            kept: Vec::new(),
+            is_general,
+            dimensions,
+            kept,
         };
         let (problem, input) = (&self.header.problem, &mut self.input);
+        if is_general == problem.is_distances_only() {
+            return Err(malformed(match is_general {
+                true => "an arc of any dimensions is one of a problem with more than distances",
+                false => {
+                    "its problem has more than distances, and arcs of such problems are written otherwise now"
+                }
+            }));
+        }
+        if is_general && self.tubes == 0 {
+            self.unknowns = constraint::size_in_edits(problem);
+            check_size(self.unknowns)?;
+        }
         let (distances, points) = (problem.distances.len(), problem.points.len());
-        for _ in 0..count(input, distances)? {
-            let index = count(input, distances.saturating_sub(1))?;
-            let length = text(input, MAX_DECIMAL, "a length")?.parse::<Decimal>();
-            let length = length.map_err(|error| malformed(&format!("an arc's length: {error}")))?;
-            if !length.is_positive() {
+        let all = distances + problem.constraints.len();
+        for _ in 0..count(input, all)? {
+            let index = count(input, all.saturating_sub(1))?;
+            let value = text(input, MAX_DECIMAL, "a dimension")?.parse::<Decimal>();
+            let value =
+                value.map_err(|error| malformed(&format!("an arc's dimension: {error}")))?;
+            if !problem.dimensions().any(|d| d == index as usize) {
+                return Err(malformed("an arc leads what is no dimension"));
+            }
+            if (index as usize) < distances && !value.is_positive() {
                 return Err(malformed("an arc's length is not positive"));
             }
-            if claim.lengths.iter().any(|(other, _)| *other == index) {
-                return Err(malformed("an arc leads a distance twice"));
+            if claim.dimensions.iter().any(|(other, _)| *other == index) {
+                return Err(malformed("an arc leads a dimension twice"));
             }
-            claim.lengths.push((index, length));
+            claim.dimensions.push((index, value));
         }
         for _ in 0..count(input, MAX_LISTED)? {
             let corners = 0..=problem.dimension;
@@ -296,6 +311,15 @@ impl<R: Read> Reader<R> {
 
 fn malformed(what: &str) -> FormatError {
     FormatError::Malformed(what.to_owned())
+}
+
+fn check_size(unknowns: usize) -> Result<()> {
+    match unknowns > MAX_FREE_COORDINATES {
+        true => Err(FormatError::Malformed(format!(
+            "the problem has {unknowns} free coordinates, more than the {MAX_FREE_COORDINATES} that are read"
+        ))),
+        false => Ok(()),
+    }
 }
 
 /// False for a NaN.

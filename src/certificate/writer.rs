@@ -2,8 +2,8 @@
 
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record,
-    SolutionClaim, TAG_ARC, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED, TAG_SOLUTION, TAG_TUBE,
-    TAG_TURN, TubeClaim, VERSION, WEIGHT_UNIT,
+    SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED,
+    TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION, WEIGHT_UNIT,
 };
 use crate::problem::{Decimal, Problem, Target};
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
@@ -50,7 +50,7 @@ pub struct Writer<'a, W> {
 /// An edit that is being followed.
 #[derive(Debug)]
 struct Following {
-    lengths: Vec<(u32, Decimal)>,
+    dimensions: Vec<(u32, Decimal)>,
     tubes: Vec<TubeClaim>,
 }
 
@@ -209,15 +209,15 @@ impl<W: Write> Witness for Writer<'_, W> {
         }
     }
 
-    fn begin_arc(&mut self, lengths: &[(usize, &Target)]) {
-        let length = |&(index, target): &(usize, &Target)| match target {
-            Target::Length(length) => Some((index as u32, length.clone())),
+    fn begin_arc(&mut self, dimensions: &[(usize, &Target)]) {
+        let value = |&(index, target): &(usize, &Target)| match target {
+            Target::Length(value) => Some((index as u32, value.clone())),
             Target::SquaredLength(_) => None,
         };
-        match lengths.iter().map(length).collect() {
-            Some(lengths) => {
+        match dimensions.iter().map(value).collect() {
+            Some(dimensions) => {
                 let tubes = Vec::new();
-                self.arc = Some(Following { lengths, tubes });
+                self.arc = Some(Following { dimensions, tubes });
             }
             None => {
                 self.result = Err(io::Error::other(
@@ -228,7 +228,11 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn end_arc(&mut self, run: &ArcRun) {
-        let Some(Following { lengths, mut tubes }) = self.arc.take() else {
+        let Some(Following {
+            dimensions,
+            mut tubes,
+        }) = self.arc.take()
+        else {
             return;
         };
         if matches!(run.end, ArcEnd::Passes(_) | ArcEnd::Stopped(_)) {
@@ -240,7 +244,11 @@ impl<W: Write> Witness for Writer<'_, W> {
             .filter(|o| o.sign != 0 && o.lost.is_none());
         let kept = kept.map(|o| (o.points.iter().map(|&p| p as u32).collect(), o.sign > 0));
         let kept = kept.collect();
-        self.put(&Record::Arc(ArcClaim { lengths, kept }));
+        self.put(&Record::Arc(ArcClaim {
+            is_general: !self.problem.is_distances_only(),
+            dimensions,
+            kept,
+        }));
         self.tubes += tubes.len() as u64;
         for tube in tubes {
             self.put(&Record::Tube(tube));
@@ -336,11 +344,12 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
         Record::Solution(solution) => write_figure(out, TAG_SOLUTION, solution),
         Record::Turn => out.write_all(&[TAG_TURN]),
         Record::Arc(arc) => {
-            out.write_all(&[TAG_ARC])?;
-            out.write_all(&(arc.lengths.len() as u32).to_le_bytes())?;
-            for (index, length) in &arc.lengths {
+            let kinds = [TAG_ARC, TAG_ARC_OF_DIMENSIONS];
+            out.write_all(&[kinds[usize::from(arc.is_general)]])?;
+            out.write_all(&(arc.dimensions.len() as u32).to_le_bytes())?;
+            for (index, value) in &arc.dimensions {
                 out.write_all(&index.to_le_bytes())?;
-                write_text(out, &length.to_string())?;
+                write_text(out, &value.to_string())?;
             }
             out.write_all(&(arc.kept.len() as u32).to_le_bytes())?;
             for (points, positive) in &arc.kept {

@@ -5,7 +5,7 @@ use super::pictures::Pictures;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::certificate::Writer;
-use krawl::edit::{Edited, Ending, OpenError, Session, Setting};
+use krawl::edit::{Decomposition, Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{edit_to_table, edit_to_value, freedom_in_words};
@@ -23,7 +23,8 @@ use std::path::{Path, PathBuf};
 Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
-  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl   and `krawl verify edit.krawl`
+  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl
+  krawl verify edit.krawl problems/mechanisms/four-bar.toml
   krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
@@ -54,7 +55,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
-    /// that of `verify`
+    /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE", conflicts_with = "serve")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
@@ -77,7 +78,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
-    let problem = loaded.problem.clone();
+    let mut problem = loaded.problem.clone();
     let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
     let extended = !arguments.no_extended;
     if arguments.serve {
@@ -96,6 +97,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let settings = settings.collect::<Result<Vec<_>, _>>();
     let settings = settings.map_err(|e| in_file(&e))?;
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+    let mut found = None;
+    let mut led = settings.clone();
+    if arguments.cert.is_some() {
+        let original = problem;
+        (problem, found) = certified(&arguments.file, &original)?;
+        led = carried(&settings, (&original, &problem)).map_err(|e| in_file(&e))?;
+    }
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
@@ -112,8 +120,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
-    let edited = session.edit_with(&settings, &mut control);
+    let edited = session.edit_with(&led, &mut control);
     let moved = session.moved();
+    let found = found.or_else(|| session.decomposition());
 
     let (mut written, verdict) = commit(
         (cert.as_ref(), witness),
@@ -125,29 +134,78 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     if let Some(json) = &json {
         let mut value = edit_to_value(&problem, &edited, moved);
-        value["free"] = session.free().into();
-        value["redundant"] = session.redundant().into();
-        value["follows"] = session.follows().into();
+        let found = found.clone().unwrap_or_default();
+        value["free"] = found.free.into();
+        value["redundant"] = found.redundant.into();
+        value["follows"] = found.follows.into();
         written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(out) = &arguments.out
         && edited.ending == Ending::Reached
     {
         let (points, radii) = (session.figure(), session.radii());
-        let bytes = loaded.rewritten(&arguments.file, session.problem(), &points, &radii);
+        let mut changed = loaded.problem.clone();
+        settings
+            .iter()
+            .for_each(|setting| setting.apply(&mut changed));
+        let bytes = loaded.rewritten(&arguments.file, &changed, &points, &radii);
         let bytes = bytes.map_err(|e| in_file(&e))?;
         let beside = Beside::new(out)?;
         written &= beside.commit(beside.file().write_all(&bytes));
     }
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
-        let text = edit_to_table(&problem, &edited, moved) + &freedom_in_words(&session);
+        let free = found.as_ref().map_or(String::new(), freedom_in_words);
+        let text = edit_to_table(&problem, &edited, moved) + &free;
         written &= output::print(&text);
     }
     Ok(match written {
         true => verdict.unwrap_or(exit_code(&edited)),
         false => BAD_INPUT,
     })
+}
+
+/// The problem that a certificate of edits is about, and what is held in it because nothing determines it.
+pub(super) fn certified(
+    file: &Path,
+    problem: &Problem,
+) -> Result<(Problem, Option<Decomposition>), String> {
+    let (whole, found) = input::provable(file, problem)?;
+    let out: Vec<&String> = found
+        .iter()
+        .flat_map(|f| f.follows.iter().chain(&f.redundant))
+        .collect();
+    match out.as_slice() {
+        [] => Ok((whole, found)),
+        out => {
+            let names: Vec<&str> = out.iter().map(|name| name.as_str()).collect();
+            Err(in_file(
+                file,
+                &format!(
+                    "a certificate is of a figure with as many equations as unknowns, and would say nothing of {}, which \
+                 seem to follow from the other constraints: remove them, or leave out --cert",
+                    names.join(", ")
+                ),
+            ))
+        }
+    }
+}
+
+/// Settings of a problem as those of the one that a certificate is about.
+pub(super) fn carried(
+    settings: &[Setting],
+    (from, to): (&Problem, &Problem),
+) -> Result<Vec<Setting>, String> {
+    let carried = settings.iter().map(|setting| {
+        let found = setting.carried(from, to);
+        found.ok_or_else(|| {
+            format!(
+                "{} cannot be told from another dimension: leave out --cert",
+                from.dimension_name(setting.index)
+            )
+        })
+    });
+    carried.collect()
 }
 
 /// Ends a certificate, and checks it if its `path` is given: whether it was written, and the exit code where it does not

@@ -1,5 +1,6 @@
 //! Reading problems from files and from standard input.
 
+use krawl::edit::{Decomposition, completed};
 use krawl::import::{self, Figure, Format, Imported};
 use krawl::problem::{MAX_FILE_SIZE, Problem};
 use std::io::{self, Read};
@@ -15,7 +16,7 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
     match Format::of(&name) {
         Some(Format::SolveSpace | Format::FreeCad) => {
             let problem = load(file, sketch)?.problem;
-            return krawl::edit::completed(&problem).map_err(|e| format!("{name}: {e}"));
+            return completed(&problem).map_err(|e| format!("{name}: {e}"));
         }
         Some(Format::Xyz | Format::Sdf) => return Ok(import(file, sketch)?.0.problem),
         None if sketch.is_some() => {
@@ -42,6 +43,25 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
         ));
     }
     Problem::parse(&text, STANDARD_INPUT).map_err(|error| error.to_string())
+}
+
+/// A problem of this file as certificates are about it, with as many equations as unknowns: of a sketch that is not so by
+/// itself, coordinates that nothing determines are held where it has them, and constraints that seem to follow from others
+/// are left out. Which these are comes back.
+pub fn provable(
+    file: &Path,
+    problem: &Problem,
+) -> Result<(Problem, Option<Decomposition>), String> {
+    let of_another_program = matches!(
+        Format::of(&file.display().to_string()),
+        Some(Format::SolveSpace | Format::FreeCad)
+    );
+    if !of_another_program && (!problem.is_absolute() || problem.check().is_ok()) {
+        return Ok((problem.clone(), None));
+    }
+    let in_file = |error| format!("{}: {error}", file.display());
+    let found = Decomposition::of(problem).map_err(in_file)?;
+    Ok((completed(problem).map_err(in_file)?, Some(found)))
 }
 
 /// A problem, and the sketch of another program that it is, if it is one.

@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Which sketch of a .slvs or .FCStd file, where it holds several
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Only this dimension, such as a-b; may be given more than once
+    /// Only this dimension, such as a-b, radii:hole or angles:a-b-c; may be given more than once
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Write the result as JSON; `-` writes it to standard output in place of the table

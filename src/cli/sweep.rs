@@ -1,6 +1,6 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{beside, commit, exit_code, open};
+use super::edit::{beside, carried, certified, commit, exit_code, open};
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Which sketch of a .slvs or .FCStd file, where it holds several
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// The dimension that is driven, such as a-b
+    /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
     #[arg(long, value_name = "NAME")]
     vary: String,
     /// Its first value
@@ -50,7 +50,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
-    /// that of `verify`
+    /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let shown = arguments.file.display();
-    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
+    let mut problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let [from, to] =
         [&arguments.from, &arguments.to].map(|value| -> Result<(usize, Decimal), String> {
@@ -79,7 +79,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let value = value.parse().expect("it was just parsed");
             Ok((setting.index, value))
         });
-    let ((index, from), (_, to)) = (from?, to?);
+    let ((mut index, from), (_, to)) = (from?, to?);
+    if arguments.cert.is_some() {
+        let original = problem;
+        problem = certified(&arguments.file, &original)?.0;
+        let setting = Setting::new(&original, index, from.clone()).map_err(|e| in_file(&e))?;
+        index = carried(&[setting], (&original, &problem)).map_err(|e| in_file(&e))?[0].index;
+    }
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;

@@ -1,9 +1,10 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
-use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, output};
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::certificate::cover::{FIRST_LINE, verify_cover};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
+use krawl::edit::Decomposition;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
@@ -24,8 +25,12 @@ proof of a run that stopped, true as far as it goes.")]
 pub struct Arguments {
     /// The certificate, as `--cert` of `solve`, `edit`, `sweep`, `all` or `complex` writes it
     cert: PathBuf,
-    /// A problem file (TOML) that the certificate has to be about
+    /// The problem that the certificate has to be about: a problem file (TOML), or a sketch of SolveSpace (.slvs) or
+    /// FreeCAD (.FCStd)
     file: Option<PathBuf>,
+    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    #[arg(long, value_name = "NAME", requires = "file")]
+    sketch: Option<String>,
     /// Threads to use [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -41,8 +46,13 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let name = arguments.cert.display();
-    let problem = arguments.file.as_ref().map(Problem::read).transpose();
-    let problem = problem.map_err(|error| error.to_string())?;
+    let read = |file: &PathBuf| {
+        let problem = input::load(file, arguments.sketch.as_deref())?.problem;
+        input::provable(file, &problem)
+    };
+    let problem = arguments.file.as_ref().map(read).transpose()?;
+    let (problem, found) = problem.unzip();
+    let found = found.flatten();
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let mut file = BufReader::new(file);
     if begins(&mut file, FIRST_LINE) {
@@ -66,7 +76,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut text = theorem(&verdict, clock.elapsed());
     if let Some(file) = &arguments.file {
         text += &match same {
-            true => format!("The problem is the one in {}, exactly.\n", file.display()),
+            true => about(file, found.as_ref()),
             false => format!(
                 "REFUTED: the problem is not the one in {}.\n",
                 file.display()
@@ -83,6 +93,30 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Outcome::NotProved(_) => NOT_PROVED,
         Outcome::Partial(_) => INCOMPLETE,
     })
+}
+
+/// That the problem of a certificate is that of a file, and what was made of that.
+fn about(file: &Path, found: Option<&Decomposition>) -> String {
+    let mut text = format!("The problem is the one in {}, exactly", file.display());
+    if let Some(found) = found {
+        if !found.free.is_empty() {
+            let free = found.free.join(", ");
+            text += &format!("; what nothing determines is held where the sketch has it: {free}");
+        }
+        let out: Vec<&str> = found
+            .redundant
+            .iter()
+            .chain(&found.follows)
+            .map(String::as_str)
+            .collect();
+        if !out.is_empty() {
+            text += &format!(
+                "; left out, and nothing is proved of it: {}",
+                out.join(", ")
+            );
+        }
+    }
+    text + ".\n"
 }
 
 /// Whether the file has this first line.

@@ -47,10 +47,10 @@ pub use quadratic::{
     difference, product, value,
 };
 pub(crate) use structure::check_structure;
-pub use structure::size;
+pub use structure::{size, size_in_edits};
 
 use crate::interval::Interval;
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 use arguments::Arguments;
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
@@ -71,26 +71,7 @@ pub fn kind(key: &str) -> Option<&'static dyn Kind> {
 /// If the problem has not been checked ([`Problem::check`]).
 pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
     debug_assert_eq!(problem.points.len(), sketch.len());
-    tail(try_lower(problem))
-}
-
-/// The same for an edit: of a figure that meets all other constraints and the distances `from` at t = 0, one for
-/// each of the problem's. Distances go from there to those of the problem in proportion to t, and all other
-/// constraints hold throughout. Unknowns and left-hand sides are those of [`lower`].
-///
-/// # Panics
-/// If the problem has not been checked ([`Problem::check`]).
-pub fn lower_edit(problem: &Problem, from: &[Target]) -> Tail {
-    debug_assert_eq!(problem.distances.len(), from.len());
-    tail(try_lower_from(
-        problem,
-        Start::Distances(from),
-        (false, false),
-    ))
-}
-
-fn tail(lowered: Result<Lowered, (Owner, Fault)>) -> Tail {
-    match lowered {
+    match try_lower(problem) {
         Ok(lowered) => lowered.tail,
         Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
     }

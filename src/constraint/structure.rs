@@ -8,7 +8,7 @@
 
 use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
-use super::{Owner, try_lower};
+use super::{Owner, try_lower, try_lower_editable};
 use crate::problem::echelon::Echelon;
 use crate::problem::field::{PRIME, Residues, add, mul, sub};
 use crate::problem::{Problem, counted, list};
@@ -156,6 +156,15 @@ impl<'a> System<'a> {
 pub fn size(problem: &Problem) -> (usize, usize) {
     match System::new(problem) {
         Ok(system) => (system.width, system.equations()),
+        Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
+    }
+}
+
+/// The number of unknowns where dimensions of a checked problem are edited: with left-hand sides that depend on no value
+/// there may be more of them.
+pub fn size_in_edits(problem: &Problem) -> usize {
+    match try_lower_editable(problem, None) {
+        Ok(lowered) => problem.free_coordinates() + lowered.tail.unknowns.len(),
         Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
     }
 }

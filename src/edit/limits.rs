@@ -98,7 +98,15 @@ impl Session {
 
     /// How far a dimension can go towards a value, and the figure there.
     fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> (End, Vec<[Interval; 3]>) {
-        let rounded = format!("{goal:.3e}").parse::<Decimal>();
+        let rounded = match measure(self.problem(), index) {
+            // So many digits that it stays below 180.
+            Measure::Degrees => {
+                let digits = 3.0 - goal.min(180.0 - goal).log10().floor();
+                format!("{goal:.*}", digits.clamp(0.0, 20.0) as usize)
+            }
+            _ => format!("{goal:.3e}"),
+        };
+        let rounded = rounded.parse::<Decimal>();
         let Ok(goal) = rounded else {
             let reason = format!("{goal:e} is out of the range of lengths");
             return (End::Unknown(self.length(index), reason), self.points());

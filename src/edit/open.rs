@@ -2,7 +2,7 @@
 
 use super::ending::Ending;
 use crate::interval::point;
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy, is_met};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::FollowArcs;
@@ -104,11 +104,6 @@ pub(super) fn correct(
             tubes: run.steps,
         },
     ))
-}
-
-/// The lengths that a problem's distances are to have.
-pub(super) fn targets_of(problem: &Problem) -> Vec<Target> {
-    problem.distances.iter().map(|d| d.target.clone()).collect()
 }
 
 /// A bound on the distance of any point in one figure from the same in the other.

@@ -7,7 +7,7 @@ use super::setting::Setting;
 use super::whole::Whole;
 use crate::interval::Interval;
 use crate::problem::Problem;
-use crate::track::{Control, Options};
+use crate::track::{Control, Options, StartError};
 
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
 ///
@@ -39,17 +39,26 @@ impl Session {
     ///
     /// The space is the full one for small problems and otherwise the reduced one, with the full one where that
     /// stops, unless `options` have the reduced one. Problems with more than distances are followed in the full one.
+    ///
+    /// Where `control` has a witness the figure is followed as a whole, in the full space, whatever its frame: a certificate is
+    /// of all of it. Its problem then has to have as many equations as unknowns; [`completed`] makes it so.
     pub fn open_with(
         problem: &Problem,
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
-        if problem.is_absolute() && control.witness.is_some() {
-            let what = "edits of a figure that its constraints fix in its own frame are followed part by part, which \
-                        certificates cannot hold: leave out `--cert`";
-            return Err(crate::track::StartError::Unsupported(what.to_owned()).into());
+        let is_followed_in_parts = problem.is_absolute() && control.witness.is_none();
+        if let (true, Err(error)) = (
+            problem.is_absolute() && !is_followed_in_parts,
+            problem.check(),
+        ) {
+            let what = format!(
+                "a certificate is of a figure with as many equations as unknowns ({error}); `krawl::edit::completed` makes \
+                 a problem so"
+            );
+            return Err(StartError::Unsupported(what).into());
         }
-        let way = if problem.is_absolute() {
+        let way = if is_followed_in_parts {
             Way::Parts(Box::new(Parts::open(problem, options, control)?))
         } else {
             Way::Whole(Box::new(Whole::open_with(problem, options, control)?))
@@ -98,11 +107,10 @@ impl Session {
         points.iter().map(|p| p.map(|x| x.mid())).collect()
     }
 
-    /// The radii of circles, by object, in floats; zero for all other objects, and where the figure is followed as a
-    /// whole.
+    /// The radii of circles, by object, in floats; zero for all other objects.
     pub fn radii(&self) -> Vec<f64> {
         match &self.way {
-            Way::Whole(whole) => vec![0.0; whole.problem().objects.len()],
+            Way::Whole(whole) => whole.radii(),
             Way::Parts(parts) => parts.radii(),
         }
     }
@@ -181,7 +189,7 @@ pub fn completed(problem: &Problem) -> Result<Problem, String> {
 }
 
 /// How the equations of a sketch fall apart.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Decomposition {
     /// How many coordinates are one with others, by coincidences and the like.
     pub merged: usize,

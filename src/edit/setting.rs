@@ -3,7 +3,7 @@
 use super::whole::length;
 use crate::constraint::{self, Measure};
 use crate::interval::{Interval, Real, hull};
-use crate::problem::{Decimal, DecimalError, Problem, Target};
+use crate::problem::{Constraint, Decimal, DecimalError, Problem, Target};
 use num_rational::BigRational;
 
 /// A dimension and its new value.
@@ -100,8 +100,43 @@ impl Setting {
         Setting { index, target }
     }
 
+    /// The same setting of another problem with the same points and objects, such as [`super::completed`] makes of this
+    /// one; `None`: that does not have the dimension, or either has two that look the same.
+    pub fn carried(&self, from: &Problem, to: &Problem) -> Option<Self> {
+        let alike = |problem: &Problem, index: usize| {
+            let alone = |found: Vec<usize>| match *found.as_slice() {
+                [index] => Some(index),
+                _ => None,
+            };
+            let head = problem.distances.len();
+            match index.checked_sub(from.distances.len()) {
+                None => {
+                    let points = from.distances[index].points;
+                    let found = (0..head).filter(|&d| problem.distances[d].points == points);
+                    alone(found.collect())
+                }
+                Some(c) => {
+                    let of = |c: &Constraint| (c.kind.clone(), c.items.clone());
+                    let wanted = of(&from.constraints[c]);
+                    let all = problem.constraints.iter().enumerate();
+                    let found = all.filter(|(_, c)| of(c) == wanted && c.value.is_some());
+                    alone(found.map(|(c, _)| head + c).collect())
+                }
+            }
+        };
+        alike(from, self.index)?;
+        let index = alike(to, self.index)?;
+        Some(Setting {
+            index,
+            target: self.target.clone(),
+        })
+    }
+
     /// Gives the dimension of a problem this value.
-    pub(super) fn apply(&self, problem: &mut Problem) {
+    ///
+    /// # Panics
+    /// If the problem has no such dimension.
+    pub fn apply(&self, problem: &mut Problem) {
         match (
             self.index.checked_sub(problem.distances.len()),
             &self.target,

@@ -1,4 +1,4 @@
-//! A figure up to motions, followed as a whole.
+//! A figure followed as a whole: one up to motions, or any for a certificate.
 
 use super::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use super::open::{self, Moved, OpenError};
@@ -6,9 +6,9 @@ use super::parts::MOST_TUBES;
 use super::parts::senses::senses;
 use super::place::Stand;
 use super::setting::Setting;
-use crate::constraint::{Record, try_lower_editable};
+use crate::constraint::{Entry, Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Object, Problem, Shape, Target};
 use crate::system::{Homotopy, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
@@ -26,7 +26,7 @@ pub(super) struct Whole {
     figure: Figure,
     lengths: Vec<Interval>,
     moved: Moved,
-    /// What the constraints that are not distances were led to, where they can be edited too.
+    /// What the constraints that are not distances were led to, where there are any.
     record: Option<Record>,
 }
 
@@ -45,8 +45,7 @@ impl Whole {
         problem.homotopy.bend_coefficient = Decimal::from(0);
         problem.homotopy.detour = Decimal::from(0);
         let mut record = None;
-        // Certificates hold edits of distances.
-        let homotopy = if problem.is_distances_only() || control.witness.is_some() {
+        let homotopy = if problem.is_distances_only() {
             Homotopy::new(&problem)?
         } else {
             let lowered = super::lowered(&problem, |problem| try_lower_editable(problem, None))
@@ -129,6 +128,21 @@ impl Whole {
         self.in_problem(&self.figure)
     }
 
+    /// The radii of circles, by object, in floats; zero for what is none.
+    pub fn radii(&self) -> Vec<f64> {
+        let homotopy = self.arcs.homotopy();
+        let places = homotopy.gauge.place.len();
+        let objects = self.problem.objects.iter().zip(&homotopy.tail.objects);
+        let radius =
+            |(object, entries): (&Object, &Vec<Entry>)| match (&object.shape, entries.first()) {
+                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => {
+                    self.figure.centre[places + k] * homotopy.unit
+                }
+                _ => 0.0,
+            };
+        objects.map(radius).collect()
+    }
+
     /// See [`super::Session::edit_with`].
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         let (edited, reached) = self.attempt(settings, control);
@@ -176,8 +190,8 @@ impl Whole {
             Err(fault) => ArcRun::stopped(fault.clone()),
             Ok(_) => {
                 if let Some(witness) = &mut control.witness {
-                    let lengths = settings.iter().map(|s| (s.index, &s.target));
-                    witness.begin_arc(&lengths.collect::<Vec<_>>());
+                    let led = settings.iter().map(|s| (s.index, &s.target));
+                    witness.begin_arc(&led.collect::<Vec<_>>());
                 }
                 let run = self.follow(control);
                 if let Some(witness) = &mut control.witness {
@@ -208,19 +222,9 @@ impl Whole {
             setting.apply(&mut edited);
         }
         let homotopy = self.arcs.homotopy_mut();
-        let Some(record) = &self.record else {
-            let head = edited.distances.len();
-            if let Some(other) = settings.iter().find(|setting| setting.index >= head) {
-                return Err(format!(
-                    "{} is no distance between points, and certificates of figures without a frame of their own hold \
-                     edits of those only",
-                    edited.dimension_name(other.index)
-                ));
-            }
-            homotopy.keep_constraints(&edited, &open::targets_of(&self.problem));
-            return Ok(None);
-        };
-        let lowered = super::lowered(&edited, |edited| try_lower_editable(edited, Some(record)))?;
+        let lowered = super::lowered(&edited, |edited| {
+            try_lower_editable(edited, self.record.as_ref())
+        })?;
         match homotopy.set_constraints(&lowered.tail) {
             true => Ok(Some(lowered.record)),
             false => Err("with the new dimensions the constraints are other equations".to_owned()),

@@ -2,8 +2,10 @@
 
 use super::{Interval, hull};
 use crate::problem::Decimal;
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::{Float, ToPrimitive};
+use std::cmp::Ordering;
 
 /// The tightest interval of floats that holds the decimal: one float where the decimal is one,
 /// otherwise the two neighbours.
@@ -32,22 +34,33 @@ pub fn enclose_rational(value: &BigRational) -> Interval {
 
 /// Walks from a float near `value` to its neighbours around it; the comparisons are exact.
 fn enclose_near(value: &BigRational, near: f64) -> Interval {
-    let exact = |x: f64| BigRational::from_float(x).expect("a finite float");
     let (mut lo, mut hi) = (near, near);
-    while exact(lo) > *value {
+    while compare(lo, value).is_gt() {
         lo = lo.next_down();
     }
-    while exact(hi) < *value {
+    while compare(hi, value).is_lt() {
         hi = hi.next_up();
     }
     // Where `near` was several floats away, close in from the other side.
-    while lo < hi && exact(lo.next_up()) <= *value {
+    while lo < hi && compare(lo.next_up(), value).is_le() {
         lo = lo.next_up();
     }
-    while hi > lo && exact(hi.next_down()) >= *value {
+    while hi > lo && compare(hi.next_down(), value).is_ge() {
         hi = hi.next_down();
     }
     hull(lo, hi)
+}
+
+/// A float beside a ratio of whole numbers, exactly: m 2ᵉ d beside n for the ratio n/d, whose denominator is positive.
+fn compare(x: f64, value: &BigRational) -> Ordering {
+    assert!(x.is_finite(), "a finite float");
+    let (mantissa, exponent, sign) = Float::integer_decode(x);
+    let left = BigInt::from(i128::from(mantissa) * i128::from(sign)) * value.denom();
+    let shift = usize::from(exponent.unsigned_abs());
+    match exponent >= 0 {
+        true => (left << shift).cmp(value.numer()),
+        false => left.cmp(&(value.numer() << shift)),
+    }
 }
 
 #[cfg(test)]
@@ -56,6 +69,17 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn comparisons_are_those_of_ratios(bits: u64, other: u64, near: bool) {
+            let (x, y) = (f64::from_bits(bits), f64::from_bits(other));
+            let y = if near { x.next_up() } else { y };
+            prop_assume!(x.is_finite() && y.is_finite());
+            let [a, b] = [x, y].map(|x| BigRational::from_float(x).unwrap());
+            for ratio in [&a, &b, &(&a / BigInt::from(-3)), &(&b * BigInt::from(7) / BigInt::from(3))] {
+                prop_assert_eq!(compare(x, ratio), a.cmp(ratio));
+            }
+        }
+
         #[test]
         fn holds_the_decimal_and_is_tight(digits in -999_999_999_999i64..999_999_999_999, shift in -30i32..30) {
             let decimal: Decimal = format!("{digits}e{shift}").parse().unwrap();

@@ -2,7 +2,7 @@
 
 use super::JSON_VERSION;
 use super::certain_digits;
-use crate::edit::{Decomposition, Edited, Ending, Limit, Moved, Session};
+use crate::edit::{Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted, list};
 use serde_json::{Map, Value, json};
@@ -28,6 +28,16 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         format!("{name} from {} to {}", short(d.from), short(d.to))
     });
     let changes = changes.collect::<Vec<_>>().join(", ");
+    // Beside so long a way what happens on it is not to be told from its beginning.
+    let is_far = |d: &Dimension| (d.to - d.from).mag() > 1e6 * d.from.mag() && d.from.mag() > 0.0;
+    let far = match edited.dimensions.iter().find(|d| is_far(d)) {
+        Some(d) => format!(
+            " The new value is {:.0e} times what {} is: try one that is nearer, or `krawl limits` for how far it can go.",
+            (d.to / d.from).mag(),
+            problem.dimension_name(d.index)
+        ),
+        None => String::new(),
+    };
     match &edited.ending {
         Ending::Reached => format!(
             "Reached, proved: the figure is the one and only continuation of the old one, {changes}."
@@ -56,11 +66,11 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         }
         Ending::Passes(reason) => format!(
             "Passes: near t = {:.6} of the way ({changes}) branches of figures seem to meet, so that none of \
-                 them continues this one more than another; proved up to there ({reason}).",
+                 them continues this one more than another; proved up to there ({reason}).{far}",
             edited.t.0
         ),
         Ending::Stopped(reason) => format!(
-            "Stopped: proved up to t = {:.6} of the way ({changes}), and not further: {reason}.",
+            "Stopped: proved up to t = {:.6} of the way ({changes}), and not further: {reason}.{far}",
             edited.t.0
         ),
     }
@@ -343,20 +353,24 @@ pub(super) fn bounds(x: Interval) -> Value {
     json!([x.inf() + 0.0, x.sup() + 0.0])
 }
 
-/// What of a session's figure stays put because nothing determines it, and which constraints are left out of proofs
-/// because they follow from others: lines of text, none where there is nothing to say.
-pub fn freedom_in_words(session: &Session) -> String {
+/// What of a figure stays put because nothing determines it, and which constraints are left out of proofs because they
+/// follow from others: lines of text, none where there is nothing to say.
+pub fn freedom_in_words(found: &Decomposition) -> String {
     let mut out = String::new();
-    let (free, redundant) = (session.free(), session.redundant());
+    let Decomposition {
+        free,
+        redundant,
+        follows,
+        ..
+    } = found;
     if !free.is_empty() {
-        let _ = writeln!(out, "free, stay put      {}", list(&free, LISTED));
+        let _ = writeln!(out, "free, stay put      {}", list(free, LISTED));
     }
-    let follows = session.follows();
     if !follows.is_empty() {
         let _ = writeln!(
             out,
             "left out            {}: follow from the others, proved",
-            list(&follows, LISTED)
+            list(follows, LISTED)
         );
     }
     if !redundant.is_empty() {
@@ -364,7 +378,7 @@ pub fn freedom_in_words(session: &Session) -> String {
             out,
             "left out            {}: follow from the others at this figure, as far as floats tell; they hold to 1e-7 \
              still, which is looked at, not proved",
-            list(&redundant, LISTED)
+            list(redundant, LISTED)
         );
     }
     out

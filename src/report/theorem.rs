@@ -114,15 +114,13 @@ fn write_edits(out: &mut String, verdict: &Verdict) -> std::fmt::Result {
         if k > 0 && k + SHOWN < count {
             continue;
         }
-        let lengths = arc.claim.lengths.iter().map(|(index, length)| {
-            format!(
-                "{} to {length}",
-                verdict.problem.distance_name(*index as usize)
-            )
+        let led = arc.claim.dimensions.iter().map(|(index, value)| {
+            let name = verdict.problem.dimension_name(*index as usize);
+            format!("{name} to {value}")
         });
-        let what = match arc.claim.lengths.is_empty() {
+        let what = match arc.claim.dimensions.is_empty() {
             true => "the sketch is led to its own dimensions".to_owned(),
-            false => lengths.collect::<Vec<_>>().join(", "),
+            false => led.collect::<Vec<_>>().join(", "),
         };
         let end = match arc.t == point(1.0) {
             true => "reached".to_owned(),

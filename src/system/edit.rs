@@ -1,7 +1,7 @@
-//! A homotopy in which everything stands still at its target but for the lengths that are edited.
+//! A homotopy in which everything stands still at its target but for the dimensions that are edited.
 
 use super::{ExactLength, Homotopy, Length, Right};
-use crate::constraint::{self, Tail};
+use crate::constraint::{self, Record, Tail};
 use crate::interval::{Interval, enclose, point};
 use crate::problem::{Problem, Target};
 use num_rational::BigRational;
@@ -11,20 +11,6 @@ impl Homotopy {
     pub fn hold(&mut self, index: usize, target: &Target) {
         let length = Length::constant(self.enclose_target(target));
         self.set_length(index, length, target, target);
-    }
-
-    /// Makes all constraints but the distances hold throughout, while the distances go from `from` at t = 0 to
-    /// those of `problem`: a right angle between two bars stays one while a bar grows.
-    ///
-    /// # Panics
-    /// If the problem is another one but for the numbers of its distances.
-    pub fn keep_constraints(&mut self, problem: &Problem, from: &[Target]) {
-        if self.tail.is_empty() {
-            return;
-        }
-        let edited = constraint::lower_edit(problem, from);
-        let is_same = self.set_constraints(&edited);
-        assert!(is_same, "left-hand sides do not depend on distances");
     }
 
     /// Gives the equations that are not distances the right-hand sides of another lowering of the same problem. False, and
@@ -48,19 +34,28 @@ impl Homotopy {
         self.set_length(index, Length::new(start, end, None), from, to);
     }
 
-    /// Leads every distance from what `from` has to what `to` has, while everything else stays.
+    /// Leads every dimension from what `from` has, whose constraints were led to `record`, to what `to` has, in
+    /// proportion to t, while everything else stays. What the constraints of `to` are led to comes back; `None`, and
+    /// nothing is changed: `to` has a value out of its range, or is another problem.
     ///
     /// # Panics
-    /// If the two differ in more than lengths of distances, or this is the homotopy of another problem.
-    pub fn lead_all(&mut self, from: &Problem, to: &Problem) {
-        let targets: Vec<Target> = from.distances.iter().map(|d| d.target.clone()).collect();
-        for (index, (now, then)) in targets.iter().zip(&to.distances).enumerate() {
-            match *now == then.target {
-                true => self.hold(index, now),
-                false => self.lead(index, now, &then.target),
+    /// If this is not the homotopy of `from` for edits, [`constraint::try_lower_editable`].
+    pub(crate) fn lead_all(
+        &mut self,
+        record: &Record,
+        (from, to): (&Problem, &Problem),
+    ) -> Option<Record> {
+        let lowered = constraint::try_lower_editable(to, Some(record)).ok()?;
+        if !self.set_constraints(&lowered.tail) {
+            return None;
+        }
+        for (index, (now, then)) in from.distances.iter().zip(&to.distances).enumerate() {
+            match now.target == then.target {
+                true => self.hold(index, &now.target),
+                false => self.lead(index, &now.target, &then.target),
             }
         }
-        self.keep_constraints(to, &targets);
+        Some(lowered.record)
     }
 
     /// A target's length in the homotopy's unit.

@@ -41,9 +41,9 @@ pub trait Witness {
     fn turn(&mut self) {}
     /// The way back is over. Unless it is kept its tubes and solutions are forgotten.
     fn end_turn(&mut self, _kept: bool) {}
-    /// An edit: what follows are tubes of an arc from the figure at hand, along which these distances are led to these
-    /// lengths. An arc that was begun and did not end is given up.
-    fn begin_arc(&mut self, _lengths: &[(usize, &Target)]) {}
+    /// An edit: what follows are tubes of an arc from the figure at hand, along which these dimensions, distances first,
+    /// are led to these values. An arc that was begun and did not end is given up.
+    fn begin_arc(&mut self, _dimensions: &[(usize, &Target)]) {}
     /// The arc is over.
     fn end_arc(&mut self, _run: &ArcRun) {}
     /// The run is over; `classes` has the class of every solution seen.

@@ -5,9 +5,64 @@ use super::guess;
 use super::place::{HALF, Place, Spot, component};
 use super::tube::{Tube, everywhere};
 use super::whole::exact;
-use crate::certificate::format::{FoldClaim, TubeClaim};
-use crate::certificate::verdict::Fault;
+use crate::certificate::format::{ArcClaim, FoldClaim, TubeClaim};
+use crate::certificate::verdict::{Fault, Flaw};
+use crate::constraint::{Record, try_lower_editable};
 use crate::interval::{Interval, hull, point};
+use crate::problem::{Problem, Target};
+use crate::system::{Homotopy, is_met};
+
+/// A problem with its dimensions as edits have led them, and what its constraints were led to.
+pub struct Edits {
+    problem: Problem,
+    record: Record,
+}
+
+impl Edits {
+    pub fn new(problem: &Problem) -> Self {
+        Edits {
+            problem: problem.clone(),
+            record: Record::default(),
+        }
+    }
+
+    /// The equations of the next edit: everything stands still but the dimensions that are led. In the first one they
+    /// may be none: then the sketch is led to all of the problem's dimensions, without a bend. `before`: the homotopy
+    /// of the edit before, or the problem's. `Err`: the claim that fails, and whether it is false.
+    pub fn equations(
+        &mut self,
+        claim: &ArcClaim,
+        number: usize,
+        before: &Homotopy,
+    ) -> Result<Equations, (bool, Flaw)> {
+        let fault = || (false, Flaw::Arc(number));
+        let (problem, mut homotopy) = (&mut self.problem, before.clone());
+        if number == 1 {
+            let met = (0..problem.distances.len()).all(|d| is_met(problem, d));
+            if !(claim.dimensions.is_empty() || met && problem.is_distances_only()) {
+                return Err((!met, Flaw::Met));
+            }
+            problem.homotopy.bend_coefficient = 0.into();
+            problem.homotopy.detour = 0.into();
+            let lowered = try_lower_editable(problem, None).map_err(|_| fault())?;
+            let first = Homotopy::with_constraints(problem, before.unit, |_| lowered.tail);
+            (homotopy, self.record) = (first.map_err(|_| fault())?, lowered.record);
+        }
+        if number > 1 || !claim.dimensions.is_empty() {
+            let mut edited = problem.clone();
+            for (index, value) in &claim.dimensions {
+                let index = *index as usize;
+                match index.checked_sub(problem.distances.len()) {
+                    None => edited.distances[index].target = Target::Length(value.clone()),
+                    Some(index) => edited.constraints[index].value = Some(value.clone()),
+                }
+            }
+            let record = homotopy.lead_all(&self.record, (problem, &edited));
+            (self.record, self.problem) = (record.ok_or_else(fault)?, edited);
+        }
+        Ok(Equations::new(homotopy))
+    }
+}
 
 /// A fold: the zero of F(X, t), J v and c·(v − v₀) in (X, v, t), the only one in a region. There the path's
 /// tangent is (v, 0), and as the Jacobian of these equations is regular, t'' ≠ 0 (Moore and Spence, SIAM J. Numer.

@@ -1,6 +1,6 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
-use super::arc::{Fold, keeps, rises};
+use super::arc::{Edits, Fold, keeps, rises};
 use super::equations::{Equations, ZERO};
 use super::place::{Place, Spot, component};
 use super::refute;
@@ -8,8 +8,7 @@ use super::tube::{Met, Stretch, Tube, direction};
 use crate::certificate::format::{ArcClaim, EndClaim, Ending, Record, SolutionClaim, TubeClaim};
 use crate::certificate::verdict::{Arc, Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
-use crate::problem::{Problem, Target};
-use crate::system::{Homotopy, is_met};
+use crate::problem::Problem;
 use rayon::prelude::*;
 
 /// What is kept from one part of the chain to the next: all solutions, and two tubes.
@@ -25,8 +24,8 @@ pub struct Chain {
     met: Vec<Met>,
     /// Whether the tubes to come are those behind the turn.
     turned: bool,
-    /// The problem with its dimensions as they are now, and the edit that is followed.
-    problem: Problem,
+    /// The problem's dimensions as they are now, and the edit that is followed.
+    edits: Edits,
     arc: Option<ArcClaim>,
 }
 
@@ -51,18 +50,15 @@ fn flaw(is_false: bool, flaw: Flaw) -> Outcome {
 
 impl Chain {
     pub fn new(eq: Equations, problem: &Problem) -> Self {
-        let sketch: Vec<Interval> = eq.homotopy.sketch_of_unknowns().chain([ZERO]).collect();
-        let near = sketch.iter().map(|x| x.mid()).collect();
-        let rest = sketch.iter().map(|&x| x - point(x.mid())).collect();
         Chain {
-            from: Spot { near, rest },
+            from: sketch(&eq),
             eq,
             start: Vec::new(),
             last: None,
             solutions: Vec::new(),
             met: Vec::new(),
             turned: false,
-            problem: problem.clone(),
+            edits: Edits::new(problem),
             arc: None,
         }
     }
@@ -173,7 +169,6 @@ impl Chain {
         {
             let figure: Vec<Interval> = (0..self.eq.m).map(|i| spot.at(i)).collect();
             let figure = self.points(&figure);
-            lengths(&mut self.problem, &claim);
             verdict.arcs.push(Arc { claim, t, figure });
         }
         if let Goal::Figure(place) = goal {
@@ -189,26 +184,13 @@ impl Chain {
         Ok(())
     }
 
-    /// The equations of an edit: everything stands still but the lengths that are led. In the first one they may be
-    /// none: then the sketch is led to all of the problem's dimensions, without a bend.
+    /// What follows are tubes of an edit.
     fn set_out(&mut self, claim: &ArcClaim, verdict: &mut Verdict) -> Result<(), Outcome> {
         let number = verdict.arcs.len() + 1;
-        if number == 1 && claim.lengths.is_empty() {
-            self.problem.homotopy.bend_coefficient = 0.into();
-            self.problem.homotopy.detour = 0.into();
-            let homotopy = Homotopy::with_unit(&self.problem, self.eq.homotopy.unit);
-            self.eq = Equations::new(homotopy.map_err(|_| flaw(false, Flaw::Arc(number)))?);
-        } else {
-            let count = self.problem.distances.len();
-            let met = (0..count).all(|d| is_met(&self.problem, d));
-            if number == 1 && !(met && count == self.eq.m) {
-                return Err(flaw(!met, Flaw::Met));
-            }
-            let mut edited = self.problem.clone();
-            lengths(&mut edited, claim);
-            let mut homotopy = self.eq.homotopy.clone();
-            homotopy.lead_all(&self.problem, &edited);
-            self.eq = Equations::new(homotopy);
+        let eq = self.edits.equations(claim, number, &self.eq.homotopy);
+        self.eq = eq.map_err(|(is_false, claim)| flaw(is_false, claim))?;
+        if number == 1 {
+            self.from = sketch(&self.eq);
         }
         (self.turned, self.arc, verdict.is_edit) = (false, Some(claim.clone()), true);
         verdict.t_range = (f64::INFINITY, f64::NEG_INFINITY);
@@ -261,6 +243,8 @@ impl Chain {
             along(&self.start, claim)?;
         }
         let range = hull(entry.inf(), exit.sup());
+        let stands = tube.stands(&self.eq, range);
+        stands.map_err(|fault| flaw(false, Flaw::Tube(number, fault)))?;
         let Some(edit) = &self.arc else {
             let stretch = tube.account([entry, exit], listed);
             return stretch.map_err(|part| {
@@ -333,9 +317,10 @@ impl Chain {
     }
 }
 
-/// Gives a problem the lengths of an edit.
-fn lengths(problem: &mut Problem, claim: &ArcClaim) {
-    for (index, length) in &claim.lengths {
-        problem.distances[*index as usize].target = Target::Length(length.clone());
-    }
+/// The exact sketch, and t = 0.
+fn sketch(eq: &Equations) -> Spot {
+    let sketch: Vec<Interval> = eq.homotopy.sketch_of_unknowns().chain([ZERO]).collect();
+    let near = sketch.iter().map(|x| x.mid()).collect();
+    let rest = sketch.iter().map(|&x| x - point(x.mid())).collect();
+    Spot { near, rest }
 }

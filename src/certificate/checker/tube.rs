@@ -158,24 +158,6 @@ impl Tube {
         if !(advance.inf() > 0.0) {
             return Err(Fault::because("its cross-sections may turn back"));
         }
-        let entry = |i: usize, s: Interval| match i < eq.m {
-            true => {
-                let away = around(work.proof.distance * weight(work.at.u[i]));
-                polynomial(&work.curve.z, i, s) + work.curve.low_of(i) + away
-            }
-            false => ZERO,
-        };
-        let all = around(point(1.0));
-        if !eq.positive.iter().all(|&i| entry(i, all).inf() > 0.0) {
-            return Err(Fault::because(
-                "a length or radius in it may not be positive",
-            ));
-        }
-        let mut pieces = (-16..16).map(|k| hull(f64::from(k), f64::from(k + 1)) / point(16.0));
-        let off = |s, &[i, j]: &[usize; 2]| !(entry(i, s) - entry(j, s)).contains(0.0);
-        if !pieces.all(|s| eq.nonzero.iter().all(|v| v.iter().any(|d| off(s, d)))) {
-            return Err(Fault::because("a vector in it may vanish"));
-        }
         // A parameter in [−1, 1], whatever is rounded.
         let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);
         let moving = Moving::new(&work.curve, &work.at, &work.inverse);
@@ -243,6 +225,22 @@ impl Tube {
     /// dt/dσ on the path for all parameters of a range.
     pub fn time_slope(&self, s: Interval) -> Interval {
         self.slope(self.u.len() - 1, s)
+    }
+
+    /// Proves that on the path for all parameters of a range lengths and radii are positive, and that no vector is zero
+    /// which must not be.
+    pub fn stands(&self, eq: &Equations, range: Interval) -> Result<(), Fault> {
+        let entry = |i: usize, s: Interval| match i < eq.m {
+            true => self.beyond(0.0, i, s),
+            false => ZERO,
+        };
+        let positive = |s| eq.positive.iter().all(|&i| entry(i, s).inf() > 0.0);
+        let off = |s, &[i, j]: &[usize; 2]| !(entry(i, s) - entry(j, s)).contains(0.0);
+        let is_off = |s| eq.nonzero.iter().all(|v| v.iter().any(|d| off(s, d)));
+        let stands = everywhere(range, |s| positive(s) && is_off(s), |_| false);
+        stands.map_err(|_| {
+            Fault::because("a length or radius in it may not be positive, or a vector vanish")
+        })
     }
 
     /// Accounts for all parameters from the entry to the exit: the path meets t = 1 in no other point of these than

@@ -131,7 +131,6 @@ impl Lowering<'_> {
         let end = target(&distance.target);
         let from = match self.from {
             Start::Sketch => None,
-            Start::Distances(from) => Some(&from[index]),
             Start::Dimensions(record) => Some(&record.targets[index]),
         };
         let start = match from {

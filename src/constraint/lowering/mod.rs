@@ -65,8 +65,6 @@ pub struct Lowering<'a> {
 pub enum Start<'a> {
     /// At the sketch, which need not meet any constraint.
     Sketch,
-    /// At a figure that meets all constraints, but has these distances.
-    Distances(&'a [Target]),
     /// At a figure that meets all constraints with the dimensions of another lowering of the same problem, but for the
     /// values of dimensions.
     Dimensions(&'a Record),
@@ -274,7 +272,6 @@ impl<'a> Lowering<'a> {
     pub fn lead(&mut self, now: Real, then: Real) -> Polynomial {
         let before = match self.from {
             Start::Sketch => None,
-            Start::Distances(_) => Some(then.clone()),
             Start::Dimensions(record) => Some(record.leads[self.record.leads.len()].clone()),
         };
         self.record.leads.push(then.clone());

@@ -244,7 +244,7 @@ impl Parts {
                 false => Form::Difference(Entry::Zero, Entry::Zero),
             }),
         });
-        Homotopy::of_part(Part {
+        let mut homotopy = Homotopy::of_part(Part {
             nonzero: nonzero.collect(),
             dimension: d,
             unit: self.unit,
@@ -255,7 +255,10 @@ impl Parts {
             equations: equations.collect(),
             followed: self.followed.iter().filter(is_here).cloned().collect(),
             coordinates,
-        })
+        });
+        let names = self.problem.points.iter().map(|p| p.name.clone());
+        homotopy.point_names = names.collect();
+        homotopy
     }
 
     /// What the parts come to together.

@@ -21,6 +21,7 @@ pub struct Orientations {
     /// Where the points of a piece of path are, and how far they may be from there.
     middle: Vector,
     radius: Vector,
+    slope: Vector,
 }
 
 /// A triangle in the plane, a tetrahedron in space.
@@ -62,6 +63,7 @@ impl Orientations {
             known: Vec::new(),
             middle: spare.clone(),
             radius: spare.clone(),
+            slope: spare.clone(),
         }
     }
 
@@ -146,18 +148,26 @@ impl Orientations {
         let half = round_up((b - middle).max(middle - a), 4);
         let reach = a.abs().max(b.abs());
         let rounding = gamma(4 * N);
-        for i in 0..n - 1 {
-            let (mut value, mut size, mut slope) = (0.0f64, 0.0f64, 0.0f64);
-            for k in (0..N).rev() {
-                let z = z[k][i];
-                value = value.mul_add(middle, z);
-                slope = slope.mul_add(reach, size);
-                size = size.mul_add(reach, z.abs());
+        // One order after the other of all entries together. The radii are the sizes at first.
+        let values = &mut self.middle[..n - 1];
+        let sizes = &mut self.radius[..n - 1];
+        let slopes = &mut self.slope[..n - 1];
+        values.fill(0.0);
+        sizes.fill(0.0);
+        slopes.fill(0.0);
+        for k in (0..N).rev() {
+            let sums = values.iter_mut().zip(&mut *slopes).zip(&mut *sizes);
+            for (((value, slope), size), &z) in sums.zip(&z[k][..n - 1]) {
+                *value = value.mul_add(middle, z);
+                *slope = slope.mul_add(reach, *size);
+                *size = size.mul_add(reach, z.abs());
             }
-            self.middle[i] = value;
-            let spread = half * slope + proof.distance * tube.weights[i];
-            let rounded = rounding * size + tube.local.low[i].abs();
-            self.radius[i] = round_up(spread + rounded, 8 * N);
+        }
+        let (weights, low) = (&tube.weights[..n - 1], &tube.local.low[..n - 1]);
+        for i in 0..n - 1 {
+            let spread = half * slopes[i] + proof.distance * weights[i];
+            let rounded = rounding * sizes[i] + low[i].abs();
+            sizes[i] = round_up(spread + rounded, 8 * N);
         }
     }
 
@@ -173,21 +183,25 @@ impl Orientations {
 impl Simplex {
     /// The sign, where it is the same within all radii; otherwise 0.
     fn sign(&self, middle: &[f64], radius: &[f64]) -> i8 {
-        let [first, others @ ..] = &self.entries;
-        let side = |k: usize| -> [(f64, f64); 3] {
-            std::array::from_fn(|axis| {
-                let (i, j) = (others[k][axis] as usize, first[axis] as usize);
-                let d = middle[i] - middle[j];
-                // The difference's own rounding is relative to it.
-                (d, radius[i] + radius[j] + f64::EPSILON * d.abs())
-            })
+        // Of one length, so that one check of an index serves both.
+        let radius = &radius[..middle.len()];
+        let at = |k: usize| -> Vague {
+            let entries = self.entries[k].map(|i| i as usize);
+            (entries.map(|i| middle[i]), entries.map(|i| radius[i]))
         };
-        let spare = middle.len() - 1;
+        let first = at(0);
+        let side = |k: usize| -> Vague {
+            let other = at(k);
+            let d: [f64; 3] = std::array::from_fn(|axis| other.0[axis] - first.0[axis]);
+            // The difference's own rounding is relative to it.
+            let error = |axis: usize| other.1[axis] + first.1[axis] + f64::EPSILON * d[axis].abs();
+            (d, std::array::from_fn(error))
+        };
         let (value, size, error) = if self.what.points.len() == 3 {
-            debug_assert!(first[2] as usize == spare);
-            determinant_of_two(side(0), side(1))
+            debug_assert!(self.entries[0][2] as usize == middle.len() - 1);
+            determinant_of_two(side(1), side(2))
         } else {
-            determinant_of_three(side(0), side(1), side(2))
+            determinant_of_three(side(1), side(2), side(3))
         };
         // Products of three, sums of six: fewer than 20 roundings.
         let error = round_up(error + gamma(20) * size, 30);
@@ -201,36 +215,35 @@ impl Simplex {
     }
 }
 
+/// A vector, and how far its components may be off.
+type Vague = ([f64; 3], [f64; 3]);
+
 /// The value, the size of its terms, and how far it may be off, of u × v.
-fn determinant_of_two(u: [(f64, f64); 3], v: [(f64, f64); 3]) -> (f64, f64, f64) {
-    let [(a, da), (b, db), _] = u;
-    let [(c, dc), (d, dd), _] = v;
+fn determinant_of_two((u, du): Vague, (v, dv): Vague) -> (f64, f64, f64) {
     let error = |x: f64, dx: f64, y: f64, dy: f64| x.abs() * dy + dx * (y.abs() + dy);
     (
-        a * d - b * c,
-        (a * d).abs() + (b * c).abs(),
-        error(a, da, d, dd) + error(b, db, c, dc),
+        u[0] * v[1] - u[1] * v[0],
+        (u[0] * v[1]).abs() + (u[1] * v[0]).abs(),
+        error(u[0], du[0], v[1], dv[1]) + error(u[1], du[1], v[0], dv[0]),
     )
 }
 
 /// The same of u · (v × w).
-fn determinant_of_three(
-    u: [(f64, f64); 3],
-    v: [(f64, f64); 3],
-    w: [(f64, f64); 3],
-) -> (f64, f64, f64) {
-    let (mut value, mut size, mut error) = (0.0, 0.0, 0.0);
-    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
-        let [(v1, dv1), (v2, dv2)] = [v[j], v[k]];
-        let [(w1, dw1), (w2, dw2)] = [w[j], w[k]];
-        let (x, dx) = u[i];
+fn determinant_of_three((u, du): Vague, (v, dv): Vague, (w, dw): Vague) -> (f64, f64, f64) {
+    let term = |i: usize, j: usize, k: usize| -> (f64, f64, f64) {
+        let (v1, dv1, v2, dv2) = (v[j], dv[j], v[k], dv[k]);
+        let (w1, dw1, w2, dw2) = (w[j], dw[j], w[k], dw[k]);
+        let (x, dx) = (u[i], du[i]);
         let minor = v1 * w2 - v2 * w1;
         let size_of_minor = (v1 * w2).abs() + (v2 * w1).abs();
         let error_of_minor =
             (v1.abs() * dw2 + dv1 * (w2.abs() + dw2)) + (v2.abs() * dw1 + dv2 * (w1.abs() + dw1));
-        value += x * minor;
-        size += x.abs() * size_of_minor;
-        error += x.abs() * error_of_minor + dx * (size_of_minor + error_of_minor);
-    }
-    (value, size, error)
+        (
+            x * minor,
+            x.abs() * size_of_minor,
+            x.abs() * error_of_minor + dx * (size_of_minor + error_of_minor),
+        )
+    };
+    let (a, b, c) = (term(0, 1, 2), term(1, 2, 0), term(2, 0, 1));
+    (a.0 + b.0 + c.0, a.1 + b.1 + c.1, a.2 + b.2 + c.2)
 }

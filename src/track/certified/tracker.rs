@@ -259,11 +259,16 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     way: Option<Way>,
     /// The tubes of both if they met.
     ways: Option<[usize; 2]>,
-    /// The largest coordinate of the sketch, or 1 if that is more.
+    /// The largest coordinate of the sketch (of an arc's first figure), or 1 if that is more.
     size_of_sketch: f64,
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
     /// short, where the test does not foresee it, and after the first attempt: what is foreseen may be wrong.
     typical: f64,
+}
+
+/// The largest coordinate of a figure, or 1 if that is more.
+fn size_of(homotopy: &Homotopy, figure: &[f64]) -> f64 {
+    open::farthest(homotopy, figure).map_or(1.0, |(_, size)| size.max(1.0))
 }
 
 impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
@@ -275,9 +280,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             sketch.centre[i] = x.mid();
             sketch.radius[i] = x.rad();
         }
-        let places = homotopy.gauge.place.len();
-        let coordinates = sketch.centre[..places].iter();
-        let size_of_sketch = coordinates.fold(1.0, |max: f64, x| max.max(x.abs()));
+        let size_of_sketch = size_of(&homotopy, &sketch.centre[..]);
         Tracker {
             inverter: equations.inverter(),
             test: T::new(&homotopy, &equations, options),
@@ -397,12 +400,14 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             }
             self.away = self.goes_away();
             if let Some(Away { point, distance }) = self.away {
+                let name = self.homotopy.point_names.get(point);
+                let what = match self.arc {
+                    Some(_) => "the figure seems to grow without end: ",
+                    None => "",
+                };
                 return Err(format!(
-                    "{} is {:.4} away and moves away, ever farther as far as one can see, {}",
-                    self.homotopy
-                        .point_names
-                        .get(point)
-                        .map_or("a point", String::as_str),
+                    "{what}{} is {:.4} away and moves away, ever farther as far as one can see, {}",
+                    name.map_or("a point", String::as_str),
                     distance.0,
                     self.place()
                 ));
@@ -601,6 +606,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         self.sketch.radius[..m].copy_from_slice(&start.radius);
         if let Some(arc) = &mut self.arc {
             arc.begin(start);
+            if !self.homotopy.tail.is_empty() {
+                self.size_of_sketch = size_of(&self.homotopy, &start.centre);
+            }
         }
         (self.steps, self.rejected, self.shortened) = (0, 0, 0);
         (self.has_previous, self.has_set_out) = (false, false);

@@ -5,8 +5,17 @@ use super::{EndKind, PathEnd, Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
+use crate::system::Homotopy;
 use crate::track::ends::{Away, FAR, SETTLED, SMALL, vanishing, vanishing_vector};
 use crate::track::{Control, Options, Status};
+
+/// The point with the largest coordinate, and that.
+pub(super) fn farthest(homotopy: &Homotopy, z: &[f64]) -> Option<(usize, f64)> {
+    let unknowns =
+        |p: usize| (0..homotopy.dimension).filter_map(move |k| homotopy.coordinate(p, k));
+    let sizes = (0..homotopy.points).flat_map(|p| unknowns(p).map(move |i| (p, z[i].abs())));
+    sizes.max_by(|a, b| a.1.total_cmp(&b.1))
+}
 
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// The point that goes away, if one is far from the others, moves away at the last point that is proved, and t
@@ -15,17 +24,14 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// With X(s) the point along the tube, R² = |X|² is enclosed in the exit's box, and X·X' > 0 there by bounds of
     /// X' over the parameters between which the exit is: so dR/ds > 0.
     pub(super) fn goes_away(&self) -> Option<Away> {
-        if self.homotopy.tail.is_empty() || self.arc.is_some() {
+        if self.homotopy.tail.is_empty() {
             return None;
         }
         let (homotopy, tube, m) = (&self.homotopy, &self.now, self.equations.m);
-        let places = homotopy.gauge.place.len();
-        let far = FAR * self.size_of_sketch;
-        let coordinates = tube.local.z[0][..places].iter().enumerate();
-        let (farthest, _) = coordinates
-            .filter(|(_, x)| x.abs() > far)
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        let p = homotopy.gauge.place[farthest] / D;
+        let (p, size) = farthest(homotopy, &tube.local.z[0])?;
+        if size.is_nan() || size <= FAR * self.size_of_sketch {
+            return None;
+        }
         let exit = |i: usize| {
             let [x, low] = [&tube.exit.centre, &tube.exit.low].map(|v| point(v[i]));
             x + low + hull(-tube.exit.radius[i], tube.exit.radius[i])
