@@ -19,14 +19,21 @@
 mod choose;
 mod clusters;
 mod combine;
+mod cut;
 mod decompose;
+mod figures;
 mod follows;
+mod formula;
+mod local;
 mod merge;
+mod number;
+mod path;
 
 pub use choose::Choice;
 pub use clusters::clusters;
 pub use combine::{Choice as CombinedChoice, Combined};
 pub use decompose::{Block, Blocks};
+pub use figures::{BlockAccount, Chosen, Figures, LeftOut, Way};
 pub use follows::{Combination, Given, combination};
 pub use merge::{Row, System};
 

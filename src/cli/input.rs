@@ -44,6 +44,12 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
     Problem::parse(&text, STANDARD_INPUT).map_err(|error| error.to_string())
 }
 
+/// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.
+pub fn is_sketch(file: &Path) -> bool {
+    let format = Format::of(&file.display().to_string());
+    matches!(format, Some(Format::SolveSpace | Format::FreeCad))
+}
+
 /// A problem, and the sketch of another program that it is, if it is one.
 pub struct Loaded {
     /// What was read.
