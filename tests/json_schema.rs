@@ -112,6 +112,16 @@ fn results_of_other_verbs_meet_their_schemas() {
         ),
         ("complete", "complete", &["all", "problems/prism.toml"]),
         (
+            "figures",
+            "complete",
+            &["solve", "problems/sketches/bracket.slvs"],
+        ),
+        (
+            "figures",
+            "combined",
+            &["solve", "problems/sketches/parts.FCStd", "--sketch", "Slot"],
+        ),
+        (
             "explore",
             "budget",
             &[

@@ -2,7 +2,7 @@
 
 use super::follows::{Combination, Given, combination};
 use super::{Block, Blocks, Choice, System};
-use crate::constraint::{Form, Lowered, Owner, try_lower_all};
+use crate::constraint::{Entry, Form, Lowered, Owner, Record, try_lower_all};
 use crate::interval::Real;
 use crate::problem::{Decimal, Problem, Shape};
 use crate::system::typical_length;
@@ -41,6 +41,8 @@ pub(crate) struct Cut {
     pub powers: Vec<i32>,
     /// For each object its radius, if it is a circle.
     pub radii: Vec<Option<usize>>,
+    /// What edits of it begin with.
+    pub record: Record,
     /// A power of two near the mean length.
     pub unit: f64,
     /// Whose equation each of the problem's is: objects, constraints, none, distances.
@@ -86,15 +88,18 @@ impl Cut {
             .collect();
         let blocks = Blocks::new(&of, system.unknowns.len())
             .ok_or("its equations do not match its unknowns: the sketch is singular")?;
-        let Lowered { tail, owners, .. } = lowered;
+        let Lowered {
+            tail,
+            owners,
+            record,
+            ..
+        } = lowered;
         let radii = problem
             .objects
             .iter()
             .zip(&tail.objects)
             .map(|(object, of)| match (&object.shape, of.first()) {
-                (Shape::Round { .. }, Some(&crate::constraint::Entry::Unknown(k))) => {
-                    Some(system.auxiliary[k])
-                }
+                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => Some(system.auxiliary[k]),
                 _ => None,
             });
         let radii = radii.collect();
@@ -111,6 +116,7 @@ impl Cut {
             rights,
             powers,
             radii,
+            record,
             unit,
             owners,
         };
@@ -180,36 +186,40 @@ impl Cut {
             .collect()
     }
 
-    /// The names of points (or other unknowns) that are held, because nothing determines them wholly.
-    pub fn free_names(&self) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        for &u in &self.free {
-            let place = self.system.coordinates.iter().position(|&c| c == u);
-            let name = match place {
-                Some(place) => &self.problem.points[place / self.problem.dimension].name,
-                None => &self.system.unknowns[u].name,
-            };
-            if !names.contains(name) {
-                names.push(name.clone());
-            }
-        }
-        names
-    }
-
-    /// What people call the source of one of the problem's equations.
+    /// See [`name`].
     pub fn name(&self, equation: usize) -> String {
-        let (objects, all) = (self.problem.objects.len(), self.problem.constraints.len());
-        let owner = self.owners[equation];
-        match owner.checked_sub(objects) {
-            None => format!("`{}`", self.problem.objects[owner].name),
-            Some(c) if c < all => {
-                let index = self.problem.distances.len() + c;
-                match self.problem.labels.get(&index) {
-                    Some(label) => format!("`{label}` ({})", self.problem.constraint_name(c)),
-                    None => format!("`{}`", self.problem.constraint_name(c)),
-                }
-            }
-            Some(c) => format!("`{}`", self.problem.dimension_name(c - all - 1)),
+        name(&self.problem, self.owners[equation])
+    }
+}
+
+/// The names of points (or other unknowns) that are held, because nothing determines them wholly.
+pub(crate) fn free_names(problem: &Problem, system: &System, free: &[usize]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for &u in free {
+        let place = system.coordinates.iter().position(|&c| c == u);
+        let name = match place {
+            Some(place) => &problem.points[place / problem.dimension].name,
+            None => &system.unknowns[u].name,
+        };
+        if !names.contains(name) {
+            names.push(name.clone());
         }
+    }
+    names
+}
+
+/// What people call the owner of an equation, a count of objects, constraints, none, and distances.
+pub(crate) fn name(problem: &Problem, owner: usize) -> String {
+    let (objects, all) = (problem.objects.len(), problem.constraints.len());
+    match owner.checked_sub(objects) {
+        None => format!("`{}`", problem.objects[owner].name),
+        Some(c) if c < all => {
+            let index = problem.distances.len() + c;
+            match problem.labels.get(&index) {
+                Some(label) => format!("`{label}` ({})", problem.constraint_name(c)),
+                None => format!("`{}`", problem.constraint_name(c)),
+            }
+        }
+        Some(c) => format!("`{}`", problem.dimension_name(c - all - 1)),
     }
 }

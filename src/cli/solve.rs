@@ -35,6 +35,10 @@ Examples:
   krawl solve a.toml b.toml c.toml --summary   one line for each
   krawl generate strip --size 100 | krawl solve -
   krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
+  krawl solve part.FCStd --sketch Frame        a sketch of FreeCAD or SolveSpace, block by block
+
+A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
+its own frame that stops as a whole, and one of distances that falls apart (docs/sketches.md).
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
 found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is

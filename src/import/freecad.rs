@@ -154,6 +154,13 @@ pub struct Places {
     sources: Vec<Option<usize>>,
 }
 
+impl Places {
+    /// For each distance, then each constraint, what of the file it is.
+    pub fn sources(&self) -> &[Option<usize>] {
+        &self.sources
+    }
+}
+
 struct Reader {
     drawing: Drawing,
     edges: HashMap<i64, Drawn>,
@@ -681,9 +688,8 @@ pub fn rewrite(
         }
     }
     for (index, value) in super::changed(&imported.problem, problem) {
-        let Some(source) = places.sources.get(index).copied().flatten() else {
-            continue;
-        };
+        let source = places.sources.get(index).copied().flatten();
+        let source = source.ok_or_else(|| super::no_number(problem, index))?;
         let range = places.values.get(source).cloned().unwrap_or(0..0);
         let said: f64 = text
             .get(range.clone())

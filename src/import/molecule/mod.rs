@@ -23,6 +23,9 @@ use std::collections::BTreeMap;
 /// More atoms are not read: the choice of distances takes time like the fourth power of their number.
 const MOST_ATOMS: usize = 150;
 
+/// Coordinates are no larger than this, in ångström.
+const LARGEST: f64 = 1e6;
+
 /// Where the coordinates stand.
 #[derive(Debug, Clone)]
 pub struct Places {
@@ -322,6 +325,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         let mut place = [0.0f64; 3];
         for (out, text) in place.iter_mut().zip(coordinates) {
             *out = number(text)
+                .filter(|x| x.abs() <= LARGEST)
                 .ok_or_else(|| format!("line {}: `{text}` is no coordinate", line + 1))?;
         }
         places.push(place);
