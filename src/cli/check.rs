@@ -121,7 +121,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
     let blocks = Decomposition::of(problem);
-    text += &describe(problem, blocks.as_ref().ok());
+    text += &describe(problem, Some(&blocks));
     if !imported.unsupported.is_empty() {
         let _ = writeln!(
             text,
@@ -272,8 +272,8 @@ fn pattern(problem: &Problem, homotopy: &Homotopy, plan: &Plan) -> String {
         .render(&jacobian.equations, &distances, &coordinates)
 }
 
-/// What is in a problem; with `blocks` of one that may be loose, which is said first.
-fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
+/// What is in a problem; with `blocks` of one that has not been checked, of which is said first what is free.
+fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -> String {
     let mut rows: Vec<(&str, String)> = Vec::new();
     if !problem.source.is_empty() {
         rows.push(("source", problem.source.clone()));
@@ -313,7 +313,7 @@ fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
             "degrees of freedom",
             format!("0 ({free} free coordinates, {distances} independent distances)"),
         ));
-    } else {
+    } else if !matches!(blocks, Some(Err(_))) {
         let (unknowns, equations) = krawl::constraint::size(problem);
         rows.push((
             "equations",
@@ -340,10 +340,11 @@ fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
     let mut text = format!(
         "{}: {}\n",
         problem.name,
-        blocks.map_or_else(
-            || "the input is in order".to_owned(),
-            freedom_of_sketch_in_words
-        )
+        match blocks {
+            None => "the input is in order".to_owned(),
+            Some(Ok(found)) => freedom_of_sketch_in_words(found),
+            Some(Err(fault)) => format!("not in order: {fault}"),
+        }
     );
     for (label, value) in rows {
         // Writing to a string cannot fail.
@@ -359,6 +360,7 @@ fn frame(problem: &Problem) -> (&'static str, String) {
         let axes = krawl::constraint::pinned_axes(problem);
         let axes: Vec<&str> = axes.into_iter().map(|k| ["x", "y", "z"][k]).collect();
         let held = match axes.as_slice() {
+            _ if problem.points.is_empty() => String::new(),
             [] => String::new(),
             axes => format!(
                 "; as nothing says where it is along {}, {} is held where the sketch has it",

@@ -30,6 +30,12 @@ fn document(bytes: &[u8]) -> Result<String, String> {
     part.take(super::MAX_SIZE as u64)
         .read_to_string(&mut text)
         .map_err(|e| format!("{DOCUMENT} in it cannot be read: {e}"))?;
+    if text.len() >= super::MAX_SIZE {
+        return Err(format!(
+            "{DOCUMENT} in it is larger than the {} MiB that are read",
+            super::MAX_SIZE >> 20
+        ));
+    }
     Ok(text)
 }
 
