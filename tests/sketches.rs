@@ -281,7 +281,7 @@ fn a_sketch_without_points_or_with_ends_in_one_place_is_described() {
         let mut bytes = b"\xb1\xb2\xb3".to_vec();
         // The first line begins with three bytes that are no UTF-8.
         let begin = text.find("SolveSpace").unwrap();
-        bytes.extend(text[begin..].as_bytes());
+        bytes.extend(&text.as_bytes()[begin..]);
         std::fs::write(&file, bytes).unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
         let output = command.arg("check").arg(&file).output().unwrap();
