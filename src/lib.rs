@@ -69,12 +69,12 @@
 //!
 //! - [`problem`]: points, constraints, sketch, the file format, checks of the input
 //! - [`generate`]: large problems made to measure
-//! - [`import`]: sketches of SolveSpace and FreeCAD, in and out
+//! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
 //! - [`constraint`]: what each kind of constraint means, and its equations
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - [`system`]: the equations H(X, t) = 0, and where figures lie
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
-//! - [`blocks`]: how the equations of a sketch fall apart
+//! - [`blocks`]: how the equations of a sketch fall apart, and its figures block by block
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`complex`]: all complex solutions, every path proved

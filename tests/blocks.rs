@@ -75,3 +75,176 @@ fn combined_figures_are_in_the_result() {
     }
     assert_eq!(rectangles, 1);
 }
+
+const SLOT: [&str; 4] = ["solve", "problems/sketches/parts.FCStd", "--sketch", "Slot"];
+
+/// A sketch of another program is solved block by block: each figure is proved, and there is no other but on other paths.
+#[test]
+fn shipped_sketches_are_solved_by_their_blocks() {
+    let (code, text) = krawl(&SLOT, "");
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.starts_with("Slot: Combined, proved: "), "{text}");
+    assert!(text.contains("\nFigure 1"), "{text}");
+    let frame = [
+        "solve",
+        "problems/sketches/parts.FCStd",
+        "--sketch",
+        "Frame",
+    ];
+    let (code, text) = krawl(&frame, "");
+    assert_eq!(code, Some(0), "{text}");
+    assert!(
+        text.starts_with(
+            "Frame: Complete, proved: 1 figure meets all constraints, and there is no other"
+        ),
+        "{text}"
+    );
+    assert!(text.contains("\n  e5: radius 18.793852415718"), "{text}");
+    let (code, text) = krawl(
+        &["solve", "problems/sketches/bracket.slvs", "--summary"],
+        "",
+    );
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("4 figures meet all constraints"), "{text}");
+}
+
+/// Every figure listed meets what the sketch says, and the first is the one that the sketch has.
+#[test]
+fn figures_of_sketches_are_in_the_result() {
+    let (code, text) = krawl(
+        &["solve", "problems/sketches/bracket.slvs", "--json", "-"],
+        "",
+    );
+    assert_eq!(code, Some(0), "{text}");
+    let result: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(result["status"], "complete");
+    assert_eq!(result["count"], 4);
+    let figures = result["figures"].as_array().unwrap();
+    assert_eq!(figures.len(), 4);
+    let mut turned = 0;
+    for figure in figures {
+        let at = |p: &str| [0, 1].map(|k| figure["points"][p][k][0].as_f64().unwrap());
+        let [a, b, c, d] = ["r007.2", "r004.2", "r006.1", "r006.2"].map(at);
+        let apart = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+        assert!((apart(a, b) - 50.0).abs() < 1e-12 && (apart(c, d) - 35.0).abs() < 1e-12);
+        assert!((apart(a, d) - 40.0).abs() < 1e-12);
+        assert!((apart(b, c) - 30.0).abs() < 1e-12);
+        turned += usize::from(d[1] < 0.0);
+        let hole = &figure["radii"]["r008"];
+        assert_eq!((hole[0].as_f64(), hole[1].as_f64()), (Some(5.0), Some(5.0)));
+    }
+    assert_eq!(turned, 2);
+    assert!(figures[0]["points"]["r006.2"][1][0].as_f64().unwrap() > 30.0);
+}
+
+/// Points one after the other, each at given distances from two before it: every one of the 2^n figures is found, in a
+/// frame of its own, and each meets all distances.
+#[test]
+fn a_chain_of_intersections_has_all_its_figures() {
+    use krawl::blocks::Figures;
+    use krawl::problem::Problem;
+    use krawl::track::{Control, Options};
+    let places: [[f64; 2]; 6] = [
+        [0.0, 0.0],
+        [4.0, 0.5],
+        [1.0, 3.0],
+        [5.0, 3.5],
+        [2.5, 6.0],
+        [6.0, 7.0],
+    ];
+    let names = ["a", "b", "c", "d", "e", "f"];
+    let mut build = Problem::build("chain", 2);
+    for (name, at) in names.iter().zip(places) {
+        // A sketch that is off by up to a tenth.
+        let off = 0.1 * (at[0] * 7.0 + at[1] * 3.0).sin();
+        build = build.point(
+            name,
+            at.map(|x| format!("{:.6}", x + off))
+                .iter()
+                .map(String::as_str),
+        );
+    }
+    build = build.constraint("fixed", ["a"]).constraint("fixed", ["b"]);
+    for k in 2..places.len() {
+        for j in [k - 2, k - 1] {
+            let apart = (places[k][0] - places[j][0]).hypot(places[k][1] - places[j][1]);
+            build = build.distance(names[j], names[k], format!("{apart:.3}").as_str());
+        }
+    }
+    let problem = build.finish().unwrap();
+    let find = |problem: &Problem| {
+        Figures::find(problem, &Options::certified(), &mut Control::default()).unwrap()
+    };
+    let figures = find(&problem);
+    assert!(figures.doubt().is_none() && !figures.has_paths());
+    let count = figures.count().unwrap();
+    let mut seen: Vec<Vec<f64>> = Vec::new();
+    for number in 0..count {
+        let (points, _) = figures.figure(number);
+        for distance in &problem.distances {
+            let [p, q] = distance.points.map(|p| points[p]);
+            let squared = (p[0] - q[0]).sqr() + (p[1] - q[1]).sqr();
+            let krawl::problem::Target::Length(length) = &distance.target else {
+                panic!()
+            };
+            assert!(squared.contains(length.to_f64().powi(2)) && squared.wid() < 1e-9);
+        }
+        let all: Vec<f64> = points.iter().flatten().map(|x| x.mid()).collect();
+        assert!(
+            seen.iter()
+                .all(|other| { other.iter().zip(&all).any(|(x, y)| (x - y).abs() > 1e-6) })
+        );
+        seen.push(all);
+    }
+    // By steps of trial: at each point two intersections of circles, or none.
+    let lengths: Vec<f64> = problem
+        .distances
+        .iter()
+        .map(|d| match &d.target {
+            krawl::problem::Target::Length(length) => length.to_f64(),
+            _ => panic!(),
+        })
+        .collect();
+    let fixed: Vec<[f64; 2]> = problem.points[..2]
+        .iter()
+        .map(|p| [p.sketch[0].to_f64(), p.sketch[1].to_f64()])
+        .collect();
+    let mut partial = vec![fixed];
+    for k in 2..places.len() {
+        let mut next = Vec::new();
+        for figure in partial {
+            let [p, q] = [figure[k - 2], figure[k - 1]];
+            let [r, s] = [lengths[2 * (k - 2)], lengths[2 * (k - 2) + 1]];
+            let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+            let d = dx.hypot(dy);
+            let along = (r * r - s * s + d * d) / (2.0 * d);
+            let square = r * r - along * along;
+            assert!(square.abs() > 1e-6, "the example must not be in doubt");
+            if square > 0.0 {
+                for h in [square.sqrt(), -square.sqrt()] {
+                    let x = p[0] + (along * dx - h * dy) / d;
+                    let y = p[1] + (along * dy + h * dx) / d;
+                    let mut longer = figure.clone();
+                    longer.push([x, y]);
+                    next.push(longer);
+                }
+            }
+        }
+        partial = next;
+    }
+    assert_eq!(count as usize, partial.len());
+    // The first is the one that is drawn.
+    let (points, _) = figures.figure(0);
+    for (point, at) in points.iter().zip(places) {
+        assert!(
+            (0..2).all(|k| (point[k].mid() - at[k]).abs() < 0.5),
+            "{points:?}"
+        );
+    }
+    // Impossible lengths are said to be so.
+    let mut impossible = problem.clone();
+    impossible.distances[0].target = krawl::problem::Target::Length(100.into());
+    let none = find(&impossible);
+    assert_eq!((none.count(), none.doubt()), (Some(0), None));
+    assert_eq!(none.impossible(), Some(1));
+}

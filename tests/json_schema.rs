@@ -112,6 +112,16 @@ fn results_of_other_verbs_meet_their_schemas() {
         ),
         ("complete", "complete", &["all", "problems/prism.toml"]),
         (
+            "figures",
+            "complete",
+            &["solve", "problems/sketches/bracket.slvs"],
+        ),
+        (
+            "figures",
+            "combined",
+            &["solve", "problems/sketches/parts.FCStd", "--sketch", "Slot"],
+        ),
+        (
             "explore",
             "budget",
             &[
@@ -308,4 +318,30 @@ fn other_documents_are_refused() {
         let optional = ["source", "samples", "objects"].contains(&key.as_str());
         assert_eq!(complain(&validator, &bad).is_empty(), optional, "{key}");
     }
+}
+
+/// A problem in its own frame in which nothing moves with t: it stops as a whole, and its blocks answer.
+#[test]
+fn a_whole_that_stops_is_answered_by_its_blocks() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rest.toml");
+    let text = "name = \"at rest\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n\
+                [constraints]\nfixed = [\"a\"]\nx = [[\"b\", 4]]\nhorizontal = [[\"a\", \"b\"]]\n\
+                vertical = [[\"b\", \"c\"]]\ny = [[\"c\", 3]]\n\
+                perpendicular = [[\"a\", \"d\", \"d\", \"c\"]]\nparallel = [[\"a\", \"d\", \"b\", \"c\"]]\n";
+    fs::write(&file, text).unwrap();
+    let (whole, complaints) = written("result", &["solve", file.to_str().unwrap()]);
+    assert_eq!(complaints, [""; 0]);
+    assert_eq!(whole["status"], "stopped");
+    let figures = &whole["by_blocks"];
+    assert_eq!(complain(&schema_of("figures"), figures), [""; 0]);
+    // With d at a, which meets the equations, a-d has no direction.
+    assert_eq!(
+        (&figures["status"], &figures["count"]),
+        (&"complete".into(), &1.into())
+    );
+    assert_eq!(
+        figures["figures"][0]["points"]["d"][1],
+        serde_json::json!([3.0, 3.0])
+    );
 }

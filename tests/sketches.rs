@@ -269,3 +269,33 @@ fn an_angle_without_a_leg_is_no_figure() {
     let error = Problem::parse(&text, "leg.toml").unwrap_err().to_string();
     assert!(error.contains("a and b coincide"), "{error}");
 }
+
+/// A file in which nothing is drawn, or all points are in one place, is described or refused.
+#[test]
+fn a_sketch_without_points_or_with_ends_in_one_place_is_described() {
+    use assert_cmd::Command;
+    let text = String::from_utf8_lossy(&std::fs::read(BRACKET).unwrap()).into_owned();
+    let folder = tempfile::tempdir().unwrap();
+    let check = |text: &str| {
+        let file = folder.path().join("damaged.slvs");
+        let mut bytes = b"\xb1\xb2\xb3".to_vec();
+        // The first line begins with three bytes that are no UTF-8.
+        let begin = text.find("SolveSpace").unwrap();
+        bytes.extend(&text.as_bytes()[begin..]);
+        std::fs::write(&file, bytes).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
+        let output = command.arg("check").arg(&file).output().unwrap();
+        assert!(matches!(output.status.code(), Some(0 | 2)), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert!(check(&text).contains("blocks\n"));
+    // No requests: nothing is drawn.
+    let none: Vec<&str> = text.lines().filter(|l| *l != "AddRequest").collect();
+    check(&none.join("\n"));
+    // All numbers gone: all points are in one place.
+    let flat: Vec<&str> = text
+        .lines()
+        .filter(|l| !l.starts_with("Param.val="))
+        .collect();
+    check(&flat.join("\n"));
+}

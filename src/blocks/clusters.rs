@@ -2,8 +2,8 @@
 
 use crate::problem::{Problem, Target};
 
-/// Larger problems are not looked at.
-const MOST_POINTS: usize = 400;
+/// Larger problems are not looked at by [`clusters`].
+pub const MOST_POINTS: usize = 400;
 
 /// The parts of a problem of distances alone that hang together only at a side (in the plane: two points with a
 /// distance) or a triangle of sides (in space): problems of their own, two at least, or none where it does not fall apart.

@@ -19,16 +19,26 @@
 mod choose;
 mod clusters;
 mod combine;
+mod cut;
 mod decompose;
+mod figures;
 mod follows;
+mod formula;
+mod local;
 mod merge;
+mod number;
+mod path;
+mod pinned;
 
 pub use choose::Choice;
-pub use clusters::clusters;
+pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
+pub(crate) use cut::{Cut, Used, free_names, name};
 pub use decompose::{Block, Blocks};
+pub use figures::{BlockAccount, Chosen, Figures, LeftOut, Way};
 pub use follows::{Combination, Given, combination};
 pub use merge::{Row, System};
+pub use pinned::pinned;
 
 use crate::constraint::{Entry, Form, Product};
 

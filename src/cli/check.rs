@@ -1,7 +1,7 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, input, output};
-use krawl::blocks::clusters;
+use krawl::blocks::{MOST_POINTS, clusters, pinned};
 use krawl::edit::Decomposition;
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
@@ -59,6 +59,7 @@ pub fn run(arguments: &Arguments) -> u8 {
         Ok(problem) => problem,
         Err(message) => {
             output::complain(&message);
+            output::print(&loose_in_words(&arguments.file));
             return BAD_INPUT;
         }
     };
@@ -66,7 +67,8 @@ pub fn run(arguments: &Arguments) -> u8 {
     text += &remarks_in_words(&problem);
     text += &match problem.is_absolute() {
         true => blocks_in_words(&Decomposition::of(&problem)),
-        false => clusters_in_words(&problem),
+        false if problem.is_distances_only() => clusters_in_words(&problem),
+        false => held_in_words(&problem),
     };
     if !problem.is_distances_only() {
         text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
@@ -119,7 +121,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
     let blocks = Decomposition::of(problem);
-    text += &describe(problem, blocks.as_ref().ok());
+    text += &describe(problem, Some(&blocks));
     if !imported.unsupported.is_empty() {
         let _ = writeln!(
             text,
@@ -128,7 +130,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
         );
     }
     text += "dimensions (for --set)\n";
-    for index in problem.dimensions() {
+    for index in problem.dimensions().filter(|&i| imported.has_number(i)) {
         let name = problem.dimension_name(index);
         let what = match index.checked_sub(problem.distances.len()) {
             None => {
@@ -139,7 +141,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
             }
             Some(c) => problem.constraint_name(c),
         };
-        let _ = writeln!(text, "  {name:<14}{what}");
+        let _ = writeln!(text, "  {name:<13} {what}");
     }
     text += &blocks_in_words(&blocks);
     Ok(text)
@@ -157,12 +159,44 @@ fn blocks_in_words(found: &Result<Decomposition, String>) -> String {
     }
 }
 
-/// How a figure of distances falls apart at sides that its parts share; nothing where it does not.
+/// What is free in a problem file that has not as many constraints as it needs, and its blocks; nothing of any other file
+/// that cannot be read.
+fn loose_in_words(file: &Path) -> String {
+    if file == Path::new("-") || Format::of(&file.display().to_string()).is_some() {
+        return String::new();
+    }
+    let Ok(loaded) = input::load(file, None) else {
+        return String::new();
+    };
+    match Decomposition::of(&loaded.problem) {
+        Ok(found) => format!(
+            "{}: {}; `krawl edit` takes it as it is\n{}",
+            loaded.problem.name,
+            freedom_of_sketch_in_words(&found),
+            decomposition_in_words(&found)
+        ),
+        Err(_) => String::new(),
+    }
+}
+
+/// How a figure up to motions falls apart, once its reference is held.
+fn held_in_words(problem: &Problem) -> String {
+    let Some(held) = pinned(problem) else {
+        return String::new();
+    };
+    let text = blocks_in_words(&Decomposition::of(&held));
+    text.replacen("blocks", "blocks, with the reference held", 1)
+}
+
+/// How a figure of distances falls apart at sides that its parts share.
 fn clusters_in_words(problem: &Problem) -> String {
     const MOST: usize = 20;
     let blocks = clusters(problem);
+    if problem.points.len() > MOST_POINTS {
+        return format!("blocks\n  not looked for: there are more than {MOST_POINTS} points\n");
+    }
     if blocks.is_empty() {
-        return String::new();
+        return "blocks\n  1: it does not fall apart\n".to_owned();
     }
     let what = match problem.dimension {
         2 => "a side",
@@ -238,8 +272,8 @@ fn pattern(problem: &Problem, homotopy: &Homotopy, plan: &Plan) -> String {
         .render(&jacobian.equations, &distances, &coordinates)
 }
 
-/// What is in a problem; with `blocks` of one that may be loose, which is said first.
-fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
+/// What is in a problem; with `blocks` of one that has not been checked, of which is said first what is free.
+fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -> String {
     let mut rows: Vec<(&str, String)> = Vec::new();
     if !problem.source.is_empty() {
         rows.push(("source", problem.source.clone()));
@@ -279,7 +313,7 @@ fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
             "degrees of freedom",
             format!("0 ({free} free coordinates, {distances} independent distances)"),
         ));
-    } else {
+    } else if !matches!(blocks, Some(Err(_))) {
         let (unknowns, equations) = krawl::constraint::size(problem);
         rows.push((
             "equations",
@@ -306,10 +340,11 @@ fn describe(problem: &Problem, blocks: Option<&Decomposition>) -> String {
     let mut text = format!(
         "{}: {}\n",
         problem.name,
-        blocks.map_or_else(
-            || "the input is in order".to_owned(),
-            freedom_of_sketch_in_words
-        )
+        match blocks {
+            None => "the input is in order".to_owned(),
+            Some(Ok(found)) => freedom_of_sketch_in_words(found),
+            Some(Err(fault)) => format!("not in order: {fault}"),
+        }
     );
     for (label, value) in rows {
         // Writing to a string cannot fail.
@@ -325,6 +360,7 @@ fn frame(problem: &Problem) -> (&'static str, String) {
         let axes = krawl::constraint::pinned_axes(problem);
         let axes: Vec<&str> = axes.into_iter().map(|k| ["x", "y", "z"][k]).collect();
         let held = match axes.as_slice() {
+            _ if problem.points.is_empty() => String::new(),
             [] => String::new(),
             axes => format!(
                 "; as nothing says where it is along {}, {} is held where the sketch has it",

@@ -52,16 +52,18 @@ pub fn provable(
     file: &Path,
     problem: &Problem,
 ) -> Result<(Problem, Option<Decomposition>), String> {
-    let of_another_program = matches!(
-        Format::of(&file.display().to_string()),
-        Some(Format::SolveSpace | Format::FreeCad)
-    );
-    if !of_another_program && (!problem.is_absolute() || problem.check().is_ok()) {
+    if !is_sketch(file) && (!problem.is_absolute() || problem.check().is_ok()) {
         return Ok((problem.clone(), None));
     }
     let in_file = |error| format!("{}: {error}", file.display());
     let found = Decomposition::of(problem).map_err(in_file)?;
     Ok((completed(problem).map_err(in_file)?, Some(found)))
+}
+
+/// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.
+pub fn is_sketch(file: &Path) -> bool {
+    let format = Format::of(&file.display().to_string());
+    matches!(format, Some(Format::SolveSpace | Format::FreeCad))
 }
 
 /// A problem, and the sketch of another program that it is, if it is one.

@@ -5,17 +5,19 @@ use super::pictures::Pictures;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
-use krawl::blocks::clusters;
+use krawl::blocks::{Figures, clusters};
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::remarks::{Remark, in_words, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
-    BlockRuns, ProgressLine, Run, to_first_table, to_no_first, to_short_table, to_summary, to_table,
+    BlockRuns, ProgressLine, Run, figures_to_summary, figures_to_table, figures_to_value,
+    to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
 use krawl::track::{self, Control, First, Options, Outcome, Progress, Status, Trace, Witness};
+use serde_json::Value;
 use std::io::BufWriter;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Follow the path through the sketch and list the figures on it that meet the dimensions
@@ -33,6 +35,10 @@ Examples:
   krawl solve a.toml b.toml c.toml --summary   one line for each
   krawl generate strip --size 100 | krawl solve -
   krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
+  krawl solve part.FCStd --sketch Frame        a sketch of FreeCAD or SolveSpace, block by block
+
+A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
+its own frame that stops as a whole, and one of distances that falls apart (docs/sketches.md).
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
 found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
@@ -232,7 +238,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.check_count()?;
     // Whatever is wrong is said before anything runs.
     let sketch = arguments.sketch.as_deref();
-    let problems = arguments.files.iter().map(|file| input::read(file, sketch));
+    let read = |file: &PathBuf| match arguments.is_by_blocks(file) {
+        true => input::load(file, sketch).map(|loaded| loaded.problem),
+        false => input::read(file, sketch),
+    };
+    let problems = arguments.files.iter().map(read);
     let problems = problems.collect::<Result<Vec<Problem>, String>>()?;
     let json = arguments
         .json
@@ -266,6 +276,25 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     for (problem, file) in named {
         let problem = &problem;
         let which = output::which_of((k, count), file);
+        if arguments.is_by_blocks(file) {
+            let found = arguments.by_blocks(problem);
+            let (text, value, code) =
+                found.map_err(|error| format!("{}: {error}", input::name(file)))?;
+            if json.is_some() {
+                lines += &(value.to_string() + "\n");
+            }
+            if !silent {
+                let gap = if k == 0 || arguments.summary {
+                    ""
+                } else {
+                    "\n"
+                };
+                written &= output::print(&format!("{gap}{text}"));
+            }
+            worst = worse(worst, code);
+            k += 1;
+            continue;
+        }
         let mut trace = Trace::default();
         let shown = !pictures.is_empty();
         let wants_path = (json.is_some() || shown) && arguments.mode == Mode::Certified;
@@ -293,6 +322,33 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         if let Status::Stopped(reason) = &outcome.status
             && arguments.can_be_cut(cancel)
         {
+            if problem.is_absolute()
+                && let Some((text, value, code)) = arguments.instead(problem, reason)
+            {
+                if json.is_some() {
+                    let run = Run {
+                        problem,
+                        options: &arguments.options(),
+                        outcome: &outcome,
+                        trace: None,
+                        samples: 0,
+                    };
+                    let mut whole = run.to_value();
+                    whole["by_blocks"] = value;
+                    lines += &(whole.to_string() + "\n");
+                }
+                if !silent {
+                    let gap = if k == 0 || arguments.summary {
+                        ""
+                    } else {
+                        "\n"
+                    };
+                    written &= output::print(&format!("{gap}{text}"));
+                }
+                worst = worse(worst, code);
+                k += 1;
+                continue;
+            }
             let blocks = clusters(problem);
             if !blocks.is_empty() {
                 let (runs, code) = follow_blocks(arguments, blocks, &input::name(file), &which)?;
@@ -453,6 +509,52 @@ impl Arguments {
             && self.cert.is_none()
             && self.pictures.files().next().is_none()
             && !cancel.load(Ordering::Relaxed)
+    }
+
+    /// Whether a file's problem is solved block by block from the start: a sketch of another program, where nothing is asked
+    /// for that a path of the whole has alone.
+    fn is_by_blocks(&self, file: &Path) -> bool {
+        input::is_sketch(file)
+            && self.mode == Mode::Certified
+            && !self.first
+            && !self.reverse
+            && self.space.is_none()
+            && self.samples.is_none()
+            && self.cert.is_none()
+            && self.pictures.files().next().is_none()
+    }
+
+    /// The figures of a sketch in its own frame: as text, as a value for JSON, and the exit code.
+    fn by_blocks(&self, problem: &Problem) -> Result<(String, Value, u8), String> {
+        let mut control = Control {
+            cancel: Some(interrupt::flag()),
+            ..Control::default()
+        };
+        let figures = Figures::find(problem, &self.options(), &mut control)?;
+        let text = match self.summary {
+            true => figures_to_summary(&figures),
+            false => figures_to_table(&figures, self.all),
+        };
+        let code = match figures.doubt() {
+            Some(_) => STOPPED,
+            None => CLOSED,
+        };
+        Ok((text, figures_to_value(&figures, self.all), code))
+    }
+
+    /// The same of a problem that stopped as a whole, if its blocks come to an end.
+    fn instead(&self, problem: &Problem, reason: &str) -> Option<(String, Value, u8)> {
+        let (text, value, code) = self.by_blocks(problem).ok()?;
+        let reason = reason.trim_end_matches('.');
+        let introduction = match self.summary {
+            true => String::new(),
+            false => format!(
+                "{}: followed as a whole it stops ({reason}). Its equations fall apart into blocks, and these are solved \
+                 one by one.\n\n",
+                problem.name
+            ),
+        };
+        (code == CLOSED).then(|| (introduction + &text, value, code))
     }
 
     fn shown_blocks(&self, all: &BlockRuns) -> String {

@@ -30,6 +30,12 @@ fn document(bytes: &[u8]) -> Result<String, String> {
     part.take(super::MAX_SIZE as u64)
         .read_to_string(&mut text)
         .map_err(|e| format!("{DOCUMENT} in it cannot be read: {e}"))?;
+    if text.len() >= super::MAX_SIZE {
+        return Err(format!(
+            "{DOCUMENT} in it is larger than the {} MiB that are read",
+            super::MAX_SIZE >> 20
+        ));
+    }
     Ok(text)
 }
 
@@ -152,6 +158,13 @@ pub struct Places {
     /// For each constraint of the file where its value is.
     values: Vec<Range<usize>>,
     sources: Vec<Option<usize>>,
+}
+
+impl Places {
+    /// For each distance, then each constraint, what of the file it is.
+    pub fn sources(&self) -> &[Option<usize>] {
+        &self.sources
+    }
 }
 
 struct Reader {
@@ -681,9 +694,8 @@ pub fn rewrite(
         }
     }
     for (index, value) in super::changed(&imported.problem, problem) {
-        let Some(source) = places.sources.get(index).copied().flatten() else {
-            continue;
-        };
+        let source = places.sources.get(index).copied().flatten();
+        let source = source.ok_or_else(|| super::no_number(problem, index))?;
         let range = places.values.get(source).cloned().unwrap_or(0..0);
         let said: f64 = text
             .get(range.clone())

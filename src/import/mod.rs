@@ -197,6 +197,27 @@ pub fn rewrite(
     }
 }
 
+impl Imported {
+    /// Whether a dimension, by index, is a number that the file has for this sketch: radii of geometry of other groups and
+    /// objects, which stay as they are, are not.
+    pub fn has_number(&self, index: usize) -> bool {
+        let sources = match &self.places {
+            Places::SolveSpace(places) => places.sources(),
+            Places::FreeCad(places) => places.sources(),
+            Places::Molecule(_) => return true,
+        };
+        sources.get(index).is_some_and(Option::is_some)
+    }
+}
+
+/// Why a dimension cannot be changed.
+fn no_number(problem: &Problem, index: usize) -> String {
+    format!(
+        "`{}` is of geometry of another group or object, which stays as it is: there is no number of this sketch to change",
+        problem.dimension_name(index)
+    )
+}
+
 fn broken(file: &str, what: String) -> ImportError {
     ImportError::Broken {
         file: file.to_owned(),

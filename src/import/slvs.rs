@@ -222,6 +222,13 @@ pub struct Places {
     sources: Vec<Option<usize>>,
 }
 
+impl Places {
+    /// For each distance, then each constraint, what of the file it is.
+    pub fn sources(&self) -> &[Option<usize>] {
+        &self.sources
+    }
+}
+
 pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
     let contents = Contents::new(bytes)?;
     let sketches = contents.sketches().into_iter().map(|(group, name)| {
@@ -681,9 +688,8 @@ pub fn rewrite(
         }
     }
     for (index, value) in super::changed(&imported.problem, problem) {
-        let Some(source) = places.sources.get(index).copied().flatten() else {
-            continue;
-        };
+        let source = places.sources.get(index).copied().flatten();
+        let source = source.ok_or_else(|| super::no_number(problem, index))?;
         let record = contents
             .records
             .get(source)

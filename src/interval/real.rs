@@ -33,6 +33,8 @@ pub enum Real {
     Product(Box<[Real; 2]>),
     /// The first divided by the second, which is not zero.
     Quotient(Box<[Real; 2]>),
+    /// One number of this ball, of which no more is known: what is proved with it holds for each of them.
+    Within(Box<Ball>),
 }
 
 impl From<BigRational> for Real {
@@ -51,6 +53,20 @@ impl Real {
     /// Zero.
     pub fn zero() -> Self {
         Real::Rational(BigRational::zero())
+    }
+
+    /// A number of which only an enclosure is known.
+    ///
+    /// # Panics
+    /// If a bound is not finite.
+    pub fn within(interval: Interval) -> Self {
+        let ratio = |x: f64| BigRational::from_float(x).expect("a bound is finite");
+        let (low, high) = (ratio(interval.inf()), ratio(interval.sup()));
+        let half = BigRational::new(1.into(), 2.into());
+        Real::Within(Box::new(Ball {
+            middle: (&low + &high) * &half,
+            radius: (high - low) * half,
+        }))
     }
 
     /// The whole number `value`.
@@ -139,6 +155,7 @@ impl Real {
             Real::Sum(parts) => parts[0].ball().plus(&parts[1].ball()),
             Real::Product(parts) => parts[0].ball().times(&parts[1].ball()),
             Real::Quotient(parts) => parts[0].ball().times(&parts[1].ball().inverse()),
+            Real::Within(ball) => (**ball).clone(),
         }
         .rounded()
     }
@@ -202,6 +219,13 @@ pub struct Ball {
     pub middle: BigRational,
     /// How far the number may be away.
     pub radius: BigRational,
+}
+
+/// Whether two balls' numbers are known to be the same one.
+impl PartialEq for Ball {
+    fn eq(&self, other: &Self) -> bool {
+        self.radius.is_zero() && other.radius.is_zero() && self.middle == other.middle
+    }
 }
 
 impl Ball {

@@ -7,6 +7,7 @@ mod complex;
 mod digits;
 mod edit;
 mod explore;
+mod figures;
 mod json;
 mod marks;
 mod objects;
@@ -32,6 +33,7 @@ pub use edit::{
     figure_to_value, freedom_in_words, freedom_of_sketch_in_words, limit_in_words,
 };
 pub use explore::{AllReal, Explored, explore_to_json, explore_to_table};
+pub use figures::{figures_in_words, figures_to_summary, figures_to_table, figures_to_value};
 pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;

@@ -12,15 +12,14 @@ mod left_out;
 pub(super) mod senses;
 mod words;
 
-use crate::blocks::{Blocks, Choice, Combination, Given, System};
-use crate::constraint::{Entry, Form, Record, try_lower_all};
+use crate::blocks::{Blocks, Combination, Cut, Given, System, Used};
+use crate::constraint::{Record, try_lower_all};
 use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
 use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
-use crate::problem::{Decimal, Problem, Shape};
-use crate::system::typical_length;
+use crate::problem::Problem;
 use crate::track::arc::Orientation;
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError};
@@ -31,15 +30,6 @@ use std::time::Instant;
 /// A part is followed over so many tubes and then given up. Edits of real sketches take a few; those that came to so
 /// many had ever longer tubes and ever larger figures, as where two lines become parallel.
 pub(super) const MOST_TUBES: usize = 1000;
-
-/// An equation of the square system.
-#[derive(Debug, Clone, Copy)]
-enum Used {
-    /// A row of the merged system, by position.
-    Row(usize),
-    /// An unknown stays what it is.
-    Held(usize),
-}
 
 /// A number that is known up to a radius, in the homotopy's unit.
 #[derive(Debug, Clone, Copy)]
@@ -142,79 +132,50 @@ impl Parts {
         problem: &Problem,
         options: &Options,
     ) -> Result<(Self, Vec<Vec<Real>>), String> {
-        let mut problem = problem.clone();
-        problem.homotopy.bend_coefficient = Decimal::from(0);
-        problem.homotopy.detour = Decimal::from(0);
-        let problem = &problem;
-        let lowered = lowered(problem, |problem| try_lower_all(problem, None))?;
-        let owner_is_dimension = |owner: usize| {
-            let (objects, all) = (problem.objects.len(), problem.constraints.len());
-            match owner.checked_sub(objects) {
-                None => false,
-                Some(c) if c < all => problem.constraints[c].value.is_some(),
-                Some(c) => c > all,
-            }
-        };
-        let system = System::new(problem, &lowered, |index| {
-            owner_is_dimension(lowered.owners[index])
+        let Cut {
+            problem,
+            system,
+            used,
+            redundant,
+            free,
+            blocks,
+            is_exact,
+            rights,
+            powers,
+            radii,
+            record,
+            unit,
+            owners,
+        } = Cut::new(problem)?;
+        let values = system.unknowns.iter().zip(&system.values);
+        let scaled = values.map(|(unknown, value)| {
+            let scale = unit.powi(unknown.power);
+            Known::new(value.enclose() * point(1.0 / scale))
         });
-        let unit = typical_length(problem);
-        let scaled: Vec<Interval> = system
-            .unknowns
-            .iter()
-            .zip(&system.values)
-            .map(|(unknown, value)| value.enclose() * point(1.0 / unit.powi(unknown.power)))
-            .collect();
-        let at: Vec<f64> = scaled.iter().map(|x| x.mid()).collect();
-        let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
-        let choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
-        let held = choice.free.iter().map(|&u| Used::Held(u));
-        let used: Vec<Used> = choice
-            .used
-            .iter()
-            .map(|&r| Used::Row(r))
-            .chain(held)
-            .collect();
-        let of: Vec<Vec<usize>> = used
-            .iter()
-            .map(|used| match *used {
-                Used::Row(row) => system.rows[row].unknowns.clone(),
-                Used::Held(u) => vec![u],
-            })
-            .collect();
-        let blocks = Blocks::new(&of, system.unknowns.len())
-            .ok_or("its equations do not match its unknowns: the sketch is singular")?;
-        let radii = problem.objects.iter().enumerate().map(|(o, object)| {
-            let entry = lowered.tail.objects[o].first();
-            match (&object.shape, entry) {
-                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => Some(system.auxiliary[k]),
-                _ => None,
-            }
-        });
-        let radii = radii.collect();
+        let figure = scaled.collect();
         let mut parts = Parts {
-            problem: problem.clone(),
+            senses: senses::senses(&problem),
+            followed: senses::followed(&problem),
+            problem,
             options: Options {
                 space: crate::track::Space::Full,
                 reverse: false,
                 max_steps: options.max_steps.min(MOST_TUBES),
                 ..options.clone()
             },
-            record: lowered.record.clone(),
-            powers: lowered.tail.equations.iter().map(|e| e.power).collect(),
+            record,
+            powers,
             given: Vec::new(),
             follows: Vec::new(),
             proved: Vec::new(),
             used,
-            redundant: choice.redundant,
-            free: choice.free,
-            is_exact: Vec::new(),
+            redundant,
+            free,
+            is_exact,
             together: Vec::new(),
-            owners: lowered.owners.clone(),
+            owners,
             radii,
-            senses: senses::senses(problem),
-            followed: senses::followed(problem),
-            figure: scaled.into_iter().map(Known::new).collect(),
+            figure,
             unit,
             moved: Moved::default(),
             ready: HashMap::new(),
@@ -222,26 +183,7 @@ impl Parts {
             system,
         };
         parts.drop_flat_triples();
-        parts.find_exact();
         parts.together = parts.bound_together();
-        let rights: Vec<Vec<Real>> = lowered
-            .tail
-            .equations
-            .into_iter()
-            .map(|e| e.right)
-            .collect();
-        for &index in &parts.system.implied {
-            if !rights[index]
-                .iter()
-                .fold(Real::zero(), |sum, c| &sum + c)
-                .is_zero()
-            {
-                return Err(format!(
-                    "{} contradicts the other constraints",
-                    parts.name(index)
-                ));
-            }
-        }
         parts.find_what_follows(&rights);
         Ok((parts, rights))
     }
@@ -312,23 +254,6 @@ impl Parts {
         let vectors = self.system.nonzero.iter();
         let vectors = vectors.map(|vector| self.unknowns_of_vector(vector));
         senses.chain(vectors).map(blocks).collect()
-    }
-
-    fn find_exact(&mut self) {
-        self.is_exact = vec![false; self.blocks.blocks.len()];
-        for b in 0..self.is_exact.len() {
-            let block = &self.blocks.blocks[b];
-            let known = block.needs.iter().all(|&need| self.is_exact[need]);
-            self.is_exact[b] = known
-                && block.unknowns.len() == 1
-                && match self.used[block.equations[0]] {
-                    Used::Held(_) => true,
-                    Used::Row(row) => self.system.rows[row]
-                        .products
-                        .iter()
-                        .all(|p| p.left == Form::One || p.right == Form::One),
-                };
-        }
     }
 
     pub fn problem(&self) -> &Problem {

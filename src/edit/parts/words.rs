@@ -1,7 +1,7 @@
 //! What people are told of a sketch and its parts, in its own names.
 
 use super::Parts;
-use crate::blocks::Block;
+use crate::blocks::{Block, free_names, name};
 use crate::constraint::KINDS;
 use crate::edit::session::Decomposition;
 use crate::problem::{Constraint, Item, Problem, Shape};
@@ -11,20 +11,7 @@ impl Parts {
     /// What stays put because nothing determines it, and what was left out because it follows from the rest at the
     /// figure: names.
     pub fn free(&self) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        for &u in &self.free {
-            let points = self.system.coordinates.iter().position(|&c| c == u);
-            let name = match points {
-                Some(place) => self.problem.points[place / self.problem.dimension]
-                    .name
-                    .clone(),
-                None => self.system.unknowns[u].name.clone(),
-            };
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names
+        free_names(&self.problem, &self.system, &self.free)
     }
 
     /// See [`Parts::free`]: those that seem to follow, and with `proved` those that are proved to.
@@ -131,18 +118,6 @@ impl Parts {
 
     /// What people call the source of one of the problem's equations.
     pub(super) fn name(&self, equation: usize) -> String {
-        let (objects, all) = (self.problem.objects.len(), self.problem.constraints.len());
-        let owner = self.owners[equation];
-        match owner.checked_sub(objects) {
-            None => format!("`{}`", self.problem.objects[owner].name),
-            Some(c) if c < all => {
-                let index = self.problem.distances.len() + c;
-                match self.problem.labels.get(&index) {
-                    Some(label) => format!("`{label}` ({})", self.problem.constraint_name(c)),
-                    None => format!("`{}`", self.problem.constraint_name(c)),
-                }
-            }
-            Some(c) => format!("`{}`", self.problem.dimension_name(c - all - 1)),
-        }
+        name(&self.problem, self.owners[equation])
     }
 }

@@ -1,0 +1,225 @@
+//! A sketch in its own frame: merged, made square, and cut into blocks.
+
+use super::follows::{Combination, Given, combination};
+use super::{Block, Blocks, Choice, System};
+use crate::constraint::{Entry, Form, Lowered, Owner, Record, try_lower_all};
+use crate::interval::Real;
+use crate::problem::{Decimal, Problem, Shape};
+use crate::system::typical_length;
+use std::collections::BTreeSet;
+
+/// An equation of the square system.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Used {
+    /// A row of the merged system, by position.
+    Row(usize),
+    /// An unknown stays what it is.
+    Held(usize),
+}
+
+/// A sketch in its own frame, and the blocks that it falls into. It need not have as many equations as unknowns: what
+/// nothing determines is held where it is drawn, what follows from other constraints at the figure is left out.
+#[derive(Debug)]
+pub(crate) struct Cut {
+    /// The problem, without a bend.
+    pub problem: Problem,
+    /// Its equations in unknowns of which no two are said to be equal.
+    pub system: System,
+    /// The equations of the square system.
+    pub used: Vec<Used>,
+    /// The rows that were left out, by position.
+    pub redundant: Vec<usize>,
+    /// The unknowns that are held.
+    pub free: Vec<usize>,
+    /// The blocks of the square system.
+    pub blocks: Blocks,
+    /// For each block whether it is one linear equation in numbers known exactly.
+    pub is_exact: Vec<bool>,
+    /// The right-hand sides of the problem's equations, from the sketch at t = 0 to the dimensions at t = 1.
+    pub rights: Vec<Vec<Real>>,
+    /// The power of the unit of length of each of the problem's equations.
+    pub powers: Vec<i32>,
+    /// For each object its radius, if it is a circle.
+    pub radii: Vec<Option<usize>>,
+    /// What edits of it begin with.
+    pub record: Record,
+    /// A power of two near the mean length.
+    pub unit: f64,
+    /// Whose equation each of the problem's is: objects, constraints, none, distances.
+    pub owners: Vec<usize>,
+}
+
+impl Cut {
+    /// Merges, chooses and cuts. The error says what is wrong with the sketch.
+    pub fn new(problem: &Problem) -> Result<Self, String> {
+        let mut problem = problem.clone();
+        problem.homotopy.bend_coefficient = Decimal::from(0);
+        problem.homotopy.detour = Decimal::from(0);
+        let lowered = try_lower_all(&problem, None).map_err(|(owner, fault)| match owner {
+            Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
+            Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
+        })?;
+        let owner_is_dimension = |owner: usize| {
+            let (objects, all) = (problem.objects.len(), problem.constraints.len());
+            match owner.checked_sub(objects) {
+                None => false,
+                Some(c) if c < all => problem.constraints[c].value.is_some(),
+                Some(c) => c > all,
+            }
+        };
+        let system = System::new(&problem, &lowered, |index| {
+            owner_is_dimension(lowered.owners[index])
+        });
+        let unit = typical_length(&problem);
+        let at = system.unknowns.iter().zip(&system.values);
+        let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
+        let at: Vec<f64> = at.collect();
+        let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
+        let choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
+        let held = choice.free.iter().map(|&u| Used::Held(u));
+        let used = choice.used.iter().map(|&r| Used::Row(r));
+        let used: Vec<Used> = used.chain(held).collect();
+        let of: Vec<Vec<usize>> = used
+            .iter()
+            .map(|used| match *used {
+                Used::Row(row) => system.rows[row].unknowns.clone(),
+                Used::Held(u) => vec![u],
+            })
+            .collect();
+        let blocks = Blocks::new(&of, system.unknowns.len())
+            .ok_or("its equations do not match its unknowns: the sketch is singular")?;
+        let Lowered {
+            tail,
+            owners,
+            record,
+            ..
+        } = lowered;
+        let radii = problem
+            .objects
+            .iter()
+            .zip(&tail.objects)
+            .map(|(object, of)| match (&object.shape, of.first()) {
+                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => Some(system.auxiliary[k]),
+                _ => None,
+            });
+        let radii = radii.collect();
+        let powers = tail.equations.iter().map(|e| e.power).collect();
+        let rights = tail.equations.into_iter().map(|e| e.right).collect();
+        let mut cut = Cut {
+            redundant: choice.redundant,
+            free: choice.free,
+            is_exact: Vec::new(),
+            problem,
+            system,
+            used,
+            blocks,
+            rights,
+            powers,
+            radii,
+            record,
+            unit,
+            owners,
+        };
+        cut.find_exact();
+        let implied = cut.system.implied.iter();
+        let mut contradicted = implied.filter(|&&index| !cut.at_target(index).is_zero());
+        if let Some(&index) = contradicted.next() {
+            return Err(format!(
+                "{} contradicts the other constraints",
+                cut.name(index)
+            ));
+        }
+        Ok(cut)
+    }
+
+    fn find_exact(&mut self) {
+        for block in &self.blocks.blocks {
+            let known = block.needs.iter().all(|&need| self.is_exact[need]);
+            let is_linear = || match self.used[block.equations[0]] {
+                Used::Held(_) => true,
+                Used::Row(row) => self.system.rows[row]
+                    .products
+                    .iter()
+                    .all(|p| p.left == Form::One || p.right == Form::One),
+            };
+            self.is_exact
+                .push(known && block.unknowns.len() == 1 && is_linear());
+        }
+    }
+
+    /// What the right-hand side of one of the problem's equations is to be.
+    pub fn at_target(&self, index: usize) -> Real {
+        let right = self.rights[index].iter();
+        right.fold(Real::zero(), |sum, c| &sum + c)
+    }
+
+    /// For each row that was left out whether it is proved to hold wherever the others do, at t = 1.
+    pub fn proved_redundant(&self) -> Vec<bool> {
+        if self.redundant.is_empty() {
+            return Vec::new();
+        }
+        let right_of = |used: &Used| match *used {
+            Used::Row(row) => self.at_target(self.system.rows[row].index),
+            Used::Held(u) => self.system.values[u].clone(),
+        };
+        let given = |used: &Used| match *used {
+            Used::Row(row) => Given::row(&self.system.rows[row], &[right_of(used)]),
+            Used::Held(u) => Given::held(u, &self.system.values[u]),
+        };
+        let given: Vec<Given> = self.used.iter().map(given).collect();
+        let rows = self.redundant.iter().map(|&row| &self.system.rows[row]);
+        rows.map(|row| {
+            let how: Option<Combination> = combination(row, &given);
+            how.is_some_and(|how| {
+                let of = |i: usize| vec![right_of(&self.used[i])];
+                how.holds(&[self.at_target(row.index)], of, |k| given[k].constant())
+            })
+        })
+        .collect()
+    }
+
+    /// The names of a block's unknowns.
+    pub fn unknowns_of(&self, block: &Block) -> Vec<String> {
+        let unknowns = block.unknowns.iter();
+        unknowns
+            .map(|&u| self.system.unknowns[u].name.clone())
+            .collect()
+    }
+
+    /// See [`name`].
+    pub fn name(&self, equation: usize) -> String {
+        name(&self.problem, self.owners[equation])
+    }
+}
+
+/// The names of points (or other unknowns) that are held, because nothing determines them wholly.
+pub(crate) fn free_names(problem: &Problem, system: &System, free: &[usize]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for &u in free {
+        let place = system.coordinates.iter().position(|&c| c == u);
+        let name = match place {
+            Some(place) => &problem.points[place / problem.dimension].name,
+            None => &system.unknowns[u].name,
+        };
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
+}
+
+/// What people call the owner of an equation, a count of objects, constraints, none, and distances.
+pub(crate) fn name(problem: &Problem, owner: usize) -> String {
+    let (objects, all) = (problem.objects.len(), problem.constraints.len());
+    match owner.checked_sub(objects) {
+        None => format!("`{}`", problem.objects[owner].name),
+        Some(c) if c < all => {
+            let index = problem.distances.len() + c;
+            match problem.labels.get(&index) {
+                Some(label) => format!("`{label}` ({})", problem.constraint_name(c)),
+                None => format!("`{}`", problem.constraint_name(c)),
+            }
+        }
+        Some(c) => format!("`{}`", problem.dimension_name(c - all - 1)),
+    }
+}

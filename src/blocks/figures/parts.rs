@@ -1,0 +1,158 @@
+//! Which blocks hang together, and what their figures have to meet beyond the blocks' equations.
+
+use super::LeftOut;
+use crate::blocks::cut::Cut;
+use crate::blocks::number::Number;
+use crate::constraint::{Entry, Form};
+
+/// Constraints that seem to follow from others may be missed by so much, relative to the sketch's unit: sketches that say
+/// a thing twice do so to the digits that they store.
+const MISSED: f64 = 1e-7;
+
+/// Blocks whose figures hang together, in order, with what is to be looked at once all of them are known.
+pub(super) struct Part {
+    pub blocks: Vec<usize>,
+    /// Of the rows that were left out, by place.
+    pub rows: Vec<usize>,
+    /// Vectors that must not vanish, by place.
+    pub vectors: Vec<usize>,
+}
+
+pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
+    let count = is_fixed.len();
+    // One more, for what is about fixed numbers alone.
+    let mut parent: Vec<usize> = (0..=count).collect();
+    fn root(parent: &[usize], mut x: usize) -> usize {
+        while parent[x] != x {
+            x = parent[x];
+        }
+        x
+    }
+    fn join(parent: &mut [usize], of: &[usize]) -> usize {
+        let Some(&first) = of.first() else {
+            return parent.len() - 1;
+        };
+        for &b in of {
+            let (a, b) = (root(parent, first), root(parent, b));
+            parent[a.max(b)] = a.min(b);
+        }
+        first
+    }
+    for b in (0..count).filter(|&b| !is_fixed[b]) {
+        let needs = cut.blocks.blocks[b].needs.iter().copied();
+        let mut of: Vec<usize> = needs.filter(|&need| !is_fixed[need]).collect();
+        of.push(b);
+        join(&mut parent, &of);
+    }
+    let blocks_of = |unknowns: &[usize]| -> Vec<usize> {
+        let of = unknowns.iter().map(|&u| cut.blocks.of_unknown[u]);
+        of.filter(|&b| !is_fixed[b]).collect()
+    };
+    let rows = cut.redundant.iter();
+    let rows: Vec<usize> = rows
+        .map(|&row| join(&mut parent, &blocks_of(&cut.system.rows[row].unknowns)))
+        .collect();
+    let vectors = 0..cut.system.nonzero.len();
+    let vectors: Vec<usize> = vectors
+        .map(|v| join(&mut parent, &blocks_of(&unknowns_of_vector(cut, v))))
+        .collect();
+    let mut parts: Vec<(usize, Part)> = Vec::new();
+    let mut part_of = |b: usize| -> usize {
+        let root = root(&parent, b);
+        let place = parts.iter().position(|(r, _)| *r == root);
+        place.unwrap_or_else(|| {
+            parts.push((
+                root,
+                Part {
+                    blocks: Vec::new(),
+                    rows: Vec::new(),
+                    vectors: Vec::new(),
+                },
+            ));
+            parts.len() - 1
+        })
+    };
+    let of_blocks: Vec<(usize, usize)> = (0..count)
+        .filter(|&b| !is_fixed[b])
+        .map(|b| (b, part_of(b)))
+        .collect();
+    let of_rows: Vec<usize> = rows.into_iter().map(&mut part_of).collect();
+    let of_vectors: Vec<usize> = vectors.into_iter().map(&mut part_of).collect();
+    for (b, part) in of_blocks {
+        parts[part].1.blocks.push(b);
+    }
+    for (k, part) in of_rows.into_iter().enumerate() {
+        parts[part].1.rows.push(k);
+    }
+    for (v, part) in of_vectors.into_iter().enumerate() {
+        parts[part].1.vectors.push(v);
+    }
+    parts.into_iter().map(|(_, part)| part).collect()
+}
+
+fn unknowns_of_vector(cut: &Cut, vector: usize) -> Vec<usize> {
+    let forms = cut.system.nonzero[vector].forms[..cut.problem.dimension].iter();
+    let entries = forms.flat_map(|form| match *form {
+        Form::One => [Entry::Zero; 2],
+        Form::Difference(a, b) => [a, b],
+    });
+    entries
+        .filter_map(|entry| match entry {
+            Entry::Unknown(u) => Some(u),
+            _ => None,
+        })
+        .collect()
+}
+
+fn side(form: Form, values: &[Option<Number>]) -> Number {
+    let Form::Difference(a, b) = form else {
+        return Number::halves(2);
+    };
+    let value = |entry: Entry| match entry {
+        Entry::Unknown(u) => values[u].clone().expect("all numbers are known"),
+        _ => Number::halves(0),
+    };
+    match a == b {
+        true => Number::halves(0),
+        false => value(a).minus(&value(b)),
+    }
+}
+
+/// Whether a vector that must not vanish does so in a figure; `None` if that is not certain.
+pub(super) fn vanishes(cut: &Cut, vector: usize, values: &[Option<Number>]) -> Option<bool> {
+    let forms = cut.system.nonzero[vector].forms[..cut.problem.dimension].iter();
+    let signs = forms.map(|&form| side(form, values).sign());
+    let signs: Vec<Option<i8>> = signs.collect();
+    if signs.iter().any(|sign| matches!(sign, Some(1 | -1))) {
+        return Some(false);
+    }
+    signs.iter().all(Option::is_some).then_some(true)
+}
+
+/// Whether a figure meets a constraint that was left out, as nearly as sketches do that say a thing twice.
+pub(super) fn is_met(
+    cut: &Cut,
+    k: usize,
+    values: &[Option<Number>],
+    account: &mut LeftOut,
+) -> bool {
+    if account.follows {
+        return true;
+    }
+    let row = &cut.system.rows[cut.redundant[k]];
+    let right = Number::of(&cut.at_target(row.index));
+    let off = row
+        .products
+        .iter()
+        .fold(Number::halves(0).minus(&right), |sum, p| {
+            let product = side(p.left, values).times(&side(p.right, values));
+            sum.plus(&Number::halves(p.factor.into()).times(&product))
+        });
+    let scale = cut.unit.powi(cut.powers[row.index]);
+    let is_met = off.enclosure().mig() <= MISSED * scale;
+    match is_met {
+        true => account.missed = account.missed.max(off.enclosure().mag()),
+        false => account.refused += 1,
+    }
+    is_met
+}

@@ -1,0 +1,123 @@
+//! The equations of one block, all other numbers being known.
+
+use super::number::Number;
+use super::{Row, unknowns_of};
+use crate::constraint::{Entry, Form};
+use crate::interval::{Interval, point};
+use std::collections::BTreeMap;
+
+/// `Σ Q_ij x_i x_j / 2 + Σ b_i x_i + c = 0`.
+#[derive(Debug, Clone)]
+pub struct Local {
+    /// Q_ij with i ≤ j, whole numbers that are not zero.
+    pub quadratic: BTreeMap<(usize, usize), i64>,
+    /// b, one for each unknown.
+    pub linear: Vec<Number>,
+    /// c.
+    pub constant: Number,
+}
+
+/// A factor of a product: multiples of unknowns, and a number.
+struct Side {
+    unknowns: Vec<(usize, i64)>,
+    constant: Number,
+}
+
+impl Local {
+    /// A row as an equation of some unknowns, with the values of all others, and what it is to be.
+    pub fn new(row: &Row, own: &[usize], value: impl Fn(usize) -> Number, right: &Number) -> Self {
+        let side = |form: Form| -> Side {
+            let mut side = Side {
+                unknowns: Vec::new(),
+                constant: Number::halves(0),
+            };
+            let Form::Difference(a, b) = form else {
+                side.constant = Number::halves(2);
+                return side;
+            };
+            for (entry, sign) in [(a, 1), (b, -1)] {
+                let Entry::Unknown(u) = entry else { continue };
+                match own.iter().position(|&o| o == u) {
+                    Some(k) => side.unknowns.push((k, sign)),
+                    None if sign > 0 => side.constant = side.constant.plus(&value(u)),
+                    None => side.constant = side.constant.minus(&value(u)),
+                }
+            }
+            side
+        };
+        let mut out = Local {
+            quadratic: BTreeMap::new(),
+            linear: vec![Number::halves(0); own.len()],
+            constant: Number::halves(0).minus(right),
+        };
+        for p in &row.products {
+            let (left, right) = (side(p.left), side(p.right));
+            let half = Number::halves(p.factor.into());
+            for &(i, f) in &left.unknowns {
+                for &(j, g) in &right.unknowns {
+                    *out.quadratic.entry((i.min(j), i.max(j))).or_default() +=
+                        i64::from(p.factor) * f * g;
+                }
+            }
+            for (one, other) in [(&left, &right), (&right, &left)] {
+                for &(i, f) in &one.unknowns {
+                    let by = Number::halves(i64::from(p.factor) * f);
+                    out.linear[i] = out.linear[i].plus(&by.times(&other.constant));
+                }
+            }
+            let constant = half.times(&left.constant).times(&right.constant);
+            out.constant = out.constant.plus(&constant);
+        }
+        out.quadratic.retain(|_, factor| *factor != 0);
+        out
+    }
+
+    /// Q_ij.
+    pub fn q(&self, i: usize, j: usize) -> i64 {
+        let key = (i.min(j), i.max(j));
+        self.quadratic.get(&key).copied().unwrap_or(0)
+    }
+
+    /// The left-hand side on a box.
+    pub fn value(&self, at: &[Interval]) -> Interval {
+        let linear = self.linear.iter().zip(at);
+        let sum = linear.fold(self.constant.enclosure(), |sum, (b, x)| {
+            sum + b.enclosure() * *x
+        });
+        self.quadratic.iter().fold(sum, |sum, (&(i, j), &q)| {
+            let square = if i == j { at[i].sqr() } else { at[i] * at[j] };
+            sum + point(0.5 * q as f64) * square
+        })
+    }
+
+    /// Its derivatives on a box.
+    pub fn gradient(&self, at: &[Interval]) -> Vec<Interval> {
+        let mut out: Vec<Interval> = self.linear.iter().map(Number::enclosure).collect();
+        for (&(i, j), &q) in &self.quadratic {
+            let half = point(0.5 * q as f64);
+            out[i] += half * at[j];
+            out[j] += half * at[i];
+        }
+        out
+    }
+}
+
+/// Whether a row is the square of one difference: of an unknown and a number, once all others are known.
+pub fn is_square(row: &Row) -> bool {
+    let [single] = row.products.as_slice() else {
+        return false;
+    };
+    single.left == single.right && single.left != Form::One
+}
+
+/// Whether a row says that a sum of squares with unknowns of a block, less squares without, is a number: a distance, or a
+/// point on a circle.
+pub fn is_length(row: &Row, own: &[usize]) -> bool {
+    let mut has_own = false;
+    let fits = row.products.iter().all(|p| {
+        let is_own = unknowns_of(p).any(|u| own.contains(&u));
+        has_own |= is_own;
+        p.left == p.right && p.left != Form::One && (p.factor > 0 || !is_own)
+    });
+    fits && has_own
+}

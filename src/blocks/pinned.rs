@@ -1,0 +1,51 @@
+//! A figure up to motions, held in the frame of its sketch.
+
+use crate::constraint::KINDS;
+use crate::problem::{Constraint, Decimal, Item, Problem};
+
+/// The problem with its reference held, so that its equations can be cut into blocks as those of a problem in its own frame
+/// are: the first point where the sketch has it, of the next one all coordinates but that in which they differ most, of the
+/// third (in space) the one that leaves the plane of all three most. `None`: it is in its own frame already.
+pub fn pinned(problem: &Problem) -> Option<Problem> {
+    let reference = &problem.homotopy.reference;
+    let &first = reference.first()?;
+    let d = problem.dimension;
+    let place = |p: usize| problem.points[p].sketch.each_ref().map(Decimal::to_f64);
+    let from_first = |p: usize| -> [f64; 3] {
+        let (a, b) = (place(first), place(p));
+        std::array::from_fn(|k| b[k] - a[k])
+    };
+    let largest = |v: [f64; 3]| (0..d).max_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs()));
+    let mut out = problem.clone();
+    let mut hold = |kind: &str, point: usize, value: Option<Decimal>| {
+        out.constraints.push(Constraint {
+            kind: kind.to_owned(),
+            items: vec![Item::Point(point)],
+            value,
+        });
+    };
+    hold("fixed", first, None);
+    let mut hold_axis = |point: usize, axis: usize| {
+        let at = problem.points[point].sketch[axis].clone();
+        hold(["x", "y", "z"][axis], point, Some(at));
+    };
+    if let Some(&second) = reference.get(1) {
+        let along = largest(from_first(second))?;
+        (0..d)
+            .filter(|&axis| axis != along)
+            .for_each(|axis| hold_axis(second, axis));
+        if let Some(&third) = reference.get(2) {
+            let (u, v) = (from_first(second), from_first(third));
+            let normal = std::array::from_fn(|k| {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                u[i] * v[j] - u[j] * v[i]
+            });
+            hold_axis(third, largest(normal)?);
+        }
+    }
+    let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
+    out.constraints.sort_by_key(|c| order(&c.kind));
+    out.labels.clear();
+    out.homotopy.reference.clear();
+    Some(out)
+}

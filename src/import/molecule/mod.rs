@@ -1,0 +1,586 @@
+//! Molecules: XYZ (`.xyz`) and MDL's molfiles (`.mol`, `.sdf`, version V2000).
+//!
+//! Atoms are points, and what is known of their distances from bonds, bond angles and rings are distances: of atoms that
+//! are bonded (1-2), that are bonded to the same one (1-3), and at the ends of three bonds of rings in a row (1-4), as the
+//! file has them, rounded to six digits behind the point. Of these, in this order, those are taken that do not follow
+//! from the ones before by rigidity; where that is not enough to hold the molecule, distances further along its bonds
+//! come after them. So the problem has as many distances as free coordinates, and its figures are conformers.
+//!
+//! Where the molecule has straight or flat parts (nitriles, alkynes, aromatic rings), distances do not hold it: bonds that go
+//! straight on are `collinear` then, and atoms in one plane `coplanar` ([`hold`]).
+//!
+//! Files in XYZ have no bonds: atoms are taken for bonded that are not further apart than their covalent radii (Cordero
+//! and others, Dalton Transactions 2008) and 0.45 Å, as Open Babel does.
+
+mod hold;
+
+use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
+use crate::problem::{Decimal, Problem};
+use hold::{Held, hold};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// More atoms are not read: the choice of distances takes time like the fourth power of their number.
+const MOST_ATOMS: usize = 150;
+
+/// Coordinates are no larger than this, in ångström.
+const LARGEST: f64 = 1e6;
+
+/// Where the coordinates stand.
+#[derive(Debug, Clone)]
+pub struct Places {
+    format: Format,
+    /// The line of each atom.
+    lines: Vec<usize>,
+}
+
+/// A molecule as it is read.
+struct Molecule<'a> {
+    name: String,
+    atoms: Vec<(&'a str, [&'a str; 3], usize)>,
+    bonds: Option<Vec<[usize; 2]>>,
+}
+
+/// The text of a file. Comments that are no UTF-8 are taken for Latin-1; so the second is whether they were.
+fn text(bytes: &[u8]) -> (Cow<'_, str>, bool) {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => (Cow::Borrowed(text), false),
+        Err(_) => (bytes.iter().map(|&b| char::from(b)).collect(), true),
+    }
+}
+
+fn molecules(text: &str, format: Format) -> Result<Vec<Molecule<'_>>, String> {
+    if text.contains('\0') {
+        return Err("is no text".to_owned());
+    }
+    let text = text.trim_start_matches('\u{feff}');
+    let lines: Vec<&str> = text
+        .split('\n')
+        .map(|line| line.trim_end_matches('\r'))
+        .collect();
+    let mut all = match format {
+        Format::Xyz => xyz(&lines)?,
+        _ => molfiles(&lines)?,
+    };
+    let names: Vec<String> = all.iter().map(|m| m.name.clone()).collect();
+    for (k, molecule) in all.iter_mut().enumerate() {
+        if names.iter().filter(|name| **name == molecule.name).count() > 1 {
+            molecule.name = format!("{}#{}", molecule.name, k + 1);
+        }
+    }
+    Ok(all)
+}
+
+fn xyz<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
+    let mut all = Vec::new();
+    let mut at = 0;
+    while at < lines.len() {
+        if lines[at].trim().is_empty() {
+            at += 1;
+            continue;
+        }
+        let count = lines[at].split_whitespace().next();
+        let count: usize = count
+            .and_then(|count| count.parse().ok())
+            .ok_or_else(|| format!("line {}: there is no number of atoms", at + 1))?;
+        let name = lines.get(at + 1).map_or("", |line| line.trim());
+        let mut atoms = Vec::new();
+        for line in at + 2..at.saturating_add(2).saturating_add(count) {
+            let mut fields = lines.get(line).map_or("", |line| *line).split_whitespace();
+            let mut field = || fields.next();
+            match (field(), field(), field(), field()) {
+                (Some(element), Some(x), Some(y), Some(z)) => {
+                    atoms.push((element, [x, y, z], line));
+                }
+                _ => {
+                    return Err(format!(
+                        "line {}: an atom is missing, or its coordinates",
+                        line + 1
+                    ));
+                }
+            }
+        }
+        at += 2 + count;
+        all.push(Molecule {
+            name: if name.is_empty() { "molecule" } else { name }.to_owned(),
+            atoms,
+            bonds: None,
+        });
+    }
+    Ok(all)
+}
+
+fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
+    let mut all = Vec::new();
+    let mut begin = 0;
+    while begin < lines.len() {
+        let end = lines[begin..]
+            .iter()
+            .position(|line| line.starts_with("$$$$"));
+        let end = end.map_or(lines.len(), |k| begin + k);
+        if lines[begin..end].iter().all(|line| line.trim().is_empty()) {
+            begin = end + 1;
+            continue;
+        }
+        let counts = lines[begin..end].get(3).copied().unwrap_or("");
+        // In columns of three characters, or with blanks between where that is not so.
+        let pair = |text: &str| -> Option<[usize; 2]> {
+            let column = |from: usize| text.get(from..from + 3)?.trim().parse().ok();
+            let mut fields = text.split_whitespace();
+            let mut field = || fields.next()?.parse().ok();
+            match (column(0), column(3)) {
+                (Some(a), Some(b)) => Some([a, b]),
+                _ => Some([field()?, field()?]),
+            }
+        };
+        let here = format!("line {}", begin + 4);
+        if counts.contains("V3000") {
+            return Err(format!(
+                "{here}: version V3000 of molfiles is not read, V2000 is"
+            ));
+        }
+        let Some([atoms, bonds]) = pair(counts) else {
+            return Err(format!("{here}: there are no numbers of atoms and bonds"));
+        };
+        let line = |k: usize| {
+            (
+                begin + 4 + k,
+                lines[begin..end].get(4 + k).copied().unwrap_or(""),
+            )
+        };
+        let mut out = Molecule {
+            name: lines[begin].trim().to_owned(),
+            atoms: Vec::new(),
+            bonds: Some(Vec::new()),
+        };
+        if out.name.is_empty() {
+            out.name = "molecule".to_owned();
+        }
+        for k in 0..atoms {
+            let (at, text) = line(k);
+            match in_columns(text).or_else(|| with_blanks(text)) {
+                Some((element, coordinates)) => out.atoms.push((element, coordinates, at)),
+                None => {
+                    return Err(format!(
+                        "line {}: an atom is missing, or its coordinates",
+                        at + 1
+                    ));
+                }
+            }
+        }
+        for k in 0..bonds {
+            let (at, text) = line(atoms + k);
+            match pair(text) {
+                Some([a, b]) if (1..=atoms).contains(&a) && (1..=atoms).contains(&b) && a != b => {
+                    out.bonds.get_or_insert_default().push([a - 1, b - 1]);
+                }
+                _ => {
+                    return Err(format!(
+                        "line {}: a bond between two atoms is missing",
+                        at + 1
+                    ));
+                }
+            }
+        }
+        all.push(out);
+        begin = end + 1;
+    }
+    Ok(all)
+}
+
+/// An atom's element and coordinates in the columns of a molfile.
+fn in_columns(line: &str) -> Option<(&str, [&str; 3])> {
+    let field = |from: usize| line.get(from..from + 10).map(str::trim);
+    let coordinates = [field(0)?, field(10)?, field(20)?];
+    let element = line.get(31..)?.split_whitespace().next()?;
+    let are_numbers = coordinates.iter().all(|text| number(text).is_some());
+    are_numbers.then_some((element, coordinates))
+}
+
+/// The same with blanks between, as some programs write them.
+fn with_blanks(line: &str) -> Option<(&str, [&str; 3])> {
+    let mut fields = line.split_whitespace();
+    let coordinates = [fields.next()?, fields.next()?, fields.next()?];
+    let are_numbers = coordinates.iter().all(|text| number(text).is_some());
+    are_numbers.then_some((fields.next()?, coordinates))
+}
+
+/// A coordinate, also with the exponents of Fortran (`1.2D-05`) and Mathematica (`1.2*^-5`).
+fn number(text: &str) -> Option<f64> {
+    let plain = text.replace("*^", "e").replace(['D', 'd'], "e");
+    let is_plain = plain
+        .bytes()
+        .all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+    plain
+        .parse()
+        .ok()
+        .filter(|x: &f64| is_plain && x.is_finite())
+}
+
+pub fn list(bytes: &[u8], format: Format) -> Result<Vec<Listed>, String> {
+    let (text, _) = text(bytes);
+    let listed = molecules(&text, format)?
+        .into_iter()
+        .map(|molecule| Listed {
+            drawn: molecule.atoms.len(),
+            constraints: molecule.bonds.map_or(0, |bonds| bonds.len()),
+            name: molecule.name,
+        });
+    Ok(listed.collect())
+}
+
+/// Covalent radii in ångström, by atomic number less one (of Mn, Fe, Co those of low spin); 0 where none is listed.
+const RADII: [(&str, f64); 54] = [
+    ("H", 0.31),
+    ("He", 0.28),
+    ("Li", 1.28),
+    ("Be", 0.96),
+    ("B", 0.84),
+    ("C", 0.76),
+    ("N", 0.71),
+    ("O", 0.66),
+    ("F", 0.57),
+    ("Ne", 0.58),
+    ("Na", 1.66),
+    ("Mg", 1.41),
+    ("Al", 1.21),
+    ("Si", 1.11),
+    ("P", 1.07),
+    ("S", 1.05),
+    ("Cl", 1.02),
+    ("Ar", 1.06),
+    ("K", 2.03),
+    ("Ca", 1.76),
+    ("Sc", 1.70),
+    ("Ti", 1.60),
+    ("V", 1.53),
+    ("Cr", 1.39),
+    ("Mn", 1.39),
+    ("Fe", 1.32),
+    ("Co", 1.26),
+    ("Ni", 1.24),
+    ("Cu", 1.32),
+    ("Zn", 1.22),
+    ("Ga", 1.22),
+    ("Ge", 1.20),
+    ("As", 1.19),
+    ("Se", 1.20),
+    ("Br", 1.20),
+    ("Kr", 1.16),
+    ("Rb", 2.20),
+    ("Sr", 1.95),
+    ("Y", 1.90),
+    ("Zr", 1.75),
+    ("Nb", 1.64),
+    ("Mo", 1.54),
+    ("Tc", 1.47),
+    ("Ru", 1.46),
+    ("Rh", 1.42),
+    ("Pd", 1.39),
+    ("Ag", 1.45),
+    ("Cd", 1.44),
+    ("In", 1.42),
+    ("Sn", 1.39),
+    ("Sb", 1.39),
+    ("Te", 1.38),
+    ("I", 1.39),
+    ("Xe", 1.40),
+];
+
+/// The element that a file means: by its symbol, in letters of either case and with a number behind it (`CL`, `C12`), or
+/// by its atomic number.
+fn element(text: &str) -> &str {
+    if let Ok(number) = text.parse::<usize>() {
+        let known = number.checked_sub(1).and_then(|k| RADII.get(k));
+        return known.map_or(text, |(symbol, _)| symbol);
+    }
+    let letters = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    if letters.eq_ignore_ascii_case("D") || letters.eq_ignore_ascii_case("T") {
+        return "H";
+    }
+    let mut all = RADII.iter();
+    all.find(|(symbol, _)| symbol.eq_ignore_ascii_case(letters))
+        .map_or(text, |(symbol, _)| symbol)
+}
+
+/// Its covalent radius.
+fn radius(symbol: &str) -> Option<f64> {
+    let mut all = RADII.iter();
+    all.find(|(known, _)| *known == symbol)
+        .map(|(_, radius)| *radius)
+}
+
+pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, String> {
+    let (text, _) = text(bytes);
+    let molecule = molecules(&text, format)?.swap_remove(index);
+    let n = molecule.atoms.len();
+    if !(3..=MOST_ATOMS).contains(&n) {
+        return Err(format!(
+            "{} has {n} atoms; 3 to {MOST_ATOMS} are read",
+            molecule.name
+        ));
+    }
+    let mut places = Vec::with_capacity(n);
+    for (_, coordinates, line) in &molecule.atoms {
+        let mut place = [0.0f64; 3];
+        for (out, text) in place.iter_mut().zip(coordinates) {
+            *out = number(text)
+                .filter(|x| x.abs() <= LARGEST)
+                .ok_or_else(|| format!("line {}: `{text}` is no coordinate", line + 1))?;
+        }
+        places.push(place);
+    }
+    let apart = |a: usize, b: usize| -> f64 {
+        let square: f64 = (0..3).map(|k| (places[a][k] - places[b][k]).powi(2)).sum();
+        square.sqrt()
+    };
+    let bonds = match molecule.bonds {
+        Some(bonds) => bonds,
+        None => {
+            let mut radii = Vec::with_capacity(n);
+            for (atom, _, line) in &molecule.atoms {
+                let radius = radius(element(atom));
+                radii.push(radius.ok_or_else(|| {
+                    format!(
+                        "line {}: no covalent radius of `{atom}` is known, so bonds cannot be told",
+                        line + 1
+                    )
+                })?);
+            }
+            let pairs = (0..n).flat_map(|b| (0..b).map(move |a| [a, b]));
+            pairs
+                .filter(|&[a, b]| apart(a, b) <= radii[a] + radii[b] + 0.45)
+                .collect()
+        }
+    };
+    if let Some((a, b)) = (0..n)
+        .flat_map(|b| (0..b).map(move |a| (a, b)))
+        .find(|&(a, b)| apart(a, b) < 1e-3)
+    {
+        return Err(format!("atoms {} and {} are in one place", a + 1, b + 1));
+    }
+    let held = hold(&places, &bonds).ok_or_else(|| {
+        format!(
+            "{} cannot be held by distances: are all its atoms on one line?",
+            molecule.name
+        )
+    })?;
+    let names: Vec<String> = (0..n)
+        .map(|k| format!("{}{}", element(molecule.atoms[k].0), k + 1))
+        .collect();
+    let mut builder = Problem::build(&molecule.name, 3).source("a molecule");
+    for (name, place) in names.iter().zip(&places) {
+        let coordinates =
+            place.map(|x| super::drawing::decimal(x).unwrap_or_else(|| Decimal::from(0)));
+        builder = builder.point(name, coordinates);
+    }
+    for one in held {
+        let of =
+            |points: &[usize]| -> Vec<&str> { points.iter().map(|&p| names[p].as_str()).collect() };
+        builder = match one {
+            Held::Distance([a, b]) => {
+                let length = format!("{:.6}", apart(a, b));
+                builder.distance(&names[a], &names[b], length.as_str())
+            }
+            Held::Straight(points) => builder.constraint("collinear", of(&points)),
+            Held::Flat(points) => builder.constraint("coplanar", of(&points)),
+        };
+    }
+    let problem = builder.finish().map_err(|error| error.to_string())?;
+    Ok(Imported {
+        problem,
+        unsupported: BTreeMap::new(),
+        places: AllPlaces::Molecule(Places {
+            format,
+            lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
+        }),
+    })
+}
+
+/// The file with new coordinates, all other characters as they were.
+pub fn rewrite(places: &Places, bytes: &[u8], figure: &Figure) -> Result<Vec<u8>, String> {
+    let (text, is_latin) = text(bytes);
+    let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
+    for (&line, place) in places.lines.iter().zip(figure.points) {
+        let old = lines
+            .get_mut(line)
+            .ok_or("an atom is missing: this is another file")?;
+        *old = match places.format {
+            Format::Xyz => with_fields(old, 1, place, 10),
+            _ if in_columns(old).is_some() => {
+                // Without a sign of zero.
+                let [x, y, z] =
+                    place.map(|x| format!("{:10.4}", x + 0.0).replace("-0.0000", " 0.0000"));
+                if [&x, &y, &z].iter().any(|text| text.len() > 10) {
+                    return Err(format!(
+                        "line {}: a coordinate is too large for the columns of a molfile",
+                        line + 1
+                    ));
+                }
+                format!("{x}{y}{z}{}", old.get(30..).unwrap_or(""))
+            }
+            _ => with_fields(old, 0, place, 4),
+        };
+    }
+    let text = lines.join("\n");
+    Ok(match is_latin {
+        // Every character was a byte.
+        true => text.chars().map(|c| c as u8).collect(),
+        false => text.into_bytes(),
+    })
+}
+
+/// A line whose fields from the given one on are coordinates, with new ones: blanks and all other fields stay, but for
+/// those in front of a number that takes more or less room, so that columns stay in line.
+fn with_fields(line: &str, first: usize, place: &[f64; 3], digits: usize) -> String {
+    let mut out = String::new();
+    let mut rest = line;
+    let mut field = 0usize;
+    while let Some(begin) = rest.find(|c: char| !c.is_whitespace()) {
+        let (blanks, from) = rest.split_at(begin);
+        let end = from.find(char::is_whitespace).unwrap_or(from.len());
+        let (old, after) = from.split_at(end);
+        match field.checked_sub(first).and_then(|axis| place.get(axis)) {
+            // What has not moved stays as it is written.
+            Some(&x) if number(old) != Some(x) => {
+                let new = format!("{:.digits$}", x + 0.0);
+                let room = blanks.chars().count() + old.chars().count();
+                let least = usize::from(!blanks.is_empty());
+                let room = room.saturating_sub(new.len()).max(least);
+                match blanks.contains('\t') {
+                    true => out += blanks,
+                    false => out.extend(std::iter::repeat_n(' ', room)),
+                }
+                out += &new;
+            }
+            _ => {
+                out += blanks;
+                out += old;
+            }
+        }
+        field += 1;
+        rest = after;
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CHAIR: &str = "6\ncyclohexane, carbon only\nC 1.45 0.0 0.25\nC 0.73 1.26 -0.25\nC -0.73 1.26 0.25\n\
+                         C -1.45 0.0 -0.25\nC -0.73 -1.26 0.25\nC 0.73 -1.26 -0.25\n";
+
+    #[test]
+    fn a_ring_is_held_by_its_bonds_angles_and_torsions() {
+        let ring = read(CHAIR.as_bytes(), Format::Xyz, 0).unwrap();
+        // 6 bonds and 6 angles are just enough.
+        assert_eq!(ring.problem.distances.len(), 12);
+        assert_eq!(ring.problem.distance_name(0).len(), "C1-C2".len());
+        let mut places: Vec<[f64; 3]> = vec![[0.0; 3]; 6];
+        places[2] = [1.0, 2.0, 3.0];
+        let figure = Figure {
+            points: &places,
+            radii: &[],
+        };
+        let AllPlaces::Molecule(of) = &ring.places else {
+            panic!()
+        };
+        let out = String::from_utf8(rewrite(of, CHAIR.as_bytes(), &figure).unwrap()).unwrap();
+        assert!(
+            out.contains("\nC 1.0000000000 2.0000000000 3.0000000000\n"),
+            "{out}"
+        );
+    }
+
+    /// Benzene and propyne: distances alone do not hold what is flat or straight.
+    #[test]
+    fn flat_and_straight_parts_are_said_to_be_so() {
+        let mut flat = "12\nbenzene\n".to_owned();
+        for (element, radius) in [("C", 1.39f64), ("H", 2.48)] {
+            for k in 0..6 {
+                let angle = f64::from(k) * std::f64::consts::FRAC_PI_3;
+                let (x, y) = (radius * angle.cos(), radius * angle.sin());
+                flat += &format!("{element} {x:.6} {y:.6} 0\n");
+            }
+        }
+        let ring = read(flat.as_bytes(), Format::Xyz, 0).unwrap().problem;
+        let kinds = |problem: &Problem, kind: &str| {
+            let all = problem.constraints.iter();
+            all.filter(|c| c.kind == kind).count()
+        };
+        // 2 n − 3 in the plane, n − 3 out of it.
+        assert_eq!(ring.distances.len(), 21);
+        assert_eq!(kinds(&ring, "coplanar"), 9);
+        let straight = "7\npropyne\nC 0 0 0\nC 1.46 0 0\nC 2.67 0 0\nH 3.73 0 0\nH -0.37 1.02 0.1\n\
+                        H -0.37 -0.6 0.83\nH -0.37 -0.42 -0.93\n";
+        let chain = read(straight.as_bytes(), Format::Xyz, 0).unwrap().problem;
+        assert_eq!(kinds(&chain, "collinear"), 2);
+        assert_eq!(chain.distances.len(), 3 * 7 - 6 - 4);
+    }
+
+    #[test]
+    fn files_as_they_are_found() {
+        let ammonia = "4\nammonia, \u{e5}ngstr\u{f6}m\n7\t0 0 1.0D-01\nH1 0.94 0 -2.8*^-1\nh -0.47 0.81 -0.28\nH -0.47 -0.81 -0.28";
+        let latin: Vec<u8> = ammonia.chars().map(|c| c as u8).collect();
+        let read_it = |bytes: &[u8]| read(bytes, Format::Xyz, 0).unwrap();
+        let found = read_it(&latin);
+        assert_eq!(found.problem.points[0].name, "N1");
+        assert_eq!(found.problem.distances.len(), 6);
+        let AllPlaces::Molecule(of) = &found.places else {
+            panic!()
+        };
+        let old = [
+            [0.0, 0.0, 0.1],
+            [0.94, 0.0, -0.28],
+            [-0.47, 0.81, -0.28],
+            [-0.47, -0.81, -0.28],
+        ];
+        let figure = |points| Figure { points, radii: &[] };
+        // What does not move is given back as it was.
+        assert_eq!(rewrite(of, &latin, &figure(&old)).unwrap(), latin);
+        let mut new = old;
+        new[1][0] = 1.0;
+        let out = rewrite(of, &latin, &figure(&new)).unwrap();
+        let text: String = out.iter().map(|&b| char::from(b)).collect();
+        assert!(text.contains("\nH1 1.0000000000 0 -2.8*^-1\n"), "{text}");
+        let marked = [b"\xef\xbb\xbf", CHAIR.as_bytes()].concat();
+        assert_eq!(read_it(&marked).problem.distances.len(), 12);
+        // A molfile without columns and without an end.
+        let loose = "x\n\n\n 4 3 0 V2000\n 0 0 0.1 N\n0.94 0 -0.28 H\n-0.47 0.81 -0.28 H\n-0.47 -0.81 -0.28 H\n\
+                     1 2 1\n1 3 1\n1 4 1\n";
+        let found = read(loose.as_bytes(), Format::Sdf, 0).unwrap();
+        assert_eq!(found.problem.distances.len(), 6);
+        for bad in [
+            "3\n\nC nan 0 0\nC 1 0 0\nC 0 1 0",
+            "3\n\nC inf 0 0\nC 1 0 0\nC 0 1 0",
+            "3\n\nC 0 0 0\nC 0 0 0\nC 0 1 0",
+            "99999999999\n\nC",
+        ] {
+            assert!(read(bad.as_bytes(), Format::Xyz, 0).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_molfile_has_bonds_of_its_own() {
+        let mut text = "ring\n  x\n\n  6  6  0  0  0  0  0  0  0  0999 V2000\n".to_owned();
+        for line in CHAIR.lines().skip(2) {
+            let x: Vec<f64> = line
+                .split(' ')
+                .skip(1)
+                .map(|x| x.parse().unwrap())
+                .collect();
+            text += &format!("{:10.4}{:10.4}{:10.4} C   0  0\n", x[0], x[1], x[2]);
+        }
+        for k in 0..6 {
+            text += &format!("{:3}{:3}  1  0\n", k + 1, (k + 1) % 6 + 1);
+        }
+        text += "M  END\n$$$$\n";
+        let listed = list(text.as_bytes(), Format::Sdf).unwrap();
+        assert_eq!((listed[0].drawn, listed[0].constraints), (6, 6));
+        let ring = read(text.as_bytes(), Format::Sdf, 0).unwrap();
+        assert_eq!(ring.problem.name, "ring");
+        assert_eq!(ring.problem.distances.len(), 12);
+        assert!(read(b"x\n\n\nnothing", Format::Sdf, 0).is_err());
+    }
+}

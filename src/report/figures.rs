@@ -1,0 +1,310 @@
+//! The figures of a sketch in its own frame, as its blocks give them.
+
+use super::digits::certain_digits;
+use super::edit::{bounds, points_to_value, write_points};
+use super::json::JSON_VERSION;
+use crate::blocks::{BlockAccount, Chosen, Figures, Way};
+use crate::interval::Interval;
+use crate::problem::Shape;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// Figures that are listed in a table: as long as they fit in so many lines.
+const LINES: usize = 60;
+/// Names that are listed before "and n more".
+const LISTED: usize = 8;
+/// Figures that are listed in JSON where not all are asked for.
+const IN_JSON: u64 = 100;
+/// And where they are.
+const MOST: u64 = 1_000_000;
+
+/// What is proved of the figures of a sketch, in a sentence or two.
+pub fn figures_in_words(figures: &Figures) -> String {
+    let doubt = figures.doubt();
+    let number = match figures.count() {
+        Some(0) => return none_in_words(figures, doubt),
+        Some(1) => "1 figure meets".to_owned(),
+        Some(n) => format!("{n} figures meet"),
+        None => "more than 2^64 figures meet".to_owned(),
+    };
+    let mut out = match (&doubt, figures.has_paths()) {
+        (None, false) => {
+            format!("Complete, proved: {number} all constraints, and there is no other")
+        }
+        (None, true) => format!(
+            "Combined, proved: {number} all constraints, and there is no other whose numbers in {} are on the \
+             paths of these through the sketch",
+            followed(figures)
+        ),
+        (Some(doubt), _) => format!(
+            "Combined: {number} all constraints, proved; there may be more ({})",
+            doubt.trim_end_matches('.')
+        ),
+    };
+    let mut with = Vec::new();
+    if !figures.free().is_empty() {
+        with.push("what is free held where it is drawn");
+    }
+    if figures.keeps_directions() {
+        with.push("distances along an axis in the direction that they have in the sketch");
+    }
+    if !with.is_empty() {
+        let _ = write!(out, " (with {})", with.join(", and "));
+    }
+    out.push('.');
+    let seem: Vec<_> = figures.left_out().iter().filter(|c| !c.follows).collect();
+    if !seem.is_empty() {
+        let each = seem
+            .iter()
+            .take(LISTED)
+            .map(|c| format!("{}: met to {:.0e}", c.name, c.missed));
+        let more = match seem.len() > LISTED {
+            true => format!(", and {} more", seem.len() - LISTED),
+            false => String::new(),
+        };
+        let _ = write!(
+            out,
+            " Not proved to be met exactly, as they seem to follow from the others: {}{more}.",
+            each.collect::<Vec<_>>().join(", ")
+        );
+    }
+    out
+}
+
+/// The same where there is no figure.
+fn none_in_words(figures: &Figures, doubt: Option<String>) -> String {
+    let refused = figures.left_out().iter().find(|c| c.refused > 0);
+    match (doubt, figures.impossible(), refused) {
+        (Some(doubt), ..) => format!("Stopped: no figure was proved: {doubt}"),
+        (None, Some(block), _) => {
+            let path = match figures.has_paths() {
+                true => ", or none on its path through the sketch",
+                false => "",
+            };
+            let free = match figures.free().is_empty() {
+                true => "",
+                false => ", with what is free held where it is drawn",
+            };
+            format!(
+                "None, proved: block {block} has no solution where the blocks before it are{path}{free}."
+            )
+        }
+        (None, None, Some(refused)) => format!(
+            "None, proved: {} does not hold in any figure that meets the others.",
+            refused.name
+        ),
+        (None, None, None) => "None, proved: the blocks have no figure in common.".to_owned(),
+    }
+}
+
+/// `block 2` or `blocks 2 and 5`.
+fn followed(figures: &Figures) -> String {
+    let blocks = figures.blocks().enumerate();
+    let numbers: Vec<String> = blocks
+        .filter(|(_, account)| account.way == Way::Path)
+        .map(|(k, _)| (k + 1).to_string())
+        .collect();
+    match numbers.split_last() {
+        Some((only, [])) => format!("block {only}"),
+        Some((last, before)) => format!("blocks {} and {last}", before.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// The figures as a text of several lines, the first ones or all.
+pub fn figures_to_table(figures: &Figures, all: bool) -> String {
+    let mut out = format!(
+        "{}: {}\n",
+        figures.problem().name,
+        figures_in_words(figures)
+    );
+    // Writing to a string cannot fail.
+    let _ = write_figures(&mut out, figures, all);
+    let _ = write_blocks(&mut out, figures);
+    out
+}
+
+/// One line for a sketch.
+pub fn figures_to_summary(figures: &Figures) -> String {
+    format!(
+        "{}: {}\n",
+        figures.problem().name,
+        figures_in_words(figures)
+    )
+}
+
+fn write_figures(out: &mut String, figures: &Figures, all: bool) -> std::fmt::Result {
+    let problem = figures.problem();
+    let count = figures.count().unwrap_or(u64::MAX);
+    let circles = problem.objects.iter();
+    let circles = circles.filter(|o| matches!(o.shape, Shape::Round { .. }));
+    let each = (problem.points.len() + circles.count()) as u64 + 2;
+    let most = match all {
+        true => MOST,
+        false if count.saturating_mul(each) <= LINES as u64 => count,
+        false => (LINES as u64 / 2 / each).max(1),
+    };
+    for number in 0..count.min(most) {
+        let chosen = chosen_in_words(&figures.chosen(number));
+        writeln!(out, "\nFigure {}{chosen}", number + 1)?;
+        let (points, radii) = figures.figure(number);
+        write_points(out, problem, &points)?;
+        for (object, radius) in problem.objects.iter().zip(&radii) {
+            if let Some(radius) = radius {
+                writeln!(out, "  {}: radius {}", object.name, certain_digits(*radius))?;
+            }
+        }
+    }
+    if count > most {
+        writeln!(
+            out,
+            "\n... and {} more: `--all` prints them, `--json FILE` writes the first {IN_JSON} (with `--all` all).",
+            count - most
+        )?;
+    }
+    if count > 0 {
+        writeln!(
+            out,
+            "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
+        )?;
+    }
+    Ok(())
+}
+
+fn write_blocks(out: &mut String, figures: &Figures) -> std::fmt::Result {
+    writeln!(out, "\nblocks")?;
+    let mut none = true;
+    for (k, account) in figures.blocks().enumerate() {
+        none = false;
+        writeln!(out, "  {}: {}", k + 1, block_in_words(account))?;
+    }
+    if none {
+        writeln!(
+            out,
+            "  none to solve: all numbers are known exactly, one after the other"
+        )?;
+    }
+    let free = figures.free();
+    if !free.is_empty() {
+        writeln!(out, "free, held where it is drawn: {}", list(&free))?;
+    }
+    let follow = figures.left_out().iter().filter(|c| c.follows);
+    let follow: Vec<String> = follow.map(|c| c.name.clone()).collect();
+    if !follow.is_empty() {
+        writeln!(out, "follow from the others, proved: {}", list(&follow))?;
+    }
+    Ok(())
+}
+
+/// `2 unknowns: x of d, y of d: by formula, 2 solutions`.
+fn block_in_words(account: &BlockAccount) -> String {
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let (low, high) = account.solutions;
+    let solutions = match low == high {
+        true => counted(high, "solution"),
+        false => format!("{low} to {}", counted(high, "solution")),
+    };
+    let way = match account.way {
+        Way::Formula => "by formula".to_owned(),
+        Way::Path => format!("its path of {}", counted(account.tubes, "tube")),
+    };
+    let runs = match account.runs {
+        1 => String::new(),
+        n => format!(", for {n} figures of the blocks before"),
+    };
+    let doubt = account.doubt.as_ref();
+    let doubt = doubt.map_or(String::new(), |why| format!("; {why}"));
+    format!(
+        "{}: {}: {way}, {solutions}{runs}{doubt}",
+        counted(account.unknowns.len(), "unknown"),
+        list(&account.unknowns)
+    )
+}
+
+/// `: block 1 solution 1, block 2 solution 3`.
+fn chosen_in_words(chosen: &[Chosen]) -> String {
+    let each = chosen
+        .iter()
+        .map(|(block, solution)| format!("block {} solution {}", block + 1, solution + 1));
+    let each: Vec<String> = each.collect();
+    match each.is_empty() {
+        true => String::new(),
+        false => format!(": {}", each.join(", ")),
+    }
+}
+
+fn list(names: &[String]) -> String {
+    let shown = names[..names.len().min(LISTED)].join(", ");
+    match names.len().checked_sub(LISTED) {
+        Some(more) if more > 0 => format!("{shown} and {more} more"),
+        _ => shown,
+    }
+}
+
+/// The figures as a value for programs (docs/json.md, docs/schema/figures.schema.json).
+pub fn figures_to_value(figures: &Figures, all: bool) -> Value {
+    let problem = figures.problem();
+    let count = figures.count();
+    let listed = count
+        .unwrap_or(u64::MAX)
+        .min(if all { MOST } else { IN_JSON });
+    let of_number = |number: u64| {
+        let (points, radii) = figures.figure(number);
+        let chosen = figures.chosen(number);
+        let chosen = chosen
+            .iter()
+            .map(|(block, solution)| json!({"block": block, "solution": solution}));
+        json!({
+            "choices": chosen.collect::<Vec<_>>(),
+            "points": points_to_value(problem, &points),
+            "radii": radii_to_value(figures, &radii),
+        })
+    };
+    let blocks = figures.blocks().map(|account| {
+        json!({
+            "unknowns": account.unknowns,
+            "way": match account.way {
+                Way::Formula => "formula",
+                Way::Path => "path",
+            },
+            "runs": account.runs,
+            "solutions": [account.solutions.0, account.solutions.1],
+            "tubes": account.tubes,
+            "doubt": account.doubt,
+        })
+    });
+    let left_out = figures.left_out().iter();
+    let left_out = left_out.map(|c| match c.follows {
+        true => json!({"name": c.name, "proved": true}),
+        false => json!({"name": c.name, "proved": false, "missed": c.missed, "refused": c.refused}),
+    });
+    let doubt = figures.doubt();
+    let status = match (&doubt, count, figures.has_paths()) {
+        (Some(_), ..) => "stopped",
+        (None, _, false) => "complete",
+        (None, _, true) => "combined",
+    };
+    json!({
+        "version": JSON_VERSION,
+        "krawl": env!("CARGO_PKG_VERSION"),
+        "problem": problem.name,
+        "dimension": problem.dimension,
+        "mode": "certified",
+        "status": status,
+        "reason": doubt,
+        "verdict": figures_in_words(figures),
+        "count": count,
+        "blocks": blocks.collect::<Vec<_>>(),
+        "free": figures.free(),
+        "left_out": left_out.collect::<Vec<_>>(),
+        "figures": (0..listed).map(of_number).collect::<Vec<_>>(),
+    })
+}
+
+fn radii_to_value(figures: &Figures, radii: &[Option<Interval>]) -> Value {
+    let objects = figures.problem().objects.iter().zip(radii);
+    let all: Map<String, Value> = objects
+        .filter_map(|(object, radius)| Some((object.name.clone(), bounds((*radius)?))))
+        .collect();
+    Value::Object(all)
+}
