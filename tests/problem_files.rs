@@ -214,6 +214,7 @@ const BAD: &[Case] = &[
     ("dimension text", "dimension = 2", "dimension = \"2\"", 2, &["dimension", "2 or 3"]),
     ("no dimension", "dimension = 2\n", "", 0, &["dimension", "missing"]),
     ("no points", "[points]", "[point]", 5, &["point", "did you mean `points`"]),
+    ("constraint outside of its table", "[points]", "[fixed]\n[points]", 5, &["fixed", "`constraints.fixed`"]),
     ("unknown key", "distances =", "distance =", 12, &["constraints.distance", "`distances`"]),
     ("unknown homotopy key", "bend_coefficient", "bend_coeficient", 23, &["homotopy.bend_coeficient", "`bend_coefficient`"]),
     ("repeated point", "c = [1.0, 1.0]", "a = [1.0, 1.0]", 8, &["`a`", "twice"]),

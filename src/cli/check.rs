@@ -19,7 +19,7 @@ Examples:
   krawl check sketch.toml
   krawl check sketch.toml --pattern
   krawl generate tower --size 60 | krawl check -
-  krawl check part.FCStd --sketch Sketch001
+  krawl check problems/sketches/parts.FCStd --sketch Slot
 
 Exit codes: 0 in order, 2 not in order, with the line and what to do.")]
 pub struct Arguments {

@@ -8,7 +8,7 @@ use krawl::certificate::Writer;
 use krawl::edit::{Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
-use krawl::report::{edit_to_table, edit_to_value, freedom_in_words};
+use krawl::report::{edit_to_document, edit_to_table, freedom_in_words};
 use krawl::track::{Control, Options, Witness};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -121,13 +121,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         arguments.quiet,
     )?;
     if !pictures.is_empty() {
-        written &= pictures.write(&Page::of_edit(&problem, &edited));
+        let page = Page::from_result(&edit_to_document(&problem, &edited, &session));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     if let Some(json) = &json {
-        let mut value = edit_to_value(&problem, &edited, moved);
-        value["free"] = session.free().into();
-        value["redundant"] = session.redundant().into();
-        value["follows"] = session.follows().into();
+        let value = edit_to_document(&problem, &edited, &session);
         written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(out) = &arguments.out

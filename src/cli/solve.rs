@@ -136,7 +136,7 @@ fn alpha(text: &str) -> Result<f64, String> {
     }
 }
 
-fn samples(text: &str) -> Result<usize, String> {
+pub(super) fn samples(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(n) if (2..=100_000).contains(&n) => Ok(n),
         _ => Err("must be a whole number from 2 to 100000".to_owned()),
@@ -305,6 +305,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 if json.is_some() {
                     lines += &(all.to_value(&outcome, arguments.all).to_string() + "\n");
                 }
+                if shown {
+                    let page = Page::from_result(&all.to_value(&outcome, arguments.all));
+                    written &= pictures.write(&page.map_err(|error| error.to_string())?);
+                }
                 if !silent {
                     let gap = if k == 0 || arguments.summary {
                         ""
@@ -430,8 +434,12 @@ fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
     let mut warnings: Vec<_> = all.iter().filter(|remark| remark.is_warning()).collect();
     if outcome.steps == 0 {
         // It is the sketch that no run can leave.
-        let is_of_sketch =
-            |remark: &Remark| matches!(remark, Remark::Loose { .. } | Remark::FlatInSketch(_));
+        let is_of_sketch = |remark: &Remark| {
+            matches!(
+                remark,
+                Remark::Loose { .. } | Remark::FlatInSketch(_) | Remark::FlatPart { .. }
+            )
+        };
         warnings.sort_by_key(|remark| !is_of_sketch(remark));
     }
     let shown = warnings.iter().take(MOST);
@@ -451,7 +459,6 @@ impl Arguments {
         self.mode == Mode::Certified
             && !self.first
             && self.cert.is_none()
-            && self.pictures.files().next().is_none()
             && !cancel.load(Ordering::Relaxed)
     }
 

@@ -8,7 +8,7 @@ use krawl::certificate::Writer;
 use krawl::edit::{Ending, Setting};
 use krawl::problem::Decimal;
 use krawl::report::page::Page;
-use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_json};
+use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_value};
 use krawl::track::{Control, Witness};
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -103,10 +103,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         arguments.quiet,
     )?;
     if !pictures.is_empty() {
-        written &= pictures.write(&Page::of_sweep(&problem, index, &sweep));
+        let page = Page::from_result(&sweep_to_value(&problem, index, &sweep));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     if let Some(json) = &json {
-        written &= json.write(&(sweep_to_json(&problem, index, &sweep) + "\n"));
+        written &= json.write(&(sweep_to_value(&problem, index, &sweep).to_string() + "\n"));
     }
     if let Some(csv) = &csv {
         written &= csv.write(&sweep_to_csv(&problem, index, &sweep));

@@ -612,11 +612,19 @@ impl<'a> Reader<'a> {
         for (name, _) in table.iter() {
             if !known.contains(&name) {
                 let shown: String = name.chars().take(60).collect();
+                // A constraint outside of the table where it belongs.
+                let is_constraint = |key: &str| {
+                    ["distances", "squared_distances"].contains(&key)
+                        || KINDS.iter().any(|kind| kind.key() == key)
+                };
                 return Err(self.fail(
                     self.line(table.key(name).and_then(Key::span)),
                     FileFault::UnknownKey {
                         key: format!("{prefix}{shown}"),
-                        nearest: nearest(name, known.iter().copied()),
+                        nearest: match prefix.is_empty() && is_constraint(name) {
+                            true => Some(format!("constraints.{name}")),
+                            false => nearest(name, known.iter().copied()),
+                        },
                     },
                 ));
             }
