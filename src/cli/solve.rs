@@ -55,13 +55,13 @@ pub struct Arguments {
     /// [default: reduced for float, and for certified from 70 free coordinates on; otherwise full]
     #[arg(long, value_enum)]
     space: Option<Space>,
-    /// How float mode steps: well, or as in the paper (RR 8705, 7.1 to 7.3)
+    /// Float mode: steps by rules of our own, or by those of the paper (RR 8705, 7.1 to 7.3)
     #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default)]
     preset: Preset,
     /// Distance to a boundary configuration at which the plan is changed, between 0 and 0.5
     #[arg(long, help_heading = "For experiments", value_name = "X", default_value = "0.1", value_parser = alpha)]
     alpha: f64,
-    /// Longest step allowed, in arc length
+    /// No step is longer than this, along the path
     #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
     max_step: Option<f64>,
     /// Certified mode: how far the path may be from the middle of a tube. Extended precision is never

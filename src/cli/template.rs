@@ -37,7 +37,7 @@ pub struct Arguments {
 /// How to fill a template.
 #[derive(clap::Args)]
 pub struct Search {
-    /// Of the random numbers
+    /// The seed of the random numbers: equal seeds make equal runs
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Stop after so many ways in a row that find nothing new

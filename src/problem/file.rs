@@ -178,7 +178,7 @@ impl Problem {
         Ok(problem)
     }
 
-    /// The same of a problem that need not have as many equations as unknowns, in the sketch's own frame, for
+    /// Reads a problem that need not have as many equations as unknowns, in the sketch's own frame, for
     /// [`crate::edit::Session`].
     pub fn parse_loosely(text: &str, file: &str) -> Result<Problem, FileError> {
         let reader = Reader {

@@ -26,7 +26,7 @@ pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
         .expect("strings, numbers and lists have a form in JSON")
 }
 
-/// The same as a value in memory.
+/// What [`complete_to_json`] writes, as a value in memory.
 pub fn complete_to_value(problem: &Problem, result: &Complete) -> serde_json::Value {
     serde_json::to_value(Document::new(problem, result))
         .expect("strings, numbers and lists have a form in JSON")

@@ -76,7 +76,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The same where results are in the coordinates of the problem file, whatever the reference is.
+    /// What is to be said where results are in the coordinates of the problem file, whatever the reference is.
     pub fn in_place(verb: &'static str, problem: &'a Problem) -> Self {
         Drawing {
             reference: Vec::new(),
@@ -85,7 +85,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The same where results are seen from points that may not be the problem's reference.
+    /// What is to be said where results are seen from points that may not be the problem's reference.
     pub fn seen_from(verb: &'static str, problem: &'a Problem, reference: &[usize]) -> Self {
         let drawing = Self::new(verb, problem);
         match reference == problem.homotopy.reference {

@@ -255,7 +255,7 @@ pub fn edit_to_json(problem: &Problem, edited: &Edited, moved: Moved) -> String 
     edit_to_value(problem, edited, moved).to_string()
 }
 
-/// The same as a value in memory.
+/// What [`edit_to_json`] writes, as a value in memory.
 pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value {
     let dimensions = edited.dimensions.iter().map(|d| {
         let name = problem.dimension_name(d.index);

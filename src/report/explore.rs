@@ -387,7 +387,7 @@ pub fn explore_to_json(explored: &Explored) -> String {
         .expect("strings, numbers and lists have a form in JSON")
 }
 
-/// The same as a value in memory.
+/// What [`explore_to_json`] writes, as a value in memory.
 pub fn explore_to_value(explored: &Explored) -> serde_json::Value {
     serde_json::to_value(document(explored))
         .expect("strings, numbers and lists have a form in JSON")

@@ -39,7 +39,7 @@ impl Run<'_> {
             .expect("strings, numbers and lists have a form in JSON")
     }
 
-    /// The same as a value in memory.
+    /// The results as a value in memory, with the keys of [`Run::to_json`].
     pub fn to_value(&self) -> serde_json::Value {
         serde_json::to_value(Document::new(self))
             .expect("strings, numbers and lists have a form in JSON")

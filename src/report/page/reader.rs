@@ -78,7 +78,7 @@ fn number_or_middle(x: &Value) -> Option<f64> {
     x.as_f64().or_else(|| pair(x).map(middle))
 }
 
-/// Those of each coordinate, in the first places of three.
+/// For each coordinate the number, or the middle of its bounds, in the first places of three.
 fn middles(value: &Value, dimension: usize) -> Option<[f64; 3]> {
     let given = value.as_array().filter(|given| given.len() == dimension)?;
     let mut out = [0.0; 3];
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A direction likewise.
+    /// A direction in the coordinates of the sketch.
     fn turned(&self, v: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| (0..3).map(|axis| self.axes[axis][k] * v[axis]).sum())
     }
@@ -375,7 +375,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The same, and what the digits are worth.
+    /// The coordinates in which digits are stated, and what the digits are worth.
     pub fn proved_digits(&self) -> String {
         self.gauge()
             + " Every coordinate differs from the exact one by at most 1 in its last digit shown."

@@ -11,7 +11,7 @@ impl Page {
         Self::from_result(&value.map_err(|error| ShowError::NotJson(error.to_string()))?)
     }
 
-    /// The same from a value in memory.
+    /// The page of a result in memory.
     pub fn from_result(result: &Value) -> Result<Page, ShowError> {
         let version = result["version"].as_u64().ok_or(wrong("version"))?;
         if version != u64::from(crate::report::JSON_VERSION) {
