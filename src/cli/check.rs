@@ -338,10 +338,15 @@ fn frame(problem: &Problem) -> (&'static str, String) {
         .iter()
         .map(|&p| problem.points[p].name.as_str())
         .collect();
-    let mutually = reference
-        .iter()
-        .enumerate()
-        .all(|(k, &a)| reference[..k].iter().all(|&b| problem.are_joined(a, b)));
+    let in_one_body = problem.objects.iter().any(|object| {
+        let points = object.points();
+        object.kind(problem.dimension) == "body" && reference.iter().all(|p| points.contains(p))
+    });
+    let mutually = in_one_body
+        || reference
+            .iter()
+            .enumerate()
+            .all(|(k, &a)| reference[..k].iter().all(|&b| problem.are_joined(a, b)));
     let mutually = if mutually {
         "mutually constrained"
     } else {

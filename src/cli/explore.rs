@@ -66,7 +66,7 @@ pub struct Arguments {
     /// A path that takes more tubes is given up
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     max_tubes: usize,
-    /// Then put all sketches that wait into so many work units, files in the store's folder
+    /// At the end put all sketches that wait into so many work units, files in the store's folder
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     shard: Option<u32>,
     /// Follow sketches that are in work units here, too
@@ -81,7 +81,7 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// So many figures along each path go into the JSON and the page [default: as many as look smooth in the page, none in
+    /// The number of figures along each path in the JSON and the page [default: as many as look smooth in the page, none in
     /// the JSON]
     #[arg(long, value_name = "N", value_parser = super::solve::samples)]
     samples: Option<usize>,

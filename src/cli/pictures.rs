@@ -24,7 +24,7 @@ pub struct Pictures {
     xyz: Option<PathBuf>,
 }
 
-/// Where they go, made sure of.
+/// Destinations of pages, pictures and figures that are known to be possible.
 pub struct Places<'a> {
     all: Vec<(Kind, Destination, &'a Path)>,
 }

@@ -95,7 +95,7 @@ pub struct Arguments {
     /// of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Certified mode: so many figures along the path go into the JSON and the page
+    /// Certified mode: the number of figures along the path in the JSON and the page
     #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<usize>,
     #[command(flatten)]
@@ -515,7 +515,7 @@ fn follow(
     };
     let outcome = match arguments.space {
         Some(_) => track::solve(problem, &options, &mut control),
-        // What was not asked for is not insisted on.
+        // A space that was not asked for may be changed.
         None => track::solve_in_best_space(problem, &options, &mut control),
     };
     line.clear();

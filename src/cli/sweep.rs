@@ -40,7 +40,7 @@ pub struct Arguments {
     /// Its last value
     #[arg(long, value_name = "VALUE")]
     to: String,
-    /// How many figures, at equal distances, both ends among them
+    /// The number of frames, at equal distances, both ends among them
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     frames: u32,
     /// Write the frames as JSON; `-` writes them to standard output in place of the summary

@@ -24,7 +24,7 @@ Exit codes: 0 full, by a proved bound, 4 written, and that it is full is not pro
 pub struct Arguments {
     /// The problem file (TOML); its dimensions play no part
     file: PathBuf,
-    /// Where the template goes
+    /// Write the template to this file
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]

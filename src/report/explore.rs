@@ -14,13 +14,13 @@ use std::fmt::Write;
 /// What is known of all real solutions, by other means.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AllReal {
-    /// They are so many up to congruence, proved.
+    /// The number of real solutions up to congruence, proved.
     Proved(usize),
     /// The search was not tried, or did not come to its end: why.
     Unknown(String),
 }
 
-/// What there is to tell.
+/// A result of exploring, to be reported.
 #[derive(Debug)]
 pub struct Explored<'a> {
     /// The process.
@@ -29,11 +29,11 @@ pub struct Explored<'a> {
     pub finish: Option<Finish>,
     /// All real solutions.
     pub all_real: AllReal,
-    /// What others published.
+    /// Results that others published.
     pub published: &'a [Published],
     /// Paths that were followed once more, to be drawn.
     pub traced: &'a [TracedPath],
-    /// So many figures along each of these are written.
+    /// The number of figures along each of these that are written.
     pub samples: usize,
 }
 
@@ -42,7 +42,7 @@ pub struct Explored<'a> {
 pub struct TracedPath {
     /// Its number.
     pub id: u64,
-    /// What came of it.
+    /// The outcome of following it again.
     pub outcome: Outcome,
     /// The path itself.
     pub trace: Trace,

@@ -17,15 +17,15 @@ pub const JSON_VERSION: u32 = 1;
 /// A run with all that belongs to it, to be written down.
 #[derive(Debug, Clone, Copy)]
 pub struct Run<'a> {
-    /// What was solved.
+    /// The problem that was solved.
     pub problem: &'a Problem,
-    /// How.
+    /// The options with which it was solved.
     pub options: &'a Options,
-    /// What came of it.
+    /// The outcome of the run.
     pub outcome: &'a Outcome,
     /// The path, where it was kept: only certified runs have one.
     pub trace: Option<&'a Trace>,
-    /// So many figures along the path are written.
+    /// The number of figures along the path that are written.
     pub samples: usize,
 }
 
@@ -240,7 +240,7 @@ pub(super) fn written_folds<'a>(problem: &'a Problem, trace: &Trace) -> Vec<Writ
         .collect()
 }
 
-/// So many figures along a path.
+/// A number of figures along a path.
 pub(super) fn written_samples<'a>(
     problem: &'a Problem,
     trace: &Trace,

@@ -40,17 +40,19 @@ pub struct Page {
     pub points: Vec<String>,
     /// Lines between points.
     pub bars: Vec<Bar>,
+    /// Dimensions that are no bars: angles, radii and others.
+    pub labels: Vec<Label>,
     /// Lines, planes, circles, spheres and arcs.
     pub shapes: Vec<Shape>,
     /// The figures, in the order of the list.
     pub figures: Vec<Figure>,
     /// The paths on which they are, as far as there are any to travel.
     pub paths: Vec<Path>,
-    /// What stands below: the answer explained.
+    /// The answer explained, below the figures.
     pub text: Vec<Text>,
-    /// What stands below the figures' digits.
+    /// The sentence below a figure's coordinates: which axes, and what the digits are worth.
     pub digits: String,
-    /// Numbers, with what they are numbers of.
+    /// Numbers of the run, each with its label.
     pub rows: Vec<(String, String)>,
 }
 
@@ -60,7 +62,7 @@ pub struct Page {
 pub enum Tone {
     /// All that is said is proved.
     Proved,
-    /// It was observed.
+    /// What is said was observed in floating point, not proved.
     Observed,
     /// There is no full answer.
     Stopped,
@@ -81,10 +83,19 @@ pub enum Text {
 pub struct Bar {
     /// The points, by number.
     pub ends: [usize; 2],
-    /// What is written on it: its dimension.
+    /// The text on the bar: its dimension.
     pub label: String,
     /// The length that it has to have, if it has one.
     pub target: Option<f64>,
+}
+
+/// A dimension that is written in the middle of some points.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// The points, by number.
+    pub points: Vec<usize>,
 }
 
 /// A line, plane, circle, sphere or arc.
@@ -99,9 +110,9 @@ pub struct Shape {
 /// A figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
-    /// What it is called in the list.
+    /// The figure's name in the list.
     pub name: String,
-    /// What else there is to say of it.
+    /// A remark that stands below the name.
     pub note: String,
     /// `sketch`, which is drawn behind others, or `solution`.
     pub kind: &'static str,
@@ -164,7 +175,7 @@ pub struct Accuracy {
 pub struct Level {
     /// The value.
     pub t: f64,
-    /// What is written at it.
+    /// The text at the level.
     pub label: String,
 }
 
@@ -256,6 +267,7 @@ mod tests {
             dimension: 2,
             points: vec![evil.into()],
             bars: Vec::new(),
+            labels: Vec::new(),
             shapes: Vec::new(),
             figures: Vec::new(),
             paths: Vec::new(),

@@ -170,12 +170,13 @@ function drawAll(width, height, ghost) {
     crowdOf = key; crowd.width = view.width; crowd.height = view.height;
     const at = crowd.getContext("2d");
     at.setTransform(view.width / width, 0, 0, view.height / height, 0, 0);
+    // Lines of one pixel of the screen, without round ends, are drawn several times as fast as others.
+    const thin = width / view.width;
     at.globalAlpha = Math.max(0.05, Math.min(0.5, 6 / data.figures.length));
     for (const k of shown()) {
       const figure = data.figures[k];
       const colour = figure.class === null ? ghost : classColour(figure.class);
-      // Lines of width 1 without round ends are drawn several times as fast as others.
-      outlines(figure, width, height, colour, 1, at); lines(project(figure.points, width, height), colour, 1, at, "butt");
+      outlines(figure, width, height, colour, thin, at); lines(project(figure.points, width, height), colour, thin, at, "butt");
     }
   }
   pen.drawImage(crowd, 0, 0, width, height);
@@ -236,6 +237,10 @@ function drawView() {
   if (state.show.names) for (let i = 0; i < N; i++) {
     const dx = p.x[i] - mx, dy = p.y[i] - my, r = Math.hypot(dx, dy) || 1;
     write(data.points[i], p.x[i] + 15 * dx / r, p.y[i] + 14 * dy / r, ink, "600 13px system-ui, 'DejaVu Sans', sans-serif", N <= 40);
+  }
+  if (state.show.sizes) for (const { text, points } of data.labels) {
+    const mean = (v) => points.reduce((sum, k) => sum + v[k], 0) / points.length;
+    write(text, mean(p.x), mean(p.y) + (points.length === 1 ? 16 : 0), soft, "12px system-ui, 'DejaVu Sans', sans-serif", false);
   }
   if (state.show.sizes) for (const bar of data.bars) {
     const [a, b] = bar.ends, is = lengthOf(bar, now.points);

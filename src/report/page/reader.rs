@@ -1,6 +1,6 @@
 //! What results of all verbs with figures have in common, read from their JSON (docs/json.md).
 
-use super::{Bar, Figure, Page, Shape, Tone, outlines};
+use super::{Bar, Figure, Label, Page, Shape, Tone, outlines};
 use crate::interval::hull;
 use crate::report::certain_digits;
 use serde_json::Value;
@@ -150,6 +150,7 @@ impl<'a> Reader<'a> {
             dimension: self.dimension,
             points: self.names.clone(),
             bars: self.bars()?,
+            labels: self.labels()?,
             shapes: self.shapes(),
             figures: vec![self.sketch()?],
             paths: Vec::new(),
@@ -291,6 +292,48 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(bars)
+    }
+
+    /// The dimensions that are no bars, each where the points are that it is about.
+    fn labels(&self) -> Result<Vec<Label>, ShowError> {
+        let objects = self.result["objects"].as_array().map_or(&[][..], |o| o);
+        let points_of = |item: &Value| -> Vec<usize> {
+            if let Some(point) = self.number(item) {
+                return vec![point];
+            }
+            let object = objects.iter().find(|object| object["name"] == *item);
+            let points = object.and_then(|object| object["points"].as_array());
+            let points = points.into_iter().flatten();
+            points.filter_map(|name| self.number(name)).collect()
+        };
+        let mut labels = Vec::new();
+        for constraint in list(self.result, "constraints")? {
+            let (Some(kind), Some(value), Some(items)) = (
+                constraint["kind"].as_str(),
+                constraint["value"].as_str(),
+                constraint["items"].as_array(),
+            ) else {
+                continue;
+            };
+            let value = shown(value);
+            let text = match kind {
+                "distance" | "squared distance" => continue,
+                "distances" => value,
+                "angles" => format!("{value}°"),
+                "radii" => format!("r {value}"),
+                "diameters" => format!("⌀ {value}"),
+                _ => format!("{kind} {value}"),
+            };
+            let mut points: Vec<usize> = items.iter().flat_map(points_of).collect();
+            // Of three points the angle is at the second.
+            if let ("angles", &[_, vertex, _]) = (kind, &points[..]) {
+                points = vec![vertex];
+            }
+            if !points.is_empty() {
+                labels.push(Label { text, points });
+            }
+        }
+        Ok(labels)
     }
 
     /// The objects that are drawn: all but rigid bodies, which are bars.
