@@ -243,6 +243,7 @@ function drawView() {
     write(text, mean(p.x), mean(p.y) + (points.length === 1 ? 16 : 0), soft, "12px system-ui, 'DejaVu Sans', sans-serif", false);
   }
   if (state.show.sizes) for (const bar of data.bars) {
+    if (!bar.label) continue;
     const [a, b] = bar.ends, is = lengthOf(bar, now.points);
     const off = bar.target !== null && Math.abs(is - bar.target) > 2e-4 * bar.target;
     write(off ? short(+is.toPrecision(4)) + " → " + bar.label : bar.label, (p.x[a] + p.x[b]) / 2, (p.y[a] + p.y[b]) / 2,
@@ -262,6 +263,11 @@ function drawChart() {
   let lo = Infinity, hi = -Infinity;
   for (const s of samples) { lo = Math.min(lo, s.t); hi = Math.max(hi, s.t); }
   for (const level of path.levels) { lo = Math.min(lo, level.t); hi = Math.max(hi, level.t); }
+  // A path that runs off is not shown all the way: what matters is near the levels.
+  if (path.levels.length > 1) {
+    const levels = path.levels.map((level) => level.t), low = Math.min(...levels), high = Math.max(...levels), far = 4 * (high - low);
+    if (far > 0) { lo = Math.max(lo, low - far); hi = Math.min(hi, high + far); }
+  }
   const room = 0.08 * (hi - lo || 1); lo -= room; hi += room;
   const [from, to] = state.span || [start, last];
   const x = (at) => left + (width - left - right) * (at - from) / (to - from || 1);

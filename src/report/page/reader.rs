@@ -318,11 +318,16 @@ impl<'a> Reader<'a> {
             let value = shown(value);
             let text = match kind {
                 "distance" | "squared distance" => continue,
-                "distances" => value,
                 "angles" => format!("{value}°"),
                 "radii" => format!("r {value}"),
                 "diameters" => format!("⌀ {value}"),
-                _ => format!("{kind} {value}"),
+                _ => {
+                    let names: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
+                    let what = if kind == "distances" { "" } else { kind };
+                    format!("{what} {} {value}", names.join("–"))
+                        .trim_start()
+                        .to_owned()
+                }
             };
             let mut points: Vec<usize> = items.iter().flat_map(points_of).collect();
             // Of three points the angle is at the second.
