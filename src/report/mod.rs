@@ -1,5 +1,6 @@
 //! What people and programs get to see of a run.
 
+#[cfg(feature = "cli")]
 mod blocks;
 mod comparison;
 mod complete;
