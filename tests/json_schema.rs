@@ -161,6 +161,62 @@ fn results_of_other_verbs_meet_their_schemas() {
 }
 
 #[test]
+fn answers_to_edits_meet_the_schema() {
+    let run = Command::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(["edit", "docs/examples/plate.toml", "--serve"])
+        .write_stdin(
+            "{\"set\": {\"C-D\": 45}, \"id\": 7}\n{\"set\": {\"C-D\": 10}, \"probe\": true}\n",
+        )
+        .output()
+        .unwrap();
+    let text = String::from_utf8(run.stdout).unwrap();
+    let answers: Vec<Value> = text
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(answers.len(), 2);
+    for answer in &answers {
+        assert_eq!(complain(&schema_of("edit"), answer), [""; 0]);
+        // Answers are short: what the problem is the asker knows.
+        assert!(answer["sketch"].is_null());
+    }
+    assert_eq!(
+        (&answers[0]["committed"], &answers[0]["id"]),
+        (&true.into(), &7.into())
+    );
+    assert_eq!(answers[1]["status"], "limit");
+}
+
+#[test]
+fn what_is_said_of_the_problem_is_the_same_everywhere() {
+    let bar = "problems/mechanisms/four-bar.toml";
+    let solved = solve(&[bar]).remove(0);
+    let others: [(&str, &[&str]); 4] = [
+        ("edit", &["edit", bar, "--set", "B-D=5.2"]),
+        (
+            "sweep",
+            &[
+                "sweep", bar, "--vary", "B-D", "--from", "5", "--to", "5.1", "--frames", "2",
+            ],
+        ),
+        ("limits", &["limits", bar, "--only", "B-D"]),
+        ("complete", &["all", bar]),
+    ];
+    assert_eq!(solved["verb"], "solve");
+    for (kind, arguments) in others {
+        let (document, complaints) = written(kind, arguments);
+        assert_eq!(complaints, [""; 0], "{kind}");
+        assert_eq!(document["verb"], arguments[0]);
+        for key in ["krawl", "problem", "names", "sketch", "constraints"] {
+            assert_eq!(document[key], solved[key], "{kind} {key}");
+        }
+    }
+    // A dimension's name is the one that changes it.
+    let named = solved["constraints"].as_array().unwrap().iter();
+    assert!(named.filter(|c| c["name"] == "B-D").count() == 1);
+}
+
+#[test]
 fn results_made_block_by_block_meet_the_schema() {
     let file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
     let rectangle = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n[constraints]\n\

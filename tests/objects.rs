@@ -198,7 +198,7 @@ fn results_enclose_objects() {
         for figure in &page.figures {
             assert_eq!(figure.outlines.len(), kinds.len(), "{}", figure.name);
         }
-        let path = page.path.as_ref().unwrap();
+        let path = &page.paths[0];
         assert!(
             path.samples
                 .iter()

@@ -58,39 +58,84 @@ fn driven(browser: &Path, page: &Path, script: &str, size: &str) -> (String, Str
     let frames = "<head><script>requestAnimationFrame = (f) => setTimeout(() => f(performance.now()), 16);</script>";
     let html = html.replacen("<head>", frames, 1);
     fs::write(&driven, html.replace("</body>", &script)).unwrap();
-    let output = Process::new(browser)
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--disable-quic",
-            "--no-first-run",
-            "--disable-background-networking",
-            "--disable-component-update",
-            "--disable-sync",
-            "--enable-logging=stderr",
-            "--virtual-time-budget=20000",
-            "--dump-dom",
-        ])
-        .arg(format!("--window-size={size}"))
-        .arg(format!(
-            "--user-data-dir={}",
-            folder.path().join("profile").display()
-        ))
+    let output = headless(browser, folder.path(), size)
+        .args(["--virtual-time-budget=20000", "--dump-dom"])
         .arg(format!("file://{}", driven.display()))
         .output()
         .unwrap();
-    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
-    let title = dom
-        .split_once("<title>")
-        .and_then(|(_, rest)| rest.split_once("</title>"))
-        .map_or(String::new(), |(title, _)| title.to_owned());
+    let title = title(&String::from_utf8_lossy(&output.stdout));
     let errors = String::from_utf8_lossy(&output.stderr);
     // The test reads pixels often, which the page does not.
     let console = errors
         .lines()
         .filter(|line| line.contains("CONSOLE") && !line.contains("willReadFrequently"));
     (title, console.collect::<Vec<_>>().join("\n"))
+}
+
+/// The median time of a frame in milliseconds for what people do, by the browser's own clock: the script draws every frame
+/// at once and reads a pixel of it, so that it is drawn when the clock is read.
+fn timed(browser: &Path, page: &Path) -> serde_json::Value {
+    let folder = tempfile::tempdir().unwrap();
+    let html = fs::read_to_string(page).unwrap();
+    let frames = "<head><script>window.waiting = []; requestAnimationFrame = (f) => waiting.push(f);</script>";
+    let script = "<script>addEventListener('load', () => {\
+        const $ = (id) => document.getElementById(id), said = {};\
+        const frame = () => { const all = waiting; waiting = []; all.forEach((f) => f(performance.now()));\
+          for (const id of ['view', 'chart']) $(id).getContext('2d').getImageData(0, 0, 1, 1); };\
+        const timed = (name, n, f) => { const all = [];\
+          for (let i = 0; i < n; i++) { const from = performance.now(); f(i); frame(); all.push(performance.now() - from); }\
+          said[name] = all.sort((a, b) => a - b)[n >> 1]; };\
+        const view = $('view'); let x = 300; view.setPointerCapture = () => {};\
+        const point = (type) => view.dispatchEvent(new PointerEvent(type, { pointerId: 1, clientX: x, clientY: 300, buttons: 1 }));\
+        const move = (i) => { $('slider').value = $('slider').max * ((i * 37) % 100) / 100; $('slider').dispatchEvent(new Event('input')); };\
+        frame(); frame(); point('pointerdown');\
+        timed('slider', 60, move); timed('turn', 40, () => { x += 5; point('pointermove'); });\
+        timed('pick', 40, (i) => $('list').children[1 + 5 * i].click());\
+        document.dispatchEvent(new KeyboardEvent('keydown', { key: 'a' })); frame();\
+        timed('slider with all', 60, move); timed('turn with all', 40, () => { x += 5; point('pointermove'); });\
+        document.title = JSON.stringify({ said, failures: [] }); });</script></body>";
+    let html = html
+        .replacen("<head>", frames, 1)
+        .replace("</body>", script);
+    let driven = folder.path().join("timed.html");
+    fs::write(&driven, html).unwrap();
+    let output = headless(browser, folder.path(), "1200,900")
+        .arg("--dump-dom")
+        .arg(format!("file://{}", driven.display()))
+        .output()
+        .unwrap();
+    let title = title(&String::from_utf8_lossy(&output.stdout)).replace("&quot;", "\"");
+    let value: serde_json::Value =
+        serde_json::from_str(&title).unwrap_or_else(|_| panic!("{title}"));
+    value["said"].clone()
+}
+
+/// The browser without a window, and a profile of its own.
+fn headless(browser: &Path, folder: &Path, size: &str) -> Process {
+    let mut process = Process::new(browser);
+    process.args([
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-quic",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--enable-logging=stderr",
+    ]);
+    process.arg(format!("--window-size={size}"));
+    process.arg(format!(
+        "--user-data-dir={}",
+        folder.join("profile").display()
+    ));
+    process
+}
+
+fn title(dom: &str) -> String {
+    dom.split_once("<title>")
+        .and_then(|(_, rest)| rest.split_once("</title>"))
+        .map_or(String::new(), |(title, _)| title.to_owned())
 }
 
 fn said(title: &str) -> Vec<serde_json::Value> {
@@ -176,18 +221,29 @@ fn a_result_is_shown_and_many_solutions_are_smooth() {
     assert_eq!(out.trim(), page.to_str().unwrap());
     assert!(fs::metadata(&page).unwrap().len() < 4_000_000);
     let Some(browser) = browser() else { return };
-    // Every pick, with all figures shown at once, and every place of the slider, drawn: milliseconds each.
     let script = "
         key('a'); await frames(2);
-        const slider = $('slider'), clock = performance.now();
-        let n = 0;
-        for (const li of [...$('list').children].slice(0, 60)) { li.click(); await new Promise((r) => setTimeout(r, 0)); n++; }
-        said.push(n, $('list').children.length, ink('view'));";
+        for (const li of [...$('list').children].slice(0, 60)) { li.click(); await frames(0); }
+        await frames(2);
+        said.push($('list').children.length, ink('view'));";
     let (title, console) = driven(&browser, &page, script, "1200,900");
     assert_eq!(console, "");
     let said = said(&title);
-    assert_eq!((&said[0], &said[1]), (&60.into(), &285.into()), "{title}");
-    assert!(said[2][0].as_u64().unwrap() > 10_000);
+    assert_eq!(said[0], 285, "{title}");
+    assert!(said[1][0].as_u64().unwrap() > 10_000);
+    // Figures of these times are in docs/measured.md.
+    let times = timed(&browser, &page);
+    eprintln!("milliseconds for a frame: {times}");
+    for (what, most) in [
+        ("slider", 33.0),
+        ("turn", 33.0),
+        ("pick", 33.0),
+        ("slider with all", 33.0),
+        ("turn with all", 100.0),
+    ] {
+        let time = times[what].as_f64().unwrap();
+        assert!(time < most, "{what}: {time} ms, {times}");
+    }
 }
 
 #[test]
@@ -299,6 +355,169 @@ fn edits_and_complete_sets_have_pages_too() {
         }
         assert!(said[1].as_str().unwrap().starts_with(first), "{title}");
         assert!(said[2][0].as_u64().unwrap() > 1000 && said[3] == true);
+    }
+}
+
+/// A rectangle with one diagonal, which is followed block by block, and a store's folder beside it.
+fn rectangle(folder: &Path) -> String {
+    let file = folder.join("rectangle.toml");
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n[constraints]\n\
+                distances = [[\"a\", \"b\", 5], [\"b\", \"c\", 3], [\"c\", \"d\", 5], [\"d\", \"a\", 3]]\n\
+                squared_distances = [[\"a\", \"c\", 34]]\n";
+    fs::write(&file, text).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_result_is_shown_as_the_verb_itself_shows_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (plate, bar) = (
+        "docs/examples/plate.toml",
+        "problems/mechanisms/four-bar.toml",
+    );
+    let (rectangle, store) = (rectangle(folder.path()), path("store"));
+    let runs: [(&str, &[&str]); 9] = [
+        ("solve", &["solve", "problems/k33.toml", "--samples", "90"]),
+        ("float", &["solve", "problems/k33.toml", "--mode", "float"]),
+        ("blocks", &["solve", &rectangle]),
+        ("edit", &["edit", plate, "--set", "C-D=40"]),
+        ("edit-limit", &["edit", plate, "--set", "C-D=30"]),
+        (
+            "sweep",
+            &[
+                "sweep", bar, "--vary", "B-D", "--from", "5", "--to", "50", "--frames", "20",
+            ],
+        ),
+        ("limits", &["limits", bar]),
+        ("all", &["all", "problems/prism.toml"]),
+        (
+            "explore",
+            &[
+                "explore",
+                "problems/icosahedron-c1.toml",
+                "--store",
+                &store,
+                "--paths",
+                "3",
+                "--all-time",
+                "0",
+            ],
+        ),
+    ];
+    for (name, arguments) in runs {
+        let [json, page, shown] =
+            ["json", "html", "shown.html"].map(|e| path(&format!("{name}.{e}")));
+        let own = [arguments, &["--json", &json, "--html", &page, "--quiet"]].concat();
+        let (code, _, errors) = krawl(&own);
+        assert!(matches!(code, Some(0 | 3 | 4)), "{name}: {errors}");
+        let (code, _, errors) = krawl(&["show", &json, "--html", &shown]);
+        assert_eq!(code, Some(0), "{name}: {errors}");
+        let [page, shown] = [page, shown].map(|file| fs::read_to_string(file).unwrap());
+        assert!(page == shown, "{name}: the pages differ");
+        assert!(page.contains("\"figures\":[{"), "{name}");
+    }
+    let Some(browser) = browser() else { return };
+    // Solutions that were found on different paths: each comes with its own.
+    let script = "
+        const items = [...$('list').children];
+        for (const li of [items[1], items[items.length - 1]]) {
+          li.click(); await frames(3);
+          said.push($('caption').textContent, $('which').textContent, $('where').textContent, ink('chart'), ink('view'));
+          $('slider').value = 0.5 * $('slider').max; $('slider').dispatchEvent(new Event('input')); await frames(3);
+          said.push(ink('view'));
+        }
+        items[0].click(); await frames(3);
+        said.push($('travel').hidden);";
+    let (title, console) = driven(
+        &browser,
+        &folder.path().join("explore.html"),
+        script,
+        "1200,900",
+    );
+    assert_eq!(console, "");
+    let found = said(&title);
+    assert!(
+        found[0]
+            .as_str()
+            .unwrap()
+            .contains("on path 0, from the drawn sketch"),
+        "{title}"
+    );
+    assert!(found[1].as_str().unwrap().starts_with("path 0"), "{title}");
+    assert!(found[6].as_str().unwrap().contains(", branch "), "{title}");
+    assert_ne!(found[1], found[7], "another path");
+    for k in [2, 8] {
+        assert_eq!(found[k], "t = 1.0000", "{title}");
+    }
+    for k in [3, 9] {
+        assert!(found[k][0].as_u64().unwrap() > 800, "its curve: {title}");
+        assert_ne!(
+            found[k + 1],
+            found[k + 2],
+            "the slider moves the figure: {title}"
+        );
+    }
+    assert_ne!(found[3], found[9], "{title}");
+    assert_eq!(found[12], true, "the sketch of the page is on no path");
+    // Figures of the whole, made of those of blocks.
+    let script = "said.push($('list').children.length, $('caption').textContent, ink('view'), $('travel').hidden, \
+                  $('verdict').textContent);";
+    let (title, console) = driven(
+        &browser,
+        &folder.path().join("blocks.html"),
+        script,
+        "1200,900",
+    );
+    assert_eq!(console, "");
+    let found = said(&title);
+    assert_eq!(found[0], 3, "{title}");
+    assert!(
+        found[1]
+            .as_str()
+            .unwrap()
+            .contains("Figure 1block 1 solution 1"),
+        "{title}"
+    );
+    assert!(
+        found[2][0].as_u64().unwrap() > 1000 && found[3] == true,
+        "{title}"
+    );
+    assert!(
+        found[4]
+            .as_str()
+            .unwrap()
+            .starts_with("Combined, proved: 2 figures"),
+        "{title}"
+    );
+}
+
+#[test]
+fn results_without_figures_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let runs: [(&str, &[&str]); 2] = [
+        (
+            "complex",
+            &[
+                "complex",
+                "problems/octahedron.toml",
+                "--template",
+                "problems/octahedron.krawl-template",
+            ],
+        ),
+        (
+            "compare",
+            &["compare", "problems/k33.toml", "--repeat", "1"],
+        ),
+    ];
+    for (name, arguments) in runs {
+        let json = path(&format!("{name}.json"));
+        krawl(&[arguments, &["--json", &json, "--quiet"]].concat());
+        let (code, _, errors) = krawl(&["show", &json]);
+        assert_eq!(code, Some(2), "{name}");
+        let words = format!("is a result of `krawl {name}`, which has no figure to draw");
+        assert!(errors.contains(&words), "{errors}");
     }
 }
 

@@ -214,6 +214,7 @@ const BAD: &[Case] = &[
     ("dimension text", "dimension = 2", "dimension = \"2\"", 2, &["dimension", "2 or 3"]),
     ("no dimension", "dimension = 2\n", "", 0, &["dimension", "missing"]),
     ("no points", "[points]", "[point]", 5, &["point", "did you mean `points`"]),
+    ("constraint outside of its table", "[points]", "[fixed]\n[points]", 5, &["fixed", "`constraints.fixed`"]),
     ("unknown key", "distances =", "distance =", 12, &["constraints.distance", "`distances`"]),
     ("unknown homotopy key", "bend_coefficient", "bend_coeficient", 23, &["homotopy.bend_coeficient", "`bend_coefficient`"]),
     ("repeated point", "c = [1.0, 1.0]", "a = [1.0, 1.0]", 8, &["`a`", "twice"]),
@@ -561,4 +562,18 @@ proptest! {
             Err(error) => prop_assert!(error.to_string().starts_with("hurt.toml:")),
         }
     }
+}
+
+#[test]
+fn a_body_is_the_frame_of_what_hangs_on_it() {
+    let text = "dimension = 3\n[points]\n\
+        b1 = [0, 0, 0]\nb2 = [4, 0, 0]\nb3 = [2, 3, 0]\nb4 = [2, 1, 0]\n\
+        p1 = [1, 1, 3]\np2 = [3, 1, 3.2]\np3 = [2, 2, 3.1]\n\
+        [bodies]\nbase = { b1 = [0, 0, 0], b2 = [4, 0, 0], b3 = [2, 3, 0], b4 = [2, 1, 0] }\n\
+        [constraints]\ndistances = [[\"p1\", \"p2\", 2], [\"p2\", \"p3\", 1.5], [\"p3\", \"p1\", 1.4], \
+        [\"b1\", \"p1\", 3], [\"b2\", \"p2\", 3.1], [\"b3\", \"p3\", 3.2], [\"b2\", \"p1\", 4.1], \
+        [\"b3\", \"p2\", 3.9], [\"b1\", \"p3\", 3.8]]\n";
+    let problem = Problem::parse(text, "robot").unwrap();
+    // Its roundest triangle, in the order of the file.
+    assert_eq!(problem.homotopy.reference, [0, 1, 2]);
 }

@@ -5,7 +5,7 @@ use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::complete::{Options, Progress, Status, all};
 use krawl::report::page::Page;
-use krawl::report::{ProgressLine, complete_to_json, complete_to_table};
+use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -107,7 +107,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let mut written = true;
     if !pictures.is_empty() {
-        written &= pictures.write(&Page::of_complete(&problem, &result));
+        let page = Page::from_result(&complete_to_value(&problem, &result));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     match (&cert, &result.cover) {
         (Some(beside), Some(cover)) => {

@@ -19,7 +19,7 @@ Examples:
   krawl check sketch.toml
   krawl check sketch.toml --pattern
   krawl generate tower --size 60 | krawl check -
-  krawl check part.FCStd --sketch Sketch001
+  krawl check problems/sketches/parts.FCStd --sketch Slot
 
 Exit codes: 0 in order, 2 not in order, with the line and what to do.")]
 pub struct Arguments {
@@ -374,10 +374,15 @@ fn frame(problem: &Problem) -> (&'static str, String) {
         .iter()
         .map(|&p| problem.points[p].name.as_str())
         .collect();
-    let mutually = reference
-        .iter()
-        .enumerate()
-        .all(|(k, &a)| reference[..k].iter().all(|&b| problem.are_joined(a, b)));
+    let in_one_body = problem.objects.iter().any(|object| {
+        let points = object.points();
+        object.kind(problem.dimension) == "body" && reference.iter().all(|p| points.contains(p))
+    });
+    let mutually = in_one_body
+        || reference
+            .iter()
+            .enumerate()
+            .all(|(k, &a)| reference[..k].iter().all(|&b| problem.are_joined(a, b)));
     let mutually = if mutually {
         "mutually constrained"
     } else {

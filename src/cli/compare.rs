@@ -208,7 +208,7 @@ fn draw(
     }
     let path = record_path(problem, Some(interrupt::flag()));
     if let Ok(path) = path
-        && path.stations.len() > 1
+        && path.step_ends.len() > 1
     {
         written &= write(
             folder,

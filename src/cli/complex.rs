@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_name = "R", default_value_t = 1000.0, value_parser = super::all::seconds)]
     radius: f64,
     /// A bound on the number of solutions up to rotation that you know from elsewhere: the result then says that it is
-    /// complete if this bound holds. A smaller one that is proved here goes before it
+    /// complete if this bound holds. A smaller bound that is proved here is used in its place
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     bound: Option<u64>,
     /// List all solutions, not the real ones only

@@ -8,7 +8,7 @@ use krawl::certificate::Writer;
 use krawl::edit::{Decomposition, Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
-use krawl::report::{edit_to_table, edit_to_value, freedom_in_words};
+use krawl::report::{edit_to_document, edit_to_table, freedom_in_words};
 use krawl::track::{Control, Options, Witness};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -129,15 +129,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         arguments.cert.as_deref().filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
-    if !pictures.is_empty() {
-        written &= pictures.write(&Page::of_edit(&problem, &edited));
-    }
-    if let Some(json) = &json {
-        let mut value = edit_to_value(&problem, &edited, moved);
-        let found = found.clone().unwrap_or_default();
+    let mut value = edit_to_document(&problem, &edited, &session);
+    if let Some(found) = found.clone() {
         value["free"] = found.free.into();
         value["redundant"] = found.redundant.into();
         value["follows"] = found.follows.into();
+    }
+    if !pictures.is_empty() {
+        let page = Page::from_result(&value);
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
+    }
+    if let Some(json) = &json {
         written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(out) = &arguments.out

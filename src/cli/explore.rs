@@ -1,13 +1,18 @@
 //! `krawl explore`: new sketches from solutions, and their paths, until nothing new comes.
 
 use super::output::{self, Beside, Destination};
+use super::pictures::Pictures;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, input, interrupt};
 use krawl::certificate::Writer;
 use krawl::complete::{self, all};
 use krawl::explore::{ExploreError, Explorer, Finish, Options, Progress};
 use krawl::problem::{Problem, Published};
-use krawl::report::{AllReal, Explored, ProgressLine, explore_to_json, explore_to_table};
+use krawl::report::page::Page;
+use krawl::report::{
+    AllReal, Explored, ProgressLine, TracedPath, explore_to_json, explore_to_table,
+    explore_to_value,
+};
 use krawl::track::{self, Control, Witness};
 use std::collections::BTreeSet;
 use std::io::BufWriter;
@@ -26,6 +31,7 @@ use std::time::Duration;
 #[command(after_help = "\
 Examples:
   krawl explore problems/disulfide.toml --store disulfide
+  krawl explore problems/disulfide.toml --store disulfide --html rings.html  the figures, and their paths
   krawl explore problems/icosahedron.toml --store ico --time 3600 --json ico.json
   krawl explore problems/disulfide.toml --store disulfide --proofs proofs    a certificate for each solution
 
@@ -60,7 +66,7 @@ pub struct Arguments {
     /// A path that takes more tubes is given up
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     max_tubes: usize,
-    /// Then put all sketches that wait into so many work units, files in the store's folder
+    /// At the end put all sketches that wait into so many work units, files in the store's folder
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     shard: Option<u32>,
     /// Follow sketches that are in work units here, too
@@ -75,6 +81,12 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// The number of figures along each path in the JSON and the page [default: as many as look smooth in the page, none in
+    /// the JSON]
+    #[arg(long, value_name = "N", value_parser = super::solve::samples)]
+    samples: Option<usize>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Print the coordinates of all solutions
     #[arg(long)]
     all: bool,
@@ -110,6 +122,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             "{file}: is the problem itself; name another file for the results"
         ));
     }
+    let pictures = arguments.pictures.places([&arguments.file])?;
     let cancel = interrupt::flag();
     let at = |error: ExploreError| match error {
         ExploreError::Problem(_) | ExploreError::Unserved(_) => format!("{file}: {error}"),
@@ -153,11 +166,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(folder) = &arguments.proofs {
         written &= prove(&explorer, folder, arguments.quiet)?;
     }
+    let traced = match arguments.samples.is_some() || arguments.pictures.want_path() {
+        true => trace(&explorer, arguments.quiet),
+        false => Vec::new(),
+    };
+    let all = AT_ONCE / problem.points.len().max(1) / traced.len().max(1);
     let explored = Explored {
         explorer: &explorer,
         finish: Some(finish),
         all_real: all_real(&problem, arguments.all_time),
         published: &published,
+        traced: &traced,
+        samples: arguments.samples.unwrap_or(all.clamp(60, 1200)),
     };
     if let AllReal::Proved(all) = explored.all_real
         && all < explorer.contents().classes.len()
@@ -171,7 +191,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(json) = &json {
         written &= json.write(&(explore_to_json(&explored) + "\n"));
     }
-    if !arguments.quiet && json != Some(Destination::StandardOutput) {
+    if !pictures.is_empty() {
+        let page = Page::from_result(&explore_to_value(&explored));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
+    }
+    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
+    if !arguments.quiet && !elsewhere {
         written &= output::print(&explore_to_table(&explored, arguments.all));
     }
     Ok(match finish {
@@ -211,6 +236,51 @@ fn all_real(problem: &Problem, seconds: f64) -> AllReal {
         )),
         Err(unserved) => AllReal::Unknown(format!("`krawl all`: {unserved}")),
     }
+}
+
+/// Points of figures along paths, for a page: as many as load at once.
+const AT_ONCE: usize = 60_000;
+/// Paths that are drawn, and tubes of all of them together: following them again takes some ten times as many.
+const MOST_DRAWN: usize = 60;
+const MOST_TUBES: usize = 60_000;
+
+/// Follows the paths that first found solutions once more, to draw them: the first ones, as far as that does not take
+/// long.
+fn trace(explorer: &Explorer, quiet: bool) -> Vec<TracedPath> {
+    let contents = explorer.contents();
+    let mut ids: Vec<u64> = Vec::new();
+    for class in &contents.classes {
+        if !ids.contains(&class.path) {
+            ids.push(class.path);
+        }
+    }
+    let mut tubes = 0;
+    ids.retain(|id| {
+        let own = contents.paths.get(id).map_or(0, |path| path.tubes);
+        let fits = tubes + own <= MOST_TUBES;
+        tubes += if fits { own } else { 0 };
+        fits
+    });
+    ids.truncate(MOST_DRAWN);
+    let mut out = Vec::with_capacity(ids.len());
+    for (k, &id) in ids.iter().enumerate() {
+        let Some(problem) = explorer.problem_of(id) else {
+            continue;
+        };
+        let mut line = ProgressLine::new(!quiet, &format!("picture {} of {}", k + 1, ids.len()));
+        let mut show = |now: track::Progress| line.show(now);
+        let mut control = Control {
+            cancel: Some(interrupt::flag()),
+            progress: Some(&mut show),
+            ..Control::default()
+        };
+        let traced = track::trace_path(&problem, &track::Options::certified(), &mut control);
+        line.clear();
+        if let Ok((outcome, trace)) = traced {
+            out.push(TracedPath { id, outcome, trace });
+        }
+    }
+    out
 }
 
 /// Writes work units into the store's folder, before the store knows of them.

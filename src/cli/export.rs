@@ -23,7 +23,7 @@ pub struct Arguments {
     /// The program that is to read it
     #[arg(long, value_enum)]
     to: Program,
-    /// Where it goes [default: standard output]
+    /// Write it to this file [default: standard output]
     #[arg(
         long,
         value_name = "FILE",

@@ -15,7 +15,7 @@ Examples:
 
 Exit codes: 0 written, 2 it could not be made or written.")]
 pub struct Arguments {
-    /// What it is made of
+    /// The family of problems
     #[arg(value_enum)]
     family: FamilyName,
     /// The least number of free coordinates; the problem is the smallest of its family with as many
@@ -24,7 +24,7 @@ pub struct Arguments {
     /// The number of loops, each of which costs one driving parameter and one key unknown
     #[arg(long, value_name = "K", default_value_t = 1)]
     loops: usize,
-    /// Where the random places and lengths start: equal seeds make equal problems
+    /// The seed of the random places and lengths: equal seeds make equal problems
     #[arg(long, value_name = "X", default_value_t = 1)]
     seed: u64,
     /// Write the problem to a file [default: standard output]

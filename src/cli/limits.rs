@@ -6,7 +6,7 @@ use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
 use krawl::report::page::Page;
-use krawl::report::{ranges_to_json, ranges_to_table};
+use krawl::report::{ranges_to_table, ranges_to_value};
 use krawl::track::Control;
 use std::path::PathBuf;
 
@@ -74,10 +74,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let mut written = true;
     if let Some(json) = &json {
-        written &= json.write(&(ranges_to_json(&problem, &ranges, session.moved()) + "\n"));
+        let value = ranges_to_value(&problem, &ranges, session.moved());
+        written &= json.write(&(value.to_string() + "\n"));
     }
     if !pictures.is_empty() {
-        written &= pictures.write(&Page::of_ranges(&problem, &ranges, session.moved()));
+        let page = Page::from_result(&ranges_to_value(&problem, &ranges, session.moved()));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {

@@ -128,7 +128,7 @@ impl Beside {
         Ok(Beside { file, beside, path })
     }
 
-    /// What is written to.
+    /// The file that is being written.
     pub fn file(&self) -> &fs::File {
         &self.file
     }

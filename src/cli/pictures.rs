@@ -6,26 +6,25 @@ use std::path::{Path, PathBuf};
 
 /// Where pages, pictures and figures go.
 #[derive(clap::Args)]
-#[command(next_help_heading = "Pictures and figures")]
 pub struct Pictures {
     /// Write a page to look at: turn the figures, travel the path, pick solutions (any browser, no network)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
     html: Option<PathBuf>,
     /// Write a still picture of the first figures (SVG)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
     svg: Option<PathBuf>,
     /// Write a picture of the figure moving along its path (animated SVG)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
     animation: Option<PathBuf>,
     /// Write the figures, the sketch first, as Wavefront OBJ
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
     obj: Option<PathBuf>,
     /// Write the solutions as XYZ, as programs for molecules read it
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
     xyz: Option<PathBuf>,
 }
 
-/// Where they go, made sure of.
+/// Destinations of pages, pictures and figures that are known to be possible.
 pub struct Places<'a> {
     all: Vec<(Kind, Destination, &'a Path)>,
 }

@@ -6,7 +6,7 @@ use krawl::report::page::Page;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Make a page, pictures or files of figures from a result that `solve --json` wrote
+/// Make a page, pictures or files of figures from a result that a verb wrote with `--json`
 ///
 /// Without any option the page goes beside the result, as RESULT.html.
 #[derive(clap::Args)]
@@ -16,6 +16,8 @@ Examples:
   krawl show out.json                        writes out.html, to be opened in a browser
   krawl show out.json --svg figures.svg --xyz figures.xyz
   krawl solve sketch.toml --json - --samples 500 | krawl show - --html page.html
+  krawl all sketch.toml --json all.json      results of edit, sweep, limits, all and explore too
+  krawl show all.json --html all.html
 
 Exit codes: 0 written, 2 not a result, or it could not be written.")]
 pub struct Arguments {

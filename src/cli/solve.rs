@@ -61,13 +61,13 @@ pub struct Arguments {
     /// [default: reduced for float, and for certified from 70 free coordinates on; otherwise full]
     #[arg(long, value_enum)]
     space: Option<Space>,
-    /// How float mode steps: well, or as in the paper (RR 8705, 7.1 to 7.3)
+    /// Float mode: steps by rules of our own, or by those of the paper (RR 8705, 7.1 to 7.3)
     #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default)]
     preset: Preset,
     /// Distance to a boundary configuration at which the plan is changed, between 0 and 0.5
     #[arg(long, help_heading = "For experiments", value_name = "X", default_value = "0.1", value_parser = alpha)]
     alpha: f64,
-    /// Longest step allowed, in arc length
+    /// No step is longer than this, along the path
     #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
     max_step: Option<f64>,
     /// Certified mode: how far the path may be from the middle of a tube. Extended precision is never
@@ -101,7 +101,7 @@ pub struct Arguments {
     /// of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Certified mode: so many figures along the path go into the JSON and the page
+    /// Certified mode: the number of figures along the path in the JSON and the page
     #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<usize>,
     #[command(flatten)]
@@ -142,7 +142,7 @@ fn alpha(text: &str) -> Result<f64, String> {
     }
 }
 
-fn samples(text: &str) -> Result<usize, String> {
+pub(super) fn samples(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(n) if (2..=100_000).contains(&n) => Ok(n),
         _ => Err("must be a whole number from 2 to 100000".to_owned()),
@@ -361,6 +361,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 if json.is_some() {
                     lines += &(all.to_value(&outcome, arguments.all).to_string() + "\n");
                 }
+                if shown {
+                    let page = Page::from_result(&all.to_value(&outcome, arguments.all));
+                    written &= pictures.write(&page.map_err(|error| error.to_string())?);
+                }
                 if !silent {
                     let gap = if k == 0 || arguments.summary {
                         ""
@@ -486,8 +490,12 @@ fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
     let mut warnings: Vec<_> = all.iter().filter(|remark| remark.is_warning()).collect();
     if outcome.steps == 0 {
         // It is the sketch that no run can leave.
-        let is_of_sketch =
-            |remark: &Remark| matches!(remark, Remark::Loose { .. } | Remark::FlatInSketch(_));
+        let is_of_sketch = |remark: &Remark| {
+            matches!(
+                remark,
+                Remark::Loose { .. } | Remark::FlatInSketch(_) | Remark::FlatPart { .. }
+            )
+        };
         warnings.sort_by_key(|remark| !is_of_sketch(remark));
     }
     let shown = warnings.iter().take(MOST);
@@ -507,7 +515,6 @@ impl Arguments {
         self.mode == Mode::Certified
             && !self.first
             && self.cert.is_none()
-            && self.pictures.files().next().is_none()
             && !cancel.load(Ordering::Relaxed)
     }
 
@@ -610,7 +617,7 @@ fn follow(
     };
     let outcome = match arguments.space {
         Some(_) => track::solve(problem, &options, &mut control),
-        // What was not asked for is not insisted on.
+        // A space that was not asked for may be changed.
         None => track::solve_in_best_space(problem, &options, &mut control),
     };
     line.clear();

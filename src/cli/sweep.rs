@@ -8,7 +8,7 @@ use krawl::certificate::Writer;
 use krawl::edit::{Ending, Setting};
 use krawl::problem::Decimal;
 use krawl::report::page::Page;
-use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_json};
+use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_value};
 use krawl::track::{Control, Witness};
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ pub struct Arguments {
     /// Its last value
     #[arg(long, value_name = "VALUE")]
     to: String,
-    /// How many figures, at equal distances, both ends among them
+    /// The number of frames, at equal distances, both ends among them
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     frames: u32,
     /// Write the frames as JSON; `-` writes them to standard output in place of the summary
@@ -109,10 +109,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         arguments.quiet,
     )?;
     if !pictures.is_empty() {
-        written &= pictures.write(&Page::of_sweep(&problem, index, &sweep));
+        let page = Page::from_result(&sweep_to_value(&problem, index, &sweep));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     if let Some(json) = &json {
-        written &= json.write(&(sweep_to_json(&problem, index, &sweep) + "\n"));
+        written &= json.write(&(sweep_to_value(&problem, index, &sweep).to_string() + "\n"));
     }
     if let Some(csv) = &csv {
         written &= csv.write(&sweep_to_csv(&problem, index, &sweep));

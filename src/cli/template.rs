@@ -24,7 +24,7 @@ Exit codes: 0 full, by a proved bound, 4 written, and that it is full is not pro
 pub struct Arguments {
     /// The problem file (TOML); its dimensions play no part
     file: PathBuf,
-    /// Where the template goes
+    /// Write the template to this file
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]
@@ -37,7 +37,7 @@ pub struct Arguments {
 /// How to fill a template.
 #[derive(clap::Args)]
 pub struct Search {
-    /// Of the random numbers
+    /// The seed of the random numbers: equal seeds make equal runs
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Stop after so many ways in a row that find nothing new

@@ -23,7 +23,7 @@ process writes to the same results.")]
 pub struct Arguments {
     /// The work unit
     unit: PathBuf,
-    /// Where the results go [default: beside the unit, ending in .krawl-result]
+    /// Write the results to this file [default: beside the unit, ending in .krawl-result]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Paths to follow at the same time [default: one per processor]

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 /// A point of the path, in the problem's lengths.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PathStation {
+pub struct PathPoint {
     /// Length of the path up to here, Euclidean in the free coordinates and t.
     pub at: f64,
     /// The free coordinates, and t last.
@@ -25,9 +25,9 @@ pub struct RecordedPath {
     pub coordinates: Vec<String>,
     /// In order, the sketch first, and then the end of each tube. On a closed path the last one is the
     /// sketch again.
-    pub stations: Vec<PathStation>,
+    pub step_ends: Vec<PathPoint>,
     /// Where the path meets t = 1.
-    pub solutions: Vec<PathStation>,
+    pub solutions: Vec<PathPoint>,
     /// Whether the path was followed back to the sketch, with proof.
     pub closed: bool,
     /// The path itself, from a run in tubes so narrow that their middles are a picture of it.
@@ -36,9 +36,9 @@ pub struct RecordedPath {
 
 impl RecordedPath {
     /// The path's point at a length.
-    pub fn point(&self, at: f64) -> Option<PathStation> {
+    pub fn point(&self, at: f64) -> Option<PathPoint> {
         let (z, direction) = self.trace.at(at)?;
-        Some(PathStation { at, z, direction })
+        Some(PathPoint { at, z, direction })
     }
 }
 
@@ -80,17 +80,17 @@ pub fn record_path(
     let mut path = RecordedPath {
         problem: problem.name.clone(),
         coordinates: gauge.place.iter().map(name).collect(),
-        stations: Vec::new(),
+        step_ends: Vec::new(),
         solutions: Vec::new(),
         closed: outcome.status == Status::Closed,
         trace,
     };
-    path.stations = std::iter::once(0.0)
+    path.step_ends = std::iter::once(0.0)
         .chain(ends)
         .filter_map(|at| path.point(at))
         .collect();
     if path.closed
-        && let [first, .., last] = &mut path.stations[..]
+        && let [first, .., last] = &mut path.step_ends[..]
     {
         last.z.clone_from(&first.z);
     }
@@ -112,16 +112,16 @@ mod tests {
         assert_eq!(path.coordinates.len(), problem.free_coordinates());
         assert_eq!(path.solutions.len(), outcome.solutions.len());
         let (first, last) = (
-            path.stations.first().unwrap(),
-            path.stations.last().unwrap(),
+            path.step_ends.first().unwrap(),
+            path.step_ends.last().unwrap(),
         );
         assert_eq!(first.z, last.z);
-        assert_eq!(path.stations.len(), outcome.steps + 2);
+        assert_eq!(path.step_ends.len(), outcome.steps + 2);
         assert!((last.at / outcome.length - 1.0).abs() < 1e-3);
         let mut before = 0.0;
-        for station in &path.stations[1..] {
-            assert!(station.at > before);
-            before = station.at;
+        for step_end in &path.step_ends[1..] {
+            assert!(step_end.at > before);
+            before = step_end.at;
         }
         for (solution, boxes) in path.solutions.iter().zip(&outcome.solutions) {
             assert!(solution.at > 0.0 && solution.at < last.at);
@@ -144,7 +144,7 @@ mod tests {
             let problem = Problem::read(file).unwrap();
             let path = record_path(&problem, None).unwrap();
             let homotopy = Homotopy::new(&problem).unwrap();
-            let (length, m) = (path.stations.last().unwrap().at, path.coordinates.len());
+            let (length, m) = (path.step_ends.last().unwrap().at, path.coordinates.len());
             for k in 0..=500 {
                 let here = path.point(length * f64::from(k) / 500.0).unwrap();
                 let t = here.z[m];

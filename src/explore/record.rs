@@ -34,7 +34,7 @@ impl Sketch {
 pub struct BoxRecord {
     /// Its middle, one entry per unknown.
     pub centre: Vec<f64>,
-    /// What the middle is more than that; empty for nothing.
+    /// What is to be added to `centre` for the middle, in extended precision; empty where that is nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub low: Vec<f64>,
     /// How far the figure may be from it.

@@ -9,7 +9,7 @@ use crate::system::Homotopy;
 /// Shorter arms are taken where they are this far from a boundary configuration in the sketch.
 const CLEAR: f64 = 0.2;
 
-/// And where that makes the product of the removed constraints' lengths larger by this factor.
+/// Other arms are taken too where they make the product of the removed constraints' lengths larger by this factor.
 const LONGER: f64 = 2.0;
 
 /// Some arms for a point, and their γ in the sketch.
@@ -151,7 +151,7 @@ impl Choice {
         !self.gamma.is_nan()
     }
 
-    /// The one with the larger γ, the first on a tie.
+    /// The one with the larger γ; of two with the same, the first.
     fn clearer(self, other: Choice) -> Choice {
         if other.gamma > self.gamma {
             other

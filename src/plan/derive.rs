@@ -181,8 +181,8 @@ impl Graph {
             .collect()
     }
 
-    /// The same order as to where driving parameters are needed; what follows without is
-    /// constructed from the latest points first.
+    /// An order that needs driving parameters where `order` does; what follows without is constructed from the latest
+    /// points first.
     pub(super) fn latest_first(&self, order: &[usize]) -> Vec<usize> {
         let mut rank = vec![usize::MAX; order.len()];
         let mut new: Vec<usize> = Vec::with_capacity(order.len());

@@ -24,7 +24,7 @@ pub(super) fn shift_in_plane(p: V3, c1: V3, c2: V3) -> V3 {
     add_scaled(p, side, across)
 }
 
-/// The same for interSS, whose circle is then met by a sphere around `c3`.
+/// A place for the reference point of an interSS whose circle is then met by a sphere around `c3`.
 ///
 /// In space the condition on γ leaves a circle of places; taken is the one at a right angle from
 /// both `c1` and `c3` as seen from `p`, so that interCS profits as well. γ is √½.

@@ -401,10 +401,14 @@ impl ProblemBuilder {
             }
             (None, true) => Vec::new(),
             (Some(reference), false) => reference,
-            (None, false) => {
-                reference::choose(problem.dimension, &problem.points, &problem.distances, bend)
-                    .ok_or(ProblemError::CollinearSketch)?
-            }
+            (None, false) => reference::choose(
+                problem.dimension,
+                &problem.points,
+                &problem.distances,
+                &problem.objects,
+                bend,
+            )
+            .ok_or(ProblemError::CollinearSketch)?,
         };
         if !problem.is_distances_only() {
             problem.check_together()?;

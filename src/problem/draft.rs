@@ -147,7 +147,7 @@ impl ProblemBuilder {
         self.object(name, DraftShape::Body(points))
     }
 
-    /// The same with names that are made at run time.
+    /// A rigid body with names that are made at run time.
     pub(super) fn body_of(self, name: &str, points: Vec<(String, Vec<Decimal>)>) -> Self {
         let points = points.into_iter().map(|(p, at)| (p, numbers(at)));
         let points = points.collect();

@@ -178,7 +178,7 @@ impl Problem {
         Ok(problem)
     }
 
-    /// The same of a problem that need not have as many equations as unknowns, in the sketch's own frame, for
+    /// Reads a problem that need not have as many equations as unknowns, in the sketch's own frame, for
     /// [`crate::edit::Session`].
     pub fn parse_loosely(text: &str, file: &str) -> Result<Problem, FileError> {
         let reader = Reader {
@@ -612,11 +612,19 @@ impl<'a> Reader<'a> {
         for (name, _) in table.iter() {
             if !known.contains(&name) {
                 let shown: String = name.chars().take(60).collect();
+                // A constraint outside of the table where it belongs.
+                let is_constraint = |key: &str| {
+                    ["distances", "squared_distances"].contains(&key)
+                        || KINDS.iter().any(|kind| kind.key() == key)
+                };
                 return Err(self.fail(
                     self.line(table.key(name).and_then(Key::span)),
                     FileFault::UnknownKey {
                         key: format!("{prefix}{shown}"),
-                        nearest: nearest(name, known.iter().copied()),
+                        nearest: match prefix.is_empty() && is_constraint(name) {
+                            true => Some(format!("constraints.{name}")),
+                            false => nearest(name, known.iter().copied()),
+                        },
                     },
                 ));
             }

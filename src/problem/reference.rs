@@ -1,11 +1,17 @@
 //! Choosing the reference where the user does not.
 
 use super::check::collinear;
-use super::{Distance, Point};
+use super::{Distance, Object, Point, Shape};
+
+/// A body whose roundest triangle is thinner than this tells its plane badly: other points are taken then.
+const THIN: f64 = 0.1;
+/// Of a body with more points these are enough to choose from.
+const MOST_OF_BODY: usize = 40;
 
 /// Chooses reference points, best-conditioned in the sketch among these, in this order of
 /// preference:
 ///
+/// 0. points of the first rigid body, such as the base of a robot, if it is no thin rod: results are then seen from it;
 /// 1. mutually constrained points (an edge in the plane, a triangle in space) without the bend:
 ///    with a free third coordinate the reference could become collinear on the path, and with the
 ///    bend in it, it could shrink;
@@ -19,6 +25,7 @@ pub(super) fn choose(
     dimension: usize,
     points: &[Point],
     distances: &[Distance],
+    objects: &[Object],
     bend: usize,
 ) -> Option<Vec<usize>> {
     let place: Vec<[f64; 3]> = points
@@ -49,6 +56,30 @@ pub(super) fn choose(
         }
     };
 
+    let bodies = objects.iter().filter_map(|object| match &object.shape {
+        Shape::Body { points, local } => Some((points, local)),
+        _ => None,
+    });
+    for (body, local) in bodies.take(1) {
+        let local: Vec<[f64; 3]> = local
+            .iter()
+            .map(|p| p.each_ref().map(|x| x.to_f64()))
+            .collect();
+        let count = body.len().min(MOST_OF_BODY);
+        for (k, l) in (0..count).flat_map(|l| (0..l).map(move |k| (k, l))) {
+            let (a, b) = (body[k], body[l]);
+            if dimension == 2 {
+                offer(0, squared_length(local[k], local[l]), &[a, b]);
+                continue;
+            }
+            for m in l + 1..count {
+                let shape = roundness(local[k], local[l], local[m]);
+                if shape > THIN {
+                    offer(0, shape, &[a, b, body[m]]);
+                }
+            }
+        }
+    }
     if distances.is_empty() {
         let pairs = (0..n).flat_map(|a| (0..a).map(move |b| [b, a]));
         let apart = |&[a, b]: &[usize; 2]| squared_length(place[a], place[b]);
@@ -94,9 +125,9 @@ pub(super) fn choose(
             }
         }
     }
-    best.map(|(_, _, mut reference)| {
+    best.map(|(preference, _, mut reference)| {
         // Joined points first, in the order in which people listed them.
-        if dimension == 2 || edge(reference[0], reference[2]).is_some() {
+        if preference == 0 || dimension == 2 || edge(reference[0], reference[2]).is_some() {
             reference.sort_unstable();
         }
         reference

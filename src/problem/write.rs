@@ -172,7 +172,7 @@ fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
-/// The same decimal in TOML's grammar for floats: a digit on either side of the point, no zeros
+/// A decimal in TOML's grammar for floats: a digit on either side of the point, no zeros
 /// in front.
 fn number(decimal: &Decimal) -> String {
     let text = decimal.text();

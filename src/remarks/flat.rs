@@ -39,6 +39,108 @@ fn are_flat(dimension: usize, vectors: &[Vector]) -> bool {
     }
 }
 
+/// Parts of a figure this near to a line or plane, in parts of its size, are looked at exactly.
+const NEAR: f64 = 1e-9;
+/// Most points of problems in which parts are looked for: it takes their third power.
+const MANY: usize = 200;
+
+/// Points that are on one line (in space: in one plane), more than three (four) of them, with more distances among them
+/// than can be independent there: n − 1 of n points on a line, 2n − 3 in a plane.
+pub(super) fn parts(problem: &Problem) -> Vec<Remark> {
+    let (d, n) = (problem.dimension, problem.points.len());
+    if n > MANY {
+        return Vec::new();
+    }
+    let joined = joined(problem);
+    let mut found: Vec<Vec<usize>> = Vec::new();
+    let mut out = Vec::new();
+    for middle in 0..n {
+        for (k, &(a, _)) in joined[middle].iter().enumerate() {
+            let others = match d {
+                // A side is a line already.
+                2 => &joined[middle][k..=k],
+                _ => &joined[middle][k + 1..],
+            };
+            for &(b, _) in others {
+                let seed = [middle, a, b];
+                let known = |part: &Vec<usize>| seed.iter().all(|p| part.contains(p));
+                if found.iter().any(known) {
+                    continue;
+                }
+                let Some(points) = flat_with(problem, seed) else {
+                    continue;
+                };
+                let inside = |&&[p, q]: &&[usize; 2]| points.contains(&p) && points.contains(&q);
+                let pairs: Vec<[usize; 2]> = problem.distances.iter().map(|e| e.points).collect();
+                let distances = pairs.iter().filter(inside).count();
+                let most = match d {
+                    2 => points.len() - 1,
+                    _ => 2 * points.len() - 3,
+                };
+                // Of a triangle (tetrahedron) `in_sketch` speaks.
+                if points.len() > d + 1 && distances > most {
+                    out.push(Remark::FlatPart {
+                        points: points.clone(),
+                        distances,
+                    });
+                }
+                found.push(points);
+            }
+        }
+    }
+    out
+}
+
+/// All points that are in one plane with three of them, or in the plane on one line with two: exactly. `None`: those three are on
+/// one line in space.
+fn flat_with(problem: &Problem, [middle, a, b]: [usize; 3]) -> Option<Vec<usize>> {
+    let d = problem.dimension;
+    let places: Vec<[f64; 3]> = problem
+        .points
+        .iter()
+        .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+        .collect();
+    let nearly =
+        |p: usize| -> [f64; 3] { std::array::from_fn(|k| places[p][k] - places[middle][k]) };
+    let (u, v) = (nearly(a), nearly(b));
+    let product = |u: [f64; 3], v: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            u[i] * v[j] - u[j] * v[i]
+        })
+    };
+    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let exact = [from(problem, middle, a), from(problem, middle, b)];
+    let normal = match d {
+        2 => None,
+        _ => Some(cross(&exact[0], &exact[1])).filter(|normal| !is_zero(normal)),
+    };
+    if d == 3 && normal.is_none() {
+        return None;
+    }
+    let is_in = |p: usize| {
+        let w = nearly(p);
+        // Most are far from it, which floats tell.
+        let far = match d {
+            2 => size(product(u, w)) > NEAR * size(u) * size(w),
+            _ => {
+                let n = product(u, v);
+                let along = n.iter().zip(w).map(|(a, b)| a * b).sum::<f64>();
+                along.abs() > NEAR * size(n) * size(w) && size(n) > NEAR * size(u) * size(v)
+            }
+        };
+        if far {
+            return false;
+        }
+        let w = from(problem, middle, p);
+        match &normal {
+            None => is_zero(&cross(&exact[0], &w)),
+            Some(normal) => dot(normal, &w).is_zero(),
+        }
+    };
+    Some((0..problem.points.len()).filter(|&p| is_in(p)).collect())
+}
+
 /// Points that are on one line or in one plane with all those that they are joined to; triangles (tetrahedra) of
 /// joined points that are flat and not among these.
 pub(super) fn in_sketch(problem: &Problem) -> Vec<Remark> {
@@ -85,4 +187,57 @@ pub(super) fn in_sketch(problem: &Problem) -> Vec<Remark> {
         }
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::remarks::{in_words, remarks};
+
+    /// A base of six points in a plane, held by twelve distances, and an apex over it.
+    fn tent(heights: [&str; 6]) -> Problem {
+        let base = [(0, 0), (4, 0), (6, 3), (4, 6), (0, 6), (-2, 3)];
+        let mut build = Problem::build("tent", 3);
+        for (k, ((x, y), z)) in base.iter().zip(heights).enumerate() {
+            let (x, y) = (x.to_string(), y.to_string());
+            build = build.point(&format!("b{k}"), [x.as_str(), y.as_str(), z]);
+        }
+        build = build.point("top", ["1", "2", "5"]);
+        for k in 0..6 {
+            for step in [1, 2] {
+                let (a, b) = (k, (k + step) % 6);
+                build = build.distance(&format!("b{a}"), &format!("b{b}"), "5");
+            }
+        }
+        for k in [0, 2, 4] {
+            build = build.distance("top", &format!("b{k}"), "6");
+        }
+        build.finish().unwrap()
+    }
+
+    #[test]
+    fn a_flat_base_is_named_as_one_part() {
+        let problem = tent(["0"; 6]);
+        let found = remarks(&problem);
+        let part = Remark::FlatPart {
+            points: (0..6).collect(),
+            distances: 12,
+        };
+        assert!(found.contains(&part), "{found:?}");
+        let words = in_words(&problem, &part);
+        assert!(
+            words.contains("b0, b1, b2, b3, b4 and b5 are in one plane, with 12 distances")
+                && words.contains("no more than 9")
+                && words.contains("[bodies]"),
+            "{words}"
+        );
+        // Not said again of single points of it.
+        let loose = |r: &Remark| matches!(r, Remark::Loose { point, .. } if *point < 6);
+        assert!(!found.iter().any(loose), "{found:?}");
+        // As little as this out of the plane.
+        let problem = tent(["0", "0", "0", "0", "0", "1e-12"]);
+        let found = remarks(&problem);
+        let is_part = |r: &Remark| matches!(r, Remark::FlatPart { points, .. } if points.len() > 5);
+        assert!(!found.iter().any(is_part), "{found:?}");
+    }
 }

@@ -59,6 +59,14 @@ pub enum Remark {
     /// In the sketch three points that are all joined are on one line (in space: four in one plane): the sketch
     /// is singular.
     FlatInSketch(Vec<usize>),
+    /// In the sketch these points are on one line (in space: in one plane), with more distances among them than can be
+    /// independent there: the sketch is singular.
+    FlatPart {
+        /// The points.
+        points: Vec<usize>,
+        /// The number of distances among them.
+        distances: usize,
+    },
     /// Two triangles on a common side have the same sides at every t: where the path brings one onto a line
     /// it does so with the other, and branches meet.
     Twins {
@@ -115,11 +123,31 @@ pub fn remarks(problem: &Problem) -> Vec<Remark> {
     }
     let mut all = target::too_long(problem);
     all.extend(target::flat(problem));
+    all.extend(flat::parts(problem));
     all.extend(flat::in_sketch(problem));
     all.extend(twins::twins(problem));
     if problem.points.len() <= MANY {
         all.extend(mirror::parts(problem));
     }
+    // What is said of a part need not be said of its points one by one.
+    let parts: Vec<Vec<usize>> = all
+        .iter()
+        .filter_map(|remark| match remark {
+            Remark::FlatPart { points, .. } => Some(points.clone()),
+            _ => None,
+        })
+        .collect();
+    let in_part = |points: &mut dyn Iterator<Item = &usize>| {
+        let points: Vec<&usize> = points.collect();
+        parts
+            .iter()
+            .any(|part| points.iter().all(|p| part.contains(p)))
+    };
+    all.retain(|remark| match remark {
+        Remark::Loose { point, joined } => !in_part(&mut joined.iter().chain([point])),
+        Remark::FlatInSketch(points) => !in_part(&mut points.iter()),
+        _ => true,
+    });
     let touched = touched(problem);
     // Distances are not all that holds these.
     all.retain(|remark| match remark {

@@ -59,6 +59,28 @@ pub fn in_words(problem: &Problem, remark: &Remark) -> String {
                 "in one plane"
             }
         ),
+        Remark::FlatPart { points, distances } => {
+            let (flat, most) = match problem.dimension {
+                2 => ("on a line", points.len() - 1),
+                _ => ("in a plane", 2 * points.len() - 3),
+            };
+            let (who, advice) = match points.len() == problem.points.len() {
+                true => (
+                    "all points".to_owned(),
+                    format!("move some of them out of the {triangle}"),
+                ),
+                false => (
+                    list(points),
+                    "if they are one rigid part of a shape that is known, write it as a body ([bodies]) in place of these \
+                     distances; otherwise move one of them a little"
+                        .to_owned(),
+                ),
+            };
+            format!(
+                "in the sketch {who} are {line}, with {distances} distances among them, of which no more than {most} are \
+                 independent {flat}: the sketch is singular, and a run may not set out from it; {advice}"
+            )
+        }
         Remark::Twins { side, corners } => {
             let [a, b] = side.map(name);
             let [c, d] = corners.map(name);

@@ -21,11 +21,11 @@ pub struct BlockRuns<'a> {
     pub runs: &'a [(Problem, Outcome)],
 }
 
-/// Figures that are listed in a table: as long as they fit in so many lines.
+/// Figures are listed in a table as long as they fit in this many lines.
 const LINES: usize = 60;
-/// Figures that are listed in JSON where not all are asked for.
+/// The most figures that are listed in JSON where not all are asked for.
 const LISTED: u64 = 100;
-/// And where they are.
+/// The most figures that are listed where all are asked for.
 const MOST: u64 = 1_000_000;
 
 impl BlockRuns<'_> {

@@ -1,6 +1,7 @@
 //! All solutions, for people and for programs.
 
 use super::certain_digits;
+use super::drawing::{Drawing, names};
 use super::json::Points;
 use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Complete, Status, Why};
@@ -8,10 +9,10 @@ use crate::interval::Interval;
 use crate::problem::{Problem, counted};
 use std::fmt::Write;
 
-/// One JSON object on one line:
+/// One JSON object on one line: what is said of every problem (docs/json.md, "The problem"), and
 ///
 /// ```json
-/// {"version": 1, "problem": "octahedron", "status": "complete" | "partial" | "flexible", "reason": null,
+/// {"status": "complete" | "partial" | "flexible", "reason": null, "verdict": "Complete, proved: ...",
 ///  "reference": ["p1", "p2", "p3"],
 ///  "solutions": [{"points": {"p1": [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]}, "class": 0, "width": 1e-14}],
 ///  "undecided": [{"reason": "...", "parts": 1, "share": 1e-9}],
@@ -21,51 +22,56 @@ use std::fmt::Write;
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
 /// reference points.
 pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
-    let names = |points: &[usize]| -> Vec<&str> {
-        points
-            .iter()
-            .map(|&p| problem.points[p].name.as_str())
-            .collect()
-    };
-    let document = Document {
-        version: super::JSON_VERSION,
-        problem: &problem.name,
-        status: result.status.name(),
-        reason: result.reason.as_deref(),
-        reference: names(&result.reference),
-        solutions: result
-            .solutions
-            .iter()
-            .map(|solution| Entry {
-                points: Points(problem, solution.points.clone()),
-                class: solution.class,
-                width: solution.width,
-            })
-            .collect(),
-        undecided: result
-            .undecided
-            .iter()
-            .map(|part| Undecided {
-                reason: why(part.why),
-                parts: part.count,
-                share: part.share,
-            })
-            .collect(),
-        boxes: result.boxes,
-        seconds: result.seconds,
-        driving: result.driving,
-        plan: names(&result.plan),
-    };
-    serde_json::to_string(&document).expect("strings, numbers and lists have a form in JSON")
+    serde_json::to_string(&Document::new(problem, result))
+        .expect("strings, numbers and lists have a form in JSON")
+}
+
+/// What [`complete_to_json`] writes, as a value in memory.
+pub fn complete_to_value(problem: &Problem, result: &Complete) -> serde_json::Value {
+    serde_json::to_value(Document::new(problem, result))
+        .expect("strings, numbers and lists have a form in JSON")
+}
+
+impl<'a> Document<'a> {
+    fn new(problem: &'a Problem, result: &'a Complete) -> Self {
+        Document {
+            drawing: Drawing::seen_from("all", problem, &result.reference),
+            status: result.status.name(),
+            reason: result.reason.as_deref(),
+            verdict: verdict(result),
+            solutions: result
+                .solutions
+                .iter()
+                .map(|solution| Entry {
+                    points: Points(problem, solution.points.clone()),
+                    class: solution.class,
+                    width: solution.width,
+                })
+                .collect(),
+            undecided: result
+                .undecided
+                .iter()
+                .map(|part| Undecided {
+                    reason: why(part.why),
+                    parts: part.count,
+                    share: part.share,
+                })
+                .collect(),
+            boxes: result.boxes,
+            seconds: result.seconds,
+            driving: result.driving,
+            plan: names(problem, &result.plan),
+        }
+    }
 }
 
 #[derive(serde::Serialize)]
 struct Document<'a> {
-    version: u32,
-    problem: &'a str,
+    #[serde(flatten)]
+    drawing: Drawing<'a>,
     status: &'static str,
     reason: Option<&'a str>,
-    reference: Vec<&'a str>,
+    verdict: String,
     solutions: Vec<Entry<'a>>,
     undecided: Vec<Undecided>,
     boxes: u64,

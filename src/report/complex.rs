@@ -101,6 +101,7 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
     let counts = result.counts;
     let value = json!({
         "version": JSON_VERSION,
+        "verb": "complex",
         "problem": problem.name,
         "status": status(&result.status),
         "bound": lowered.bound.as_ref().map(|bound| json!({

@@ -2,6 +2,7 @@
 
 use super::JSON_VERSION;
 use super::certain_digits;
+use super::drawing::{Drawing, names};
 use crate::edit::{Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted, list};
@@ -264,14 +265,8 @@ pub fn edit_to_json(problem: &Problem, edited: &Edited, moved: Moved) -> String 
     edit_to_value(problem, edited, moved).to_string()
 }
 
-/// The same as a value in memory.
+/// What [`edit_to_json`] writes, as a value in memory.
 pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value {
-    let names = |points: &[usize]| -> Vec<&str> {
-        points
-            .iter()
-            .map(|&p| problem.points[p].name.as_str())
-            .collect()
-    };
     let dimensions = edited.dimensions.iter().map(|d| {
         let name = problem.dimension_name(d.index);
         (name, bounds(d.value))
@@ -282,7 +277,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
     };
     let limit = match &edited.ending {
         Ending::Limit(limit) => {
-            let flat: Vec<_> = limit.flat.iter().map(|f| names(f)).collect();
+            let flat: Vec<_> = limit.flat.iter().map(|f| names(problem, f)).collect();
             let motion = problem.points.iter().zip(&limit.motion);
             let motion = motion.map(|(p, v)| (p.name.clone(), json!(v[..problem.dimension])));
             json!({
@@ -294,12 +289,13 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         _ => Value::Null,
     };
     let orientations = &edited.orientations;
-    let kept = orientations.kept.iter().map(|(points, _)| names(points));
+    let kept = orientations.kept.iter();
+    let kept = kept.map(|(points, _)| names(problem, points));
     let lost = orientations
         .lost
         .iter()
-        .map(|lost| json!({"points": names(&lost.points), "t": [lost.t.0, lost.t.1]}));
-    let flat = orientations.flat.iter().map(|points| names(points));
+        .map(|lost| json!({"points": names(problem, &lost.points), "t": [lost.t.0, lost.t.1]}));
+    let flat = orientations.flat.iter().map(|f| names(problem, f));
     json!({
         "version": JSON_VERSION,
         "problem": problem.name,
@@ -320,6 +316,23 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         "seconds": edited.seconds,
         "switched_on": edited.switched_on,
     })
+}
+
+/// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/json.md, "The problem"), and with
+/// what the session knows besides. `problem` is the one that was opened.
+pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -> Value {
+    let mut value = edit_to_value(problem, edited, session.moved());
+    value["free"] = session.free().into();
+    value["redundant"] = session.redundant().into();
+    value["follows"] = session.follows().into();
+    // The session's figure is the new one where that was reached.
+    if edited.ending == Ending::Reached {
+        let radii = problem.objects.iter().zip(session.radii());
+        let radii = radii.filter(|(_, radius)| *radius > 0.0);
+        let radii = radii.map(|(object, radius)| (object.name.clone(), json!(radius)));
+        value["radii"] = Value::Object(radii.collect());
+    }
+    Drawing::in_place("edit", problem).with(value)
 }
 
 /// The figure of a session and its dimensions, as a value in memory.

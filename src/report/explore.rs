@@ -1,10 +1,12 @@
 //! What came of exploring, for people and for programs.
 
 use super::certain_digits;
-use super::json::Points;
+use super::drawing::Drawing;
+use super::json::{Points, WrittenFold, WrittenSample, written_folds, written_samples};
 use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
 use crate::interval::Interval;
 use crate::problem::{Problem, Published, counted};
+use crate::track::{Outcome, Trace};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -12,13 +14,13 @@ use std::fmt::Write;
 /// What is known of all real solutions, by other means.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AllReal {
-    /// They are so many up to congruence, proved.
+    /// The number of real solutions up to congruence, proved.
     Proved(usize),
     /// The search was not tried, or did not come to its end: why.
     Unknown(String),
 }
 
-/// What there is to tell.
+/// A result of exploring, to be reported.
 #[derive(Debug)]
 pub struct Explored<'a> {
     /// The process.
@@ -27,8 +29,49 @@ pub struct Explored<'a> {
     pub finish: Option<Finish>,
     /// All real solutions.
     pub all_real: AllReal,
-    /// What others published.
+    /// Results that others published.
     pub published: &'a [Published],
+    /// Paths that were followed once more, to be drawn.
+    pub traced: &'a [TracedPath],
+    /// The number of figures along each of these that are written.
+    pub samples: usize,
+}
+
+/// A path that was followed once more ([`crate::track::trace_path`]).
+#[derive(Debug)]
+pub struct TracedPath {
+    /// Its number.
+    pub id: u64,
+    /// The outcome of following it again.
+    pub outcome: Outcome,
+    /// The path itself.
+    pub trace: Trace,
+}
+
+/// A solution of a path followed again is the one found before if no coordinate differs by more than this, in parts of the
+/// figure's size: both are known to many more digits.
+const SAME: f64 = 1e-6;
+
+impl TracedPath {
+    /// Where on the path a solution is, and how many folds are proved to lie before it.
+    fn place_of(&self, class: &Class) -> Option<(f64, Option<usize>)> {
+        let known: Vec<f64> = middles(intervals(&class.points).iter()).collect();
+        let size = known.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let far = |points: &[[Interval; 3]]| {
+            let pairs = middles(points.iter()).zip(&known);
+            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+        };
+        let solutions = self.outcome.solutions.iter();
+        let (off, solution) = solutions
+            .map(|solution| (far(&solution.points), solution))
+            .min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let place = solution.place.filter(|_| off <= SAME * size)?;
+        Some((place.arc, place.folds))
+    }
+}
+
+fn middles<'p>(points: impl Iterator<Item = &'p [Interval; 3]>) -> impl Iterator<Item = f64> {
+    points.flatten().map(|x| x.mid())
 }
 
 /// Numbers of paths by how they ended.
@@ -83,6 +126,19 @@ impl Explored<'_> {
         classes
             .filter(|class| is_flat(self.problem(), class))
             .count()
+    }
+
+    /// What was found, in words that claim no more than was proved.
+    fn verdict(&self) -> String {
+        let found = self.explorer.contents().classes.len();
+        let flat = match self.flat() {
+            0 => String::new(),
+            flat => format!(", {flat} of them flat"),
+        };
+        format!(
+            "{} found{flat}, each proved, no two congruent. That there are no others is not claimed.",
+            counted(found, "solution")
+        )
     }
 
     /// Where a sketch comes from, in words.
@@ -143,16 +199,7 @@ pub fn explore_to_table(explored: &Explored, coordinates: bool) -> String {
 fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std::fmt::Result {
     let (problem, contents) = (explored.problem(), explored.explorer.contents());
     let (counts, found) = (explored.counts(), contents.classes.len());
-    let flat = match explored.flat() {
-        0 => String::new(),
-        flat => format!(", {flat} of them flat"),
-    };
-    writeln!(
-        out,
-        "{}: {} found{flat}, each proved, no two congruent. That there are no others is not claimed.",
-        problem.name,
-        counted(found, "solution")
-    )?;
+    writeln!(out, "{}: {}", problem.name, explored.verdict())?;
     let waiting = sketches(counts.waiting);
     match explored.finish {
         Some(Finish::Ended) => {
@@ -281,11 +328,11 @@ fn sketches(count: usize) -> String {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    version: u32,
-    problem: &'a str,
+    #[serde(flatten)]
+    drawing: Drawing<'a>,
     /// `null`: nothing was run.
     status: Option<&'static str>,
-    reference: Vec<&'a str>,
+    verdict: String,
     solutions: Vec<Entry<'a>>,
     paths: BTreeMap<String, Path<'a>>,
     counts: Counts,
@@ -301,6 +348,10 @@ struct Entry<'a> {
     points: Points<'a, [Interval; 3]>,
     flat: bool,
     path: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arc: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folds: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -311,6 +362,10 @@ struct Path<'a> {
     bend: String,
     bend_coefficient: String,
     tubes: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folds: Option<Vec<WrittenFold<'a>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<Vec<WrittenSample<'a>>>,
 }
 
 #[derive(Serialize)]
@@ -328,8 +383,19 @@ struct Beside<'a> {
 
 /// The result as one line of JSON; docs/explore.md and docs/schema/explore.schema.json describe it.
 pub fn explore_to_json(explored: &Explored) -> String {
+    serde_json::to_string(&document(explored))
+        .expect("strings, numbers and lists have a form in JSON")
+}
+
+/// What [`explore_to_json`] writes, as a value in memory.
+pub fn explore_to_value(explored: &Explored) -> serde_json::Value {
+    serde_json::to_value(document(explored))
+        .expect("strings, numbers and lists have a form in JSON")
+}
+
+fn document<'a>(explored: &'a Explored) -> Document<'a> {
     let (problem, contents) = (explored.problem(), explored.explorer.contents());
-    let reference = problem.homotopy.reference.iter();
+    let traced = |id: u64| explored.traced.iter().find(|path| path.id == id);
     let mut paths = BTreeMap::new();
     for class in &contents.classes {
         let (Some(sketch), Some(path)) = (
@@ -357,23 +423,28 @@ pub fn explore_to_json(explored: &Explored) -> String {
                 bend: problem.distance_name(way.bend),
                 bend_coefficient: way.coefficient.to_string(),
                 tubes: path.tubes,
+                folds: traced(class.path).map(|path| written_folds(problem, &path.trace)),
+                samples: traced(class.path)
+                    .map(|path| written_samples(problem, &path.trace, explored.samples)),
             },
         );
     }
-    let document = Document {
-        version: super::JSON_VERSION,
-        problem: &problem.name,
+    Document {
+        drawing: Drawing::new("explore", problem),
         status: explored.finish.map(Finish::name),
-        reference: reference
-            .map(|&p| problem.points[p].name.as_str())
-            .collect(),
+        verdict: explored.verdict(),
         solutions: contents
             .classes
             .iter()
-            .map(|class| Entry {
-                points: Points(problem, intervals(&class.points)),
-                flat: is_flat(problem, class),
-                path: class.path,
+            .map(|class| {
+                let place = traced(class.path).and_then(|path| path.place_of(class));
+                Entry {
+                    points: Points(problem, intervals(&class.points)),
+                    flat: is_flat(problem, class),
+                    path: class.path,
+                    arc: place.map(|(arc, _)| arc),
+                    folds: place.and_then(|(_, folds)| folds),
+                }
             })
             .collect(),
         paths,
@@ -396,6 +467,5 @@ pub fn explore_to_json(explored: &Explored) -> String {
             })
             .collect(),
         seconds: contents.state.seconds,
-    };
-    serde_json::to_string(&document).expect("strings, numbers and lists have a form in JSON")
+    }
 }

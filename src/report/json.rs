@@ -1,11 +1,11 @@
 //! Results for programs (docs/json.md, docs/schema/result.schema.json).
 
+use super::drawing::{Drawing, names};
 use super::marks::Marks;
 use super::objects::Objects;
 use super::table::verdict;
 use crate::interval::Interval;
-use crate::problem::{Decimal, Problem, Target};
-use crate::system::{Homotopy, Placement};
+use crate::problem::{Decimal, Problem};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -17,15 +17,15 @@ pub const JSON_VERSION: u32 = 1;
 /// A run with all that belongs to it, to be written down.
 #[derive(Debug, Clone, Copy)]
 pub struct Run<'a> {
-    /// What was solved.
+    /// The problem that was solved.
     pub problem: &'a Problem,
-    /// How.
+    /// The options with which it was solved.
     pub options: &'a Options,
-    /// What came of it.
+    /// The outcome of the run.
     pub outcome: &'a Outcome,
     /// The path, where it was kept: only certified runs have one.
     pub trace: Option<&'a Trace>,
-    /// So many figures along the path are written.
+    /// The number of figures along the path that are written.
     pub samples: usize,
 }
 
@@ -39,7 +39,7 @@ impl Run<'_> {
             .expect("strings, numbers and lists have a form in JSON")
     }
 
-    /// The same as a value in memory.
+    /// The results as a value in memory, with the keys of [`Run::to_json`].
     pub fn to_value(&self) -> serde_json::Value {
         serde_json::to_value(Document::new(self))
             .expect("strings, numbers and lists have a form in JSON")
@@ -48,24 +48,11 @@ impl Run<'_> {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    version: u32,
-    krawl: &'static str,
-    problem: &'a str,
-    dimension: usize,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    source: &'a str,
+    #[serde(flatten)]
+    drawing: Drawing<'a>,
     mode: &'static str,
     space: &'static str,
     options: WrittenOptions<'a>,
-    names: Vec<&'a str>,
-    reference: Vec<&'a str>,
-    frame: Option<WrittenFrame>,
-    sketch: Points<'a, [f64; 3]>,
-    #[serde(skip_serializing_if = "Objects::is_empty")]
-    sketch_objects: Objects<'a, f64>,
-    constraints: Vec<Constraint<'a>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    objects: Vec<WrittenObject<'a>>,
     status: &'static str,
     reason: Option<&'a str>,
     verdict: String,
@@ -100,29 +87,8 @@ struct WrittenOptions<'a> {
     max_steps: usize,
 }
 
-#[derive(Serialize)]
-struct WrittenFrame {
-    origin: Vec<f64>,
-    axes: Vec<Vec<f64>>,
-}
-
-#[derive(Serialize)]
-struct Constraint<'a> {
-    kind: &'a str,
-    items: Vec<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<Exact<'a>>,
-}
-
-#[derive(Serialize)]
-struct WrittenObject<'a> {
-    name: &'a str,
-    kind: &'static str,
-    points: Vec<&'a str>,
-}
-
 /// A decimal as a text, so that it stays exact.
-struct Exact<'a>(&'a Decimal);
+pub(super) struct Exact<'a>(pub &'a Decimal);
 
 #[derive(Serialize)]
 struct Driving {
@@ -154,7 +120,7 @@ struct WrittenSet<'a> {
 }
 
 #[derive(Serialize)]
-struct WrittenFold<'a> {
+pub(super) struct WrittenFold<'a> {
     at: f64,
     t: [f64; 2],
     rising: bool,
@@ -162,7 +128,7 @@ struct WrittenFold<'a> {
 }
 
 #[derive(Serialize)]
-struct WrittenSample<'a> {
+pub(super) struct WrittenSample<'a> {
     at: f64,
     t: f64,
     within: f64,
@@ -188,12 +154,7 @@ impl<'a> Document<'a> {
             Status::Open(_) => ("open", None),
             Status::Stopped(reason) => ("stopped", Some(reason.as_str())),
         };
-        let d = problem.dimension;
-        let name = |p: usize| problem.points[p].name.as_str();
         let trace = trace.filter(|_| outcome.mode == Mode::Certified);
-        let placement = Homotopy::new(problem)
-            .and_then(|homotopy| homotopy.gauge.placement(problem))
-            .ok();
         let marks = Marks::new(problem);
         let sets = marks.sets.iter().zip(&marks.signs);
         Document {
@@ -203,26 +164,10 @@ impl<'a> Document<'a> {
                     sketch,
                 })
                 .collect(),
-            version: JSON_VERSION,
-            krawl: env!("CARGO_PKG_VERSION"),
-            problem: &problem.name,
-            dimension: d,
-            source: &problem.source,
+            drawing: Drawing::new("solve", problem),
             mode: outcome.mode.name(),
             space: outcome.space.name(),
             options: WrittenOptions::new(problem, options),
-            names: problem.points.iter().map(|p| p.name.as_str()).collect(),
-            reference: problem
-                .homotopy
-                .reference
-                .iter()
-                .map(|&p| name(p))
-                .collect(),
-            frame: placement.map(|placement| WrittenFrame::new(&placement, d)),
-            sketch: Points(problem, sketch_of(problem)),
-            sketch_objects: Objects::in_sketch(problem),
-            constraints: constraints_of(problem),
-            objects: objects_of(problem),
             status,
             reason,
             verdict: verdict(problem, outcome),
@@ -232,29 +177,8 @@ impl<'a> Document<'a> {
                 .iter()
                 .map(|solution| Entry::new(problem, solution, &marks))
                 .collect(),
-            folds: trace.map_or(Vec::new(), |trace| {
-                let folds = trace.folds().into_iter();
-                folds
-                    .map(|fold| WrittenFold {
-                        at: fold.at,
-                        t: bounds(&fold.t),
-                        rising: fold.rising,
-                        points: Points(problem, fold.points),
-                    })
-                    .collect()
-            }),
-            samples: trace.map_or(Vec::new(), |trace| {
-                let samples = trace.samples(samples).into_iter();
-                samples
-                    .map(|sample| WrittenSample {
-                        at: sample.at,
-                        t: sample.t,
-                        within: sample.within,
-                        points: sample.points.iter().map(|p| p[..d].to_vec()).collect(),
-                        objects: Objects::new(problem, &sample.objects, |x| x.mid()),
-                    })
-                    .collect()
-            }),
+            folds: trace.map_or(Vec::new(), |trace| written_folds(problem, trace)),
+            samples: trace.map_or(Vec::new(), |trace| written_samples(problem, trace, samples)),
             steps: outcome.steps,
             rejected: outcome.rejected,
             plan_changes: outcome.plan_changes,
@@ -303,59 +227,35 @@ fn ends<'a>(problem: &'a Problem, status: &'a Status) -> Option<Vec<End<'a>>> {
     Some(all.collect())
 }
 
-/// The sketch in the problem's own coordinates.
-fn sketch_of(problem: &Problem) -> Vec<[f64; 3]> {
-    let points = problem.points.iter();
-    points
-        .map(|point| {
-            point
-                .sketch
-                .each_ref()
-                .map(|x| crate::interval::enclose(x).mid())
+/// The places where a path turns back.
+pub(super) fn written_folds<'a>(problem: &'a Problem, trace: &Trace) -> Vec<WrittenFold<'a>> {
+    let folds = trace.folds().into_iter();
+    folds
+        .map(|fold| WrittenFold {
+            at: fold.at,
+            t: bounds(&fold.t),
+            rising: fold.rising,
+            points: Points(problem, fold.points),
         })
         .collect()
 }
 
-fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
-    let distances = problem.distances.iter();
-    distances
-        .map(|distance| {
-            let (kind, value) = match &distance.target {
-                Target::Length(value) => ("distance", value),
-                Target::SquaredLength(value) => ("squared distance", value),
-            };
-            Constraint {
-                kind,
-                items: names(problem, &distance.points),
-                value: Some(Exact(value)),
-            }
+/// A number of figures along a path.
+pub(super) fn written_samples<'a>(
+    problem: &'a Problem,
+    trace: &Trace,
+    count: usize,
+) -> Vec<WrittenSample<'a>> {
+    let d = problem.dimension;
+    let samples = trace.samples(count).into_iter();
+    samples
+        .map(|sample| WrittenSample {
+            at: sample.at,
+            t: sample.t,
+            within: sample.within,
+            points: sample.points.iter().map(|p| p[..d].to_vec()).collect(),
+            objects: Objects::new(problem, &sample.objects, |x| x.mid()),
         })
-        .chain(problem.constraints.iter().map(|constraint| {
-            let items = constraint.items.iter();
-            Constraint {
-                kind: &constraint.kind,
-                items: items.map(|&item| problem.item_name(item)).collect(),
-                value: constraint.value.as_ref().map(Exact),
-            }
-        }))
-        .collect()
-}
-
-fn objects_of(problem: &Problem) -> Vec<WrittenObject<'_>> {
-    let objects = problem.objects.iter();
-    objects
-        .map(|object| WrittenObject {
-            name: &object.name,
-            kind: object.kind(problem.dimension),
-            points: names(problem, &object.points()),
-        })
-        .collect()
-}
-
-fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
-    points
-        .iter()
-        .map(|&p| problem.points[p].name.as_str())
         .collect()
 }
 
@@ -376,16 +276,6 @@ impl<'a> WrittenOptions<'a> {
             alpha: options.alpha,
             extended: options.extended,
             max_steps: options.max_steps,
-        }
-    }
-}
-
-impl WrittenFrame {
-    fn new(placement: &Placement, d: usize) -> Self {
-        let middles = |v: &[Interval; 3]| v[..d].iter().map(|x| x.mid() + 0.0).collect();
-        WrittenFrame {
-            origin: middles(&placement.origin),
-            axes: placement.axes[..d].iter().map(middles).collect(),
         }
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Those of a problem; none where there are too many.
+    /// The sets of a problem, and their signs in its sketch; none where there are too many.
     pub fn new(problem: &Problem) -> Self {
         let pairs = problem.distances.iter().map(|d| d.points);
         let mut sets = simplices(problem.dimension, problem.points.len(), pairs);

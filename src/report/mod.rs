@@ -1,10 +1,12 @@
 //! What people and programs get to see of a run.
 
+#[cfg(feature = "cli")]
 mod blocks;
 mod comparison;
 mod complete;
 mod complex;
 mod digits;
+mod drawing;
 mod edit;
 mod explore;
 mod figures;
@@ -25,19 +27,21 @@ pub use blocks::BlockRuns;
 #[cfg(feature = "cli")]
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
-pub use complete::{complete_to_json, complete_to_table, cover_theorem};
+pub use complete::{complete_to_json, complete_to_table, complete_to_value, cover_theorem};
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
 pub use digits::certain_digits;
 pub use edit::{
-    decomposition_in_words, edit_in_words, edit_to_json, edit_to_table, edit_to_value,
-    figure_to_value, freedom_in_words, freedom_of_sketch_in_words, limit_in_words,
+    decomposition_in_words, edit_in_words, edit_to_document, edit_to_json, edit_to_table,
+    edit_to_value, figure_to_value, freedom_in_words, freedom_of_sketch_in_words, limit_in_words,
 };
-pub use explore::{AllReal, Explored, explore_to_json, explore_to_table};
+pub use explore::{
+    AllReal, Explored, TracedPath, explore_to_json, explore_to_table, explore_to_value,
+};
 pub use figures::{figures_in_words, figures_to_summary, figures_to_table, figures_to_value};
 pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
-pub use sweep::{ranges_to_json, ranges_to_table, sweep_in_words, sweep_to_csv, sweep_to_json};
+pub use sweep::{ranges_to_table, ranges_to_value, sweep_in_words, sweep_to_csv, sweep_to_value};
 pub use table::{to_first_table, to_no_first, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 

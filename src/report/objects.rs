@@ -21,7 +21,7 @@ enum At<C> {
 }
 
 impl<'a, C: Coordinate> Objects<'a, C> {
-    /// Those of a problem in a figure, their numbers as `number` has them.
+    /// The objects of a problem in a figure, each number of theirs as `number` has it.
     pub fn new(problem: &'a Problem, objects: &[Located], number: impl Fn(&Interval) -> C) -> Self {
         let three = |x: &[Interval; 3]| x.each_ref().map(&number);
         let at = |located: &Located| {
@@ -57,7 +57,7 @@ impl<'a, C: Coordinate> Objects<'a, C> {
 }
 
 impl<'a> Objects<'a, f64> {
-    /// Those of the sketch, in the coordinates of the file.
+    /// The objects of a sketch, in the coordinates of the file.
     pub fn in_sketch(problem: &'a Problem) -> Self {
         let three = |x: &[Decimal; 3]| x.each_ref().map(enclose);
         let at = |p: usize| three(&problem.points[p].sketch);

@@ -1,9 +1,10 @@
 //! Ranges and sweeps, for people and for programs.
 
-use super::JSON_VERSION;
 use super::certain_digits;
+use super::drawing::{Drawing, names};
 use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
+use crate::interval::Interval;
 use crate::problem::Problem;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -93,13 +94,13 @@ fn value_of(end: &End, beyond: &str) -> String {
     }
 }
 
-/// The ranges as one line of JSON (docs/edit.md).
-pub fn ranges_to_json(problem: &Problem, ranges: &[Range], moved: Moved) -> String {
-    let end = |end: &End| match end {
+/// The ranges as a value in memory, as `krawl limits --json` writes it (docs/edit.md).
+pub fn ranges_to_value(problem: &Problem, ranges: &[Range], moved: Moved) -> Value {
+    let end = |end: &End, figure: &[[Interval; 3]]| match end {
         End::Limit(value, limit) => {
             let flat: Vec<Vec<&str>> = limit.flat.iter().map(|f| names(problem, f)).collect();
             json!({"status": "limit", "value": bounds(*value), "flat": flat,
-                   "words": limit_in_words(problem, limit)})
+                   "words": limit_in_words(problem, limit), "points": points_to_value(problem, figure)})
         }
         End::Beyond(value) => json!({"status": "reached", "value": bounds(*value)}),
         End::Unknown(value, reason) => {
@@ -108,16 +109,12 @@ pub fn ranges_to_json(problem: &Problem, ranges: &[Range], moved: Moved) -> Stri
     };
     let ranges = ranges.iter().map(|range| {
         let value =
-            json!({"value": bounds(range.value), "low": end(&range.low), "high": end(&range.high)});
+            json!({"constraint": range.index, "value": bounds(range.value),
+                   "low": end(&range.low, &range.low_figure), "high": end(&range.high, &range.high_figure)});
         (problem.dimension_name(range.index), value)
     });
     let ranges: Map<String, Value> = ranges.collect();
-    json!({"version": JSON_VERSION, "problem": problem.name, "moved": moved.distance, "ranges": ranges}).to_string()
-}
-
-fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
-    let names = points.iter().map(|&p| problem.points[p].name.as_str());
-    names.collect()
+    Drawing::in_place("limits", problem).with(json!({"moved": moved.distance, "ranges": ranges}))
 }
 
 /// The edit that a sweep did not get over, if there is one.
@@ -146,22 +143,20 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
     format!("{}: {frames}.{end}", problem.name)
 }
 
-/// A sweep as one line of JSON (docs/edit.md).
-pub fn sweep_to_json(problem: &Problem, index: usize, sweep: &Sweep) -> String {
+/// A sweep as a value in memory, as `krawl sweep --json` writes it (docs/edit.md).
+pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
     let frames = sweep.frames.iter().map(|frame| {
         json!({"value": bounds(frame.value), "points": points_to_value(problem, &frame.points)})
     });
     let end = obstacle(sweep);
-    json!({
-        "version": JSON_VERSION,
-        "problem": problem.name,
+    Drawing::in_place("sweep", problem).with(json!({
+        // In place of the 2 or 3 of other results, which the sketch tells too.
         "dimension": problem.dimension_name(index),
         "status": end.map_or("reached", |edited| edited.ending.name()),
         "words": sweep_in_words(problem, index, sweep),
         "frames": frames.collect::<Vec<_>>(),
         "end": end.map(|edited| edit_to_value(problem, edited, Moved::default())),
-    })
-    .to_string()
+    }))
 }
 
 /// A sweep as CSV: the dimension's value, then the coordinates of all points, as floats.

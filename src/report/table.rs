@@ -17,10 +17,10 @@ pub fn to_table(problem: &Problem, outcome: &Outcome) -> String {
 
 /// Solutions are listed as long as they fit in so many lines.
 const LINES: usize = 120;
-/// Otherwise, as many as fit in these.
+/// Where not all solutions fit, as many are listed as take this many lines.
 const LINES_OF_MANY: usize = 45;
 
-/// The same with the first solutions only, where there are too many for a few screens.
+/// A run as [`to_table`] has it, but with the first solutions only where there are too many for a few screens.
 pub fn to_short_table(problem: &Problem, outcome: &Outcome) -> String {
     let each = problem.points.len() + 3;
     let most = match each * outcome.solutions.len() <= LINES {

@@ -220,7 +220,7 @@ impl Placement {
         })
     }
 
-    /// The same in floats.
+    /// A point of the gauge in the coordinates of the problem, in floats.
     pub fn to_problem_nearly(&self, p: &[f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| {
             let along: f64 = (0..3).map(|axis| self.axes[axis][k].mid() * p[axis]).sum();

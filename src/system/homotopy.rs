@@ -79,7 +79,7 @@ impl Homotopy {
         Self::with_unit(problem, typical_length(problem))
     }
 
-    /// The same as the paper has it, in the lengths of the problem: the steps of RR 8705, section 7,
+    /// Sets up the homotopy in the lengths of the problem, as the paper has it: the steps of RR 8705, section 7,
     /// are in them. Where the typical length is beyond 1/64 or 64 the paper's numbers would make no
     /// sense, and the unit is the typical length.
     pub fn for_the_paper(problem: &Problem) -> Result<Self, GaugeError> {
@@ -92,7 +92,7 @@ impl Homotopy {
         Self::with_unit(problem, unit)
     }
 
-    /// The same, with a unit of one's own choice.
+    /// Sets up the homotopy in a unit of one's own choice.
     ///
     /// # Panics
     /// If `unit` is not a power of two: only divisions by such are exact.
@@ -100,7 +100,7 @@ impl Homotopy {
         Self::with_constraints(problem, unit, |sketch| constraint::lower(problem, sketch))
     }
 
-    /// The same with other constraints in place of the problem's own: `lower` makes their equations from
+    /// Sets up the homotopy with other constraints in place of the problem's own: `lower` makes their equations from
     /// the sketch as it is seen from the reference.
     pub(crate) fn with_constraints(
         problem: &Problem,
@@ -158,7 +158,7 @@ impl Homotopy {
         Ok(homotopy)
     }
 
-    /// The same with another tail of no fewer auxiliary unknowns.
+    /// A homotopy of the same distances with another tail, of no fewer auxiliary unknowns.
     pub(super) fn with_other_tail(&self, tail: Tail) -> Self {
         let mut other = self.clone();
         let head = self.edges.len();

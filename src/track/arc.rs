@@ -10,7 +10,7 @@ use crate::system::Homotopy;
 pub struct Figure {
     /// The middle of the box.
     pub centre: Vec<f64>,
-    /// What the middle is more than that, in extended precision; otherwise zero.
+    /// What is to be added to `centre` for the middle, in extended precision; otherwise zero.
     pub low: Vec<f64>,
     /// How far the exact figure may be from the middle, entry by entry.
     pub radius: Vec<f64>,

@@ -11,7 +11,7 @@ pub struct PathEnd {
     pub t: (f64, f64),
     /// What happens there.
     pub kind: EndKind,
-    /// The same in words: what the figure does there, and what stopped the proof.
+    /// In words what the figure does there, and what stopped the proof.
     pub reason: String,
     /// At an end at infinity: which point goes there, and how far it was followed.
     pub away: Option<Away>,
@@ -66,7 +66,7 @@ pub const SMALL: f64 = 1e-3;
 
 /// Planes are called parallel, and points on one line, where the sine of the angle is below this.
 const NEARLY: f64 = 1e-2;
-/// And legs of an angle, which are long where an end is at infinity.
+/// Legs of an angle, which are long where an end is at infinity, are called parallel below this sine.
 const LEGS: f64 = 5e-2;
 
 /// What there is to see in a figure at the end of a path: legs of an angle that have become parallel, planes that have

@@ -57,9 +57,9 @@ enum Piece {
     Falling,
 }
 
-/// Pieces are not split more often than that: the last are 2⁻⁴⁰ of the tube.
+/// A piece is not split more often than this: the last are 2⁻⁴⁰ of the tube.
 const MAX_DEPTH: usize = 40;
-/// Nor is there more of them: a polynomial with huge coefficients, which no path has, would be cut
+/// There are never more pieces than this: a polynomial with huge coefficients, which no path has, would be cut
 /// into pieces without end.
 const MAX_PIECES: usize = 10_000;
 

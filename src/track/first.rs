@@ -26,7 +26,7 @@ pub struct First {
 /// problem, or in `space`.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve).
+/// The errors of [`solve`](super::solve).
 ///
 /// ```
 /// use krawl::problem::Problem;

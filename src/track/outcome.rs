@@ -118,7 +118,7 @@ impl Solution {
         Some(middle(self.point(problem, name)?))
     }
 
-    /// The same for all points, in the order of the problem.
+    /// The middles of all points' boxes, in the order of the problem.
     pub fn figure(&self) -> Vec<Point3<f64>> {
         self.points.iter().map(middle).collect()
     }

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// Comparisons as one line of JSON:
 ///
 /// ```json
-/// {"version": 1, "program": "krawl 0.1.0", "problems": [
+/// {"version": 1, "verb": "compare", "program": "krawl 0.1.0", "problems": [
 ///   {"problem": "...", "typical_length": 1.0, "interrupted": false, "reference": true,
 ///    "rows": [{"mode": "certified", "space": "full", "setting": null, "value": null,
 ///      "relative": null, "status": "closed", "reason": null, "steps": 0, "rejected": 0,
@@ -28,6 +28,7 @@ use serde::Serialize;
 pub fn comparisons_to_json(compared: &[Compared]) -> String {
     let document = Document {
         version: JSON_VERSION,
+        verb: "compare",
         program: concat!("krawl ", env!("CARGO_PKG_VERSION")),
         problems: compared.iter().map(problem).collect(),
     };
@@ -37,6 +38,7 @@ pub fn comparisons_to_json(compared: &[Compared]) -> String {
 #[derive(Serialize)]
 struct Document<'a> {
     version: u32,
+    verb: &'static str,
     program: &'static str,
     problems: Vec<ProblemEntry<'a>>,
 }

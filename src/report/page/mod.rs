@@ -1,19 +1,25 @@
 //! One self-contained page with figures to turn, a path to travel, and the words that belong to them.
 //!
-//! A [`Page`] knows nothing of what its figures are solutions of: every verb that has figures fills one. It
-//! is written as HTML that needs no network: `page.html` with `page.css`, `page.js` and the data in it.
+//! A [`Page`] is made from a result as `--json` writes it ([`Page::from_result`]), whichever verb it is of: one file here
+//! for each. What draws pages knows nothing of verbs. A page is written as HTML that needs no network: `page.html` with
+//! `page.css`, `page.js` and the data in it.
 
+mod complete;
+mod edited;
 mod exchange;
-mod figures;
+mod explored;
 mod moving;
 mod outlines;
+mod path;
 mod projection;
 mod ranges;
+mod reader;
 mod result;
+mod solved;
 mod still;
 mod swept;
 
-pub use result::ShowError;
+pub use reader::ShowError;
 
 use serde::Serialize;
 
@@ -34,17 +40,19 @@ pub struct Page {
     pub points: Vec<String>,
     /// Lines between points.
     pub bars: Vec<Bar>,
+    /// Dimensions that are no bars: angles, radii and others.
+    pub labels: Vec<Label>,
     /// Lines, planes, circles, spheres and arcs.
     pub shapes: Vec<Shape>,
     /// The figures, in the order of the list.
     pub figures: Vec<Figure>,
-    /// The path on which they are, if there is one to travel.
-    pub path: Option<Path>,
-    /// What stands below: the answer explained.
+    /// The paths on which they are, as far as there are any to travel.
+    pub paths: Vec<Path>,
+    /// The answer explained, below the figures.
     pub text: Vec<Text>,
-    /// What stands below the figures' digits.
+    /// The sentence below a figure's coordinates: which axes, and what the digits are worth.
     pub digits: String,
-    /// Numbers, with what they are numbers of.
+    /// Numbers of the run, each with its label.
     pub rows: Vec<(String, String)>,
 }
 
@@ -54,7 +62,7 @@ pub struct Page {
 pub enum Tone {
     /// All that is said is proved.
     Proved,
-    /// It was observed.
+    /// What is said was observed in floating point, not proved.
     Observed,
     /// There is no full answer.
     Stopped,
@@ -75,10 +83,19 @@ pub enum Text {
 pub struct Bar {
     /// The points, by number.
     pub ends: [usize; 2],
-    /// What is written on it: its dimension.
+    /// The text on the bar: its dimension.
     pub label: String,
     /// The length that it has to have, if it has one.
     pub target: Option<f64>,
+}
+
+/// A dimension that is written in the middle of some points.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// The points, by number.
+    pub points: Vec<usize>,
 }
 
 /// A line, plane, circle, sphere or arc.
@@ -93,14 +110,16 @@ pub struct Shape {
 /// A figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
-    /// What it is called in the list.
+    /// The figure's name in the list.
     pub name: String,
-    /// What else there is to say of it.
+    /// A remark that stands below the name.
     pub note: String,
     /// `sketch`, which is drawn behind others, or `solution`.
     pub kind: &'static str,
     /// Figures of the same class have the same colour. `None`: it is no answer.
     pub class: Option<usize>,
+    /// The path of the page on which it is.
+    pub path: Option<usize>,
     /// Where it is on the path.
     pub at: Option<f64>,
     /// The parameter of the path there.
@@ -110,7 +129,8 @@ pub struct Figure {
     /// Three coordinates of each point, one after the other.
     pub points: Vec<f64>,
     /// For each of [`Page::shapes`] where it is drawn: both ends of a line, four corners of a plane, the centre of a
-    /// circle or sphere and its radius, the centre, start and end of an arc. Empty where that is not known.
+    /// circle or sphere and its radius, the centre, start and end of an arc and its radius, negative where the arc goes
+    /// clockwise. A shape of which that is not known has no numbers.
     pub outlines: Vec<Vec<f64>>,
     /// The coordinates of each point as they are to be read.
     pub digits: Option<Vec<Vec<String>>>,
@@ -119,6 +139,8 @@ pub struct Figure {
 /// A path of figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Path {
+    /// What the path is called, where there are several.
+    pub name: String,
     /// What the parameter is called.
     pub parameter: String,
     /// What the path's length is, under its picture.
@@ -133,6 +155,8 @@ pub struct Path {
     pub marks: Vec<Mark>,
     /// How narrowly the path and the figures on it are enclosed, where that is proved.
     pub accuracy: Option<Accuracy>,
+    /// Whether its figure at 0 stands for the sketch, not that of the page.
+    pub has_own_sketch: bool,
 }
 
 /// How narrowly a path is enclosed.
@@ -140,7 +164,7 @@ pub struct Path {
 pub struct Accuracy {
     /// For each sample, how far the path may be from it in any coordinate.
     pub samples: Vec<f64>,
-    /// For each figure of the page, half the width of its widest bounds. `None`: it has none.
+    /// For each figure of the page half the width of its widest bounds. `None`: it has none.
     pub figures: Vec<Option<f64>>,
     /// What the picture's signs mean.
     pub legend: String,
@@ -151,7 +175,7 @@ pub struct Accuracy {
 pub struct Level {
     /// The value.
     pub t: f64,
-    /// What is written at it.
+    /// The text at the level.
     pub label: String,
 }
 
@@ -218,7 +242,7 @@ impl Page {
             round(&mut figure.points);
             figure.outlines.iter_mut().for_each(round);
         }
-        for sample in page.path.iter_mut().flat_map(|path| &mut path.samples) {
+        for sample in page.paths.iter_mut().flat_map(|path| &mut path.samples) {
             round(&mut sample.points);
             sample.outlines.iter_mut().for_each(round);
             sample.at = (sample.at * 1e7).round() / 1e7;
@@ -243,9 +267,10 @@ mod tests {
             dimension: 2,
             points: vec![evil.into()],
             bars: Vec::new(),
+            labels: Vec::new(),
             shapes: Vec::new(),
             figures: Vec::new(),
-            path: None,
+            paths: Vec::new(),
             text: vec![Text::Paragraph(evil.into())],
             digits: String::new(),
             rows: Vec::new(),

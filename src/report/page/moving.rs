@@ -26,10 +26,10 @@ struct Frame<'a> {
 }
 
 impl Page {
-    /// The figure on its way along the path, standing still at solutions, above the picture of t: an SVG
+    /// The figure on its way along the path (the first, if there are several), standing still at solutions, above the picture of t: an SVG
     /// that moves by itself in a browser. `None`: there is no path.
     pub fn to_moving_svg(&self) -> Option<String> {
-        let path = self.path.as_ref()?;
+        let path = self.paths.first()?;
         let mut out = String::new();
         // Writing to a string cannot fail.
         let _ = self.write_moving(&mut out, path);
@@ -47,7 +47,8 @@ impl Page {
             .filter(|(k, _)| k % step == 0 || k + 1 == path.samples.len())
             .map(|(_, s): (usize, &Sample)| (s.at, s.t, &s.points[..], &s.outlines[..], false))
             .collect();
-        let stops = self.figures.iter().filter(|f| f.class.is_some());
+        let stops = self.figures.iter();
+        let stops = stops.filter(|f| f.class.is_some() && f.path == Some(0));
         let rests = stops.clone().count() <= MOST_RESTS;
         for figure in stops {
             if let (Some(at), Some(t)) = (figure.at, figure.t) {

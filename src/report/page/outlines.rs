@@ -51,7 +51,100 @@ pub(super) fn plane(figure: &[f64], point: [f64; 3], normal: [f64; 3]) -> Vec<f6
         .collect()
 }
 
+/// The vector from one place to another.
+pub(super) fn from(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| b[k] - a[k])
+}
+
+/// The product that is perpendicular to both.
+pub(super) fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        u[i] * v[j] - u[j] * v[i]
+    })
+}
+
+/// A vector made 1 long; `None` if it has no direction.
+pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let long = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (long > 0.0 && long.is_finite()).then(|| v.map(|x| x / long))
+}
+
+/// The angle from the start of an arc to its end, counter-clockwise, from 0 to 2π.
+fn sweep(numbers: &[f64]) -> f64 {
+    let (x, y) = (numbers[0], numbers[1]);
+    let (a, b) = (
+        [numbers[3] - x, numbers[4] - y],
+        [numbers[6] - x, numbers[7] - y],
+    );
+    let angle = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    angle.rem_euclid(std::f64::consts::TAU)
+}
+
+/// Says which way an arc goes, if it went through the angle `before` shortly before: the nearer of both ways, so that an arc that
+/// shrinks to nothing goes on at the other side. Returns the angle.
+fn turn(numbers: &mut Vec<f64>, before: f64) -> f64 {
+    let there = sweep(numbers);
+    let back = there - std::f64::consts::TAU;
+    let angle = match (back - before).abs() < (there - before).abs() {
+        true => back,
+        false => there,
+    };
+    let radius = (numbers[3] - numbers[0]).hypot(numbers[4] - numbers[1]);
+    numbers.push(radius.copysign(angle));
+    angle
+}
+
 impl Page {
+    /// Gives each arc its sense: counter-clockwise in the sketch, and on along paths as the figure moves; in a figure
+    /// that is on none, the way that is nearer to the sketch's.
+    pub(super) fn turn_arcs(&mut self) {
+        let is_arc = |shape: &Shape| shape.kind == "arc";
+        let arcs = self.shapes.iter().enumerate();
+        let arcs: Vec<usize> = arcs.filter(|(_, s)| is_arc(s)).map(|(k, _)| k).collect();
+        for k in arcs {
+            let known = |outlines: &[Vec<f64>]| outlines.get(k).is_some_and(|o| o.len() == 9);
+            let mut own = std::f64::consts::PI;
+            let sketches = self.figures.iter_mut();
+            for sketch in sketches.filter(|f| f.kind == "sketch" && known(&f.outlines)) {
+                own = turn(&mut sketch.outlines[k], own);
+            }
+            // Along each path, both ways from where the sketch is.
+            let mut angles: Vec<Vec<f64>> = Vec::with_capacity(self.paths.len());
+            for path in &mut self.paths {
+                let samples = &mut path.samples;
+                let count = samples.len();
+                let first = samples.partition_point(|s| s.at < 0.0);
+                let mut of_path = vec![own; count];
+                let mut follow = |range: &mut dyn Iterator<Item = usize>| {
+                    let mut angle = own;
+                    for n in range {
+                        if !known(&samples[n].outlines) {
+                            continue;
+                        }
+                        angle = turn(&mut samples[n].outlines[k], angle);
+                        of_path[n] = angle;
+                    }
+                };
+                follow(&mut (first..count));
+                follow(&mut (0..first).rev());
+                angles.push(of_path);
+            }
+            for figure in &mut self.figures {
+                if figure.kind == "sketch" || !known(&figure.outlines) {
+                    continue;
+                }
+                let on = figure.path.zip(figure.at);
+                let before = on.and_then(|(path, at)| {
+                    let samples = &self.paths.get(path)?.samples;
+                    let next = samples.partition_point(|s| s.at < at);
+                    angles[path].get(next.min(samples.len() - 1)).copied()
+                });
+                turn(&mut figure.outlines[k], before.unwrap_or(own));
+            }
+        }
+    }
+
     /// The points of a figure, and how far its circles and spheres reach: all that has to be seen.
     pub(super) fn extent(&self, points: &[f64], outlines: &[Vec<f64>]) -> Vec<f64> {
         let mut all = points.to_vec();
@@ -78,9 +171,9 @@ pub(super) enum Drawn {
     Field(Vec<[f64; 2]>),
     /// A full circle: the middle and the radius.
     Circle([f64; 2], f64),
-    /// Part of a circle, counter-clockwise for who looks at the figure: both ends, the radius, and whether it is more
-    /// than half of the circle.
-    Arc([[f64; 2]; 2], f64, bool),
+    /// Part of a circle: both ends, the radius, whether it is more than half of the circle, and whether it goes clockwise
+    /// for who looks at the figure.
+    Arc([[f64; 2]; 2], f64, [bool; 2]),
 }
 
 impl Drawn {
@@ -104,7 +197,12 @@ impl Drawn {
                 let radius = a[0].hypot(a[1]);
                 let scale = radius / b[0].hypot(b[1]).max(f64::MIN_POSITIVE);
                 let end = [centre[0] + scale * b[0], centre[1] - scale * b[1]];
-                Drawn::Arc([start, end], radius, turned < 0.0)
+                let clockwise = numbers.get(9).is_some_and(|radius| *radius < 0.0);
+                Drawn::Arc(
+                    [start, end],
+                    radius,
+                    [(turned < 0.0) != clockwise, clockwise],
+                )
             }
             _ => return None,
         })
@@ -125,10 +223,10 @@ impl Drawn {
                     "M{left}A{radius:.1} {radius:.1} 0 1 0 {right}A{radius:.1} {radius:.1} 0 1 0 {left}"
                 )
             }
-            Drawn::Arc([start, end], radius, large) => {
-                let large = u8::from(*large);
+            Drawn::Arc([start, end], radius, flags) => {
+                let [large, clockwise] = flags.map(u8::from);
                 format!(
-                    "M{}A{radius:.1} {radius:.1} 0 {large} 0 {}",
+                    "M{}A{radius:.1} {radius:.1} 0 {large} {clockwise} {}",
                     at(*start),
                     at(*end)
                 )
@@ -149,6 +247,53 @@ impl Drawn {
             Drawn::Circle(..) | Drawn::Arc(..) => {
                 format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"")
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An arc about the origin from one angle to another, in degrees.
+    fn arc(start: f64, end: f64) -> Vec<f64> {
+        let at = |angle: f64| [angle.to_radians().cos(), angle.to_radians().sin(), 0.0];
+        [[0.0; 3], at(start), at(end)].concat()
+    }
+
+    #[test]
+    fn an_arc_that_shrinks_to_nothing_goes_on_at_the_other_side() {
+        let mut angle = 90f64.to_radians();
+        for end in [60, 30, 10, -10, -40, -100, -200] {
+            let mut numbers = arc(0.0, f64::from(end));
+            angle = turn(&mut numbers, angle);
+            assert!((angle - f64::from(end).to_radians()).abs() < 1e-12, "{end}");
+            assert_eq!(numbers[9] < 0.0, end < 0);
+        }
+        // And past half a circle it stays what it is.
+        for end in [150.0, 179.0, 181.0, 300.0] {
+            let mut numbers = arc(0.0, end);
+            angle = turn(&mut numbers, if end < 160.0 { 2.0 } else { angle });
+            assert!(angle > 0.0 && numbers[9] > 0.0, "{end}");
+        }
+    }
+
+    #[test]
+    fn a_clockwise_arc_is_drawn_clockwise() {
+        let shape = Shape {
+            name: "k".into(),
+            kind: "arc".into(),
+        };
+        // On paper the second axis points down.
+        let places = [[0.0, 0.0], [10.0, 0.0], [0.0, -10.0]];
+        for (radius, path) in [(1.0, "0 0 0"), (-1.0, "0 1 1")] {
+            let mut numbers = arc(0.0, 90.0);
+            numbers.push(radius);
+            let drawn = Drawn::new(&shape, &numbers, &places, 10.0).unwrap();
+            assert_eq!(
+                drawn.path(),
+                format!("M10.0 0.0A10.0 10.0 {path} 0.0 -10.0")
+            );
         }
     }
 }

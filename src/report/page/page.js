@@ -32,11 +32,27 @@ const css = (name) => getComputedStyle(document.documentElement).getPropertyValu
 const classColour = (k) => (state.dark ? LIGHTER : COLOURS)[k % COLOURS.length];
 const short = (x) => !isFinite(x) ? "?" : x === 0 ? "0" : Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3 ? x.toExponential(3) : String(+x.toPrecision(5));
 
-// ---- the path: figures between samples are interpolated, which the eye cannot tell
-const path = data.path;
-const samples = path ? path.samples : [];
-const last = samples.length ? samples[samples.length - 1].at : 0;
-const start = samples.length ? samples[0].at : 0;
+// ---- the path of the figure that is shown: figures between samples are interpolated, which the eye cannot tell
+let path = null, samples = [], start = 0, last = 0;
+function travel(k) {
+  const next = data.paths[k] ?? null;
+  if (next === path) return;
+  path = next;
+  samples = path ? path.samples : [];
+  start = samples.length ? samples[0].at : 0;
+  last = samples.length ? samples[samples.length - 1].at : 0;
+  state.span = null;
+  $("travel").hidden = !path;
+  if (!path) return;
+  $("slider").min = start; $("slider").max = last;
+  $("which").hidden = !path.name; $("which").textContent = path.name;
+  $("legend").textContent = path.legend;
+  $("how-near").hidden = !path.accuracy;
+  if (path.accuracy) $("accuracy-legend").textContent = path.accuracy.legend;
+}
+// The only path there is stays where a figure that is not on it is shown.
+const only = data.paths.length === 1 && !data.paths[0].name ? 0 : null;
+const onPath = (figure) => figure.at !== null && figure.path !== null && data.paths[figure.path] === path;
 function between(at) {
   let lo = 0, hi = samples.length - 1;
   while (hi - lo > 1) { const mid = (lo + hi) >> 1; if (samples[mid].at <= at) lo = mid; else hi = mid; }
@@ -107,8 +123,8 @@ function size(canvas) {
   pen.clearRect(0, 0, width, height);
   return [width, height];
 }
-function lines(p, colour, width, pen = view.getContext("2d")) {
-  pen.strokeStyle = colour; pen.lineWidth = width; pen.lineCap = "round"; pen.lineJoin = "round";
+function lines(p, colour, width, pen = view.getContext("2d"), cap = "round") {
+  pen.strokeStyle = colour; pen.lineWidth = width; pen.lineCap = cap; pen.lineJoin = "round";
   pen.beginPath();
   for (const { ends: [a, b] } of data.bars) { pen.moveTo(p.x[a], p.y[a]); pen.lineTo(p.x[b], p.y[b]); }
   pen.stroke();
@@ -116,6 +132,7 @@ function lines(p, colour, width, pen = view.getContext("2d")) {
 // Lines, planes, circles, spheres and arcs. A sphere is seen as its circle whichever way it is turned.
 function outlines(figure, width, height, colour, wide, pen = view.getContext("2d")) {
   figure.outlines.forEach((numbers, k) => {
+    if (!numbers.length) return;
     const kind = data.shapes[k].kind, p = project(numbers, width, height, Math.floor(numbers.length / 3));
     pen.save(); pen.strokeStyle = colour; pen.fillStyle = colour; pen.lineWidth = wide; pen.lineCap = "round"; pen.beginPath();
     if (kind === "line") { pen.setLineDash([7, 4]); pen.lineWidth = 1; pen.moveTo(p.x[0], p.y[0]); pen.lineTo(p.x[1], p.y[1]); }
@@ -124,8 +141,8 @@ function outlines(figure, width, height, colour, wide, pen = view.getContext("2d
       pen.closePath(); pen.save(); pen.globalAlpha *= 0.08; pen.fill(); pen.restore(); pen.globalAlpha *= 0.5;
     } else if (kind === "arc") {
       const at = (i) => Math.atan2(p.y[i] - p.y[0], p.x[i] - p.x[0]);
-      // Counter-clockwise from start to end, as the figure is seen.
-      pen.arc(p.x[0], p.y[0], Math.hypot(p.x[1] - p.x[0], p.y[1] - p.y[0]), at(1), at(2), true);
+      // A negative radius: it goes clockwise.
+      pen.arc(p.x[0], p.y[0], Math.hypot(p.x[1] - p.x[0], p.y[1] - p.y[0]), at(1), at(2), numbers[9] >= 0);
     } else {
       pen.arc(p.x[0], p.y[0], Math.max(0, numbers[3] * p.scale), 0, 2 * Math.PI);
       if (kind === "sphere") { pen.save(); pen.globalAlpha *= 0.08; pen.fill(); pen.restore(); }
@@ -153,11 +170,13 @@ function drawAll(width, height, ghost) {
     crowdOf = key; crowd.width = view.width; crowd.height = view.height;
     const at = crowd.getContext("2d");
     at.setTransform(view.width / width, 0, 0, view.height / height, 0, 0);
+    // Lines of one pixel of the screen, without round ends, are drawn several times as fast as others.
+    const thin = width / view.width;
     at.globalAlpha = Math.max(0.05, Math.min(0.5, 6 / data.figures.length));
     for (const k of shown()) {
       const figure = data.figures[k];
       const colour = figure.class === null ? ghost : classColour(figure.class);
-      outlines(figure, width, height, colour, 1.2, at); lines(project(figure.points, width, height), colour, 1.2, at);
+      outlines(figure, width, height, colour, thin, at); lines(project(figure.points, width, height), colour, thin, at, "butt");
     }
   }
   pen.drawImage(crowd, 0, 0, width, height);
@@ -168,7 +187,9 @@ function drawView() {
   if (!frame) fit();
   const ink = css("--ink"), soft = css("--soft"), panel = css("--panel"), ghost = css("--ghost");
   if (state.show.all) drawAll(width, height, ghost);
-  const sketch = data.figures.find((f) => f.kind === "sketch");
+  const drawn = data.figures.find((f) => f.kind === "sketch");
+  // A path from another sketch than the page's begins with its own.
+  const sketch = path && path.has_own_sketch && data.figures[state.figure] !== drawn ? between(0) : drawn;
   if (state.show.ghost && sketch && (state.at !== null || data.figures[state.figure] !== sketch)) {
     pen.setLineDash([5, 5]); pen.globalAlpha = 0.75;
     outlines(sketch, width, height, ghost, 1.3); lines(project(sketch.points, width, height), ghost, 1.3);
@@ -217,7 +238,12 @@ function drawView() {
     const dx = p.x[i] - mx, dy = p.y[i] - my, r = Math.hypot(dx, dy) || 1;
     write(data.points[i], p.x[i] + 15 * dx / r, p.y[i] + 14 * dy / r, ink, "600 13px system-ui, 'DejaVu Sans', sans-serif", N <= 40);
   }
+  if (state.show.sizes) for (const { text, points } of data.labels) {
+    const mean = (v) => points.reduce((sum, k) => sum + v[k], 0) / points.length;
+    write(text, mean(p.x), mean(p.y) + (points.length === 1 ? 16 : 0), soft, "12px system-ui, 'DejaVu Sans', sans-serif", false);
+  }
   if (state.show.sizes) for (const bar of data.bars) {
+    if (!bar.label) continue;
     const [a, b] = bar.ends, is = lengthOf(bar, now.points);
     const off = bar.target !== null && Math.abs(is - bar.target) > 2e-4 * bar.target;
     write(off ? short(+is.toPrecision(4)) + " → " + bar.label : bar.label, (p.x[a] + p.x[b]) / 2, (p.y[a] + p.y[b]) / 2,
@@ -237,6 +263,11 @@ function drawChart() {
   let lo = Infinity, hi = -Infinity;
   for (const s of samples) { lo = Math.min(lo, s.t); hi = Math.max(hi, s.t); }
   for (const level of path.levels) { lo = Math.min(lo, level.t); hi = Math.max(hi, level.t); }
+  // A path that runs off is not shown all the way: what matters is near the levels.
+  if (path.levels.length > 1) {
+    const levels = path.levels.map((level) => level.t), low = Math.min(...levels), high = Math.max(...levels), far = 4 * (high - low);
+    if (far > 0) { lo = Math.max(lo, low - far); hi = Math.min(hi, high + far); }
+  }
   const room = 0.08 * (hi - lo || 1); lo -= room; hi += room;
   const [from, to] = state.span || [start, last];
   const x = (at) => left + (width - left - right) * (at - from) / (to - from || 1);
@@ -260,9 +291,9 @@ function drawChart() {
     const px = x(mark.at), py = y(mark.t), s = marks.length > 60 ? 2 : 3.6;
     pen.moveTo(px, py - s); pen.lineTo(px + s, py); pen.lineTo(px, py + s); pen.lineTo(px - s, py); pen.fill();
   }
-  const many = data.figures.filter((f) => f.at !== null && visible(f.at)).length > 60;
+  const many = data.figures.filter((f) => onPath(f) && visible(f.at)).length > 60;
   data.figures.forEach((figure, k) => {
-    if (figure.at === null || figure.t === null || !visible(figure.at)) return;
+    if (!onPath(figure) || figure.t === null || !visible(figure.at)) return;
     const big = many ? 2.4 : 5;
     pen.beginPath(); pen.arc(x(figure.at), y(figure.t), k === state.figure && state.at === null ? big + 2 : big, 0, 2 * Math.PI);
     pen.fillStyle = figure.class === null ? css("--ghost") : classColour(figure.class); pen.fill();
@@ -278,13 +309,14 @@ function drawChart() {
 }
 
 // ---- the accuracy along the path: powers of ten of proved bounds
-const nearness = path && path.accuracy;
 function drawAccuracy() {
+  const nearness = path && path.accuracy;
   if (!nearness || !area || !$("how-near").open) return;
   const canvas = $("accuracy"), [width, height] = size(canvas), pen = canvas.getContext("2d");
   if (!width || !height) return;
   const power = (x) => Math.log10(Math.max(x, 1e-18));
-  const all = nearness.samples.concat(nearness.figures.filter((x) => x !== null)).map(power);
+  const drawn = nearness.figures.filter((x, k) => x !== null && onPath(data.figures[k]));
+  const all = nearness.samples.concat(drawn).map(power);
   let lo = Math.floor(all.reduce((a, b) => Math.min(a, b), 0)) - 0.5, hi = Math.ceil(all.reduce((a, b) => Math.max(a, b), -18)) + 0.5;
   const { left, right, from, to } = area, top = 6, bottom = 6;
   const x = (at) => left + (width - left - right) * (at - from) / (to - from || 1);
@@ -303,7 +335,7 @@ function drawAccuracy() {
   pen.stroke();
   data.figures.forEach((figure, k) => {
     const bound = nearness.figures[k];
-    if (figure.at === null || bound === null || bound === undefined || !visible(figure.at)) return;
+    if (!onPath(figure) || bound === null || bound === undefined || !visible(figure.at)) return;
     pen.beginPath(); pen.arc(x(figure.at), y(bound), k === state.figure && state.at === null ? 5.5 : 3.5, 0, 2 * Math.PI);
     pen.fillStyle = figure.class === null ? css("--ghost") : classColour(figure.class); pen.fill();
   });
@@ -317,7 +349,7 @@ function drawAccuracy() {
 function place() {
   if (state.at !== null) return state.at;
   const figure = data.figures[state.figure];
-  return figure ? figure.at : null;
+  return figure && onPath(figure) ? figure.at : null;
 }
 
 // ---- words
@@ -389,7 +421,7 @@ function reveal() {
 // ---- what people do
 let asked = false;
 function redraw() { if (!asked) { asked = true; requestAnimationFrame(() => { asked = false; drawView(); drawChart(); drawAccuracy(); }); } }
-function pick(k) { stop(); state.figure = k; state.at = null; says(); mark(); reveal(); redraw(); }
+function pick(k) { stop(); state.figure = k; travel(data.figures[k].path ?? only); state.at = null; says(); mark(); reveal(); redraw(); }
 function go(at) { state.at = Math.min(last, Math.max(start, at)); says(); mark(); redraw(); }
 function stop() { state.playing = false; $("play").textContent = "▶"; $("play").setAttribute("aria-label", "Play"); }
 function play() {
@@ -448,7 +480,7 @@ function chartAt(e) {
   const box = chart.getBoundingClientRect(), u = (e.clientX - box.left - area.left) / (area.width - area.left - area.right);
   const at = area.from + (area.to - area.from) * u, reach = 7 * (area.to - area.from) / (area.width - area.left - area.right);
   let best = -1;
-  data.figures.forEach((f, k) => { if (f.at !== null && Math.abs(f.at - at) < reach && (best < 0 || Math.abs(f.at - at) < Math.abs(data.figures[best].at - at))) best = k; });
+  data.figures.forEach((f, k) => { if (onPath(f) && Math.abs(f.at - at) < reach && (best < 0 || Math.abs(f.at - at) < Math.abs(data.figures[best].at - at))) best = k; });
   if (best >= 0 && e.type === "pointerdown") pick(best); else { stop(); go(at); }
 }
 chart.addEventListener("pointerdown", (e) => { chart.setPointerCapture(e.pointerId); if (area) chartAt(e); });
@@ -502,11 +534,7 @@ for (const [name, text] of filters.length > 1 ? filters : []) {
   });
 }
 $("filters").hidden = filters.length < 2;
-if (path) {
-  $("slider").min = start; $("slider").max = last;
-  $("legend").textContent = path.legend;
-  if (nearness) { $("how-near").hidden = false; $("accuracy-legend").textContent = nearness.legend; }
-} else $("travel").hidden = true;
+$("travel").hidden = true;
 if (!faces.length) document.querySelector('[data-show="faces"]').hidden = true;
 if (!data.figures.some((f) => f.kind === "sketch")) document.querySelector('[data-show="ghost"]').hidden = true;
 if (data.figures.length < 2) document.querySelector('[data-show="all"]').hidden = true;

@@ -64,7 +64,7 @@ impl Projection {
         self.size
     }
 
-    /// The same for one of the figures alone: as large, but in the middle.
+    /// A projection of one figure alone, in the middle, with the scale of this one.
     pub fn centred(&self, page: &Page, figure: &[f64]) -> Self {
         Projection {
             size: self.size,

@@ -1,4 +1,4 @@
-//! The path's curve between its stations, and the sizes of its steps; how it and what is on it are drawn.
+//! The path's curve between the ends of its steps, and the sizes of its steps; how it and what is on it are drawn.
 
 use super::style::{
     CLASSES, Chart, Entry, Failure, INK, SCALE, Sign, VERMILION, draw_sign, number_signs,
@@ -22,27 +22,27 @@ pub struct Curve {
     /// In the order of the path.
     pieces: Vec<Piece>,
     bounds: Vec<f64>,
-    stations: usize,
+    step_ends: usize,
 }
 
 const SOLUTION: Sign = Sign::Ring(VERMILION);
 const SKETCH: Sign = Sign::Disc(INK);
 
-/// So many points are drawn at most, beside the stations.
+/// So many points are drawn at most, beside the ends of steps.
 const POINTS: usize = 6000;
 
 impl Curve {
-    /// The path between its stations, in as many colours as there are classes of steps.
+    /// The path between the ends of its steps, in as many colours as there are classes of steps.
     pub fn new(path: &RecordedPath) -> Self {
         let steps: Vec<f64> = path
-            .stations
+            .step_ends
             .windows(2)
             .map(|w| w[1].at - w[0].at)
             .collect();
         let bounds = bounds_of(&steps);
         let parts = (POINTS / steps.len().max(1)).clamp(1, 24);
         let mut pieces: Vec<Piece> = Vec::new();
-        for (ends, &step) in path.stations.windows(2).zip(&steps) {
+        for (ends, &step) in path.step_ends.windows(2).zip(&steps) {
             let class = bounds.iter().filter(|&&bound| step > bound).count();
             let points = (1..=parts).filter_map(|k| {
                 let part = k as f64 / parts as f64;
@@ -61,7 +61,7 @@ impl Curve {
         Curve {
             pieces,
             bounds,
-            stations: path.stations.len(),
+            step_ends: path.step_ends.len(),
         }
     }
 
@@ -109,7 +109,7 @@ impl Curve {
         X: Ranged<ValueType = f64>,
         Y: Ranged<ValueType = f64>,
     {
-        let width = if self.stations > 2000 {
+        let width = if self.step_ends > 2000 {
             SCALE
         } else {
             2 * SCALE

@@ -40,18 +40,18 @@ fn draw<'a>(
     )?;
     curve.draw(&mut chart, |(_, z)| (z[a], z[b]))?;
     let solutions: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.z[a], s.z[b])).collect();
-    let sketch = path.stations.iter().take(1).map(|s| (s.z[a], s.z[b]));
+    let sketch = path.step_ends.iter().take(1).map(|s| (s.z[a], s.z[b]));
     draw_signs(&chart, &solutions, sketch)
 }
 
 /// See [`projection`].
 fn two_coordinates(path: &RecordedPath) -> [usize; 2] {
     let m = path.coordinates.len();
-    let count = path.stations.len() as f64;
-    let mean = |k: usize| path.stations.iter().map(|s| s.z[k]).sum::<f64>() / count;
+    let count = path.step_ends.len() as f64;
+    let mean = |k: usize| path.step_ends.iter().map(|s| s.z[k]).sum::<f64>() / count;
     let means: Vec<f64> = (0..m).map(mean).collect();
     let covariance = |i: usize, j: usize| -> f64 {
-        let terms = path.stations.iter();
+        let terms = path.step_ends.iter();
         terms
             .map(|s| (s.z[i] - means[i]) * (s.z[j] - means[j]))
             .sum()

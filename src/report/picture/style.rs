@@ -153,7 +153,7 @@ pub fn with_room(values: impl Iterator<Item = f64>, room: f64) -> Range<f64> {
     low - room * width..high + room * width
 }
 
-/// The same on a logarithmic scale.
+/// A range as [`with_room`] has it, on a logarithmic scale.
 pub fn with_room_log(values: impl Iterator<Item = f64>, room: f64) -> Range<f64> {
     let exponents = with_room(values.map(f64::log10), room);
     10f64.powf(exponents.start)..10f64.powf(exponents.end)

@@ -28,7 +28,7 @@ fn draw<'a>(
 
     let t_of = |z: &[f64]| z[z.len() - 1];
     let all = curve.points().map(|(_, z)| t_of(z)).chain([0.0, 1.0]);
-    let length = path.stations.last().map_or(1.0, |s| s.at);
+    let length = path.step_ends.last().map_or(1.0, |s| s.at);
     let mut chart = ChartBuilder::on(&body)
         .margin(px(12))
         .x_label_area_size(px(42))
@@ -53,8 +53,8 @@ fn draw<'a>(
     }
     curve.draw(&mut chart, |(at, z)| (*at, t_of(z)))?;
     let solutions: Vec<(f64, f64)> = path.solutions.iter().map(|s| (s.at, 1.0)).collect();
-    let back = path.stations.last().filter(|_| path.closed);
-    let sketch = path.stations.iter().take(1).chain(back);
-    let sketch = sketch.map(|station| (station.at, t_of(&station.z)));
+    let back = path.step_ends.last().filter(|_| path.closed);
+    let sketch = path.step_ends.iter().take(1).chain(back);
+    let sketch = sketch.map(|step_end| (step_end.at, t_of(&step_end.z)));
     draw_signs(&chart, &solutions, sketch)
 }

@@ -15,7 +15,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
         least / largest
     }
 
-    /// The same of J: zero where the path is singular.
+    /// The smallest pivot of J itself as a part of its largest: zero where the path is singular.
     pub fn pivot_ratio_of_jacobian(&mut self, equations: &Equations<D>) -> f64 {
         self.look(equations);
         let pattern = equations.pattern();

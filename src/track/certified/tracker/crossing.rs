@@ -19,7 +19,7 @@ use std::borrow::Cow;
 
 /// Crossings are tried where t is nearer to 1 than this.
 const NEAR: f64 = 0.25;
-/// And not where it is nearer than that: there is no room left for the links.
+/// Crossings are not tried where t is nearer to 1 than this: there is no room left for the links.
 const NEAREST: f64 = 1e-7;
 /// After a trial in vain the next is made at this part of the distance.
 const NEARER: f64 = 0.6;

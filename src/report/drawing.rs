@@ -1,0 +1,181 @@
+//! What a result says of its problem, so that its figures can be drawn without the problem file.
+
+use super::json::{Exact, Points};
+use super::objects::Objects;
+use crate::interval::Interval;
+use crate::problem::{Decimal, Problem, Target};
+use crate::system::{Homotopy, Placement};
+use serde::Serialize;
+use serde_json::Value;
+
+/// The keys that results of all verbs with figures have in common (docs/json.md, "The problem").
+#[derive(Serialize)]
+pub(super) struct Drawing<'a> {
+    version: u32,
+    krawl: &'static str,
+    verb: &'static str,
+    problem: &'a str,
+    dimension: usize,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    source: &'a str,
+    names: Vec<&'a str>,
+    reference: Vec<&'a str>,
+    frame: Option<Frame>,
+    sketch: Points<'a, [f64; 3]>,
+    #[serde(skip_serializing_if = "Objects::is_empty")]
+    sketch_objects: Objects<'a, f64>,
+    constraints: Vec<Constraint<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    objects: Vec<Object<'a>>,
+}
+
+#[derive(Serialize)]
+struct Frame {
+    origin: Vec<f64>,
+    axes: Vec<Vec<f64>>,
+}
+
+#[derive(Serialize)]
+struct Constraint<'a> {
+    kind: &'a str,
+    items: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<Exact<'a>>,
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    name: &'a str,
+    kind: &'static str,
+    points: Vec<&'a str>,
+}
+
+impl<'a> Drawing<'a> {
+    /// What is to be said of a problem in a result of `verb`.
+    pub fn new(verb: &'static str, problem: &'a Problem) -> Self {
+        let d = problem.dimension;
+        let placement = Homotopy::new(problem)
+            .and_then(|homotopy| homotopy.gauge.placement(problem))
+            .ok();
+        Drawing {
+            version: super::JSON_VERSION,
+            krawl: env!("CARGO_PKG_VERSION"),
+            verb,
+            problem: &problem.name,
+            dimension: d,
+            source: &problem.source,
+            names: problem.points.iter().map(|p| p.name.as_str()).collect(),
+            reference: names(problem, &problem.homotopy.reference),
+            frame: placement.map(|placement| Frame::new(&placement, d)),
+            sketch: Points(problem, sketch_of(problem)),
+            sketch_objects: Objects::in_sketch(problem),
+            constraints: constraints_of(problem),
+            objects: objects_of(problem),
+        }
+    }
+
+    /// What is to be said where results are in the coordinates of the problem file, whatever the reference is.
+    pub fn in_place(verb: &'static str, problem: &'a Problem) -> Self {
+        Drawing {
+            reference: Vec::new(),
+            frame: None,
+            ..Self::new(verb, problem)
+        }
+    }
+
+    /// What is to be said where results are seen from points that may not be the problem's reference.
+    pub fn seen_from(verb: &'static str, problem: &'a Problem, reference: &[usize]) -> Self {
+        let drawing = Self::new(verb, problem);
+        match reference == problem.homotopy.reference {
+            true => drawing,
+            false => Drawing {
+                reference: names(problem, reference),
+                frame: None,
+                ..drawing
+            },
+        }
+    }
+
+    /// A value with all of these keys besides its own.
+    ///
+    /// # Panics
+    /// If it is no object.
+    pub fn with(&self, own: Value) -> Value {
+        let mut value = serde_json::to_value(self).expect("strings, numbers and lists only");
+        let Value::Object(own) = own else {
+            panic!("results are objects");
+        };
+        let keys = value.as_object_mut().expect("a struct is an object");
+        keys.extend(own);
+        value
+    }
+}
+
+impl Frame {
+    fn new(placement: &Placement, d: usize) -> Self {
+        let middles = |v: &[Interval; 3]| v[..d].iter().map(|x| x.mid() + 0.0).collect();
+        Frame {
+            origin: middles(&placement.origin),
+            axes: placement.axes[..d].iter().map(middles).collect(),
+        }
+    }
+}
+
+/// The names of points, by number.
+pub(super) fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
+    points
+        .iter()
+        .map(|&p| problem.points[p].name.as_str())
+        .collect()
+}
+
+/// The sketch in the problem's own coordinates.
+fn sketch_of(problem: &Problem) -> Vec<[f64; 3]> {
+    let middle = |x: &Decimal| crate::interval::enclose(x).mid();
+    let points = problem.points.iter();
+    points
+        .map(|point| point.sketch.each_ref().map(middle))
+        .collect()
+}
+
+fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
+    // Only what has a value can be set by its name.
+    let name = |index: usize, has_value: bool| has_value.then(|| problem.dimension_name(index));
+    let distances = problem.distances.iter().enumerate();
+    let distances = distances.map(|(index, distance)| {
+        let (kind, value) = match &distance.target {
+            Target::Length(value) => ("distance", value),
+            Target::SquaredLength(value) => ("squared distance", value),
+        };
+        Constraint {
+            kind,
+            items: names(problem, &distance.points),
+            name: name(index, true),
+            value: Some(Exact(value)),
+        }
+    });
+    let others = problem.constraints.iter().enumerate();
+    let others = others.map(|(index, constraint)| {
+        let items = constraint.items.iter();
+        Constraint {
+            kind: &constraint.kind,
+            items: items.map(|&item| problem.item_name(item)).collect(),
+            name: name(problem.distances.len() + index, constraint.value.is_some()),
+            value: constraint.value.as_ref().map(Exact),
+        }
+    });
+    distances.chain(others).collect()
+}
+
+fn objects_of(problem: &Problem) -> Vec<Object<'_>> {
+    let objects = problem.objects.iter();
+    objects
+        .map(|object| Object {
+            name: &object.name,
+            kind: object.kind(problem.dimension),
+            points: names(problem, &object.points()),
+        })
+        .collect()
+}

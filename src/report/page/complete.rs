@@ -1,0 +1,44 @@
+//! The page of a complete set (`krawl all`): every figure in the place of the sketch's reference points, or, where the
+//! search had others, in the search's own.
+
+use super::reader::{Reader, ShowError, list, text, wrong};
+use super::{Figure, Page, Text, Tone};
+use serde_json::Value;
+
+pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
+    let result = reader.result;
+    let mut page = reader.page()?;
+    page.figures[0].note = "not a solution: drawn for comparison".into();
+    for (k, solution) in list(result, "solutions")?.iter().enumerate() {
+        let width = solution["width"].as_f64().ok_or(wrong("solutions"))?;
+        let figure = reader.figure(&solution["points"], &Value::Null);
+        page.figures.push(Figure {
+            name: format!("Solution {}", k + 1),
+            note: format!("known up to {width:.0e} of its size"),
+            class: Some(k),
+            ..figure.ok_or(wrong("solutions"))?
+        });
+    }
+    let (badge, tone) = match text(result, "status")? {
+        "complete" => ("proved · all there are", Tone::Proved),
+        _ => ("proved in part", Tone::Stopped),
+    };
+    (page.badge, page.tone) = (badge.into(), tone);
+    page.verdict = text(result, "verdict")?.to_owned();
+    page.text = vec![Text::Paragraph(
+        "All figures with these dimensions were searched, wherever the sketch is: the parameters of a \
+         construction plan were divided into boxes, and in each box that is not listed here it is proved that \
+         there is no solution. Figures that can be moved or mirrored into one another are listed once."
+            .into(),
+    )];
+    page.rows = vec![
+        ("driving parameters".into(), result["driving"].to_string()),
+        ("boxes".into(), result["boxes"].to_string()),
+        (
+            "seconds".into(),
+            format!("{:.4}", result["seconds"].as_f64().unwrap_or(0.0)),
+        ),
+    ];
+    page.digits = reader.proved_digits();
+    Ok(page)
+}

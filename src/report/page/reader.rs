@@ -1,0 +1,431 @@
+//! What results of all verbs with figures have in common, read from their JSON (docs/json.md).
+
+use super::{Bar, Figure, Label, Page, Shape, Tone, outlines};
+use crate::interval::hull;
+use crate::report::certain_digits;
+use serde_json::Value;
+
+/// Why a document is no result that can be shown.
+#[derive(Clone, PartialEq, thiserror::Error)]
+pub enum ShowError {
+    /// It is not JSON.
+    #[error("is not JSON: {0}")]
+    NotJson(String),
+    /// It is not a result of this program.
+    #[error(
+        "is not a result that `krawl` wrote with `--json`: `{0}` is missing or not what it should be"
+    )]
+    NotAResult(&'static str),
+    /// It is of another version.
+    #[error("is of version {0} of the format, and this program reads version {1}")]
+    Version(u64, u32),
+    /// It is a result without figures in real coordinates.
+    #[error("is a result of `krawl {0}`, which has no figure to draw: {1}")]
+    NoFigure(&'static str, &'static str),
+}
+
+crate::debug_in_words!(ShowError);
+
+pub(super) fn wrong(key: &'static str) -> ShowError {
+    ShowError::NotAResult(key)
+}
+
+pub(super) fn text<'a>(value: &'a Value, key: &'static str) -> Result<&'a str, ShowError> {
+    value[key].as_str().ok_or(wrong(key))
+}
+
+pub(super) fn list<'a>(value: &'a Value, key: &'static str) -> Result<&'a Vec<Value>, ShowError> {
+    value[key].as_array().ok_or(wrong(key))
+}
+
+/// Numbers, in the first places of three.
+pub(super) fn place(
+    value: &Value,
+    dimension: usize,
+    key: &'static str,
+) -> Result<[f64; 3], ShowError> {
+    let given = value.as_array().filter(|given| given.len() == dimension);
+    let mut out = [0.0; 3];
+    for (out, x) in out.iter_mut().zip(given.ok_or(wrong(key))?) {
+        *out = x.as_f64().ok_or(wrong(key))?;
+    }
+    Ok(out)
+}
+
+/// A lower and an upper bound.
+pub(super) fn pair(x: &Value) -> Option<(f64, f64)> {
+    let (low, high) = (x[0].as_f64()?, x[1].as_f64()?);
+    (low <= high).then_some((low, high))
+}
+
+pub(super) fn middle((low, high): (f64, f64)) -> f64 {
+    low + 0.5 * (high - low)
+}
+
+/// The digits of which bounds leave no doubt.
+pub(super) fn digits((low, high): (f64, f64)) -> String {
+    certain_digits(hull(low, high))
+}
+
+/// Bounds of each coordinate.
+pub(super) fn bounds(value: &Value, dimension: usize) -> Option<Vec<(f64, f64)>> {
+    let given = value.as_array().filter(|given| given.len() == dimension)?;
+    given.iter().map(pair).collect()
+}
+
+/// A number, or the middle of two bounds.
+fn number_or_middle(x: &Value) -> Option<f64> {
+    x.as_f64().or_else(|| pair(x).map(middle))
+}
+
+/// For each coordinate the number, or the middle of its bounds, in the first places of three.
+fn middles(value: &Value, dimension: usize) -> Option<[f64; 3]> {
+    let given = value.as_array().filter(|given| given.len() == dimension)?;
+    let mut out = [0.0; 3];
+    for (out, x) in out.iter_mut().zip(given) {
+        *out = number_or_middle(x)?;
+    }
+    Some(out)
+}
+
+/// A decimal as it is written on a bar: not longer than a few digits.
+fn shown(value: &str) -> String {
+    match value.parse::<f64>() {
+        Ok(x) if value.len() > 8 => format!("{}", (x * 1e4).round() / 1e4),
+        _ => value.to_owned(),
+    }
+}
+
+/// A result, and the coordinates in which its figures are seen from those of the sketch.
+pub(super) struct Reader<'a> {
+    pub result: &'a Value,
+    pub dimension: usize,
+    pub names: Vec<String>,
+    origin: [f64; 3],
+    axes: [[f64; 3]; 3],
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(result: &'a Value) -> Result<Self, ShowError> {
+        let given = match &result["dimension"] {
+            // Of a sweep it is the name of what is driven.
+            Value::String(_) => {
+                let places = result["sketch"].as_object().ok_or(wrong("sketch"))?;
+                let place = places.values().next().and_then(Value::as_array);
+                place.map(|place| place.len() as u64)
+            }
+            given => given.as_u64(),
+        };
+        let dimension = match given {
+            Some(d @ (2 | 3)) => d as usize,
+            _ => return Err(wrong("dimension")),
+        };
+        let names = list(result, "names")?.iter();
+        let names = names.map(|name| name.as_str().map(str::to_owned).ok_or(wrong("names")));
+        let mut origin = [0.0; 3];
+        let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        if !result["frame"].is_null() {
+            let frame = &result["frame"];
+            origin = place(&frame["origin"], dimension, "frame")?;
+            for (k, axis) in axes.iter_mut().enumerate().take(dimension) {
+                *axis = place(&frame["axes"][k], dimension, "frame")?;
+            }
+        }
+        Ok(Reader {
+            result,
+            dimension,
+            names: names.collect::<Result<_, _>>()?,
+            origin,
+            axes,
+        })
+    }
+
+    /// A page with the sketch and what holds it together, and nothing else yet.
+    pub fn page(&self) -> Result<Page, ShowError> {
+        Ok(Page {
+            title: text(self.result, "problem")?.to_owned(),
+            badge: String::new(),
+            tone: Tone::Stopped,
+            verdict: String::new(),
+            dimension: self.dimension,
+            points: self.names.clone(),
+            bars: self.bars()?,
+            labels: self.labels()?,
+            shapes: self.shapes(),
+            figures: vec![self.sketch()?],
+            paths: Vec::new(),
+            text: Vec::new(),
+            digits: String::new(),
+            rows: Vec::new(),
+        })
+    }
+
+    /// In the coordinates of the sketch.
+    pub fn there(&self, p: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| {
+            self.origin[k] + (0..3).map(|axis| self.axes[axis][k] * p[axis]).sum::<f64>()
+        })
+    }
+
+    /// A direction in the coordinates of the sketch.
+    fn turned(&self, v: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| (0..3).map(|axis| self.axes[axis][k] * v[axis]).sum())
+    }
+
+    /// A figure with bounds of its coordinates, seen as results are, as a solution without a name yet. `None`: it is none.
+    pub fn figure(&self, points: &Value, objects: &Value) -> Option<Figure> {
+        let (mut places, mut read) = (Vec::new(), Vec::new());
+        for name in &self.names {
+            let bounds = bounds(points.get(name)?, self.dimension)?;
+            let mut at = [0.0; 3];
+            for (at, &bounds) in at.iter_mut().zip(&bounds) {
+                *at = middle(bounds);
+            }
+            places.extend(self.there(at));
+            read.push(bounds.into_iter().map(digits).collect());
+        }
+        Some(Figure {
+            name: String::new(),
+            note: String::new(),
+            kind: "solution",
+            class: None,
+            path: None,
+            at: None,
+            t: None,
+            folds: None,
+            outlines: self.seen(&places, objects),
+            points: places,
+            digits: Some(read),
+        })
+    }
+
+    /// The outlines of a figure in the coordinates of the results.
+    pub fn seen(&self, points: &[f64], objects: &Value) -> Vec<Vec<f64>> {
+        self.outlines(points, objects, |p| self.there(p), |v| self.turned(v))
+    }
+
+    fn number(&self, name: &Value) -> Option<usize> {
+        let name = name.as_str()?;
+        self.names.iter().position(|known| known == name)
+    }
+
+    /// The sketch, as it is drawn behind others.
+    fn sketch(&self) -> Result<Figure, ShowError> {
+        let sketch = &self.result["sketch"];
+        let mut points = Vec::new();
+        for name in &self.names {
+            points.extend(place(&sketch[name.as_str()], self.dimension, "sketch")?);
+        }
+        let as_is = |p: [f64; 3]| p;
+        let outlines = self.outlines(&points, &self.result["sketch_objects"], as_is, as_is);
+        Ok(Figure {
+            name: "Sketch".into(),
+            note: String::new(),
+            kind: "sketch",
+            class: None,
+            path: None,
+            at: None,
+            t: None,
+            folds: None,
+            points,
+            outlines,
+            digits: None,
+        })
+    }
+
+    /// The ends of a dimension's bar, where it has one.
+    pub fn ends_of(&self, name: &str) -> Option<[usize; 2]> {
+        let mut all = self.result["constraints"].as_array()?.iter();
+        let constraint = all.find(|constraint| constraint["name"].as_str() == Some(name))?;
+        let is_distance = constraint["kind"].as_str()?.ends_with("distance");
+        let ends = constraint["items"].as_array().filter(|_| is_distance)?;
+        let ends: Option<Vec<usize>> = ends.iter().map(|name| self.number(name)).collect();
+        ends?.try_into().ok()
+    }
+
+    fn bars(&self) -> Result<Vec<Bar>, ShowError> {
+        let mut bars = Vec::new();
+        for constraint in list(self.result, "constraints")? {
+            let items = list(constraint, "items").map_err(|_| wrong("constraints"))?;
+            let value = constraint["value"].as_str();
+            let target = value.and_then(|value| value.parse::<f64>().ok());
+            let (label, target) = match (constraint["kind"].as_str(), value) {
+                (Some("distance"), Some(value)) => (shown(value), target),
+                (Some("squared distance"), Some(value)) => {
+                    (format!("√{}", shown(value)), target.map(f64::sqrt))
+                }
+                // Other kinds are no lines.
+                _ => continue,
+            };
+            let ends: Option<Vec<usize>> = items.iter().map(|name| self.number(name)).collect();
+            let ends = ends.ok_or(wrong("constraints"))?;
+            if let [a, b] = ends[..] {
+                bars.push(Bar {
+                    ends: [a, b],
+                    label,
+                    target,
+                });
+            }
+        }
+        // Lines through points and rigid bodies hold points together too.
+        for object in self.result["objects"].as_array().into_iter().flatten() {
+            let points = object["points"].as_array().into_iter().flatten();
+            let points: Vec<usize> = points.filter_map(|name| self.number(name)).collect();
+            let pairs: Vec<[usize; 2]> = match object["kind"].as_str() {
+                Some("line") => points.windows(2).map(|w| [w[0], w[1]]).collect(),
+                Some("body") => points
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(k, &a)| points[..k].iter().map(move |&b| [a, b]))
+                    .collect(),
+                _ => Vec::new(),
+            };
+            for ends in pairs {
+                let known = |bar: &Bar| bar.ends == ends || bar.ends == [ends[1], ends[0]];
+                if !bars.iter().any(known) {
+                    bars.push(Bar {
+                        ends,
+                        label: String::new(),
+                        target: None,
+                    });
+                }
+            }
+        }
+        Ok(bars)
+    }
+
+    /// The dimensions that are no bars, each where the points are that it is about.
+    fn labels(&self) -> Result<Vec<Label>, ShowError> {
+        let objects = self.result["objects"].as_array().map_or(&[][..], |o| o);
+        let points_of = |item: &Value| -> Vec<usize> {
+            if let Some(point) = self.number(item) {
+                return vec![point];
+            }
+            let object = objects.iter().find(|object| object["name"] == *item);
+            let points = object.and_then(|object| object["points"].as_array());
+            let points = points.into_iter().flatten();
+            points.filter_map(|name| self.number(name)).collect()
+        };
+        let mut labels = Vec::new();
+        for constraint in list(self.result, "constraints")? {
+            let (Some(kind), Some(value), Some(items)) = (
+                constraint["kind"].as_str(),
+                constraint["value"].as_str(),
+                constraint["items"].as_array(),
+            ) else {
+                continue;
+            };
+            let value = shown(value);
+            let text = match kind {
+                "distance" | "squared distance" => continue,
+                "angles" => format!("{value}°"),
+                "radii" => format!("r {value}"),
+                "diameters" => format!("⌀ {value}"),
+                _ => {
+                    let names: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
+                    let what = if kind == "distances" { "" } else { kind };
+                    format!("{what} {} {value}", names.join("–"))
+                        .trim_start()
+                        .to_owned()
+                }
+            };
+            let mut points: Vec<usize> = items.iter().flat_map(points_of).collect();
+            // Of three points the angle is at the second.
+            if let ("angles", &[_, vertex, _]) = (kind, &points[..]) {
+                points = vec![vertex];
+            }
+            if !points.is_empty() {
+                labels.push(Label { text, points });
+            }
+        }
+        Ok(labels)
+    }
+
+    /// The objects that are drawn: all but rigid bodies, which are bars.
+    fn objects(&self) -> impl Iterator<Item = (&'a str, &'a str, &'a Value)> {
+        let objects = self.result["objects"].as_array().into_iter().flatten();
+        objects.filter_map(|object| {
+            let (name, kind) = (object["name"].as_str()?, object["kind"].as_str()?);
+            (kind != "body").then_some((name, kind, &object["points"]))
+        })
+    }
+
+    fn shapes(&self) -> Vec<Shape> {
+        self.objects()
+            .map(|(name, kind, _)| Shape {
+                name: name.into(),
+                kind: kind.into(),
+            })
+            .collect()
+    }
+
+    /// How the objects of a figure are drawn: from what the document says of them, numbers or bounds, in the coordinates
+    /// that `there` and `turn` take to those of the sketch, or else from the points that they go through. Empty where
+    /// neither tells.
+    fn outlines(
+        &self,
+        points: &[f64],
+        objects: &Value,
+        there: impl Fn([f64; 3]) -> [f64; 3],
+        turn: impl Fn([f64; 3]) -> [f64; 3],
+    ) -> Vec<Vec<f64>> {
+        let point =
+            |k: usize| -> Option<[f64; 3]> { points.get(3 * k..3 * k + 3)?.try_into().ok() };
+        let outline = |(name, kind, through): (&str, &str, &Value)| -> Option<Vec<f64>> {
+            let at = &objects[name];
+            let place = |key: &str| middles(&at[key], self.dimension);
+            let through = through.as_array()?.iter();
+            let through = through.map(|name| self.number(name).and_then(point));
+            let through = through.collect::<Option<Vec<[f64; 3]>>>()?;
+            Some(match (kind, &through[..]) {
+                ("line", _) if !at.is_null() => {
+                    outlines::line(points, there(place("point")?), turn(place("direction")?))
+                }
+                ("line", &[a, b]) => {
+                    outlines::line(points, a, outlines::unit(outlines::from(a, b))?)
+                }
+                ("plane", _) if !at.is_null() => {
+                    outlines::plane(points, there(place("point")?), turn(place("normal")?))
+                }
+                ("plane", &[a, b, c]) => {
+                    let normal = outlines::cross(outlines::from(a, b), outlines::from(a, c));
+                    outlines::plane(points, a, outlines::unit(normal)?)
+                }
+                ("circle" | "sphere", &[center]) => {
+                    let center = place("center").map_or(center, &there);
+                    let mut numbers = center.to_vec();
+                    numbers.push(number_or_middle(&at["radius"])?);
+                    numbers
+                }
+                ("arc", _) => through.concat(),
+                _ => return None,
+            })
+        };
+        self.objects()
+            .map(|object| outline(object).unwrap_or_default())
+            .collect()
+    }
+
+    /// The coordinates in which digits are stated, in words.
+    pub fn gauge(&self) -> String {
+        let names: Vec<&str> = self.result["reference"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .collect();
+        match names[..] {
+            [a, b] => format!("In coordinates with {a} at the origin and {b} on the x axis."),
+            [a, b, c] => format!(
+                "In coordinates with {a} at the origin, {b} on the x axis and {c} in the xy plane."
+            ),
+            _ => "In the coordinates of the file.".to_owned(),
+        }
+    }
+
+    /// The coordinates in which digits are stated, and what the digits are worth.
+    pub fn proved_digits(&self) -> String {
+        self.gauge()
+            + " Every coordinate differs from the exact one by at most 1 in its last digit shown."
+    }
+}
