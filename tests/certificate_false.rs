@@ -122,7 +122,7 @@ fn a_stopped_chain_meets_nothing_beyond_its_last_exit() {
         let last = cut.tubes() - 1;
         let tube = cut.tube_mut(last);
         let there = parameter(tube, &solution.centre);
-        if !(there < tube.exit) {
+        if there.is_nan() || there >= tube.exit {
             // Listed with the tube before the one that meets it.
             continue;
         }
