@@ -47,6 +47,8 @@ pub(crate) struct Cut {
     pub unit: f64,
     /// Whose equation each of the problem's is: objects, constraints, none, distances.
     pub owners: Vec<usize>,
+    /// Whether the same figure has several solutions, as with a line or plane of its own, whose direction has two signs.
+    pub has_twins: bool,
 }
 
 impl Cut {
@@ -70,6 +72,7 @@ impl Cut {
         let system = System::new(&problem, &lowered, |index| {
             owner_is_dimension(lowered.owners[index])
         });
+        let has_twins = !lowered.tail.twins.is_empty();
         let unit = typical_length(&problem);
         let at = system.unknowns.iter().zip(&system.values);
         let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
@@ -119,6 +122,7 @@ impl Cut {
             record,
             unit,
             owners,
+            has_twins,
         };
         cut.find_exact();
         let implied = cut.system.implied.iter();

@@ -27,74 +27,87 @@ pub fn figures_in_words(figures: &Figures) -> String {
         Some(n) => format!("{n} figures meet"),
         None => "more than 2^64 figures meet".to_owned(),
     };
+    let all = match figures.meets_all() {
+        true => "all constraints",
+        false => "all constraints but those named below",
+    };
     let mut out = match (&doubt, figures.has_paths()) {
-        (None, false) => {
-            format!("Complete, proved: {number} all constraints, and there is no other")
+        (None, false) if figures.meets_all() => {
+            format!("Complete, proved: {number} {all}, and there is no other")
         }
+        (None, false) => format!("Combined, proved: {number} {all}, and no other does"),
         (None, true) => format!(
-            "Combined, proved: {number} all constraints, and there is no other whose numbers in {} are on the \
+            "Combined, proved: {number} {all}, and there is no other whose numbers in {} are on the \
              paths of these through the sketch",
             followed(figures)
         ),
         (Some(doubt), _) => format!(
-            "Combined: {number} all constraints, proved; there may be more ({})",
+            "Combined: {number} {all}, proved; there may be more ({})",
             doubt.trim_end_matches('.')
         ),
     };
-    let mut with = Vec::new();
-    if !figures.free().is_empty() {
-        with.push("what is free held where it is drawn");
-    }
-    if figures.keeps_directions() {
-        with.push("distances along an axis in the direction that they have in the sketch");
-    }
-    if !with.is_empty() {
-        let _ = write!(out, " (with {})", with.join(", and "));
-    }
+    out += &provided(figures);
     out.push('.');
     let seem: Vec<_> = figures.left_out().iter().filter(|c| !c.follows).collect();
     if !seem.is_empty() {
         let each = seem
             .iter()
             .take(LISTED)
-            .map(|c| format!("{}: met to {:.0e}", c.name, c.missed));
+            .map(|c| format!("{}, missed by at most {:.0e}", c.name, c.missed));
         let more = match seem.len() > LISTED {
             true => format!(", and {} more", seem.len() - LISTED),
             false => String::new(),
         };
         let _ = write!(
             out,
-            " Not proved to be met exactly, as they seem to follow from the others: {}{more}.",
+            " Left out, as they seem to follow from the others at the sketch: {}{more}.",
             each.collect::<Vec<_>>().join(", ")
         );
     }
     out
 }
 
+/// What is taken as the sketch has it, in brackets.
+fn provided(figures: &Figures) -> String {
+    let mut with = Vec::new();
+    if !figures.free().is_empty() {
+        with.push("what is free held where it is drawn");
+    }
+    if figures.keeps_directions() {
+        with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch");
+    }
+    if figures.has_cases() {
+        with.push("points on the side of lines and circles where the sketch has them, and angles by their size");
+    }
+    match with.is_empty() {
+        true => String::new(),
+        false => format!(" (with {})", with.join(", and ")),
+    }
+}
+
 /// The same where there is no figure.
 fn none_in_words(figures: &Figures, doubt: Option<String>) -> String {
-    let refused = figures.left_out().iter().find(|c| c.refused > 0);
-    match (doubt, figures.impossible(), refused) {
-        (Some(doubt), ..) => format!("Stopped: no figure was proved: {doubt}"),
-        (None, Some(block), _) => {
-            let path = match figures.has_paths() {
-                true => ", or none on its path through the sketch",
-                false => "",
-            };
-            let free = match figures.free().is_empty() {
-                true => "",
-                false => ", with what is free held where it is drawn",
-            };
-            format!(
-                "None, proved: block {block} has no solution where the blocks before it are{path}{free}."
-            )
-        }
-        (None, None, Some(refused)) => format!(
-            "None, proved: {} does not hold in any figure that meets the others.",
-            refused.name
-        ),
-        (None, None, None) => "None, proved: the blocks have no figure in common.".to_owned(),
+    if let Some(doubt) = doubt {
+        return format!("Stopped: no figure was proved: {doubt}");
     }
+    let refused = figures.left_out().iter().find(|c| c.refused > 0);
+    let what = match (figures.impossible(), refused) {
+        (Some(block), _) => {
+            format!("block {block} has no solution where the blocks before it are")
+        }
+        (None, Some(refused)) => {
+            format!("{} does not hold in any figure of the others", refused.name)
+        }
+        (None, None) => "the blocks have no figure in common".to_owned(),
+    };
+    let paths = match figures.has_paths() {
+        true => format!(
+            ", as far as numbers in {} are on the paths of these through the sketch",
+            followed(figures)
+        ),
+        false => String::new(),
+    };
+    format!("None, proved: {what}{paths}{}.", provided(figures))
 }
 
 /// `block 2` or `blocks 2 and 5`.
@@ -281,8 +294,8 @@ pub fn figures_to_value(figures: &Figures, all: bool) -> Value {
     let doubt = figures.doubt();
     let status = match (&doubt, count, figures.has_paths()) {
         (Some(_), ..) => "stopped",
-        (None, _, false) => "complete",
-        (None, _, true) => "combined",
+        (None, _, false) if figures.meets_all() => "complete",
+        (None, ..) => "combined",
     };
     json!({
         "version": JSON_VERSION,

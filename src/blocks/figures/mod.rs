@@ -10,8 +10,10 @@
 //! By induction over the blocks: the box of a figure holds exactly one figure that meets all equations that are used. For
 //! the numbers of a block are proved to be alone in their box for the exact numbers of the blocks before, which are alone in
 //! theirs. And where no block was in doubt, there is no other figure but those that have, in a block that was
-//! followed, numbers that are not on its path, and those in which the difference of two coordinates has another sign
-//! than in the sketch where a block says its size alone (a distance along an axis).
+//! followed, numbers that are not on its path, those in which the difference of two coordinates has another sign
+//! than in the sketch where a block says its size alone (a distance along an axis), and those of the cases that a kind of constraint leaves open
+//! (sides, senses) which the sketch is not in. Constraints that only seem to follow from the others are left out: figures miss them by as
+//! much as is said.
 
 mod parts;
 mod search;
@@ -116,6 +118,13 @@ impl Figures {
         control: &mut Control,
     ) -> Result<Self, String> {
         let cut = Cut::new(problem)?;
+        if cut.has_twins {
+            return Err(
+                "a line or plane of its own has a direction, which is the same figure with either sign; figures with \
+                 such directions are not counted block by block (name two points of the line instead)"
+                    .to_owned(),
+            );
+        }
         let count = cut.blocks.blocks.len();
         let mut fixed: Vec<Option<Number>> = vec![None; cut.system.unknowns.len()];
         let mut is_fixed = vec![false; count];
@@ -139,6 +148,7 @@ impl Figures {
                 is_fixed[b] = true;
             }
         }
+        search.moving = (0..count).filter(|&b| !is_fixed[b]).collect();
         let follow = cut.proved_redundant();
         let mut left_out: Vec<LeftOut> = cut
             .redundant
@@ -256,6 +266,26 @@ impl Figures {
     /// Whether some block was followed along its path, so that others of its solutions may be elsewhere.
     pub fn has_paths(&self) -> bool {
         self.blocks().any(|account| account.way == Way::Path)
+    }
+
+    /// Whether every constraint is proved to be met: none was left out but those that follow from the others.
+    pub fn meets_all(&self) -> bool {
+        self.left_out.iter().all(|constraint| constraint.follows)
+    }
+
+    /// Whether there are constraints whose words leave more than one case open, of which the sketch's is taken: sides of
+    /// lines, tangency from outside or inside, angles, of which the size counts (docs/problem-files.md).
+    pub fn has_cases(&self) -> bool {
+        const OPEN: [&str; 6] = [
+            "angles",
+            "distances",
+            "tangent",
+            "equal_angles",
+            "equal_distances",
+            "along",
+        ];
+        let mut constraints = self.cut.problem.constraints.iter();
+        constraints.any(|c| OPEN.contains(&c.kind.as_str()))
     }
 
     /// Whether of a distance along an axis only the direction was taken that the sketch has.

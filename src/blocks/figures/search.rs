@@ -29,6 +29,8 @@ pub(super) struct Search<'a, 'c> {
     pub control: &'a mut Control<'c>,
     /// For each block those before that it needs, directly or not, and that are not fixed.
     pub ancestors: Vec<BTreeSet<usize>>,
+    /// The blocks whose numbers are not the same in all figures.
+    pub moving: Vec<usize>,
     pub known: HashMap<(usize, Vec<Chosen>), Rc<Found>>,
     pub accounts: HashMap<usize, BlockAccount>,
     pub tubes: usize,
@@ -43,6 +45,7 @@ impl<'a, 'c> Search<'a, 'c> {
             cut,
             options,
             control,
+            moving: Vec::new(),
             known: HashMap::new(),
             accounts: HashMap::new(),
             tubes: 0,
@@ -94,7 +97,17 @@ impl<'a, 'c> Search<'a, 'c> {
         if let Some(found) = self.known.get(&key) {
             return Rc::clone(found);
         }
-        let (way, solutions, doubt, tubes) = self.solve_anew(b, values);
+        // Only the numbers that the block needs: what is found is kept for all figures with these.
+        let mut needed = values.to_vec();
+        let others = self
+            .moving
+            .iter()
+            .filter(|c| !self.ancestors[b].contains(c));
+        for &other in others {
+            let unknowns = self.cut.blocks.blocks[other].unknowns.iter();
+            unknowns.for_each(|&u| needed[u] = None);
+        }
+        let (way, solutions, doubt, tubes) = self.solve_anew(b, &needed);
         let (solutions, sign_in_doubt) = self.with_signs(b, solutions);
         let doubt = doubt.or(sign_in_doubt);
         let n = solutions.len();

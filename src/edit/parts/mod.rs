@@ -146,6 +146,7 @@ impl Parts {
             record,
             unit,
             owners,
+            has_twins: _,
         } = Cut::new(problem)?;
         let values = system.unknowns.iter().zip(&system.values);
         let scaled = values.map(|(unknown, value)| {
