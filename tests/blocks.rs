@@ -248,3 +248,71 @@ fn a_chain_of_intersections_has_all_its_figures() {
     assert_eq!((none.count(), none.doubt()), (Some(0), None));
     assert_eq!(none.impossible(), Some(1));
 }
+
+fn figures_of(text: &str) -> Result<krawl::blocks::Figures, String> {
+    let problem = krawl::problem::Problem::parse(text, "test").unwrap();
+    let options = krawl::track::Options::certified();
+    krawl::blocks::Figures::find(&problem, &options, &mut krawl::track::Control::default())
+}
+
+/// r is where p-q meets the vertical line through p: anywhere on it where q is on it too, as with q = (0, 8). Whether that
+/// is seen must not depend on where q was in another figure, in which its block had been solved before.
+#[test]
+fn a_block_is_solved_with_its_own_numbers() {
+    for (x, y) in [(7.2, 6.25), (7.2, 1.75), (6.1, 0.1), (6.1, 7.9)] {
+        let figures = figures_of(&format!(
+            "name = \"turns\"\ndimension = 2\n[points]\np = [0, 0]\na = [{x}, 0]\nca = [3, 4]\nb = [20, {y}]\n\
+             db = [23, 4]\nq = [{x}, {y}]\nr = [0, 0]\n[constraints]\nfixed = [\"p\", \"ca\", \"db\"]\n\
+             y = [[\"a\", 0]]\nx = [[\"b\", 20]]\nvertical = [[\"q\", \"a\"], [\"r\", \"p\"]]\n\
+             horizontal = [[\"q\", \"b\"]]\non = [[\"r\", \"p\", \"q\"]]\n\
+             distances = [[\"a\", \"ca\", 5], [\"b\", \"db\", 5]]\n"
+        ))
+        .unwrap();
+        let words = krawl::report::figures_in_words(&figures);
+        assert!(figures.doubt().is_some(), "{x} {y}: {words}");
+        assert!(!words.contains("no other"), "{words}");
+    }
+}
+
+/// c is 5 from a and from b, so that its x is 3, and 2e-8 less than is asked for besides.
+#[test]
+fn what_is_missed_is_not_said_to_be_met() {
+    let figures = figures_of(
+        "name = \"near\"\ndimension = 2\n[points]\na = [0, 0]\nb = [6, 0]\nc = [3.00000002, 4]\n[constraints]\n\
+         fixed = [\"a\", \"b\"]\nx = [[\"c\", 3.00000002]]\ndistances = [[\"a\", \"c\", 5], [\"b\", \"c\", 5]]\n",
+    )
+    .unwrap();
+    let words = krawl::report::figures_in_words(&figures);
+    assert!(!words.contains("Complete"), "{words}");
+    assert!(
+        figures.count() == Some(0) || words.contains("missed by at most"),
+        "{words}"
+    );
+    let value = krawl::report::figures_to_value(&figures, false);
+    assert_ne!(value["status"], "complete");
+}
+
+/// With b on the left of a there are figures: what is said of none is said of those with b on the right.
+#[test]
+fn none_is_said_with_what_is_held() {
+    let figures = figures_of(
+        "name = \"right\"\ndimension = 2\n[points]\na = [0, 0]\nb = [6, 0]\nc = [-6, 3.5]\nd = [-8, 3]\n[constraints]\n\
+         fixed = [\"a\", \"d\"]\nhorizontal = [[\"a\", \"b\"]]\n\
+         distances = [[\"a\", \"b\", 6], [\"b\", \"c\", 3], [\"c\", \"d\", 2]]\n",
+    )
+    .unwrap();
+    assert_eq!(figures.count(), Some(0));
+    let words = krawl::report::figures_in_words(&figures);
+    assert!(words.contains("in the direction that they have"), "{words}");
+}
+
+/// A line's own direction is the same line with either sign.
+#[test]
+fn lines_of_their_own_are_not_counted_twice() {
+    let refused = figures_of(
+        "name = \"free line\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 2]\nc = [1, 3]\n[lines]\n\
+         l = { point = [1, 3], direction = [4, 2] }\n[constraints]\nfixed = [\"a\", \"b\", \"c\"]\n\
+         on = [[\"c\", \"l\"]]\nparallel = [[\"l\", \"a\", \"b\"]]\n",
+    );
+    assert!(refused.unwrap_err().contains("direction"));
+}

@@ -514,7 +514,12 @@ fn the_program_certifies_sketches_that_are_not_complete() {
                 horizontal = [[\"a\", \"b\"], [\"c\", \"d\"]]\nvertical = [[\"a\", \"d\"], [\"b\", \"c\"]]\n";
     std::fs::write(&twice, text).unwrap();
     let twice = twice.to_str().unwrap();
-    assert_eq!(krawl(&["edit", twice, "--set", "a-b=9"]).0, 0);
+    let (json, page) = (path("twice.json"), path("twice.html"));
+    let (json, page) = (json.to_str().unwrap(), page.to_str().unwrap());
+    let all = krawl(&[
+        "edit", twice, "--set", "a-b=9", "--json", json, "--html", page,
+    ]);
+    assert_eq!(all.0, 0, "{}", all.1);
     let (code, text) = krawl(&["edit", twice, "--set", "a-b=9", "--cert", cert]);
     assert!(
         code == 2 && text.contains("would say nothing of `b-c`"),

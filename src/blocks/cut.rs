@@ -2,7 +2,7 @@
 
 use super::follows::{Combination, Given, combination};
 use super::{Block, Blocks, Choice, System};
-use crate::constraint::{Entry, Form, Lowered, Owner, Record, try_lower_all};
+use crate::constraint::{Entry, Form, Lowered, Owner, Record, Role, Tail, try_lower_all};
 use crate::interval::Real;
 use crate::problem::{Decimal, Problem, Shape};
 use crate::system::typical_length;
@@ -51,6 +51,29 @@ pub(crate) struct Cut {
     pub has_twins: bool,
 }
 
+/// Whether the same figure has several solutions that differ in signs of unknowns: in changes of sign of which none is that of
+/// a length or radius, which is positive. That is so where some sum of the changes in the basis concerns none of these: by
+/// elimination modulo 2.
+fn has_twins(tail: &Tail) -> bool {
+    let mut basis: Vec<Vec<bool>> = Vec::new();
+    for twin in &tail.twins {
+        let changes = twin.iter().zip(&tail.unknowns);
+        let positive = changes.filter(|(_, unknown)| unknown.role == Role::Positive);
+        let mut row: Vec<bool> = positive.map(|(&change, _)| change).collect();
+        for other in &basis {
+            let first = other.iter().position(|&change| change);
+            if first.is_some_and(|k| row[k]) {
+                row.iter_mut().zip(other).for_each(|(a, b)| *a ^= b);
+            }
+        }
+        if !row.contains(&true) {
+            return true;
+        }
+        basis.push(row);
+    }
+    false
+}
+
 impl Cut {
     /// Merges, chooses and cuts. The error says what is wrong with the sketch.
     pub fn new(problem: &Problem) -> Result<Self, String> {
@@ -72,7 +95,7 @@ impl Cut {
         let system = System::new(&problem, &lowered, |index| {
             owner_is_dimension(lowered.owners[index])
         });
-        let has_twins = !lowered.tail.twins.is_empty();
+        let has_twins = has_twins(&lowered.tail);
         let unit = typical_length(&problem);
         let at = system.unknowns.iter().zip(&system.values);
         let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));

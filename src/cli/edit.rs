@@ -129,17 +129,21 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         arguments.cert.as_deref().filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
-    let mut value = edit_to_document(&problem, &edited, &session);
-    if let Some(found) = found.clone() {
-        value["free"] = found.free.into();
-        value["redundant"] = found.redundant.into();
-        value["follows"] = found.follows.into();
-    }
+    let document = || {
+        let mut value = edit_to_document(&problem, &edited, &session);
+        if let Some(found) = found.clone() {
+            value["free"] = found.free.into();
+            value["redundant"] = found.redundant.into();
+            value["follows"] = found.follows.into();
+        }
+        value
+    };
     if !pictures.is_empty() {
-        let page = Page::from_result(&value);
+        let page = Page::from_result(&document());
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     if let Some(json) = &json {
+        let value = document();
         written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(out) = &arguments.out

@@ -53,35 +53,35 @@ struct Object<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    /// What is to be said of a problem in a result of `verb`.
+    /// What is to be said of a problem in a result of `verb`, in the gauge.
     pub fn new(verb: &'static str, problem: &'a Problem) -> Self {
-        let d = problem.dimension;
         let placement = Homotopy::new(problem)
             .and_then(|homotopy| homotopy.gauge.placement(problem))
             .ok();
+        Drawing {
+            reference: names(problem, &problem.homotopy.reference),
+            frame: placement.map(|placement| Frame::new(&placement, problem.dimension)),
+            ..Self::in_place(verb, problem)
+        }
+    }
+
+    /// What is to be said where results are in the coordinates of the problem file, whatever the reference is. The problem
+    /// need not have as many equations as unknowns.
+    pub fn in_place(verb: &'static str, problem: &'a Problem) -> Self {
         Drawing {
             version: super::JSON_VERSION,
             krawl: env!("CARGO_PKG_VERSION"),
             verb,
             problem: &problem.name,
-            dimension: d,
+            dimension: problem.dimension,
             source: &problem.source,
             names: problem.points.iter().map(|p| p.name.as_str()).collect(),
-            reference: names(problem, &problem.homotopy.reference),
-            frame: placement.map(|placement| Frame::new(&placement, d)),
+            reference: Vec::new(),
+            frame: None,
             sketch: Points(problem, sketch_of(problem)),
             sketch_objects: Objects::in_sketch(problem),
             constraints: constraints_of(problem),
             objects: objects_of(problem),
-        }
-    }
-
-    /// What is to be said where results are in the coordinates of the problem file, whatever the reference is.
-    pub fn in_place(verb: &'static str, problem: &'a Problem) -> Self {
-        Drawing {
-            reference: Vec::new(),
-            frame: None,
-            ..Self::new(verb, problem)
         }
     }
 
