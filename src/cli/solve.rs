@@ -35,7 +35,7 @@ Examples:
   krawl solve a.toml b.toml c.toml --summary   one line for each
   krawl generate strip --size 100 | krawl solve -
   krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
-  krawl solve part.FCStd --sketch Frame        a sketch of FreeCAD or SolveSpace, block by block
+  krawl solve problems/sketches/parts.FCStd --sketch Frame  a sketch of FreeCAD or SolveSpace, block by block
 
 A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
 its own frame that stops as a whole, and one of distances that falls apart (docs/sketches.md).
