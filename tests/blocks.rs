@@ -250,7 +250,7 @@ fn a_chain_of_intersections_has_all_its_figures() {
 }
 
 fn figures_of(text: &str) -> Result<krawl::blocks::Figures, String> {
-    let problem = krawl::problem::Problem::parse(text, "test").unwrap();
+    let problem = krawl::problem::Problem::parse_loosely(text, "test").unwrap();
     let options = krawl::track::Options::certified();
     krawl::blocks::Figures::find(&problem, &options, &mut krawl::track::Control::default())
 }
