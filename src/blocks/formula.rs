@@ -222,7 +222,7 @@ fn two(one: &Local, other: &Local) -> Solved {
     }
 }
 
-/// The same solution in a smaller box: Krawczyk's operator keeps every zero of a box.
+/// A solution in a smaller box, by two steps of Krawczyk's operator, which keeps every zero of a box.
 fn contracted(rows: &[Local], solution: Vec<Number>) -> Vec<Number> {
     let n = rows.len();
     let Some(y) = jacobian(rows, &middle(&solution)).try_inverse() else {

@@ -148,7 +148,7 @@ fn map(form: Form, entry: &impl Fn(Entry) -> Entry) -> Form {
     }
 }
 
-/// The same sum without products that are zero or cancel.
+/// A sum of products in which equal ones are added up, without products that are zero or cancel.
 fn normalised(products: impl Iterator<Item = Product>) -> Vec<Product> {
     let rank = |entry: Entry| match entry {
         Entry::Unknown(u) => u,

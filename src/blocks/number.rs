@@ -51,7 +51,8 @@ impl Number {
         }
     }
 
-    /// The same for exact arithmetic; `None` if nothing is known of it.
+    /// The number for exact arithmetic: a ratio where it is exact, otherwise a number within its interval; `None`
+    /// if nothing is known of it.
     pub fn to_real(&self) -> Option<Real> {
         match &self.exact {
             Some(value) => Some(Real::from(value.clone())),
@@ -139,7 +140,8 @@ impl Number {
         })
     }
 
-    /// The same number, known better: it is in this interval too.
+    /// The number, which is known to be in the interval `to` too: an exact one stays as it is, any other is within
+    /// both intervals.
     pub fn narrowed(&self, to: Interval) -> Self {
         match self.is_exact() {
             true => self.clone(),

@@ -18,7 +18,8 @@ const _: () = assert!(LARGEST_SQUARE <= MAX_FREE_COORDINATES);
 /// largest coordinate, so that a checker that rounds more coarsely has room; the claim is weaker,
 /// not stronger.
 const WIDER: f64 = 2.0;
-/// The same for folds, where a checker may bound all entries by the largest, velocities among them.
+/// Boxes of folds are written wider than they were proved by this factor: a checker may bound all their entries by
+/// the largest, velocities among them.
 const WIDER_AT_FOLDS: f64 = 1024.0;
 /// See [`WIDER`].
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;

@@ -549,7 +549,8 @@ impl Arguments {
         Ok((text, figures_to_value(&figures, self.all), code))
     }
 
-    /// The same of a problem that stopped as a whole, if its blocks come to an end.
+    /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole: as text, as a
+    /// value for JSON, and the exit code. `None`: its blocks do not come to an end either.
     fn instead(&self, problem: &Problem, reason: &str) -> Option<(String, Value, u8)> {
         let (text, value, code) = self.by_blocks(problem).ok()?;
         let reason = reason.trim_end_matches('.');

@@ -29,7 +29,7 @@ impl Method {
 pub struct Way {
     /// How the path is followed.
     pub method: Method,
-    /// And where.
+    /// The space in which the path is followed.
     pub space: Space,
 }
 

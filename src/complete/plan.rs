@@ -73,7 +73,7 @@ pub struct Plan {
     /// The base: the first point lies at the origin, the second on the positive x axis, in space the
     /// third in the xy plane above it.
     pub base: Vec<usize>,
-    /// The other points, in the order in which they are placed.
+    /// The points that are not in the base, in the order in which they are placed.
     pub steps: Vec<Step>,
     /// The driving parameters.
     pub drives: Vec<Drive>,
@@ -158,11 +158,11 @@ impl HingeNumbers {
 /// (c₂ − c₁) turned by a right angle.
 #[derive(Debug, Clone, Copy)]
 pub struct MeetNumbers {
-    /// See there.
+    /// The multiple of c₂ − c₁ in the new point.
     pub first: Number,
-    /// See there.
+    /// The multiple of c₃ − c₁ in the new point.
     pub second: Number,
-    /// See there.
+    /// The multiple of n in the new point, up to its sign.
     pub over: Number,
 }
 

@@ -9,7 +9,7 @@ use crate::track::arc::Figure;
 pub struct SolutionBox {
     /// The box as the tracker takes it: real and imaginary part of every unknown in turn.
     pub figure: Figure,
-    /// The same as intervals, rounded outwards.
+    /// The box as intervals rounded outwards: real and imaginary part of every unknown in turn.
     pub parts: Vec<Interval>,
     /// Within this distance of the box's middle, in every part, there is no other solution.
     pub alone_within: f64,

@@ -24,7 +24,8 @@ pub fn count(set: &SolutionSet, system: &System) -> Counts {
     counted(set, &system.group_of_instance, system.positions)
 }
 
-/// The same of a generic instance.
+/// Counts solutions of a generic instance, of which a set has one for each orbit under the changes of sign that
+/// take the solutions of every instance to solutions.
 pub fn count_generic(set: &SolutionSet, system: &System) -> Counts {
     counted(set, &system.group, system.positions)
 }

@@ -68,8 +68,8 @@ pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
     lower_with(problem, true)
 }
 
-/// The same with an equation for the square of every distance, those of the reference too: then all coefficients of
-/// a problem of distances are ratios.
+/// Makes the complex system of a checked problem with an equation for the square of every distance, those of the
+/// reference too: then all coefficients of a problem of distances are ratios.
 pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
     lower_with(problem, false)
 }
@@ -330,7 +330,8 @@ fn right_of(coefficients: &[Real]) -> Kind {
     Kind::Parameter([at_target, zero()[1].clone()])
 }
 
-/// The same in the system's unit.
+/// A right-hand side that is given in the problem's unit of length, in the system's, `unit`; `power`: the power of
+/// the unit of length that it has.
 pub(super) fn in_unit(right: Kind, unit: f64, power: i32) -> Kind {
     let Kind::Parameter(value) = right else {
         return right;

@@ -37,7 +37,7 @@ pub struct Equation {
 pub enum Kind {
     /// A dimension, which is another one in another figure: where the target has it.
     Parameter(Parameter),
-    /// The same in all figures, as where an auxiliary unknown is defined.
+    /// A constant that is the same in all figures, as in an equation that defines an auxiliary unknown.
     Fixed(Exact),
 }
 
@@ -55,8 +55,9 @@ pub struct Signs {
 pub enum Start {
     /// Any figure: unknowns that a fixed equation defines are computed from the others.
     Any,
-    /// The same with the reference standing on real places: its coordinates that are not zero are the first of
-    /// these unknowns, so many.
+    /// Any figure whose reference stands on real places: as many of these unknowns, from the first on, as the
+    /// number says are its coordinates that are not zero. Unknowns that a fixed equation defines are computed from
+    /// the others.
     Placed([usize; 3], usize),
     /// Three lines in general directions: see `lines`.
     Lines,
@@ -78,7 +79,8 @@ pub struct System {
     /// Which changes of sign take the solutions of every instance to solutions: a group, the first being
     /// the one that changes nothing.
     pub group: Vec<Signs>,
-    /// The same for the solutions of this one.
+    /// Which changes of sign take the solutions of this instance to solutions: a group, the first being the one
+    /// that changes nothing.
     pub group_of_instance: Vec<Signs>,
     /// How start figures are drawn.
     pub start: Start,

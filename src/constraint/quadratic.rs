@@ -41,9 +41,9 @@ pub enum Form {
 pub struct Product {
     /// A whole number from −1000 to 1000, not zero.
     pub factor: i32,
-    /// One of the two things multiplied.
+    /// The first of the two things multiplied.
     pub left: Form,
-    /// The other.
+    /// The second of the two things multiplied.
     pub right: Form,
 }
 

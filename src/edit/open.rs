@@ -22,7 +22,7 @@ pub enum OpenError {
     Correction {
         /// How that ended, in words.
         what: String,
-        /// The same as it is.
+        /// How the path that was to lead the sketch to its dimensions ended, as a value to be matched on.
         ending: Box<Ending>,
     },
 }

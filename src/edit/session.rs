@@ -34,8 +34,9 @@ impl Session {
         Self::open_with(problem, &Options::certified(), &mut Control::default())
     }
 
-    /// The same with options of one's own, of which space, the longest step, the radius of tubes, α, extended
-    /// precision and the limit of steps matter.
+    /// Takes the sketch of a checked problem for the figure, led to its dimensions as in [`Session::open`], with
+    /// options of one's own, of which space, the longest step, the radius of tubes, α, extended precision and the
+    /// limit of steps matter.
     ///
     /// The space is the full one for small problems and otherwise the reduced one, with the full one where that
     /// stops, unless `options` have the reduced one. Problems with more than distances are followed in the full one.
@@ -101,7 +102,7 @@ impl Session {
         }
     }
 
-    /// The same in floats.
+    /// The figure in floats, in the coordinates of the problem: the middle of each box of [`Session::points`].
     pub fn figure(&self) -> Vec<[f64; 3]> {
         let points = self.points();
         points.iter().map(|p| p.map(|x| x.mid())).collect()
@@ -160,7 +161,7 @@ impl Session {
         self.edit_with(settings, &mut Control::default())
     }
 
-    /// The same, with hooks.
+    /// Changes dimensions as [`Session::edit`] does, with the hooks of `control`.
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         match &mut self.way {
             Way::Whole(whole) => whole.edit_with(settings, control),

@@ -52,7 +52,7 @@ pub enum SettingError {
     /// An angle is between 0 and 180 degrees.
     #[error("{0}: an angle must be between 0 and 180 degrees, and {1} is not")]
     NotAnAngle(String, String),
-    /// The same dimension twice.
+    /// A dimension is set twice.
     #[error("{0} is set twice: leave out one of the two")]
     Twice(String),
     /// None at all.

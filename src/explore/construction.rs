@@ -32,7 +32,7 @@ pub struct Step {
 pub struct Construction {
     /// The points that stay.
     pub base: Vec<usize>,
-    /// The others.
+    /// The placings of the points that do not stay, in order.
     pub steps: Vec<Step>,
     /// How many of the distances used are no constraints.
     pub added: usize,

@@ -20,7 +20,8 @@ pub fn enclose(decimal: &Decimal) -> Interval {
     enclose_near(decimal.value(), decimal.to_f64())
 }
 
-/// The same for a ratio of whole numbers.
+/// The tightest interval of floats that holds a ratio of whole numbers: one float where the ratio is one,
+/// otherwise the two neighbours.
 ///
 /// # Panics
 /// If the value is beyond the range of floats.

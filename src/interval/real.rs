@@ -313,7 +313,7 @@ impl Ball {
         (near, radius)
     }
 
-    /// The same with a middle of fewer digits, where it is not exact anyway.
+    /// A ball around the same number whose middle has about [`BITS`] bits; a ball of radius zero stays as it is.
     fn rounded(self) -> Self {
         if self.radius.is_zero() {
             return self;

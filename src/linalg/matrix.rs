@@ -43,7 +43,7 @@ impl Vector {
         &self.lanes
     }
 
-    /// The same, to write on. The padding must stay zero.
+    /// The entries in lanes, padding included, to write on. The padding must stay zero.
     pub fn lanes_mut(&mut self) -> &mut [Lane] {
         &mut self.lanes
     }
@@ -205,7 +205,8 @@ impl Matrix {
         }
     }
 
-    /// The same for any size, every sum fused and in the columns' order.
+    /// `square = |A A − Y S| u` and `other = |Y S| u` for square matrices A and Y of any size, every sum fused and
+    /// in the columns' order.
     pub(super) fn square_minus_by_small_kernels(
         &self,
         (y, s, values): (&Matrix, &Sparse, &[f64]),

@@ -73,7 +73,7 @@ pub enum Shape {
         center: usize,
         /// One end.
         start: usize,
-        /// The other.
+        /// The end that is not `start`.
         end: usize,
     },
     /// Points that move together, as one rigid body that is not mirrored.

@@ -72,7 +72,7 @@ pub enum Remark {
     Twins {
         /// The common side.
         side: [usize; 2],
-        /// The other corners.
+        /// The corner of each triangle that is not on the common side.
         corners: [usize; 2],
     },
     /// Some points are joined to the others only through two points (in space: three), so that they can be

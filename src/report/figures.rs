@@ -15,7 +15,7 @@ const LINES: usize = 60;
 const LISTED: usize = 8;
 /// Figures that are listed in JSON where not all are asked for.
 const IN_JSON: u64 = 100;
-/// And where they are.
+/// Figures that are listed, in a table or in JSON, where all are asked for.
 const MOST: u64 = 1_000_000;
 
 /// What is proved of the figures of a sketch, in a sentence or two.
@@ -85,7 +85,7 @@ fn provided(figures: &Figures) -> String {
     }
 }
 
-/// The same where there is no figure.
+/// What is said of a sketch for which no figure was found, in a sentence or two; `doubt`: why the search stopped.
 fn none_in_words(figures: &Figures, doubt: Option<String>) -> String {
     if let Some(doubt) = doubt {
         return format!("Stopped: no figure was proved: {doubt}");

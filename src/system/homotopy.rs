@@ -17,9 +17,11 @@ pub struct Edge {
 pub struct Term {
     /// A small whole number.
     pub factor: i32,
-    /// The first unknown minus the second, or the number 1. The index m + 1 stands for zero.
+    /// The first factor: the first of two unknowns minus the second, or the number 1. The index m + 1 stands for
+    /// zero.
     pub left: Option<[usize; 2]>,
-    /// The other factor.
+    /// The second factor: the first of two unknowns minus the second, or the number 1. The index m + 1 stands for
+    /// zero.
     pub right: Option<[usize; 2]>,
 }
 

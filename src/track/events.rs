@@ -69,7 +69,7 @@ impl<const N: usize> TimeAlong<N> {
         Self::with_low(z, 0.0, h, distance, slope_distance)
     }
 
-    /// The same with z_0 + `low` for z_0.
+    /// t = `low` + Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
     pub fn with_low(z: [f64; N], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
         // Near t = 1 the difference is exact (Sterbenz); anywhere its error is relative to itself.
         let from_one = z[0] - 1.0;

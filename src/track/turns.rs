@@ -85,8 +85,8 @@ impl Turns {
         self.split(time, (from, to), 0, &mut seen);
     }
 
-    /// The same where bounds on dt/ds are known for the stretch, or for one that holds it: if they have one sign
-    /// there is nothing to look at.
+    /// Goes on along a tube, from a parameter to another, and tells what it sees, in order, where bounds on dt/ds
+    /// are known for the stretch, or for one that holds it: if they have one sign there is nothing to look at.
     pub fn follow_within<const N: usize>(
         &mut self,
         time: &TimeAlong<N>,

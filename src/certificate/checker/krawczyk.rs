@@ -65,7 +65,8 @@ impl<'a> Curve<'a> {
         Ok(curve)
     }
 
-    /// The same near a sum of two points, with more than 53 bits.
+    /// The constant polynomial near the sum `high` + `low` of two points, with more than 53 bits: the field `low`
+    /// holds what z₀ is more than its floats.
     pub fn at_sum(eq: &'a Equations, high: &[f64], low: &[f64]) -> Result<Self, Fault> {
         let mut sum: Vec<f64> = high.iter().zip(low).map(|(x, y)| x + y).collect();
         sum[eq.m] = rounded_time(sum[eq.m]);
@@ -327,7 +328,7 @@ pub struct Proof {
     /// The zero is at most so far from ẑ(σ); and at most `distances[0] + |σ| distances[1]`.
     pub distance: Interval,
     pub distances: [Interval; 2],
-    /// And φ'(σ) from ẑ'(σ).
+    /// φ'(σ) is at most so far from ẑ'(σ), in the norm |·|_u.
     pub slope_distance: Interval,
     /// 1 − q − η/r.
     pub margin: f64,
@@ -396,7 +397,7 @@ pub fn polynomial(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
     z.iter().rev().fold(ZERO, |sum, z| sum * s + point(z[i]))
 }
 
-/// The same of the derivative.
+/// Σ k z_k σᵏ⁻¹, k ≥ 1, the derivative of Σ z_k σᵏ by σ: one of its entries.
 pub fn derivative(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
     let terms = (1..z.len()).rev().map(|k| point(k as f64) * point(z[k][i]));
     terms.fold(ZERO, |sum, z| sum * s + z)

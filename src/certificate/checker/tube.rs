@@ -212,7 +212,7 @@ impl Tube {
         start + (way + change + around((constant + growing * size(s)) * self.u[i]))
     }
 
-    /// The same of its derivative by σ.
+    /// An entry of the path's derivative φ'(σ) for all parameters of a range.
     pub fn slope(&self, i: usize, s: Interval) -> Interval {
         derivative(&self.z, i, s) + around(self.slope_distance * self.u[i])
     }

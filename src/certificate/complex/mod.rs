@@ -43,7 +43,8 @@ pub struct ComplexVerdict {
     pub problem: Problem,
     /// Solutions up to isometry, no two congruent.
     pub isometry: usize,
-    /// The same up to rotation.
+    /// How many solutions there are up to rotation: mirror images that no rotation brings together are counted
+    /// apart.
     pub rotation: usize,
     /// How many of the former are real.
     pub real: usize,

@@ -38,14 +38,14 @@ pub struct Cover {
     pub problem: String,
     /// The points of the base.
     pub base: Vec<usize>,
-    /// The other points and how they are placed.
+    /// The points that are not in the base, and how each is placed.
     pub steps: Vec<(usize, Kind)>,
     /// The driving parameters: angles, or squared distances up to a bound.
     pub drives: Vec<Option<f64>>,
     /// The middles of the solutions' boxes in the base, three coordinates a point, in units of
     /// two to the power of `unit_exponent`.
     pub figures: Vec<Vec<[f64; 3]>>,
-    /// See there.
+    /// The coordinates in `figures` are in units of two to the power of this.
     pub unit_exponent: i32,
     /// The marks.
     pub marks: Vec<u8>,

@@ -7,10 +7,10 @@ pub struct Level {
     axis: usize,
 }
 
-/// The same height.
+/// `horizontal`: two points at the same height, which have the same y.
 pub const HORIZONTAL: Level = Level { axis: 1 };
 
-/// One above the other.
+/// `vertical`: two points one above the other, which have the same x.
 pub const VERTICAL: Level = Level { axis: 0 };
 
 impl Kind for Level {

@@ -255,8 +255,9 @@ impl<'a> Lowering<'a> {
         self.push(name.to_owned(), products, right, power, true);
     }
 
-    /// The same for linear conditions, which hold all along the path where the sketch meets them: they
-    /// are never singular.
+    /// The linear equation Σ products = 0 that has to hold at t = 1, where Σ products is `start` in the sketch:
+    /// led there linearly, or, where the sketch meets it, kept all along the path, as linear conditions are never
+    /// singular.
     pub fn vanish_linear(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
         let right = if start.is_zero() || !matches!(self.from, Start::Sketch) {
             vec![Real::zero()]

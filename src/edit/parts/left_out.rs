@@ -11,7 +11,7 @@ fn at_rest(right: &[Real]) -> Vec<Real> {
     vec![right.iter().fold(Real::zero(), |sum, c| &sum + c)]
 }
 
-/// The same of all right-hand sides.
+/// For each right-hand side what it is at t = 1, for all t: a polynomial in t with a constant term only.
 pub(super) fn at_rest_all(rights: &[Vec<Real>]) -> Vec<Vec<Real>> {
     rights.iter().map(|right| at_rest(right)).collect()
 }

@@ -197,7 +197,8 @@ fn in_columns(line: &str) -> Option<(&str, [&str; 3])> {
     are_numbers.then_some((element, coordinates))
 }
 
-/// The same with blanks between, as some programs write them.
+/// An atom's element and coordinates in a line of a molfile whose fields have blanks between, as some programs
+/// write them.
 fn with_blanks(line: &str) -> Option<(&str, [&str; 3])> {
     let mut fields = line.split_whitespace();
     let coordinates = [fields.next()?, fields.next()?, fields.next()?];

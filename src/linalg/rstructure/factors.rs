@@ -101,7 +101,8 @@ impl<T: Scalar, M: Borrow<RMatrix<T>>> Factors<T, M> {
         x
     }
 
-    /// The same, the solution taking the place of the right-hand side.
+    /// Solves in place: `x` is the right-hand side, the equations of A first, then the ignored ones (R, S); it
+    /// becomes the solution, in which the key unknowns come first, then A's (U, X).
     ///
     /// # Panics
     /// If `x` is not as long as the matrix has rows.

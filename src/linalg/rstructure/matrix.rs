@@ -91,7 +91,7 @@ impl<T: Scalar> RMatrix<T> {
         *place = value;
     }
 
-    /// The same matrix over other scalars: `f` must take zero to zero.
+    /// The matrix over other scalars, `f` applied to each entry: `f` must take zero to zero.
     pub fn map<U: Scalar>(&self, f: impl Fn(T) -> U) -> RMatrix<U> {
         let all = |lanes: &[Lane<T>]| lanes.iter().map(|lane| lane.map(&f)).collect();
         RMatrix {

@@ -253,7 +253,8 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
         same_way.then_some(entry)
     }
 
-    /// The same as [`Tube::goes_along`] at the exit, by the tangent's own enclosure.
+    /// Proves, by the tangent's own enclosure, that the path's tangent at the exit, taken in this tube's
+    /// direction, has a positive component along `normal`.
     fn exit_goes_along(&self, normal: &[f64]) -> bool {
         let n = self.weights.len() - 1;
         let (mut along, mut error) = (0.0, 0.0);

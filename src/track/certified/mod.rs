@@ -35,7 +35,7 @@ pub trait FollowArcs: std::fmt::Debug + Send {
     /// The homotopy.
     fn homotopy(&self) -> &Homotopy;
 
-    /// The same, whose lengths may be changed between two arcs.
+    /// The homotopy, whose lengths may be changed between two arcs.
     fn homotopy_mut(&mut self) -> &mut Homotopy;
 
     /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the

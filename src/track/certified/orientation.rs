@@ -228,7 +228,7 @@ fn determinant_of_two((u, du): Vague, (v, dv): Vague) -> (f64, f64, f64) {
     )
 }
 
-/// The same of u · (v × w).
+/// The value, the size of its terms, and how far it may be off, of u · (v × w).
 fn determinant_of_three((u, du): Vague, (v, dv): Vague, (w, dw): Vague) -> (f64, f64, f64) {
     let term = |i: usize, j: usize, k: usize| -> (f64, f64, f64) {
         let (v1, dv1, v2, dv2) = (v[j], dv[j], v[k], dv[k]);

@@ -55,7 +55,7 @@ pub struct SolutionProver<const D: usize> {
 }
 
 impl<const D: usize> SolutionProver<D> {
-    /// For one problem.
+    /// Work space for proving boxes around solutions of one problem, at t = 1.
     pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
         let n = equations.n();
         SolutionProver {
@@ -79,7 +79,8 @@ impl<const D: usize> SolutionProver<D> {
         }
     }
 
-    /// The same for figures with t = 0, the equations being F(X, a(0)) = 0. Not in extended precision.
+    /// Work space for proving boxes around figures of one problem with t = 0, the equations being F(X, a(0)) = 0.
+    /// Not in extended precision.
     pub fn at_start(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
         let zero = point(0.0);
         SolutionProver {

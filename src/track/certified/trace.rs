@@ -120,7 +120,8 @@ impl Trace {
         }));
     }
 
-    /// The other way came back to the sketch: it is the whole path.
+    /// The path, followed the other way from the sketch, came back to it: that way is the whole path, and only it
+    /// is kept.
     pub(super) fn keep_other_way(&mut self) {
         if let Some(back) = self.back.take() {
             *self = *back;

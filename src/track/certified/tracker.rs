@@ -107,8 +107,8 @@ pub trait Test<const D: usize, const N: usize>: Sized + Send + std::fmt::Debug {
         tube: &mut Tube<D, N, Self::Frame>,
     ) -> Option<()>;
 
-    /// The same, and the path's tangent there, as tightly as floats allow, for a tube proved
-    /// earlier.
+    /// Encloses the path's point at `exit_at` of a tube proved earlier, and the path's tangent there, as tightly
+    /// as floats allow.
     fn tighten_exit(
         &mut self,
         equations: &Equations<D>,

@@ -170,7 +170,10 @@ impl<const D: usize> Equations<D> {
         self.extended.as_deref().expect("extended precision")
     }
 
-    /// The same, for sabotage.
+    /// F in extended precision, to be written on by tests that put errors into it.
+    ///
+    /// # Panics
+    /// If [`Equations::extend`] was not called before.
     #[cfg(test)]
     pub fn in_extended_mut(&mut self) -> &mut Extended {
         self.extended.as_deref_mut().expect("extended precision")
@@ -208,7 +211,8 @@ impl<const D: usize> Equations<D> {
         }
     }
 
-    /// The same for a direction `v`: the tail's number 1 does not change along it.
+    /// v_i − v_j for a direction `v`, per axis and distance, and the tail's forms: the one that is the number 1 at
+    /// every point is zero, as it does not change along `v`.
     #[inline(always)]
     pub fn directions(&self, v: &[f64], out: &mut Differences<D>) {
         self.head_differences(v, out);

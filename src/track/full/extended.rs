@@ -84,7 +84,8 @@ impl Extended {
         refuse_overlap((z, low), error);
     }
 
-    /// The same with the target lengths, those of t = 1, whatever z has for t.
+    /// F(z) with the target lengths, those of t = 1, whatever z has for t, rounded to floats, and if wanted how
+    /// far the exact value may be from that.
     pub fn residual_at_target<const D: usize>(
         &self,
         equations: &Equations<D>,

@@ -60,27 +60,30 @@ impl<const D: usize> Equations<D> {
         base + self.longer().of_sum()
     }
 
-    /// The same for a term of J v.
+    /// How many roundings a term of J v passes through, `base` being enough for distances.
     pub fn roundings_of_derivative(&self, base: usize) -> usize {
         base + self.longer().of_derivative()
     }
 
-    /// The same for a term of a coefficient of F along a polynomial with so many coefficients.
+    /// How many roundings a term of a coefficient of F along a polynomial with so many coefficients passes
+    /// through, `base` being enough for distances.
     pub fn roundings_of_coefficient(&self, base: usize, coefficients: usize) -> usize {
         base + self.longer().of_coefficient(coefficients)
     }
 
-    /// The same for an entry of the Jacobian.
+    /// How many roundings an entry of the Jacobian passes through, `base` being enough for distances.
     pub fn roundings_of_entry(&self, base: usize) -> usize {
         base + self.longer().of_entry()
     }
 
-    /// The same for a sum over a row of the Jacobian, at up to three orders, and for its entries.
+    /// How many roundings a sum over a row of the Jacobian, at up to three orders, and its entries pass through,
+    /// `base` being enough for distances.
     pub fn roundings_of_row(&self, base: usize) -> usize {
         base + self.longer().of_row()
     }
 
-    /// The same for a bound that adds up, without signs, what all products of an equation have.
+    /// How many roundings a bound that adds up, without signs, what all products of an equation have passes
+    /// through, `base` being enough for distances.
     pub fn roundings_of_bound(&self, base: usize) -> usize {
         base + self.longer().of_bound()
     }

@@ -109,7 +109,7 @@ impl Forms {
         }
     }
 
-    /// The products of this and other forms in a lane of products.
+    /// The products of this and other forms in a lane of products, added to `sum`.
     #[inline(always)]
     fn times(&self, other: &Self, lane: usize, mut sum: [f64; LANE]) -> [f64; LANE] {
         let (left, right) = (&self.left.lanes()[lane], &other.right.lanes()[lane]);
@@ -119,7 +119,7 @@ impl Forms {
         sum
     }
 
-    /// The same without signs.
+    /// The absolute values of the products of this and other forms in a lane of products, added to `sum`.
     #[inline(always)]
     fn times_abs(&self, other: &Self, lane: usize, mut sum: [f64; LANE]) -> [f64; LANE] {
         let (left, right) = (&self.left.lanes()[lane], &other.right.lanes()[lane]);
@@ -340,12 +340,12 @@ impl Tail {
         });
     }
 
-    /// z_i + z_j in place of z_i − z_j.
+    /// For each form z_i − z_j the sum z_i + z_j in its place.
     pub fn sums(&self, z: &[f64], out: &mut Forms) {
         out.set(self, |form| self.sum_of(form, z));
     }
 
-    /// The same for one form; zero for the number 1.
+    /// z_i + z_j for the form z_i − z_j; zero for the number 1.
     pub fn sum_of(&self, form: usize, z: &[f64]) -> f64 {
         let [i, j] = self.ends(form);
         z[i] + z[j]

@@ -102,8 +102,9 @@ impl<const D: usize> Arc<D> {
         Ok(true)
     }
 
-    /// The same for the real and imaginary parts of complex equations G(Z, t) = 0: then dt/ds has the same sign all
-    /// along a chain of tubes, and it is enough that t has risen in the first.
+    /// Takes a linked tube into account where the equations are the real and imaginary parts of complex equations
+    /// G(Z, t) = 0: then dt/ds has the same sign all along a chain of tubes, and it is enough that t has risen in
+    /// the first. Tells whether the arc ends in it. If it fails nothing is changed.
     ///
     /// For if G_Z were singular at a point of a tube's path, the real Jacobian F_X would have a rank of at most
     /// 2n − 2, and [F_X F_t] one of at most 2n − 1. But that of a tube has the rank 2n, as it is invertible with the
@@ -227,7 +228,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
         &self.tracker.homotopy
     }
 
-    /// The same, whose lengths may be changed between two arcs.
+    /// The homotopy, whose lengths may be changed between two arcs.
     pub fn homotopy_mut(&mut self) -> &mut Homotopy {
         self.tracker.homotopy.to_mut()
     }

@@ -38,7 +38,7 @@ struct Tally {
     open: usize,
 }
 
-/// The same homotopy with another figure at t = 0, whose lengths are those of the sketch.
+/// The homotopy with the figure `z` in place of the sketch at t = 0; its lengths must be those of the sketch.
 fn started_at(homotopy: &Homotopy, z: &[Interval]) -> Homotopy {
     let mut other = homotopy.clone();
     for (&place, &z) in homotopy.gauge.place.iter().zip(z) {

@@ -32,8 +32,8 @@ impl<const D: usize> KrawczykTest<D> {
         Some(())
     }
 
-    /// The same as tightly as floats allow, for a tube proved earlier: where the next one is much
-    /// narrower.
+    /// Encloses the path's point, and its tangent there, in the cross-section at `exit_at` of a tube proved
+    /// earlier, as tightly as floats allow: needed where the next tube is much narrower.
     pub fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
         self.make_moving_matrix(equations, &tube.local);
         self.enclose(equations, tube, 0.0)?;

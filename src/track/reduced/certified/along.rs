@@ -13,10 +13,12 @@ use crate::track::full::{Equations, MAX_DEGREE};
 /// More roundings than any term of a distance's coefficient of F along ẑ goes through: the differences and
 /// their sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
 const COEFFICIENT: usize = 100;
-/// The same for F(z₀): differences, their squares and sum (7), E of degree 4 (10).
+/// More roundings than any term of a distance's F(z₀) goes through: differences, their squares and sum (7), E of
+/// degree 4 (10).
 const POINT: usize = 20;
 
-/// The same for all equations, COEFFICIENT and POINT: each product of an equation is a sum over a and b, of
+/// What COEFFICIENT and POINT are for all equations, those of the tail too: more roundings than any term of a
+/// coefficient of F along ẑ, and of F(z₀), goes through. Each product of an equation is a sum over a and b, of
 /// COEFFICIENTS terms at most, and one at z₀.
 fn roundings<const D: usize>(equations: &Equations<D>) -> (usize, usize) {
     (
@@ -52,7 +54,7 @@ pub struct Along<const D: usize> {
     pub slope_size: Vector,
     pub slope_radius: Vector,
     pub curvature: Vector,
-    /// The same for what is no distance.
+    /// Sizes over the tube for the tail's equations, those that are no distances.
     pub tail: TailSizes,
     /// What the bend's E' adds above s^SIGNED.
     bend_tails: Vec<f64>,

@@ -107,7 +107,8 @@ impl<const D: usize> ReducedTest<D> {
         self.enclose_by(equations, tube, short)
     }
 
-    /// The same with what is known of the path a little before the exit given: any numbers will do.
+    /// Encloses the path's point and tangent a little before the exit of a tube proved earlier, by the very
+    /// short tube `short`, in which what is known of the path there is given: any numbers will do.
     pub(in crate::track) fn enclose_by(
         &mut self,
         equations: &Equations<D>,

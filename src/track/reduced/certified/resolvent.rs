@@ -20,7 +20,7 @@ use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, Layout};
 use crate::track::reduced::structure::passes::Inverse;
 
-/// See above.
+/// X ≈ A₀⁻¹, N = |A₀ X − I| + H |A₁ X| and Â of a tube, from which bounds on |A(s)⁻¹ g| follow for |s| ≤ H.
 #[derive(Debug, Clone)]
 pub struct Resolvent<const D: usize> {
     /// Which lanes the rows of X and N are, one per row of A: padded with zeros, they reach to the
@@ -172,7 +172,7 @@ impl<const D: usize> Resolvent<D> {
         sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
     }
 
-    /// The same for rows of the tail.
+    /// The rows of a block in N, |A₀ X − I| + H |A₁ X|, that belong to the tail's equations.
     #[cold]
     #[inline(never)]
     fn make_tail_rows(

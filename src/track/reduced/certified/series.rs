@@ -10,7 +10,7 @@ use crate::track::reduced::structure::passes::{Derivative, slices};
 
 /// Orders of J K that are looked at with their signs: two more than the series have.
 pub const SIGNED: usize = SERIES + 2;
-/// The same for Zᵀ J, which matters less.
+/// Orders of Zᵀ J that are looked at with their signs: one more than the series have, as it matters less than J K.
 pub const SIGNED_LEFT: usize = SERIES + 1;
 
 /// What is left over, order by order, and work space.

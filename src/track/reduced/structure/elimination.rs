@@ -87,7 +87,7 @@ impl<const D: usize> Elimination<D> {
         self.make_like(&maker.layout, equations, at)
     }
 
-    /// The same with a layout given, however its pivots are.
+    /// Factors [J; c] at a point with the given layout, whatever its pivots are.
     pub fn make_like(
         &mut self,
         layout: &Arc<Layout>,

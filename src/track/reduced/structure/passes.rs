@@ -186,7 +186,8 @@ impl<const D: usize> Derivative<'_, D> {
         self.substitute_with(layout, inverses, k, |e, sum| add(sum, 1.0, &g[e]));
     }
 
-    /// The same with G = 0.
+    /// Sets the rows of A's unknowns so that the rows of A in J K vanish. They must be zero before; those of key
+    /// unknowns stay as they are.
     pub fn substitute_alone<const W: usize>(
         &self,
         layout: &Layout,
@@ -255,7 +256,8 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// The same as [`Derivative::substitute`] for one column of numbers, with `f − J x` to vanish.
+    /// Sets A's unknowns in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns
+    /// stay as they are.
     pub fn solve(&self, layout: &Layout, inverses: &[Inverse], f: &[f64], x: &mut [f64]) {
         for (block, inverse) in layout.blocks.iter().zip(inverses) {
             let mut rest = [0.0; 3];

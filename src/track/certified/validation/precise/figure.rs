@@ -55,7 +55,7 @@ impl Figure {
         Figure::with(homotopy, lengths.chain(constraints).collect())
     }
 
-    /// The same with other coefficients of E.
+    /// Of a homotopy's left-hand sides, with `e` for the coefficients of E(t) by equation, in the homotopy's unit.
     pub fn with(homotopy: &Homotopy, e: Vec<[Big; 5]>) -> Self {
         let m = homotopy.equations;
         Figure {
