@@ -77,7 +77,7 @@ fn provided(figures: &Figures) -> String {
         with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch");
     }
     if figures.has_cases() {
-        with.push("points on the side of lines and circles where the sketch has them, and angles by their size");
+        with.push("points on the side of lines and circles where the sketch has them, angles and tangents whichever way they turn");
     }
     match with.is_empty() {
         true => String::new(),

@@ -273,16 +273,19 @@ impl Figures {
         self.left_out.iter().all(|constraint| constraint.follows)
     }
 
-    /// Whether there are constraints whose words leave more than one case open, of which the sketch's is taken: sides of
-    /// lines, tangency from outside or inside, angles, of which the size counts (docs/problem-files.md).
+    /// Whether there are constraints whose words leave more than one case open (docs/problem-files.md): sides of lines and
+    /// tangency from outside or inside, of which the sketch's is taken; angles, of which the size counts; and directions
+    /// that agree, as of tangents at a shared end, which may go on or come back.
     pub fn has_cases(&self) -> bool {
-        const OPEN: [&str; 6] = [
+        const OPEN: [&str; 8] = [
             "angles",
             "distances",
             "tangent",
             "equal_angles",
             "equal_distances",
             "along",
+            "parallel",
+            "perpendicular",
         ];
         let mut constraints = self.cut.problem.constraints.iter();
         constraints.any(|c| OPEN.contains(&c.kind.as_str()))
