@@ -60,7 +60,13 @@ fn assert_same(one: &Outcome, two: &Outcome) {
         );
     }
     // A quadrature over tubes, which are others.
-    assert!((one.length - two.length).abs() < 1e-3 * one.length);
+    assert!(
+        (one.length - two.length).abs() < 1e-3 * one.length,
+        "{} and {}, {} tubes",
+        one.length,
+        two.length,
+        one.steps
+    );
 }
 
 #[test]

@@ -125,20 +125,9 @@ fn begins(file: &mut BufReader<File>, line: &str) -> bool {
         .is_ok_and(|bytes| bytes.starts_with(format!("{line}\n").as_bytes()))
 }
 
-/// Checks a set of complex solutions.
-fn verify_the_set(
-    arguments: &Arguments,
-    mut file: BufReader<File>,
-    problem: Option<&Problem>,
-) -> Result<u8, String> {
-    let name = arguments.cert.display();
-    let mut text = String::new();
-    file.read_to_string(&mut text)
-        .map_err(|e| format!("{name}: cannot be read: {e}"))?;
-    let clock = Instant::now();
-    let verdict = verify_complex_set(&text).map_err(|error| format!("{name}: {error}"))?;
-    let mut text = complex_set_theorem(&verdict, clock.elapsed());
-    let same = problem.is_none_or(|problem| verdict.is_about(problem));
+/// Prints what was proved of a set of solutions, and whether it is about the `same` points and distances as the problem
+/// file, if there is one. False: it could not be printed.
+fn print_with_problem(arguments: &Arguments, mut text: String, same: bool) -> bool {
     if let Some(file) = &arguments.file {
         text += &match same {
             true => format!(
@@ -151,7 +140,24 @@ fn verify_the_set(
             ),
         };
     }
-    if !arguments.quiet && !output::print(&text) {
+    arguments.quiet || output::print(&text)
+}
+
+/// Checks a set of complex solutions.
+fn verify_the_set(
+    arguments: &Arguments,
+    mut file: BufReader<File>,
+    problem: Option<&Problem>,
+) -> Result<u8, String> {
+    let name = arguments.cert.display();
+    let mut text = String::new();
+    file.read_to_string(&mut text)
+        .map_err(|e| format!("{name}: cannot be read: {e}"))?;
+    let clock = Instant::now();
+    let verdict = verify_complex_set(&text).map_err(|error| format!("{name}: {error}"))?;
+    let text = complex_set_theorem(&verdict, clock.elapsed());
+    let same = problem.is_none_or(|problem| verdict.is_about(problem));
+    if !print_with_problem(arguments, text, same) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.flaw {
@@ -174,21 +180,9 @@ fn verify_the_cover(
         .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
     let verdict = verify_cover(&bytes).map_err(|error| format!("{name}: {error}"))?;
-    let mut text = cover_theorem(&verdict, clock.elapsed());
+    let text = cover_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if let Some(file) = &arguments.file {
-        text += &match same {
-            true => format!(
-                "The points and distances are those in {}, exactly.\n",
-                file.display()
-            ),
-            false => format!(
-                "REFUTED: the points or distances are not those in {}.\n",
-                file.display()
-            ),
-        };
-    }
-    if !arguments.quiet && !output::print(&text) {
+    if !print_with_problem(arguments, text, same) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.proves_all() {

@@ -100,6 +100,11 @@ impl<const D: usize> Ledger<D> {
         }
     }
 
+    /// Whether all solutions that were known at a mark are still here: then [`Ledger::return_to`] gives that account again.
+    pub fn holds(&self, mark: &Mark) -> bool {
+        self.found.len() >= mark.found
+    }
+
     /// Forgets what was entered since.
     pub fn return_to(&mut self, mark: Mark) {
         self.found.truncate(mark.found);
@@ -445,19 +450,25 @@ impl<const D: usize> Ledger<D> {
 
     /// Takes over the account of the way from the sketch in the other direction, where the two have met: solutions are in
     /// the order of the closed path, from the sketch on. Fails where it cannot be told whether a solution was found on
-    /// both; what is left is then neither's account.
+    /// both, or one was elsewhere than where they met; what is left is then neither's account.
     pub fn close_with(&mut self, back: Self) -> Result<(), String> {
         let (folds, is_certain) = self.turns.closed_by(&back.turns);
         self.length += back.length;
         let ahead = self.found.len();
-        for (mut found, place) in back.found.into_iter().zip(back.places).rev() {
+        let last = back.found.len();
+        for (k, (mut found, place)) in back.found.into_iter().zip(back.places).enumerate().rev() {
             let others = self.found[..ahead].iter();
             let mut answers = others.map(|other| found.is_same(other, |_| false));
-            match answers.find(|&same| same != Same::No) {
-                // Where they met.
-                Some(Same::Yes) => continue,
-                Some(_) => return Err("two solutions could not be told apart".to_owned()),
+            match answers.position(|same| same != Same::No) {
                 None => {}
+                // The last one of both, where they met.
+                Some(at)
+                    if (at + 1, k + 1) == (ahead, last)
+                        && found.is_same(&self.found[at], |_| false) == Same::Yes =>
+                {
+                    continue;
+                }
+                Some(_) => return Err("a solution was found on both ways".to_owned()),
             }
             found.rising = !found.rising;
             self.found.push(found);

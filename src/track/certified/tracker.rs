@@ -571,10 +571,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         };
         let before = self.way.is_some().then(|| self.ledger.mark());
         account(&mut self.ledger, between)?;
-        if let (Some(way), Some(before)) = (&self.way, before) {
+        if let (Some(way), Some(before), None) = (&self.way, before, closing) {
             let steps = self.steps + usize::from(!first);
-            let meeting = way.meets(tube, (self.ledger.mark(), steps));
-            if let (None, Some(meeting)) = (closing, meeting) {
+            if let Some(meeting) = way.meets(tube, (self.ledger.mark(), steps)) {
                 // What lies beyond is the other's.
                 self.ledger.return_to(before);
                 let until = meeting.at.1;

@@ -11,7 +11,8 @@
 //!
 //! No place is missed because threads do not wait for each other: each chain makes its end known and reads that of the other in one step,
 //! so of the two that pass one another the later one finds the other's end in its newest tube. Where that cannot be
-//! proved nothing is lost either: both go on, and come back to the sketch.
+//! proved nothing is lost either: both go on, and come back to the sketch. A chain that is back at the sketch is met no more, as
+//! the two arcs would cover the path twice.
 
 use super::super::ledger::Mark;
 use super::super::link::{Ball, Frame, Tube};
@@ -81,7 +82,7 @@ impl Way {
     }
 
     /// Makes the end of a tube known that is now the last of this chain, and tells where the other chain ends in it, if that is
-    /// proved.
+    /// proved, and that t rises there or falls: a fold in what both hold would be counted twice.
     pub(super) fn meets<const D: usize, const N: usize, Y: Frame<D>>(
         &self,
         tube: &Tube<D, N, Y>,
@@ -102,7 +103,8 @@ impl Way {
             return None;
         }
         let at = tube.locate(&other.at).filter(|at| at.0 > tube.entry.1)?;
-        Some(Meeting {
+        let (_, (low, high)) = tube.time().bounds(at.0, at.1);
+        (low > 0.0 || high < 0.0).then(|| Meeting {
             at,
             end: other.clone(),
         })
@@ -164,43 +166,38 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         };
         let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &there);
         (self.way, back.way) = (way(0), way(1));
-        let start = self.ledger.mark();
-        let (ahead, behind) = std::thread::scope(|scope| {
-            let other = || {
-                let behind = back.run(&there, &mut Control::default());
-                if behind.is_ok() {
-                    ways.end();
-                }
-                behind
-            };
+        let ahead = std::thread::scope(|scope| {
+            let other = || back.run(&there, &mut Control::default());
             let other = std::thread::Builder::new().spawn_scoped(scope, other);
             let ahead = self.run(&here, control);
             ways.end();
             // Where no thread could be had this one has gone all the way.
-            let behind = other.map_or_else(|_| Ok(Err(OVER.to_owned())), |other| other.join());
-            (ahead, behind)
+            if let Some(Err(panic)) = other.ok().map(|other| other.join()) {
+                std::panic::resume_unwind(panic);
+            }
+            ahead
         });
-        let behind = behind.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         self.rejected += back.rejected;
         self.shortened += back.shortened;
         let met = ways.lock().met.take();
-        match (met, ahead, behind) {
-            // The other one came back to the sketch.
-            (None, Err(_), Ok(())) => {
-                self.ledger.return_to(start);
-                self.steps = 0;
-            }
-            (None, ahead, _) => return ahead,
-            (Some((0, end)), ..) => {
+        // A chain whose end was made known has accounted for all up to it. Should it have lost some of that, in accounting for
+        // its last tube a second time, the account is not used.
+        let is_whole = match met {
+            None => return ahead,
+            Some((0, end)) => {
+                let holds = back.ledger.holds(&end.mark);
                 back.ledger.return_to(end.mark);
                 back.steps = end.steps;
+                holds
             }
-            (Some((_, end)), ..) => {
+            Some((_, end)) => {
+                let holds = self.ledger.holds(&end.mark);
                 self.ledger.return_to(end.mark);
                 self.steps = end.steps;
+                holds
             }
-        }
-        if self.ledger.close_with(back.ledger).is_err() {
+        };
+        if !is_whole || self.ledger.close_with(back.ledger).is_err() {
             // One way alone does not have to tell the two accounts apart.
             *self = Tracker::new(self.homotopy.clone(), options);
             return self.run(options, control);
