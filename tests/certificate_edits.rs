@@ -448,7 +448,7 @@ distances = [["a", "b", 8], ["a", "p", 5]]
     );
     let whole = krawl::edit::completed(&loose).unwrap();
     let setting = Setting::parse(&loose, "a-p=6").unwrap();
-    let setting = setting.carried(&loose, &whole).unwrap();
+    let setting = setting.carried(&loose, &whole).unwrap().unwrap();
     let (ending, bytes) = certified(&whole, |session, control| {
         session.edit_with(&[setting], control).ending
     });
@@ -458,7 +458,7 @@ distances = [["a", "b", 8], ["a", "p", 5]]
     assert!(verdict.is_about(&whole) && !verdict.is_about(&loose));
 }
 
-/// The program: what is held is said, what follows from others is refused, sketches of other programs are compared.
+/// The program: what is held is said, what follows from others is left out, sketches of other programs are compared.
 #[test]
 fn the_program_certifies_sketches_that_are_not_complete() {
     let folder = tempfile::tempdir().unwrap();
@@ -522,9 +522,38 @@ fn the_program_certifies_sketches_that_are_not_complete() {
     assert_eq!(all.0, 0, "{}", all.1);
     let (code, text) = krawl(&["edit", twice, "--set", "a-b=9", "--cert", cert]);
     assert!(
-        code == 2 && text.contains("would say nothing of `b-c`"),
+        code == 0 && text.contains("follow from the others"),
         "{text}"
     );
+    let (code, text) = krawl(&["verify", cert, twice]);
+    assert!(
+        code == 0 && text.contains("nothing is proved of it: `b-c`"),
+        "{text}"
+    );
+    let sweep = ["--from", "7", "--to", "9", "--frames", "3", "--cert", cert];
+    let (code, text) = krawl(&[&["sweep", twice, "--vary", "a-b"], &sweep[..]].concat());
+    assert!(code == 0, "{text}");
+    assert_eq!(krawl(&["verify", cert, twice]).0, 0);
+    // What is left out would be missed.
+    let none = path("none.krawl");
+    let none = none.to_str().unwrap();
+    let (code, text) = krawl(&["edit", twice, "--set", "a-d=6", "--cert", none]);
+    assert!(
+        code == 1 && text.contains("no certificate was written: ") && text.contains("`b-c`"),
+        "{text}"
+    );
+    let sweep = ["--from", "5", "--to", "6", "--frames", "3", "--cert", none];
+    let (code, text) = krawl(&[&["sweep", twice, "--vary", "a-d"], &sweep[..]].concat());
+    assert!(code == 1 && text.contains("no certificate was"), "{text}");
+    assert!(!path("none.krawl").exists());
+    let both = [
+        "edit", twice, "--set", "a-d=6", "--set", "b-c=6", "--cert", cert,
+    ];
+    let (code, text) = krawl(&both);
+    assert!(code == 0, "{text}");
+    assert_eq!(krawl(&["verify", cert, twice]).0, 0);
+    let (code, text) = krawl(&["edit", twice, "--set", "b-c=6", "--cert", none]);
+    assert!(code == 1 && text.contains("no certificate was"), "{text}");
 }
 
 /// Both ways from the sketch, to two ends.

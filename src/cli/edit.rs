@@ -99,18 +99,26 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     let mut found = None;
     let mut led = settings.clone();
-    if arguments.cert.is_some() {
-        let original = problem;
-        (problem, found) = certified(&arguments.file, &original)?;
-        led = carried(&settings, (&original, &problem)).map_err(|e| in_file(&e))?;
+    let mut cert = arguments.cert.as_deref();
+    if cert.is_some() {
+        match certified(&arguments.file, &problem, |session| {
+            let edited = session.probe(&settings, &mut Control::default());
+            reason(&edited).map(str::to_owned)
+        })? {
+            Some((whole, decomposition)) => {
+                led = carried(&settings, (&problem, &whole)).map_err(|e| in_file(&e))?;
+                (problem, found) = (whole, decomposition);
+            }
+            None => cert = None,
+        }
     }
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
-    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
+    let begun = cert.map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
-    let mut witness = cert.as_ref().map(writer);
+    let mut witness = begun.as_ref().map(writer);
     let mut control = Control {
         cancel: Some(cancel),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
@@ -125,8 +133,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let found = found.or_else(|| session.decomposition());
 
     let (mut written, verdict) = commit(
-        (cert.as_ref(), witness),
-        arguments.cert.as_deref().filter(|_| !arguments.no_verify),
+        (begun.as_ref(), witness),
+        cert.filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
     let document = || {
@@ -171,47 +179,60 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     })
 }
 
-/// The problem that a certificate of edits is about, and what is held in it because nothing determines it.
+/// The problem that a certificate of edits is about, and what was made of that in the file: what nothing determines is held,
+/// and constraints that seem to follow from others are left out. Where some are, the edits are made part by part first, which
+/// looks at these too; if they stop there, as `stops` tells, no certificate is written, and that is said.
 pub(super) fn certified(
     file: &Path,
     problem: &Problem,
-) -> Result<(Problem, Option<Decomposition>), String> {
+    stops: impl FnOnce(&mut Session) -> Option<String>,
+) -> Result<Option<(Problem, Option<Decomposition>)>, String> {
     let (whole, found) = input::provable(file, problem)?;
-    let out: Vec<&String> = found
-        .iter()
-        .flat_map(|f| f.follows.iter().chain(&f.redundant))
-        .collect();
-    match out.as_slice() {
-        [] => Ok((whole, found)),
-        out => {
-            let names: Vec<&str> = out.iter().map(|name| name.as_str()).collect();
-            Err(in_file(
-                file,
-                &format!(
-                    "a certificate is of a figure with as many equations as unknowns, and would say nothing of {}, which \
-                 seem to follow from the other constraints: remove them, or leave out --cert",
-                    names.join(", ")
-                ),
-            ))
+    let is_left_out = |found: &Decomposition| found.follows.len() + found.redundant.len() > 0;
+    if !found.as_ref().is_some_and(is_left_out) {
+        return Ok(Some((whole, found)));
+    }
+    let session = Session::open(problem);
+    let mut session = session.map_err(|error| in_file(file, &error))?;
+    Ok(match stops(&mut session) {
+        None => Some((whole, found)),
+        Some(reason) => {
+            let text = format!("no certificate was written: {reason}");
+            output::complain(&in_file(file, &text));
+            None
         }
+    })
+}
+
+/// Why an edit stopped, if it did.
+pub(super) fn reason(edited: &Edited) -> Option<&str> {
+    match &edited.ending {
+        Ending::Stopped(reason) => Some(reason),
+        _ => None,
     }
 }
 
-/// Settings of a problem as those of the one that a certificate is about.
+/// Settings of a problem as those of the one that a certificate is about. Dimensions that are left out of that, as they follow
+/// from others, are not among them; one at least has to be left.
 pub(super) fn carried(
     settings: &[Setting],
     (from, to): (&Problem, &Problem),
 ) -> Result<Vec<Setting>, String> {
-    let carried = settings.iter().map(|setting| {
-        let found = setting.carried(from, to);
-        found.ok_or_else(|| {
-            format!(
-                "{} cannot be told from another dimension: leave out --cert",
-                from.dimension_name(setting.index)
-            )
-        })
-    });
-    carried.collect()
+    let mut carried = Vec::new();
+    for setting in settings {
+        match setting.carried(from, to) {
+            Ok(Some(setting)) => carried.push(setting),
+            Ok(None) => {}
+            Err(error) => return Err(format!("{error}: leave out --cert")),
+        }
+    }
+    match settings.first() {
+        Some(first) if carried.is_empty() => Err(format!(
+            "{} follows from other constraints and is not in a certificate: leave out --cert",
+            from.dimension_name(first.index)
+        )),
+        _ => Ok(carried),
+    }
 }
 
 /// Ends a certificate, and checks it if its `path` is given: whether it was written, and the exit code where it does not

@@ -1,6 +1,6 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{beside, carried, certified, commit, exit_code, open};
+use super::edit::{beside, carried, certified, commit, exit_code, open, reason};
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
@@ -80,19 +80,31 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             Ok((setting.index, value))
         });
     let ((mut index, from), (_, to)) = (from?, to?);
-    if arguments.cert.is_some() {
-        let original = problem;
-        problem = certified(&arguments.file, &original)?.0;
-        let setting = Setting::new(&original, index, from.clone()).map_err(|e| in_file(&e))?;
-        index = carried(&[setting], (&original, &problem)).map_err(|e| in_file(&e))?[0].index;
+    let mut cert = arguments.cert.as_deref();
+    if cert.is_some() {
+        let frames = arguments.frames as usize;
+        match certified(&arguments.file, &problem, |session| {
+            let sweep = session.sweep(index, (&from, &to), frames, &mut Control::default());
+            let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
+            reason(last).map(str::to_owned)
+        })? {
+            Some((whole, _)) => {
+                let setting = Setting::new(&problem, index, from.clone());
+                let setting = [setting.map_err(|e| in_file(&e))?];
+                let led = carried(&setting, (&problem, &whole));
+                let led = led.map_err(|e| in_file(&e))?;
+                (problem, index) = (whole, led[0].index);
+            }
+            None => cert = None,
+        }
     }
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let cancel = interrupt::flag();
-    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
+    let begun = cert.map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
-    let mut witness = cert.as_ref().map(writer);
+    let mut witness = begun.as_ref().map(writer);
     let mut control = Control {
         cancel: Some(cancel),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
@@ -104,8 +116,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
     let (mut written, verdict) = commit(
-        (cert.as_ref(), witness),
-        arguments.cert.as_deref().filter(|_| !arguments.no_verify),
+        (begun.as_ref(), witness),
+        cert.filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
     if !pictures.is_empty() {

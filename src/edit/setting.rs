@@ -19,6 +19,9 @@ pub struct Setting {
 /// Why a setting makes no sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SettingError {
+    /// Two dimensions of a problem are of the same kind and about the same points and objects.
+    #[error("{0} cannot be told from another dimension")]
+    LooksTheSame(String),
     /// Not of the form NAME=VALUE.
     #[error("`{0}`: write NAME=VALUE, such as {1}")]
     Form(String, String),
@@ -101,35 +104,40 @@ impl Setting {
     }
 
     /// The same setting of another problem with the same points and objects, such as [`super::completed`] makes of this
-    /// one; `None`: that does not have the dimension, or either has two that look the same.
-    pub fn carried(&self, from: &Problem, to: &Problem) -> Option<Self> {
-        let alike = |problem: &Problem, index: usize| {
-            let alone = |found: Vec<usize>| match *found.as_slice() {
-                [index] => Some(index),
-                _ => None,
-            };
+    /// one; `None`: that does not have the dimension.
+    ///
+    /// # Errors
+    /// If either problem has two dimensions that look the same.
+    pub fn carried(&self, from: &Problem, to: &Problem) -> Result<Option<Self>, SettingError> {
+        let alike = |problem: &Problem, index: usize| -> Vec<usize> {
             let head = problem.distances.len();
             match index.checked_sub(from.distances.len()) {
                 None => {
                     let points = from.distances[index].points;
-                    let found = (0..head).filter(|&d| problem.distances[d].points == points);
-                    alone(found.collect())
+                    let all = 0..head;
+                    all.filter(|&d| problem.distances[d].points == points)
+                        .collect()
                 }
                 Some(c) => {
                     let of = |c: &Constraint| (c.kind.clone(), c.items.clone());
                     let wanted = of(&from.constraints[c]);
                     let all = problem.constraints.iter().enumerate();
                     let found = all.filter(|(_, c)| of(c) == wanted && c.value.is_some());
-                    alone(found.map(|(c, _)| head + c).collect())
+                    found.map(|(c, _)| head + c).collect()
                 }
             }
         };
-        alike(from, self.index)?;
-        let index = alike(to, self.index)?;
-        Some(Setting {
-            index,
-            target: self.target.clone(),
-        })
+        match (
+            alike(from, self.index).as_slice(),
+            alike(to, self.index).as_slice(),
+        ) {
+            ([_], []) => Ok(None),
+            ([_], &[index]) => Ok(Some(Setting {
+                index,
+                target: self.target.clone(),
+            })),
+            _ => Err(SettingError::LooksTheSame(from.dimension_name(self.index))),
+        }
     }
 
     /// Gives the dimension of a problem this value.
