@@ -31,25 +31,43 @@ impl Bits {
         self.row(row).iter().map(|w| w.count_ones() as usize).sum()
     }
 
-    /// Adds the entries of `other`'s row.
-    fn merge(&mut self, row: usize, other: usize) {
+    /// Adds the entries of `other`'s row, and tells of each that is new.
+    fn merge(&mut self, row: usize, other: usize, mut new: impl FnMut(usize)) {
         for w in 0..self.words {
-            self.data[row * self.words + w] |= self.data[other * self.words + w];
+            let more = self.data[other * self.words + w] & !self.data[row * self.words + w];
+            self.data[row * self.words + w] |= more;
+            ones(w, more).for_each(&mut new);
         }
     }
 
     fn entries(&self, row: usize) -> impl Iterator<Item = usize> + '_ {
-        self.row(row).iter().enumerate().flat_map(|(w, &word)| {
-            let mut rest = word;
-            std::iter::from_fn(move || {
-                (rest != 0).then(|| {
-                    let bit = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    w * 64 + bit
-                })
-            })
-        })
+        self.row(row)
+            .iter()
+            .enumerate()
+            .flat_map(|(w, &word)| ones(w, word))
     }
+
+    /// Where the blocks of [`BLOCK`] columns begin in which a row has entries.
+    fn blocks(&self, row: usize) -> impl Iterator<Item = usize> + '_ {
+        let blocks = |(w, &word): (usize, &u64)| {
+            let all = 0..64 / BLOCK;
+            let filled = all.filter(move |b| word >> (b * BLOCK) & ((1 << BLOCK) - 1) != 0);
+            filled.map(move |b| w * 64 + b * BLOCK)
+        };
+        self.row(row).iter().enumerate().flat_map(blocks)
+    }
+}
+
+/// The places of the bits of the word of this number.
+fn ones(number: usize, word: u64) -> impl Iterator<Item = usize> {
+    let mut rest = word;
+    std::iter::from_fn(move || {
+        (rest != 0).then(|| {
+            let bit = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            number * 64 + bit
+        })
+    })
 }
 
 /// Which row is the pivot of which column, in which order, and what each exchange touches.
@@ -77,6 +95,8 @@ pub(super) struct Room {
     largest: Vec<f64>,
     count: Vec<usize>,
     seen: Vec<bool>,
+    free_rows: Vec<usize>,
+    free_columns: Vec<u64>,
 }
 
 /// As many copies of a value, in the memory that is there.
@@ -88,6 +108,9 @@ fn refill<T: Copy>(vector: &mut Vec<T>, len: usize, value: T) {
 /// Beyond this order the lists of what is touched grow as they need.
 const RESERVED: usize = 256;
 
+/// Values are looked at in blocks of so many columns.
+const BLOCK: usize = 8;
+
 /// A pivot is at least this fraction of the largest entry that could have been it.
 const THRESHOLD: f64 = 0.1;
 
@@ -97,19 +120,25 @@ impl Pivots {
     #[inline(never)]
     pub fn choose(&mut self, pattern: &Sparse, values: &[f64], room: &mut Room) -> Option<()> {
         let n = pattern.columns();
+        // Where there is no entry there is a zero.
+        let stride = n.next_multiple_of(BLOCK);
         let Room {
             bits,
             a,
             largest,
             count,
             seen,
+            free_rows,
+            free_columns,
         } = room;
         bits.reset(n);
-        refill(a, n * n, 0.0);
+        refill(a, n * stride, 0.0);
+        refill(count, n, 0usize);
         for column in 0..n {
             for (row, value) in pattern.column(values, column) {
+                count[column] += usize::from(!bits.has(row, column));
                 bits.insert(row, column);
-                a[row * n + column] = value;
+                a[row * stride + column] = value;
             }
         }
         let pivots = self;
@@ -122,36 +151,38 @@ impl Pivots {
         pivots.starts.push(0);
         pivots.touched.clear();
         pivots.touched.reserve(n * n.min(RESERVED));
-        refill(largest, n, 0.0f64);
-        refill(count, n, 0usize);
+        refill(largest, stride, 0.0f64);
+        free_rows.clear();
+        free_rows.extend(0..n);
+        refill(free_columns, bits.words, u64::MAX);
         for _ in 0..n {
             largest.fill(0.0);
-            count.fill(0);
-            let free_rows = || (0..n).filter(|&row| pivots.column_of[row] == usize::MAX);
-            for row in 0..n {
-                let free = pivots.column_of[row] == usize::MAX;
-                for column in bits.entries(row) {
-                    count[column] += 1;
-                    if free {
-                        largest[column] = largest[column].max(a[row * n + column].abs());
+            for &row in &*free_rows {
+                for at in bits.blocks(row) {
+                    let values: &[f64; BLOCK] = block(a, row * stride + at);
+                    let tops: &mut [f64; BLOCK] = block_mut(largest, at);
+                    for (top, x) in tops.iter_mut().zip(values) {
+                        *top = top.max(x.abs());
                     }
                 }
             }
             let mut best: Option<(usize, f64, usize, usize)> = None;
-            for row in free_rows() {
+            for &row in &*free_rows {
                 let in_row = bits.count(row);
-                for column in bits.entries(row) {
-                    let size = a[row * n + column].abs();
-                    if pivots.row_of[column] != usize::MAX
-                        || size == 0.0
-                        || size < THRESHOLD * largest[column]
-                    {
-                        continue;
-                    }
-                    let fill = (in_row - 1) * (count[column] - 1);
-                    let relative = size / largest[column];
-                    if best.is_none_or(|(f, r, ..)| fill < f || fill == f && relative > r) {
-                        best = Some((fill, relative, row, column));
+                for (w, (&word, &free)) in bits.row(row).iter().zip(&*free_columns).enumerate() {
+                    for column in ones(w, word & free) {
+                        let fill = (in_row - 1) * (count[column] - 1);
+                        if best.is_some_and(|(f, ..)| fill > f) {
+                            continue;
+                        }
+                        let size = a[row * stride + column].abs();
+                        if size == 0.0 || size < THRESHOLD * largest[column] {
+                            continue;
+                        }
+                        let relative = size / largest[column];
+                        if best.is_none_or(|(f, r, ..)| fill < f || fill == f && relative > r) {
+                            best = Some((fill, relative, row, column));
+                        }
                     }
                 }
             }
@@ -159,11 +190,13 @@ impl Pivots {
             pivots.order.push(k);
             pivots.row_of[k] = p;
             pivots.column_of[p] = k;
+            free_rows.retain(|&row| row != p);
+            free_columns[k / 64] &= !(1 << (k % 64));
             pivots
                 .touched
                 .extend(bits.entries(p).filter(|&j| j != k).map(|j| j as u32));
             pivots.starts.push(pivots.touched.len());
-            exchange(a, bits, n, p, k);
+            exchange((a, stride), bits, count, (p, k));
         }
         pivots.odd = is_odd(&pivots.row_of, seen);
         Some(())
@@ -186,22 +219,42 @@ fn is_odd(permutation: &[usize], seen: &mut Vec<bool>) -> bool {
     odd
 }
 
-/// Exchanges the roles of equation `p` and unknown `k`.
-fn exchange(a: &mut [f64], bits: &mut Bits, n: usize, p: usize, k: usize) {
-    let inverse = 1.0 / a[p * n + k];
-    for row in (0..n).filter(|&row| row != p) {
+fn block(values: &[f64], at: usize) -> &[f64; BLOCK] {
+    values[at..]
+        .first_chunk()
+        .expect("rows are padded to whole blocks")
+}
+
+fn block_mut(values: &mut [f64], at: usize) -> &mut [f64; BLOCK] {
+    values[at..]
+        .first_chunk_mut()
+        .expect("rows are padded to whole blocks")
+}
+
+/// Exchanges the roles of equation `p` and unknown `k`, and keeps the number of entries in each column.
+fn exchange(
+    (a, stride): (&mut [f64], usize),
+    bits: &mut Bits,
+    count: &mut [usize],
+    (p, k): (usize, usize),
+) {
+    let inverse = 1.0 / a[p * stride + k];
+    for row in (0..count.len()).filter(|&row| row != p) {
         if !bits.has(row, k) {
             continue;
         }
-        let factor = a[row * n + k] * inverse;
-        for j in bits.entries(p) {
-            a[row * n + j] -= factor * a[p * n + j];
+        let factor = a[row * stride + k] * inverse;
+        for at in bits.blocks(p) {
+            let from = *block(a, p * stride + at);
+            for (x, pivots) in block_mut(a, row * stride + at).iter_mut().zip(from) {
+                *x -= factor * pivots;
+            }
         }
-        a[row * n + k] = factor;
-        bits.merge(row, p);
+        a[row * stride + k] = factor;
+        bits.merge(row, p, |column| count[column] += 1);
     }
     for j in bits.entries(p) {
-        a[p * n + j] *= -inverse;
+        a[p * stride + j] *= -inverse;
     }
-    a[p * n + k] = inverse;
+    a[p * stride + k] = inverse;
 }
