@@ -18,10 +18,13 @@ pub struct Orientations {
     all: Vec<Simplex>,
     /// Those whose sign is known so far.
     known: Vec<u32>,
-    /// Where the points of a piece of path are, and how far they may be from there.
+    /// Where the points of a piece of path are: `middle` + θ `slope`, −1 ≤ θ ≤ 1, and how far they may be from there.
     middle: Vector,
-    radius: Vector,
     slope: Vector,
+    radius: Vector,
+    /// Work space.
+    curvature: Vector,
+    size: Vector,
 }
 
 /// A triangle in the plane, a tetrahedron in space.
@@ -62,8 +65,10 @@ impl Orientations {
             all: all.collect(),
             known: Vec::new(),
             middle: spare.clone(),
-            radius: spare.clone(),
             slope: spare.clone(),
+            radius: spare.clone(),
+            curvature: spare.clone(),
+            size: spare.clone(),
         }
     }
 
@@ -74,10 +79,11 @@ impl Orientations {
         for i in 0..m {
             self.radius[i] = round_up(figure.radius[i] + figure.low[i].abs(), 1);
         }
+        self.slope.fill(0.0);
         self.known.clear();
         for (index, simplex) in self.all.iter_mut().enumerate() {
             simplex.what.lost = None;
-            simplex.what.sign = simplex.sign(&self.middle, &self.radius);
+            simplex.what.sign = simplex.sign(&self.middle, &self.slope, &self.radius);
             if simplex.what.sign != 0 {
                 self.known.push(index as u32);
             }
@@ -111,11 +117,11 @@ impl Orientations {
             return;
         }
         self.look(tube, a, b);
-        let (middle, radius) = (&self.middle, &self.radius);
+        let (middle, slope, radius) = (&self.middle, &self.slope, &self.radius);
         let all = &self.all;
         doubtful.retain(|&index| {
             let simplex = &all[index as usize];
-            simplex.sign(middle, radius) != simplex.what.sign
+            simplex.sign(middle, slope, radius) != simplex.what.sign
         });
         if doubtful.is_empty() {
             return;
@@ -135,7 +141,8 @@ impl Orientations {
         doubtful.extend(first);
     }
 
-    /// Encloses the path between two parameters of a tube.
+    /// Encloses the path between two parameters of a tube: with c in the middle and r the largest parameter in size, the tube's
+    /// polynomial p(s) differs from p(c) + p'(c)(s − c) by at most the sum of k(k − 1)/2 |p_k| rᵏ⁻² times (s − c)².
     fn look<const D: usize, const N: usize, Y: Frame<D>>(
         &mut self,
         tube: &Tube<D, N, Y>,
@@ -147,27 +154,38 @@ impl Orientations {
         let middle = 0.5 * (a + b);
         let half = round_up((b - middle).max(middle - a), 4);
         let reach = a.abs().max(b.abs());
+        // A coefficient goes through at most 2N roundings in Horner's scheme for the slope.
         let rounding = gamma(4 * N);
-        // One order after the other of all entries together. The radii are the sizes at first.
+        // One order after the other of all entries together. `radius` is the sum of the sizes of the slope's terms at first.
         let values = &mut self.middle[..n - 1];
-        let sizes = &mut self.radius[..n - 1];
         let slopes = &mut self.slope[..n - 1];
+        let changes = &mut self.radius[..n - 1];
+        let curvatures = &mut self.curvature[..n - 1];
+        let sizes = &mut self.size[..n - 1];
         values.fill(0.0);
-        sizes.fill(0.0);
         slopes.fill(0.0);
+        changes.fill(0.0);
+        curvatures.fill(0.0);
+        sizes.fill(0.0);
         for k in (0..N).rev() {
-            let sums = values.iter_mut().zip(&mut *slopes).zip(&mut *sizes);
-            for (((value, slope), size), &z) in sums.zip(&z[k][..n - 1]) {
+            let sums = values.iter_mut().zip(&mut *slopes).zip(&mut *changes);
+            let sums = sums.zip(&mut *curvatures).zip(&mut *sizes);
+            for (((((value, slope), change), curvature), size), &z) in sums.zip(&z[k][..n - 1]) {
+                *slope = slope.mul_add(middle, *value);
                 *value = value.mul_add(middle, z);
-                *slope = slope.mul_add(reach, *size);
+                *curvature = curvature.mul_add(reach, *change);
+                *change = change.mul_add(reach, *size);
                 *size = size.mul_add(reach, z.abs());
             }
         }
         let (weights, low) = (&tube.weights[..n - 1], &tube.local.low[..n - 1]);
         for i in 0..n - 1 {
-            let spread = half * slopes[i] + proof.distance * weights[i];
-            let rounded = rounding * sizes[i] + low[i].abs();
-            sizes[i] = round_up(spread + rounded, 8 * N);
+            slopes[i] *= half;
+            let bent = curvatures[i] * half * half + proof.distance * weights[i];
+            // The last one is of the product above.
+            let rounded =
+                rounding * (sizes[i] + changes[i] * half) + f64::EPSILON * slopes[i].abs();
+            changes[i] = round_up(bent + rounded + low[i].abs(), 8 * N);
         }
     }
 
@@ -181,33 +199,39 @@ impl Orientations {
 }
 
 impl Simplex {
-    /// The sign, where it is the same within all radii; otherwise 0.
-    fn sign(&self, middle: &[f64], radius: &[f64]) -> i8 {
-        // Of one length, so that one check of an index serves both.
-        let radius = &radius[..middle.len()];
-        let at = |k: usize| -> Vague {
-            let entries = self.entries[k].map(|i| i as usize);
-            (entries.map(|i| middle[i]), entries.map(|i| radius[i]))
+    /// The sign, where it is the same for every θ and within all radii; otherwise 0.
+    fn sign(&self, middle: &[f64], slope: &[f64], radius: &[f64]) -> i8 {
+        // Of one length, so that one check of an index serves all.
+        let (slope, radius) = (&slope[..middle.len()], &radius[..middle.len()]);
+        let at = |k: usize| {
+            self.entries[k].map(|i| Along {
+                value: middle[i as usize],
+                slope: slope[i as usize],
+                rest: radius[i as usize],
+            })
         };
         let first = at(0);
-        let side = |k: usize| -> Vague {
+        let side = |k: usize| -> [Along; 3] {
             let other = at(k);
-            let d: [f64; 3] = std::array::from_fn(|axis| other.0[axis] - first.0[axis]);
-            // The difference's own rounding is relative to it.
-            let error = |axis: usize| other.1[axis] + first.1[axis] + f64::EPSILON * d[axis].abs();
-            (d, std::array::from_fn(error))
+            std::array::from_fn(|axis| other[axis].minus(first[axis]))
         };
-        let (value, size, error) = if self.what.points.len() == 3 {
+        let minor = |v: [Along; 3], w: [Along; 3], i: usize, j: usize| {
+            v[i].times(w[j]).minus(v[j].times(w[i]))
+        };
+        let value = if self.what.points.len() == 3 {
             debug_assert!(self.entries[0][2] as usize == middle.len() - 1);
-            determinant_of_two(side(1), side(2))
+            minor(side(1), side(2), 0, 1)
         } else {
-            determinant_of_three(side(1), side(2), side(3))
+            let (u, v, w) = (side(1), side(2), side(3));
+            let parts = [(0, 1, 2), (1, 2, 0), (2, 0, 1)];
+            let [a, b, c] = parts.map(|(i, j, k)| u[i].times(minor(v, w, j, k)));
+            a.plus(b).plus(c)
         };
-        // Products of three, sums of six: fewer than 20 roundings.
-        let error = round_up(error + gamma(20) * size, 30);
-        if value > error {
+        // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are two and four.
+        let error = round_up(value.slope.abs() + value.rest, 60);
+        if value.value > error {
             1
-        } else if value < -error {
+        } else if value.value < -error {
             -1
         } else {
             0
@@ -215,35 +239,46 @@ impl Simplex {
     }
 }
 
-/// A vector, and how far its components may be off.
-type Vague = ([f64; 3], [f64; 3]);
-
-/// The value, the size of its terms, and how far it may be off, of u × v.
-fn determinant_of_two((u, du): Vague, (v, dv): Vague) -> (f64, f64, f64) {
-    let error = |x: f64, dx: f64, y: f64, dy: f64| x.abs() * dy + dx * (y.abs() + dy);
-    (
-        u[0] * v[1] - u[1] * v[0],
-        (u[0] * v[1]).abs() + (u[1] * v[0]).abs(),
-        error(u[0], du[0], v[1], dv[1]) + error(u[1], du[1], v[0], dv[0]),
-    )
+/// A number on a piece of the path: `value` + θ `slope`, −1 ≤ θ ≤ 1, and something of at most `rest`, which holds the roundings of
+/// the other two; its own, relative ones, are for the reader to count.
+#[derive(Debug, Clone, Copy)]
+struct Along {
+    value: f64,
+    slope: f64,
+    rest: f64,
 }
 
-/// The value, the size of its terms, and how far it may be off, of u · (v × w).
-fn determinant_of_three((u, du): Vague, (v, dv): Vague, (w, dw): Vague) -> (f64, f64, f64) {
-    let term = |i: usize, j: usize, k: usize| -> (f64, f64, f64) {
-        let (v1, dv1, v2, dv2) = (v[j], dv[j], v[k], dv[k]);
-        let (w1, dw1, w2, dw2) = (w[j], dw[j], w[k], dw[k]);
-        let (x, dx) = (u[i], du[i]);
-        let minor = v1 * w2 - v2 * w1;
-        let size_of_minor = (v1 * w2).abs() + (v2 * w1).abs();
-        let error_of_minor =
-            (v1.abs() * dw2 + dv1 * (w2.abs() + dw2)) + (v2.abs() * dw1 + dv2 * (w1.abs() + dw1));
-        (
-            x * minor,
-            x.abs() * size_of_minor,
-            x.abs() * error_of_minor + dx * (size_of_minor + error_of_minor),
-        )
-    };
-    let (a, b, c) = (term(0, 1, 2), term(1, 2, 0), term(2, 0, 1));
-    (a.0 + b.0 + c.0, a.1 + b.1 + c.1, a.2 + b.2 + c.2)
+impl Along {
+    fn plus(self, other: Along) -> Along {
+        let (value, slope) = (self.value + other.value, self.slope + other.slope);
+        let rounded = f64::EPSILON * (value.abs() + slope.abs());
+        Along {
+            value,
+            slope,
+            rest: self.rest + other.rest + rounded,
+        }
+    }
+
+    fn minus(self, other: Along) -> Along {
+        self.plus(Along {
+            value: -other.value,
+            slope: -other.slope,
+            ..other
+        })
+    }
+
+    /// With x = v + θs + e and y = v' + θs' + e': xy − vv' − θ(sv' + vs') is at most (|s| + |e|)(|s'| + |e'|) + |v e'| + |e v'|.
+    fn times(self, other: Along) -> Along {
+        let (v, s, e) = (self.value, self.slope, self.rest);
+        let (w, t, f) = (other.value, other.slope, other.rest);
+        let (value, one, two) = (v * w, s * w, v * t);
+        // Three roundings to nearest at most in the slope, one in the value, each half an epsilon.
+        let rounded = f64::EPSILON * (value.abs() + one.abs() + two.abs());
+        let product = (s.abs() + e) * (t.abs() + f) + (v.abs() * f + e * w.abs());
+        Along {
+            value,
+            slope: one + two,
+            rest: product + rounded,
+        }
+    }
 }
