@@ -299,3 +299,62 @@ fn a_sketch_without_points_or_with_ends_in_one_place_is_described() {
         .collect();
     check(&flat.join("\n"));
 }
+
+const WATER: &str =
+    "3\nwater\nO 0.0000 0.0000 0.1173\nH 0.0000 0.7572 -0.4692\nH 0.0000 -0.7572 -0.4692\n";
+const CHIRAL: &str = "5\nbromochlorofluoromethane\nC 0 0 0\nH 0.63 0.63 0.63\nF -0.78 -0.78 0.78\n\
+                      Cl 1.0 -1.03 -1.0\nBr -1.1 1.1 -1.13\n";
+const CHAIR: &str = "6\ncyclohexane, carbon only\nC 1.46400 0.00000 0.25000\nC 0.73200 1.26786 -0.25000\n\
+                     C -0.73200 1.26786 0.25000\nC -1.46400 0.00000 -0.25000\nC -0.73200 -1.26786 0.25000\n\
+                     C 0.73200 -1.26786 -0.25000\n";
+
+/// Water has two bonds of one length: the path goes round all the same. The chair of cyclohexane is proved where the sketch
+/// leads; its path then comes to figures that can move, which is said.
+#[test]
+fn molecules_are_solved_or_it_is_said_why_not() {
+    use assert_cmd::Command;
+    let folder = tempfile::tempdir().unwrap();
+    let solve = |text: &str, options: &[&str]| {
+        let file = folder.path().join("molecule.xyz");
+        std::fs::write(&file, text).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
+        let command = command.arg("solve").arg(&file).args(options);
+        let output = command.output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        (output.status.code(), text)
+    };
+    let (code, text) = solve(WATER, &[]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.starts_with("water: Closed, proved"), "{text}");
+    let (code, text) = solve(CHAIR, &["--first"]);
+    assert_eq!(code, Some(0), "{text}");
+    let (code, text) = solve(CHAIR, &[]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("the figure appears to be flexible"), "{text}");
+    assert!(text.contains("reached without a fold"), "{text}");
+}
+
+/// The four neighbours of a stereo centre keep their handedness in an edit, by proof, and it is said which.
+#[test]
+fn chirality_is_kept_and_named() {
+    let sketch = import::read("chiral.xyz", CHIRAL.as_bytes(), None).unwrap();
+    let mut session = Session::open(&sketch.problem).unwrap();
+    let edited = edit(&mut session, "C1-Br5=2");
+    assert_eq!(edited.ending, Ending::Reached);
+    let kept = &edited.orientations.kept;
+    assert_eq!((kept.len(), edited.orientations.lost.len()), (5, 0));
+    for (points, sign) in kept {
+        let at: Vec<[f64; 3]> = points
+            .iter()
+            .map(|&p| place(&session, &sketch.problem.points[p].name))
+            .collect();
+        let side = |k: usize| -> [f64; 3] { std::array::from_fn(|axis| at[k][axis] - at[0][axis]) };
+        let (u, v, w) = (side(1), side(2), side(3));
+        let volume = u[0] * (v[1] * w[2] - v[2] * w[1])
+            + u[1] * (v[2] * w[0] - v[0] * w[2])
+            + u[2] * (v[0] * w[1] - v[1] * w[0]);
+        assert_eq!(volume > 0.0, *sign > 0);
+    }
+    // The centre and three of its neighbours are among them.
+    assert!(kept.iter().any(|(points, _)| points == &[0, 1, 2, 3]));
+}
