@@ -288,7 +288,7 @@ fn what_is_missed_is_not_said_to_be_met() {
         figures.count() == Some(0) || words.contains("missed by at most"),
         "{words}"
     );
-    let value = krawl::report::figures_to_value(&figures, false);
+    let value = krawl::report::figures_to_value(&figures, krawl::report::Listed::Some);
     assert_ne!(value["status"], "complete");
 }
 
@@ -315,4 +315,146 @@ fn lines_of_their_own_are_not_counted_twice() {
          on = [[\"c\", \"l\"]]\nparallel = [[\"l\", \"a\", \"b\"]]\n",
     );
     assert!(refused.unwrap_err().contains("direction"));
+}
+
+/// Twice the signed area of a triangle of a figure in JSON.
+fn turn(figure: &Value, points: [&str; 3]) -> f64 {
+    let at = |p: &str| [0, 1].map(|k| figure["points"][p][k][0].as_f64().unwrap());
+    let [a, b, c] = points.map(at);
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Of each figure it is told which senses are the sketch's: the angle of r006 with r009, and the triangle that r006 and
+/// r007 make with the way from one to the other.
+#[test]
+fn senses_of_figures_are_told() {
+    let (code, text) = krawl(
+        &["solve", "problems/sketches/bracket.slvs", "--json", "-"],
+        "",
+    );
+    assert_eq!(code, Some(0), "{text}");
+    let result: Value = serde_json::from_str(&text).unwrap();
+    let figures = result["figures"].as_array().unwrap();
+    let angle = |figure: &Value| turn(figure, ["r006.2", "r006.1", "r009.2"]) > 0.0;
+    let triangle = |figure: &Value| turn(figure, ["r006.1", "r006.2", "r007.2"]) > 0.0;
+    // The first is the one that is drawn.
+    let (in_sketch, mut kept) = ((angle(&figures[0]), triangle(&figures[0])), 0);
+    for figure in figures {
+        let others = figure["senses"]["other"].as_array().unwrap();
+        let named = |what: &str| others.iter().any(|o| o.as_str().unwrap().contains(what));
+        assert_eq!(named("c011"), angle(figure) != in_sketch.0, "{figure}");
+        // Joined to both by a distance each.
+        let has_triangle = named("r004.1, r005.2, r006.2");
+        assert_eq!(has_triangle, triangle(figure) != in_sketch.1, "{figure}");
+        assert_eq!(figure["senses"]["undecided"].as_array().unwrap().len(), 0);
+        let all = (angle(figure), triangle(figure)) == in_sketch;
+        assert_eq!(figure["senses"]["as_in_sketch"], all);
+        kept += usize::from(all);
+    }
+    assert_eq!(kept, 1);
+    assert_eq!(result["senses"]["kept"], 1);
+    assert!(
+        result["verdict"]
+            .as_str()
+            .unwrap()
+            .contains("1 of them has all senses of the sketch")
+    );
+}
+
+/// Tangents of a FreeCAD sketch go on at their shared end or come back: told of each figure.
+#[test]
+fn tangents_that_come_back_are_told() {
+    let json = [&SLOT[..], &["--json", "-"]].concat();
+    let (code, text) = krawl(&json, "");
+    assert_eq!(code, Some(0), "{text}");
+    let result: Value = serde_json::from_str(&text).unwrap();
+    let goes_on = |figure: &Value| turn(figure, ["e1.end", "e1.start", "e2.center"]) > 0.0;
+    let figures = result["figures"].as_array().unwrap();
+    assert_eq!(figures.len(), 4);
+    let in_sketch = goes_on(&figures[0]);
+    for figure in figures {
+        let others = figure["senses"]["other"].as_array().unwrap();
+        let mut others = others.iter().map(|o| o.as_str().unwrap());
+        let comes_back = others.any(|o| o.contains("Constraint1`"));
+        assert_eq!(comes_back, goes_on(figure) != in_sketch, "{figure}");
+    }
+    assert_eq!(result["senses"]["kept"], 1);
+    let first = [&SLOT[..], &["--first"]].concat();
+    let (code, text) = krawl(&first, "");
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("it is the nearest to the sketch"), "{text}");
+    assert!(text.contains("\nFigure 1"), "{text}");
+    assert!(!text.contains("\nFigure 2"), "{text}");
+}
+
+/// The second line is led to the other direction: no figure has the sketch's sense, and of two that do the nearer one is
+/// first.
+#[test]
+fn the_first_figure_has_all_senses_or_there_is_none() {
+    use krawl::blocks::{Comparison, First};
+    let none = figures_of(
+        "name = \"back\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [3, 3]\nd = [5, 3.1]\n[constraints]\n\
+         fixed = [\"a\", \"b\", \"c\"]\ndx = [[\"c\", \"d\", -2]]\nparallel = [[\"a\", \"b\", \"c\", \"d\"]]\n",
+    )
+    .unwrap();
+    assert_eq!(none.count(), Some(1));
+    assert_eq!(none.compared(0), [Comparison::Other]);
+    assert_eq!(none.first(), First::None { is_proved: true });
+    let words = krawl::report::figures_in_words(&none);
+    assert!(words.contains("It has not all senses"), "{words}");
+    // d on the circle about c and on the line a-b: at (1, 0) or at (7, 0), both in its direction.
+    let both = figures_of(
+        "name = \"two\"\ndimension = 2\n[points]\na = [0, 0]\nb = [1, 0]\nc = [4, 4]\nd = [6.5, 0.2]\n[constraints]\n\
+         fixed = [\"a\", \"b\", \"c\"]\ndistances = [[\"c\", \"d\", 5]]\nparallel = [[\"a\", \"b\", \"a\", \"d\"]]\n",
+    )
+    .unwrap();
+    assert_eq!(both.count(), Some(2));
+    assert_eq!(both.with_senses().unwrap().proved, 2);
+    let First::Figure { number, is_nearest } = both.first() else {
+        panic!("{:?}", both.first())
+    };
+    assert!(is_nearest);
+    assert!(both.figure(number).0[3][0].contains(7.0));
+}
+
+/// A page of a sketch that stops as a whole has its figures; so has that of its JSON, and a run for a certificate.
+#[test]
+fn pages_draw_the_figures_of_blocks() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (page, json, shown, cert) = (
+        file("a.html"),
+        file("a.json"),
+        file("b.html"),
+        file("a.krawl"),
+    );
+    let solve = [&SLOT[..], &["--html", &page, "--json", &json]].concat();
+    let (code, text) = krawl(&solve, "");
+    assert_eq!(code, Some(0), "{text}");
+    let (code, text) = krawl(&["show", &json, "--html", &shown], "");
+    assert_eq!(code, Some(0), "{text}");
+    for page in [page, shown] {
+        let html = std::fs::read_to_string(page).unwrap();
+        for part in [
+            "Figure 4",
+            "senses as in the sketch",
+            "turned the other way: `Constraint",
+        ] {
+            assert!(html.contains(part), "{part}");
+        }
+    }
+    let certified = [&SLOT[..], &["--cert", &cert]].concat();
+    let (code, text) = krawl(&certified, "");
+    assert_eq!(code, Some(1), "{text}");
+    assert!(
+        text.contains("of the figures below it says nothing"),
+        "{text}"
+    );
+    assert!(text.contains("\nFigure 4"), "{text}");
+    let backwards = ["solve", "problems/sketches/bracket.slvs", "--reverse"];
+    let (_, text) = krawl(&backwards, "");
+    assert!(
+        text.starts_with("Followed as a whole, as `--reverse` asks for its path"),
+        "{text}"
+    );
 }

@@ -299,3 +299,206 @@ fn a_sketch_without_points_or_with_ends_in_one_place_is_described() {
         .collect();
     check(&flat.join("\n"));
 }
+
+/// The bracket with other constraints in place of some: the handle, and the lines of the new one.
+fn bracket_with(new: &[(&str, &str)]) -> String {
+    let text = String::from_utf8_lossy(&std::fs::read(BRACKET).unwrap()).into_owned();
+    let parts = text.split_inclusive("AddConstraint");
+    let parts = parts.map(|part| {
+        let replaced = new
+            .iter()
+            .find(|(handle, _)| part.contains(&format!("Constraint.h.v=000000{handle}\n")));
+        match replaced {
+            Some((handle, lines)) => {
+                let (before, _) = part.split_once("Constraint.h.v=").unwrap();
+                let lines: String = lines
+                    .split(' ')
+                    .map(|line| format!("Constraint.{line}\n"))
+                    .collect();
+                format!(
+                    "{before}Constraint.h.v=000000{handle}\nConstraint.group.v=00000002\n\
+                     Constraint.workplane.v=80020000\n{lines}Constraint.reference=0\nAddConstraint"
+                )
+            }
+            None => part.to_owned(),
+        }
+    });
+    parts.collect()
+}
+
+/// Kinds of SolveSpace that are about planes, ratios, differences and projections, in place of those of the bracket that
+/// say the same.
+#[test]
+fn planes_ratios_differences_and_projections_are_edited() {
+    let text = bracket_with(&[
+        // The origin: in both planes.
+        ("01", "type=41 ptA.v=00040001 entityA.v=00020000"),
+        ("12", "type=41 ptA.v=00040001 entityA.v=00030000"),
+        // The hole: 12 above the plane through the x axis, and 15 along the lower edge from its end.
+        ("0c", "type=31 valA=12.0 ptA.v=00080001 entityA.v=00030000"),
+        (
+            "0d",
+            "type=34 valA=-15.0 ptA.v=00080001 ptB.v=00040002 entityA.v=00040000",
+        ),
+        // 35 / 40, and 40 − 10.
+        (
+            "0a",
+            "type=51 valA=0.875 entityA.v=00060000 entityB.v=00070000",
+        ),
+        (
+            "10",
+            "type=56 valA=30.0 entityA.v=00070000 entityB.v=00090000",
+        ),
+    ]);
+    let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
+    assert!(sketch.unsupported.is_empty(), "{:?}", sketch.unsupported);
+    let mut session = Session::open(&sketch.problem).unwrap();
+    assert!(session.moved().distance < 1e-6, "{:?}", session.moved());
+    for (setting, written) in [
+        ("c00c=10", "Constraint.valA=10.0000"),
+        ("c00d=20", "Constraint.valA=-20.0000"),
+        ("c00a=0.9", "Constraint.valA=0.9000"),
+        ("c010=28", "Constraint.valA=28.0000"),
+    ] {
+        let edited = edit(&mut session, setting);
+        assert_eq!(edited.ending, Ending::Reached, "{setting}");
+        let out = rewritten(&sketch, text.as_bytes(), &session);
+        let out = String::from_utf8_lossy(&out).into_owned();
+        assert!(out.contains(written), "{setting}");
+    }
+    let near = |x: f64, y: f64| (x - y).abs() < 1e-9;
+    assert_eq!(place(&session, "r004.1"), [0.0; 3]);
+    let hole = place(&session, "r008.1");
+    assert!(near(hole[0], 30.0) && near(hole[1], 10.0), "{hole:?}");
+    assert!(near(apart(&session, "r006.1", "r006.2"), 36.0));
+    assert!(near(apart(&session, "r009.1", "r009.2"), 12.0));
+}
+
+/// Equal angles are those of the file where the figure tells which of two angles of lines is meant, and named otherwise. A
+/// projection along a normal, and symmetry about a plane, are those along and about the line that is seen of it.
+#[test]
+fn equal_angles_and_planes_are_read_where_they_are_certain() {
+    for (other, is_read) in [(1, true), (0, false)] {
+        let lines = format!(
+            "type=54 entityA.v=00060000 entityB.v=00090000 entityC.v=00040000 entityD.v=00070000 other={other}"
+        );
+        let text = bracket_with(&[("11", &lines)]);
+        let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
+        assert_eq!(sketch.unsupported.is_empty(), is_read);
+        assert_eq!(
+            sketch.unsupported.contains_key("EQUAL_ANGLE"),
+            !is_read,
+            "{:?}",
+            sketch.unsupported
+        );
+        if is_read {
+            let mut session = Session::open(&sketch.problem).unwrap();
+            let edited = edit(&mut session, "c008=50.5");
+            assert_eq!(edited.ending, Ending::Reached);
+            // Which way both angles turn is followed.
+            for names in [
+                ["r006.1", "r006.2", "r009.2"],
+                ["r004.1", "r004.2", "r007.1"],
+            ] {
+                let points = names.map(|name| {
+                    let mut all = sketch.problem.points.iter();
+                    all.position(|p| p.name == name).unwrap()
+                });
+                let mut kept = edited.orientations.kept.iter();
+                assert!(kept.any(|(set, _)| set == &points), "{names:?}");
+            }
+            let cosine = |[a, b]: [&str; 2], [c, d]: [&str; 2]| {
+                let from = |a: &str, b: &str| {
+                    let (p, q) = (place(&session, a), place(&session, b));
+                    [q[0] - p[0], q[1] - p[1]]
+                };
+                let (u, v) = (from(a, b), from(c, d));
+                (u[0] * v[0] + u[1] * v[1]) / (u[0].hypot(u[1]) * v[0].hypot(v[1]))
+            };
+            let one = cosine(["r006.1", "r006.2"], ["r009.1", "r009.2"]);
+            let two = cosine(["r004.1", "r004.2"], ["r007.1", "r007.2"]);
+            assert!((one + two).abs() < 1e-9, "{one} {two}");
+        }
+    }
+    let text = bracket_with(&[
+        (
+            "0d",
+            "type=34 valA=15.0 ptA.v=00080001 ptB.v=00040002 entityA.v=00020020",
+        ),
+        (
+            "01",
+            "type=60 ptA.v=00040001 ptB.v=00040002 entityA.v=00020000",
+        ),
+    ]);
+    let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
+    assert!(sketch.unsupported.is_empty(), "{:?}", sketch.unsupported);
+    let kinds = |kind: &str| {
+        let all = sketch.problem.constraints.iter();
+        all.filter(|c| c.kind == kind).count()
+    };
+    assert_eq!((kinds("dx"), kinds("symmetric")), (1, 1));
+    // Of zero nothing tells the sign in the file.
+    let zero = "type=34 ptA.v=00080001 ptB.v=00040002 entityA.v=00020020";
+    let text = bracket_with(&[("0d", zero)]);
+    let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
+    assert!(sketch.unsupported.contains_key("PROJ_PT_DISTANCE"));
+}
+
+const WATER: &str =
+    "3\nwater\nO 0.0000 0.0000 0.1173\nH 0.0000 0.7572 -0.4692\nH 0.0000 -0.7572 -0.4692\n";
+const CHIRAL: &str = "5\nbromochlorofluoromethane\nC 0 0 0\nH 0.63 0.63 0.63\nF -0.78 -0.78 0.78\n\
+                      Cl 1.0 -1.03 -1.0\nBr -1.1 1.1 -1.13\n";
+const CHAIR: &str = "6\ncyclohexane, carbon only\nC 1.46400 0.00000 0.25000\nC 0.73200 1.26786 -0.25000\n\
+                     C -0.73200 1.26786 0.25000\nC -1.46400 0.00000 -0.25000\nC -0.73200 -1.26786 0.25000\n\
+                     C 0.73200 -1.26786 -0.25000\n";
+
+/// Water has two bonds of one length: the path goes round all the same. The chair of cyclohexane is proved where the sketch
+/// leads; its path then comes to figures that can move, which is said.
+#[test]
+fn molecules_are_solved_or_it_is_said_why_not() {
+    use assert_cmd::Command;
+    let folder = tempfile::tempdir().unwrap();
+    let solve = |text: &str, options: &[&str]| {
+        let file = folder.path().join("molecule.xyz");
+        std::fs::write(&file, text).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
+        let command = command.arg("solve").arg(&file).args(options);
+        let output = command.output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        (output.status.code(), text)
+    };
+    let (code, text) = solve(WATER, &[]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.starts_with("water: Closed, proved"), "{text}");
+    let (code, text) = solve(CHAIR, &["--first"]);
+    assert_eq!(code, Some(0), "{text}");
+    let (code, text) = solve(CHAIR, &[]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("the figure appears to be flexible"), "{text}");
+    assert!(text.contains("reached without a fold"), "{text}");
+}
+
+/// The four neighbours of a stereo centre keep their handedness in an edit, by proof, and it is said which.
+#[test]
+fn chirality_is_kept_and_named() {
+    let sketch = import::read("chiral.xyz", CHIRAL.as_bytes(), None).unwrap();
+    let mut session = Session::open(&sketch.problem).unwrap();
+    let edited = edit(&mut session, "C1-Br5=2");
+    assert_eq!(edited.ending, Ending::Reached);
+    let kept = &edited.orientations.kept;
+    assert_eq!((kept.len(), edited.orientations.lost.len()), (5, 0));
+    for (points, sign) in kept {
+        let at: Vec<[f64; 3]> = points
+            .iter()
+            .map(|&p| place(&session, &sketch.problem.points[p].name))
+            .collect();
+        let side = |k: usize| -> [f64; 3] { std::array::from_fn(|axis| at[k][axis] - at[0][axis]) };
+        let (u, v, w) = (side(1), side(2), side(3));
+        let volume = u[0] * (v[1] * w[2] - v[2] * w[1])
+            + u[1] * (v[2] * w[0] - v[0] * w[2])
+            + u[2] * (v[0] * w[1] - v[1] * w[0]);
+        assert_eq!(volume > 0.0, *sign > 0);
+    }
+    // The centre and three of its neighbours are among them.
+    assert!(kept.iter().any(|(points, _)| points == &[0, 1, 2, 3]));
+}

@@ -15,7 +15,8 @@ pub enum Solved {
     NoFormula,
 }
 
-/// The solutions of a block by formula, those before which the determinant of the derivatives has the given sign first.
+/// The solutions of a block by formula, those first at which the determinant of the derivatives certainly has the given
+/// sign.
 pub fn solve(rows: &[Local], sense: Option<i8>) -> Solved {
     let is_linear = rows.iter().all(|row| row.quadratic.is_empty());
     let solved = match rows {
@@ -50,19 +51,24 @@ pub fn solve(rows: &[Local], sense: Option<i8>) -> Solved {
         }
     }
     if sense.is_some() {
-        solutions.sort_by_key(|solution| sense_at(rows, &middle(solution)) != sense);
+        solutions.sort_by_key(|solution| sense_at(rows, solution) != sense);
     }
     Solved::All(solutions)
 }
 
-/// The sign of the determinant of the derivatives at a point, in floats.
-pub fn sense_at(rows: &[Local], at: &[f64]) -> Option<i8> {
-    let determinant = jacobian(rows, at).determinant();
-    match determinant {
-        d if d > 0.0 => Some(1),
-        d if d < 0.0 => Some(-1),
-        _ => None,
-    }
+/// The sign of the determinant of the derivatives of one equation or two: in exact ratios where all numbers are such,
+/// otherwise in intervals. `None` where it is not certain or zero, and for more equations.
+pub fn sense_at(rows: &[Local], at: &[Number]) -> Option<i8> {
+    let gradient = |row: &Local| row.derivatives(at);
+    let determinant = match rows {
+        [row] => gradient(row).pop()?,
+        [one, other] => {
+            let (u, v) = (gradient(one), gradient(other));
+            u[0].times(&v[1]).minus(&u[1].times(&v[0]))
+        }
+        _ => return None,
+    };
+    determinant.sign().filter(|sign| *sign != 0)
 }
 
 fn jacobian(rows: &[Local], at: &[f64]) -> DMatrix<f64> {
@@ -293,7 +299,8 @@ mod tests {
             assert!(solution[0].is_exact() && solution[0].enclosure().contains(3.0));
             assert_eq!(solution[1].enclosure().mag(), 4.0);
         }
-        assert_eq!(sense_at(&rows, &middle(&found[0])), Some(1));
+        assert_eq!(sense_at(&rows, &found[0]), Some(1));
+        assert_eq!(sense_at(&rows, &found[1]), Some(-1));
         // In intervals, and roots that are no ratios.
         let third = Number::within(ratio(1, 3).enclosure());
         let rows = [
@@ -310,6 +317,27 @@ mod tests {
             assert!(at.iter().all(|x| x.wid() < 1e-14), "{at:?}");
         }
         assert!(found[0][0].enclosure().disjoint(found[1][0].enclosure()));
+    }
+
+    /// A sign is not read off a middle: beside the double root it is exact or in doubt.
+    #[test]
+    fn a_sense_is_certain_or_not_said() {
+        let tiny = |sign: i64| {
+            let far = BigRational::new(sign.into(), num_bigint::BigInt::from(10).pow(40));
+            Number::exactly(BigRational::from_integer(3.into()) + far)
+        };
+        // (x − 3)²: the derivative at 3 ± 10⁻⁴⁰, which no float tells from 3.
+        let rows = [Local {
+            quadratic: [((0, 0), 2)].into(),
+            linear: vec![ratio(-6, 1)],
+            constant: ratio(5, 1),
+        }];
+        assert_eq!(sense_at(&rows, &[tiny(1)]), Some(1));
+        assert_eq!(sense_at(&rows, &[tiny(-1)]), Some(-1));
+        assert_eq!(sense_at(&rows, &[ratio(3, 1)]), None);
+        // In an interval around 3 of which the middle is above.
+        let around = Number::within(crate::interval::hull(3.0 - 1e-9, 3.0 + 2e-9));
+        assert_eq!(sense_at(&rows, &[around]), None);
     }
 
     #[test]

@@ -90,6 +90,18 @@ impl Local {
         })
     }
 
+    /// Its derivatives at numbers: ratios where all of them are.
+    pub fn derivatives(&self, at: &[Number]) -> Vec<Number> {
+        let mut out = self.linear.clone();
+        for (&(i, j), &q) in &self.quadratic {
+            let half = Number::halves(q);
+            let (of_i, of_j) = (half.times(&at[j]), half.times(&at[i]));
+            out[i] = out[i].plus(&of_i);
+            out[j] = out[j].plus(&of_j);
+        }
+        out
+    }
+
     /// Its derivatives on a box.
     pub fn gradient(&self, at: &[Interval]) -> Vec<Interval> {
         let mut out: Vec<Interval> = self.linear.iter().map(Number::enclosure).collect();

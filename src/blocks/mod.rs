@@ -35,7 +35,9 @@ pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
 pub(crate) use cut::{Cut, Used, free_names, name};
 pub use decompose::{Block, Blocks};
-pub use figures::{BlockAccount, Chosen, Figures, LeftOut, Way};
+pub use figures::{
+    BlockAccount, Chosen, Comparison, Figures, First, LeftOut, Sense, Way, WithSenses,
+};
 pub use follows::{Combination, Given, combination};
 pub use merge::{Row, System};
 pub use pinned::pinned;

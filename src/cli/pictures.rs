@@ -57,6 +57,11 @@ impl Pictures {
         .collect()
     }
 
+    /// Whether there is one that moves, and so needs a path.
+    pub fn has_animation(&self) -> bool {
+        self.animation.is_some()
+    }
+
     /// Whether the path is needed, not the solutions only.
     pub fn want_path(&self) -> bool {
         self.html.is_some() || self.animation.is_some()

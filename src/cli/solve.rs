@@ -5,14 +5,14 @@ use super::pictures::Pictures;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
-use krawl::blocks::{Figures, clusters};
+use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::remarks::{Remark, in_words, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
-    BlockRuns, ProgressLine, Run, figures_to_summary, figures_to_table, figures_to_value,
-    to_first_table, to_no_first, to_short_table, to_summary, to_table,
+    BlockRuns, Listed, ProgressLine, Run, figures_to_summary, figures_to_table, figures_to_value,
+    first_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
 use krawl::track::{self, Control, First, Options, Outcome, Progress, Status, Trace, Witness};
 use serde_json::Value;
@@ -38,7 +38,8 @@ Examples:
   krawl solve problems/sketches/parts.FCStd --sketch Frame  a sketch of FreeCAD or SolveSpace, block by block
 
 A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
-its own frame that stops as a whole, and one of distances that falls apart (docs/sketches.md).
+its own frame that stops as a whole, and one of distances that falls apart (docs/sketches.md). A sketch is followed as a
+whole where a path is asked for: --cert, --animation, --samples, --space, --reverse, --mode float.
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
 found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
@@ -51,7 +52,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
     /// Only the solution to which the sketch moves without a fold; exit code 0 if there is one, 3 if the path turns
-    /// back before, 1 if that could not be proved
+    /// back before, 1 if that could not be proved. Of a sketch of another program: the figure nearest to it in which
+    /// angles, parallels, tangents and joined points turn as there; 3 if no figure found is such
     #[arg(long, conflicts_with_all = ["all", "summary", "cert", "reverse"])]
     first: bool,
     /// Prove every step, or track in floating-point arithmetic
@@ -280,6 +282,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let found = arguments.by_blocks(problem);
             let (text, value, code) =
                 found.map_err(|error| format!("{}: {error}", input::name(file)))?;
+            if !pictures.is_empty() {
+                let page = Page::from_result(&value).map_err(|error| error.to_string())?;
+                written &= pictures.write(&page);
+            }
             if json.is_some() {
                 lines += &(value.to_string() + "\n");
             }
@@ -334,8 +340,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                         samples: 0,
                     };
                     let mut whole = run.to_value();
-                    whole["by_blocks"] = value;
+                    whole["by_blocks"] = value.clone();
                     lines += &(whole.to_string() + "\n");
+                }
+                if shown {
+                    let page = Page::from_result(&value).map_err(|error| error.to_string())?;
+                    written &= pictures.write(&page);
                 }
                 if !silent {
                     let gap = if k == 0 || arguments.summary {
@@ -349,7 +359,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 k += 1;
                 continue;
             }
-            let blocks = clusters(problem);
+            let blocks = match arguments.cert {
+                // What is asked for is a certificate of the whole.
+                Some(_) => Vec::new(),
+                None => clusters(problem),
+            };
             if !blocks.is_empty() {
                 let (runs, code) = follow_blocks(arguments, blocks, &input::name(file), &which)?;
                 let all = BlockRuns {
@@ -432,7 +446,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 (None, false) => arguments.shown(problem, &outcome),
             };
             let hints = hints(problem, &outcome, &input::name(file));
-            written &= output::print(&format!("{gap}{text}{hints}"));
+            let whole = arguments.whole_in_words(file);
+            written &= output::print(&format!("{gap}{whole}{text}{hints}"));
         }
         k += 1;
         if cancel.load(Ordering::Relaxed) {
@@ -512,57 +527,97 @@ fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
 impl Arguments {
     /// Whether a problem that stops may be followed block by block.
     fn can_be_cut(&self, cancel: &AtomicBool) -> bool {
-        self.mode == Mode::Certified
-            && !self.first
-            && self.cert.is_none()
-            && !cancel.load(Ordering::Relaxed)
+        self.mode == Mode::Certified && !self.first && !cancel.load(Ordering::Relaxed)
     }
 
     /// Whether a file's problem is solved block by block from the start: a sketch of another program, where nothing is asked
     /// for that a path of the whole has alone.
     fn is_by_blocks(&self, file: &Path) -> bool {
-        input::is_sketch(file)
-            && self.mode == Mode::Certified
-            && !self.first
-            && !self.reverse
-            && self.space.is_none()
-            && self.samples.is_none()
-            && self.cert.is_none()
-            && self.pictures.files().next().is_none()
+        input::is_sketch(file) && self.mode == Mode::Certified && self.wants_path().is_none()
     }
 
-    /// The figures of a sketch in its own frame: as text, as a value for JSON, and the exit code.
+    /// What is asked for that only a path of the whole has.
+    fn wants_path(&self) -> Option<&'static str> {
+        let asked = [
+            (self.mode == Mode::Float, "--mode float"),
+            (self.reverse, "--reverse"),
+            (self.space.is_some(), "--space"),
+            (self.samples.is_some(), "--samples"),
+            (self.cert.is_some(), "--cert"),
+            (self.pictures.has_animation(), "--animation"),
+        ];
+        asked.iter().find(|(is, _)| *is).map(|(_, option)| *option)
+    }
+
+    /// What is said before the answer to a sketch of another program that is followed as a whole.
+    fn whole_in_words(&self, file: &Path) -> String {
+        match self.wants_path() {
+            Some(option) if input::is_sketch(file) && !self.summary => format!(
+                "Followed as a whole, as `{option}` asks for its path: what nothing determines is held, what follows from \
+                 other constraints is left out. Without it the figures are found block by block.\n"
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// The figures of a sketch in its own frame, with `--first` the nearest one with its senses: as text, as a value for
+    /// JSON, and the exit code.
     fn by_blocks(&self, problem: &Problem) -> Result<(String, Value, u8), String> {
         let mut control = Control {
             cancel: Some(interrupt::flag()),
             ..Control::default()
         };
         let figures = Figures::find(problem, &self.options(), &mut control)?;
-        let text = match self.summary {
-            true => figures_to_summary(&figures),
-            false => figures_to_table(&figures, self.all),
+        let mut listed = match self.all {
+            true => Listed::All,
+            false => Listed::Some,
         };
-        let code = match figures.doubt() {
+        let mut code = match figures.doubt() {
             Some(_) => STOPPED,
             None => CLOSED,
         };
-        Ok((text, figures_to_value(&figures, self.all), code))
+        let mut text = String::new();
+        if self.first {
+            let nearest = figures.first();
+            text = first_in_words(&figures, nearest);
+            (listed, code) = match nearest {
+                Nearest::Figure { number, .. } => (Listed::Only(number), CLOSED),
+                Nearest::None { is_proved: true } if code == CLOSED => (listed, LIMIT),
+                Nearest::None { .. } | Nearest::TooMany => (listed, STOPPED),
+            };
+        }
+        text += &match self.summary {
+            true => figures_to_summary(&figures),
+            false => figures_to_table(&figures, listed),
+        };
+        Ok((text, figures_to_value(&figures, listed), code))
     }
 
     /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole: as text, as a
     /// value for JSON, and the exit code. `None`: its blocks do not come to an end either.
     fn instead(&self, problem: &Problem, reason: &str) -> Option<(String, Value, u8)> {
         let (text, value, code) = self.by_blocks(problem).ok()?;
+        let certificate = match self.cert {
+            Some(_) => {
+                " The certificate has what was proved of the path of the whole; of the figures below it says nothing."
+            }
+            None => "",
+        };
         let reason = reason.trim_end_matches('.');
         let introduction = match self.summary {
             true => String::new(),
             false => format!(
                 "{}: followed as a whole it stops ({reason}). Its equations fall apart into blocks, and these are solved \
-                 one by one.\n\n",
+                 one by one.{certificate}\n\n",
                 problem.name
             ),
         };
-        (code == CLOSED).then(|| (introduction + &text, value, code))
+        // A certificate of a path that stopped proves no more for it.
+        let worth = match self.cert {
+            Some(_) => STOPPED,
+            None => code,
+        };
+        (code == CLOSED).then(|| (introduction + &text, value, worth))
     }
 
     fn shown_blocks(&self, all: &BlockRuns) -> String {

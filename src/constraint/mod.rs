@@ -51,7 +51,7 @@ pub use structure::{size, size_in_edits};
 
 use crate::interval::Interval;
 use crate::problem::Problem;
-use arguments::Arguments;
+pub(crate) use arguments::{Arguments, LineName, Sort};
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
 use lowering::{Lowering, Start};

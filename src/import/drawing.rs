@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// Coordinates that a constraint makes one and that differ by more than this part of the sketch's size are left as
 /// they are drawn; otherwise they are made one. Programs store what their solvers leave, about eight digits.
-const SNAP: f64 = 1e-5;
+pub const SNAP: f64 = 1e-5;
 
 /// What constraints and dimensions of a file are: an index into those that were read.
 pub type Source = usize;
@@ -60,6 +60,15 @@ impl Drawing {
     /// Where a point is drawn.
     pub fn at(&self, point: usize) -> [f64; 2] {
         self.places[point].1
+    }
+
+    /// A power of two near the largest coordinate so far, 1 if all are zero.
+    pub fn size(&self) -> f64 {
+        let all = self.places.iter().flat_map(|(_, at)| *at);
+        match all.fold(0.0f64, |max, x| max.max(x.abs())) {
+            0.0 => 1.0,
+            far => 2f64.powi(far.log2().round() as i32),
+        }
     }
 
     fn object(&mut self, name: String, shape: Shape) -> usize {

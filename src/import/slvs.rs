@@ -5,7 +5,7 @@
 //! groups) stays where it is, seen in the group's work plane. Zero values are left out of the file. What constraints
 //! mean is that of SolveSpace's `constrainteq.cpp`.
 
-use super::drawing::{Drawing, Finished};
+use super::drawing::{Drawing, Finished, SNAP};
 use super::{Figure, Imported, Listed, Places as AllPlaces};
 use crate::problem::{Item, Problem, Shape};
 use std::collections::HashMap;
@@ -18,6 +18,8 @@ const IN_PLANE: u32 = 5001;
 const POINT_IN_3D: u32 = 2000;
 const POINT_IN_2D: u32 = 2001;
 const LINE: u32 = 11000;
+const NORMALS: std::ops::RangeInclusive<u32> = 3000..=3012;
+const WORKPLANE: u32 = 10000;
 const CIRCLE: u32 = 13000;
 const ARC: u32 = 14000;
 /// Requests of single points number their entities from 0, all others from 1.
@@ -183,10 +185,16 @@ impl Plane {
     fn new(contents: &Contents, handle: Handle) -> Option<Self> {
         let plane = contents.entity(handle)?;
         let normal = contents.entity(plane.hex("normal.v"))?;
+        let origin = contents.place_in_space(plane.hex("point[0].v"))?;
+        Some(Self::turned(origin, normal))
+    }
+
+    /// Through a place, turned like a normal.
+    fn turned(origin: [f64; 3], normal: &Record) -> Self {
         let [w, x, y, z] =
             ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
-        Some(Plane {
-            origin: contents.place_in_space(plane.hex("point[0].v"))?,
+        Plane {
+            origin,
             u: [
                 w * w + x * x - y * y - z * z,
                 2.0 * (w * z + x * y),
@@ -197,7 +205,13 @@ impl Plane {
                 w * w - x * x + y * y - z * z,
                 2.0 * (w * x + y * z),
             ],
-        })
+        }
+    }
+
+    /// The direction at a right angle to it.
+    fn normal(&self) -> [f64; 3] {
+        let ([a, b, c], [d, e, f]) = (self.u, self.v);
+        [b * f - c * e, c * d - a * f, a * e - b * d]
     }
 
     fn seen(&self, place: [f64; 3]) -> [f64; 2] {
@@ -297,6 +311,18 @@ fn kind_name(kind: u32) -> String {
     name.to_owned()
 }
 
+/// Products of unit vectors that are rounded differ from exact ones by less than this.
+const ROUNDED: f64 = 1e-12;
+
+/// A part of a unit vector, exactly along an axis or across it where it is so but for rounding.
+fn straightened(x: f64) -> f64 {
+    match x.abs() {
+        small if small <= ROUNDED => 0.0,
+        large if (large - 1.0).abs() <= ROUNDED => x.signum(),
+        _ => x,
+    }
+}
+
 /// A sketch as it is read.
 struct Reader<'a> {
     contents: &'a Contents<'a>,
@@ -391,6 +417,89 @@ impl Reader<'_> {
         Some(object)
     }
 
+    /// A line that stays where it is.
+    fn fixed_line(&mut self, name: &str, ends: [[f64; 2]; 2]) -> Option<usize> {
+        let [a, b] = [("1", ends[0]), ("2", ends[1])].map(|(which, at)| {
+            self.places.push(None);
+            self.drawing.fixed_point(format!("{name}.{which}"), at)
+        });
+        self.drawing.line(name.to_owned(), [a, b])
+    }
+
+    /// The line in which a work plane of another group cuts that of the sketch, and whether it does so at a right angle.
+    /// A point of the sketch is in the plane where it is on the line.
+    fn trace(&mut self, handle: Handle) -> Option<(usize, bool)> {
+        let entity = self.contents.entity(handle)?;
+        let is_own = self.contents.request(handle, self.group).is_some();
+        if is_own || entity.whole("type") != WORKPLANE {
+            return None;
+        }
+        let plane = Plane::new(self.contents, handle)?;
+        let normal = plane.normal();
+        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+        let from: [f64; 3] = std::array::from_fn(|k| plane.origin[k] - self.plane.origin[k]);
+        let across = [self.plane.u, self.plane.v].map(|axis| straightened(dot(normal, axis)));
+        let is_right = dot(normal, self.plane.normal()).abs() <= ROUNDED;
+        if let Some(&line) = self.objects.get(&handle) {
+            return Some((line, is_right));
+        }
+        let [a, b] = across;
+        let squared = a * a + b * b;
+        // Parallel planes have no line in common, and nearly parallel ones none that is known well.
+        if squared < 1e-6 {
+            return None;
+        }
+        let off = dot(normal, from) / squared;
+        let base = [a * off, b * off].map(|x| if x.abs() <= ROUNDED { 0.0 } else { x });
+        let far = self.drawing.size() / squared.sqrt();
+        let ends = [base, [base[0] - b * far, base[1] + a * far]];
+        let line = self.fixed_line(&format!("w{handle:08x}"), ends)?;
+        self.objects.insert(handle, line);
+        Some((line, is_right))
+    }
+
+    /// A line along a normal of another group, if that lies in the plane of the sketch.
+    fn along_normal(&mut self, handle: Handle) -> Option<usize> {
+        if let Some(&line) = self.objects.get(&handle) {
+            return Some(line);
+        }
+        let entity = self.contents.entity(handle)?;
+        let is_own = self.contents.request(handle, self.group).is_some();
+        if is_own || !NORMALS.contains(&entity.whole("type")) {
+            return None;
+        }
+        let normal = Plane::turned([0.0; 3], entity).normal();
+        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+        if dot(normal, self.plane.normal()).abs() > ROUNDED {
+            return None;
+        }
+        let far = self.drawing.size();
+        let end = [self.plane.u, self.plane.v].map(|axis| straightened(dot(normal, axis)) * far);
+        let line = self.fixed_line(&format!("n{handle:08x}"), [[0.0; 2], end])?;
+        self.objects.insert(handle, line);
+        Some(line)
+    }
+
+    /// The direction of a line, as it is drawn.
+    fn direction(&self, line: usize) -> Option<[f64; 2]> {
+        let Shape::Line(ends) = *self.drawing.shape(line) else {
+            return None;
+        };
+        let [from, to] = ends.map(|p| self.drawing.at(p));
+        Some([to[0] - from[0], to[1] - from[1]])
+    }
+
+    /// The cosine of the angle from one line to another, as they are drawn, if that is so far from zero that coordinates
+    /// that are made equal do not change its sign.
+    fn clear_cosine(&self, one: usize, other: usize) -> Option<f64> {
+        let ([a, b], [c, d]) = (self.direction(one)?, self.direction(other)?);
+        let (long, short) = (a.hypot(b), c.hypot(d));
+        let cosine = (a * c + b * d) / (long * short);
+        // An end moves by no more than SNAP of the largest coordinate, along each axis.
+        let moved = 2.0 * self.drawing.size() * SNAP;
+        (cosine.abs() > 4.0 * moved * (1.0 / long + 1.0 / short)).then_some(cosine)
+    }
+
     fn line(&mut self, handle: Handle) -> Option<usize> {
         let object = self.object(handle)?;
         self.drawing.if_line(object)
@@ -432,29 +541,65 @@ impl Reader<'_> {
                 self.drawing
                     .constrain(source, kind, vec![point(p), object(l)], value);
             }
+            31 => {
+                let p = self.point(handle("ptA"))?;
+                let (line, is_right) = self.trace(handle("entityA"))?;
+                let items = vec![point(p), object(line)];
+                match value {
+                    0.0 => self.drawing.constrain(source, "on", items, None),
+                    // At another angle the distance in the plane of the sketch is another.
+                    _ if !is_right => return None,
+                    _ => {
+                        let value = Some(value.abs());
+                        self.drawing.constrain(source, "distances", items, value);
+                    }
+                }
+            }
             34 => {
+                if value == 0.0 {
+                    // Of zero the figure does not tell which sign is the file's, so it could not be given back.
+                    return None;
+                }
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                let line = self.line(handle("entityA"))?;
+                let along = handle("entityA");
+                let line = match self.line(along) {
+                    Some(line) => line,
+                    None => self.along_normal(along)?,
+                };
+                let [dx, dy] = self.direction(line)?;
                 let Shape::Line(ends) = *self.drawing.shape(line) else {
                     return None;
                 };
-                // Along a line that stays where it is, parallel to an axis.
-                if !ends.iter().all(|&p| self.places[p].is_none()) {
-                    return None;
-                }
-                let [from, to] = ends.map(|p| self.drawing.at(p));
-                let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-                let axis = match (dx, dy) {
-                    (_, 0.0) => 0,
-                    (0.0, _) => 1,
-                    _ => return None,
-                };
+                let [from, to] = [a, b].map(|p| self.drawing.at(p));
+                let apart = [to[0] - from[0], to[1] - from[1]];
                 // The sign in the file goes by the line's direction; what it means is seen in the figure.
-                let now = self.drawing.at(b)[axis] - self.drawing.at(a)[axis];
-                let signed = Some(if now < 0.0 { -value.abs() } else { value.abs() });
-                let kind = ["dx", "dy"][axis];
-                self.drawing
-                    .constrain(source, kind, vec![point(a), point(b)], signed);
+                let signed = |now: f64| Some(if now < 0.0 { -value.abs() } else { value.abs() });
+                // Along a line that stays where it is, parallel to an axis.
+                let is_fixed = ends.iter().all(|&p| self.places[p].is_none());
+                let axis = match (dx, dy) {
+                    (_, 0.0) if is_fixed => Some(0),
+                    (0.0, _) if is_fixed => Some(1),
+                    _ => None,
+                };
+                match axis {
+                    Some(axis) => {
+                        let value = signed(apart[axis]);
+                        let kind = ["dx", "dy"][axis];
+                        self.drawing
+                            .constrain(source, kind, vec![point(a), point(b)], value);
+                    }
+                    None => {
+                        let value = signed(dx * apart[0] + dy * apart[1]);
+                        let items = vec![point(a), point(b), object(line)];
+                        self.drawing.constrain(source, "along", items, value);
+                    }
+                }
+            }
+            41 => {
+                let p = self.point(handle("ptA"))?;
+                let (line, _) = self.trace(handle("entityA"))?;
+                let items = vec![point(p), object(line)];
+                self.drawing.constrain(source, "on", items, None);
             }
             42 => {
                 let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
@@ -466,12 +611,50 @@ impl Reader<'_> {
                 self.drawing
                     .constrain(source, "equal", lines.map(object).to_vec(), None);
             }
+            51 | 56 => {
+                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
+                let key = if kind == 51 { "ratios" } else { "differences" };
+                if lines[0] == lines[1] || (kind == 51 && value <= 0.0) {
+                    return None;
+                }
+                let items = lines.map(object).to_vec();
+                self.drawing.constrain(source, key, items, Some(value));
+            }
+            54 => {
+                let mut lines = [0; 4];
+                for (line, key) in lines
+                    .iter_mut()
+                    .zip(["entityA", "entityB", "entityC", "entityD"])
+                {
+                    *line = self.line(handle(key))?;
+                }
+                let [a, b, c, d] = lines;
+                let sign = if record.whole("other") != 0 {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let (one, other) = (sign * self.clear_cosine(a, b)?, self.clear_cosine(c, d)?);
+                // Which of the angles of lines are equal is read off the figure, which has to tell that, as the file does.
+                let is_told = one * other > 0.0;
+                if !is_told || a == b || c == d {
+                    return None;
+                }
+                let items = lines.map(object).to_vec();
+                self.drawing.constrain(source, "equal_angles", items, None);
+            }
             53 => {
                 let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
                 let (q, k) = (self.point(handle("ptB"))?, self.line(handle("entityB"))?);
                 let items = vec![point(p), object(l), point(q), object(k)];
                 self.drawing
                     .constrain(source, "equal_distances", items, None);
+            }
+            60 => {
+                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+                let (line, _) = self.trace(handle("entityA"))?;
+                let items = vec![point(a), point(b), object(line)];
+                self.drawing.constrain(source, "symmetric", items, None);
             }
             61 | 62 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);

@@ -1,9 +1,9 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
 use super::digits::certain_digits;
+use super::drawing::Drawing;
 use super::edit::{bounds, points_to_value, write_points};
-use super::json::JSON_VERSION;
-use crate::blocks::{BlockAccount, Chosen, Figures, Way};
+use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
 use crate::interval::Interval;
 use crate::problem::Shape;
 use serde_json::{Map, Value, json};
@@ -17,6 +17,28 @@ const LISTED: usize = 8;
 const IN_JSON: u64 = 100;
 /// Figures that are listed, in a table or in JSON, where all are asked for.
 const MOST: u64 = 1_000_000;
+
+/// Which figures are listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Listed {
+    /// The first ones.
+    Some,
+    /// All, as far as that can be.
+    All,
+    /// That of this number alone.
+    Only(u64),
+}
+
+impl Listed {
+    /// The numbers of those listed, of so many, the first `some` where not all are asked for.
+    fn numbers(self, count: u64, some: u64) -> std::ops::Range<u64> {
+        match self {
+            Listed::Some => 0..count.min(some),
+            Listed::All => 0..count.min(MOST),
+            Listed::Only(number) => number..number + 1,
+        }
+    }
+}
 
 /// What is proved of the figures of a sketch, in a sentence or two.
 pub fn figures_in_words(figures: &Figures) -> String {
@@ -48,6 +70,7 @@ pub fn figures_in_words(figures: &Figures) -> String {
     };
     out += &provided(figures);
     out.push('.');
+    out += &senses_in_words(figures);
     let seem: Vec<_> = figures.left_out().iter().filter(|c| !c.follows).collect();
     if !seem.is_empty() {
         let each = seem
@@ -65,6 +88,38 @@ pub fn figures_in_words(figures: &Figures) -> String {
         );
     }
     out
+}
+
+/// How many of the figures have all senses of the sketch, in a sentence.
+fn senses_in_words(figures: &Figures) -> String {
+    let Some(senses) = figures.senses() else {
+        return " Which of them have the senses of the sketch is not told: there are too many to look at.".to_owned();
+    };
+    if senses.is_empty() {
+        return String::new();
+    }
+    let Some(with) = figures.with_senses() else {
+        return " How many of them have all senses of the sketch was not counted: there are too many.".to_owned();
+    };
+    let all =
+        "all senses of the sketch (angles, parallels, tangents and joined points turn as there)";
+    match (figures.count(), with.proved, with.undecided) {
+        (Some(1), 1, _) => format!(" It has {all}, proved."),
+        (Some(1), _, 0) => format!(" It has not {all}, proved."),
+        (Some(1), ..) => format!(" Whether it has {all} is not certain."),
+        (_, n, undecided) => {
+            let number = match n {
+                0 => "None of them has".to_owned(),
+                1 => "1 of them has".to_owned(),
+                n => format!("{n} of them have"),
+            };
+            let rest = match undecided {
+                0 => ", proved".to_owned(),
+                n => format!(", proved; of {n} more that is not certain"),
+            };
+            format!(" {number} {all}{rest}.")
+        }
+    }
 }
 
 /// What is taken as the sketch has it, in brackets.
@@ -125,16 +180,43 @@ fn followed(figures: &Figures) -> String {
 }
 
 /// The figures as a text of several lines, the first ones or all.
-pub fn figures_to_table(figures: &Figures, all: bool) -> String {
+pub fn figures_to_table(figures: &Figures, listed: Listed) -> String {
     let mut out = format!(
         "{}: {}\n",
         figures.problem().name,
         figures_in_words(figures)
     );
     // Writing to a string cannot fail.
-    let _ = write_figures(&mut out, figures, all);
+    let _ = write_figures(&mut out, figures, listed);
     let _ = write_blocks(&mut out, figures);
     out
+}
+
+/// What is said of the figure nearest to the sketch of those with all its senses, or that there is none.
+pub fn first_in_words(figures: &Figures, first: First) -> String {
+    let name = &figures.problem().name;
+    match first {
+        First::Figure { number, is_nearest } => {
+            let nearest = match is_nearest {
+                true => "of the figures listed it is the nearest to the sketch of which that is so",
+                false => "others of which that is so are about as near to the sketch",
+            };
+            format!(
+                "{name}: figure {} has all senses of the sketch (angles, parallels, tangents and joined points turn as \
+                 there), proved; {nearest}.\n",
+                number + 1
+            )
+        }
+        First::None { is_proved: true } => {
+            format!("{name}: no figure that was found has all senses of the sketch, proved.\n")
+        }
+        First::None { is_proved: false } => {
+            format!("{name}: no figure is proved to have all senses of the sketch.\n")
+        }
+        First::TooMany => format!(
+            "{name}: there are too many figures to look for the nearest one with all senses of the sketch.\n"
+        ),
+    }
 }
 
 /// One line for a sketch.
@@ -146,20 +228,21 @@ pub fn figures_to_summary(figures: &Figures) -> String {
     )
 }
 
-fn write_figures(out: &mut String, figures: &Figures, all: bool) -> std::fmt::Result {
+fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fmt::Result {
     let problem = figures.problem();
     let count = figures.count().unwrap_or(u64::MAX);
     let circles = problem.objects.iter();
     let circles = circles.filter(|o| matches!(o.shape, Shape::Round { .. }));
     let each = (problem.points.len() + circles.count()) as u64 + 2;
-    let most = match all {
-        true => MOST,
-        false if count.saturating_mul(each) <= LINES as u64 => count,
+    let some = match count.saturating_mul(each) <= LINES as u64 {
+        true => count,
         false => (LINES as u64 / 2 / each).max(1),
     };
-    for number in 0..count.min(most) {
+    let numbers = listed.numbers(count, some);
+    for number in numbers.clone() {
         let chosen = chosen_in_words(&figures.chosen(number));
         writeln!(out, "\nFigure {}{chosen}", number + 1)?;
+        write_senses(out, figures, number)?;
         let (points, radii) = figures.figure(number);
         write_points(out, problem, &points)?;
         for (object, radius) in problem.objects.iter().zip(&radii) {
@@ -168,11 +251,11 @@ fn write_figures(out: &mut String, figures: &Figures, all: bool) -> std::fmt::Re
             }
         }
     }
-    if count > most {
+    if !matches!(listed, Listed::Only(_)) && count > numbers.end {
         writeln!(
             out,
             "\n... and {} more: `--all` prints them, `--json FILE` writes the first {IN_JSON} (with `--all` all).",
-            count - most
+            count - numbers.end
         )?;
     }
     if count > 0 {
@@ -180,6 +263,38 @@ fn write_figures(out: &mut String, figures: &Figures, all: bool) -> std::fmt::Re
             out,
             "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
         )?;
+    }
+    Ok(())
+}
+
+/// The names of the senses of a figure that stand to the sketch's in some way, each once.
+fn named(senses: &[Sense], compared: &[Comparison], how: Comparison) -> Vec<String> {
+    let mut out: Vec<String> = Vec::new();
+    for (sense, _) in senses.iter().zip(compared).filter(|(_, c)| **c == how) {
+        if !out.contains(&sense.name) {
+            out.push(sense.name.clone());
+        }
+    }
+    out
+}
+
+fn write_senses(out: &mut String, figures: &Figures, number: u64) -> std::fmt::Result {
+    let Some(senses @ [_, ..]) = figures.senses() else {
+        return Ok(());
+    };
+    let compared = figures.compared(number);
+    if compared.iter().all(|c| *c == Comparison::Same) {
+        return writeln!(out, "  senses as in the sketch");
+    }
+    for (how, what) in [
+        (Comparison::Other, "turned the other way"),
+        (Comparison::Flat, "flat, without a sense"),
+        (Comparison::Undecided, "not certain which way"),
+    ] {
+        let names = named(senses, &compared, how);
+        if !names.is_empty() {
+            writeln!(out, "  {what}: {}", list(&names))?;
+        }
     }
     Ok(())
 }
@@ -255,12 +370,10 @@ fn list(names: &[String]) -> String {
 }
 
 /// The figures as a value for programs (docs/json.md, docs/schema/figures.schema.json).
-pub fn figures_to_value(figures: &Figures, all: bool) -> Value {
+pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
     let problem = figures.problem();
     let count = figures.count();
-    let listed = count
-        .unwrap_or(u64::MAX)
-        .min(if all { MOST } else { IN_JSON });
+    let numbers = listed.numbers(count.unwrap_or(u64::MAX), IN_JSON);
     let of_number = |number: u64| {
         let (points, radii) = figures.figure(number);
         let chosen = figures.chosen(number);
@@ -268,11 +381,21 @@ pub fn figures_to_value(figures: &Figures, all: bool) -> Value {
             .iter()
             .map(|(block, solution)| json!({"block": block, "solution": solution}));
         json!({
+            "number": number,
             "choices": chosen.collect::<Vec<_>>(),
             "points": points_to_value(problem, &points),
             "radii": radii_to_value(figures, &radii),
+            "senses": senses_to_value(figures, number),
         })
     };
+    let senses = figures.senses().map(|senses| {
+        let with = figures.with_senses();
+        json!({
+            "names": senses.iter().map(|sense| &sense.name).collect::<Vec<_>>(),
+            "kept": with.map(|with| with.proved),
+            "undecided": with.map(|with| with.undecided),
+        })
+    });
     let blocks = figures.blocks().map(|account| {
         json!({
             "unknowns": account.unknowns,
@@ -297,11 +420,7 @@ pub fn figures_to_value(figures: &Figures, all: bool) -> Value {
         (None, _, false) if figures.meets_all() => "complete",
         (None, ..) => "combined",
     };
-    json!({
-        "version": JSON_VERSION,
-        "krawl": env!("CARGO_PKG_VERSION"),
-        "problem": problem.name,
-        "dimension": problem.dimension,
+    let own = json!({
         "mode": "certified",
         "status": status,
         "reason": doubt,
@@ -310,7 +429,30 @@ pub fn figures_to_value(figures: &Figures, all: bool) -> Value {
         "blocks": blocks.collect::<Vec<_>>(),
         "free": figures.free(),
         "left_out": left_out.collect::<Vec<_>>(),
-        "figures": (0..listed).map(of_number).collect::<Vec<_>>(),
+        "senses": senses,
+        "figures": numbers.map(of_number).collect::<Vec<_>>(),
+    });
+    Drawing::in_place("solve", problem).with(own)
+}
+
+/// How the senses of a figure stand to the sketch's; nothing where none is looked at.
+fn senses_to_value(figures: &Figures, number: u64) -> Value {
+    let Some(senses) = figures.senses() else {
+        return Value::Null;
+    };
+    let compared = figures.compared(number);
+    let named = |how| named(senses, &compared, how);
+    let has = |how| compared.contains(&how);
+    let as_in_sketch = match has(Comparison::Other) || has(Comparison::Flat) {
+        true => Some(false),
+        false if has(Comparison::Undecided) => None,
+        false => Some(true),
+    };
+    json!({
+        "as_in_sketch": as_in_sketch,
+        "other": named(Comparison::Other),
+        "flat": named(Comparison::Flat),
+        "undecided": named(Comparison::Undecided),
     })
 }
 

@@ -37,7 +37,10 @@ pub use edit::{
 pub use explore::{
     AllReal, Explored, TracedPath, explore_to_json, explore_to_table, explore_to_value,
 };
-pub use figures::{figures_in_words, figures_to_summary, figures_to_table, figures_to_value};
+pub use figures::{
+    Listed, figures_in_words, figures_to_summary, figures_to_table, figures_to_value,
+    first_in_words,
+};
 pub use json::{JSON_VERSION, Run};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;

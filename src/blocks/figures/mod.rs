@@ -15,8 +15,10 @@
 //! (sides, senses) which the sketch is not in. Constraints that only seem to follow from the others are left out: figures miss them by as
 //! much as is said.
 
+mod first;
 mod parts;
 mod search;
+mod senses;
 
 use super::cut::{Cut, free_names};
 use super::number::Number;
@@ -25,6 +27,9 @@ use crate::problem::Problem;
 use crate::track::{Control, Options};
 use parts::{is_met, parts_of, vanishes};
 use search::Search;
+
+pub use first::{First, WithSenses};
+pub use senses::{Comparison, Sense};
 
 /// How the solutions of a block are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,6 +97,8 @@ pub struct Figures {
     keeps_directions: bool,
     /// Figures of a part that were not taken because something has no direction in them.
     vanished: Option<String>,
+    /// What constraints leave open and the sketch has; `None` if that is too much to look at.
+    senses: Option<Vec<Sense>>,
 }
 
 impl Figures {
@@ -203,6 +210,7 @@ impl Figures {
             truncated,
             keeps_directions,
             vanished,
+            senses: senses::senses(&cut),
             cut,
         })
     }
@@ -308,6 +316,25 @@ impl Figures {
             .collect();
         chosen.sort_unstable();
         chosen
+    }
+
+    /// The senses that constraints leave open and the sketch has: which way angles turn, whether directions of parallels
+    /// and tangents agree, on which side of each other points joined by distances are. `None`: there are too many to look
+    /// at.
+    pub fn senses(&self) -> Option<&[Sense]> {
+        self.senses.as_deref()
+    }
+
+    /// How each of the [`Figures::senses`] of a figure stands to that of the sketch, with proof.
+    ///
+    /// # Panics
+    /// If there are not so many figures.
+    pub fn compared(&self, number: u64) -> Vec<Comparison> {
+        let values = self.values(number);
+        let senses = self.senses.iter().flatten();
+        senses
+            .map(|sense| sense.compare(&self.cut, &values))
+            .collect()
     }
 
     fn figures_of(&self, mut number: u64) -> impl Iterator<Item = &Figure> {

@@ -164,7 +164,7 @@ impl<'a, 'c> Search<'a, 'c> {
             let zero = Number::halves(0);
             let rows = rows.iter();
             let rows = rows.map(|row| Local::new(row, &block.unknowns, sketch, &zero));
-            let at = block.unknowns.iter().map(|&u| sketch(u).enclosure().mid());
+            let at = block.unknowns.iter().map(|&u| sketch(u));
             match block.unknowns.len() <= 2 {
                 true => formula::sense_at(&rows.collect::<Vec<_>>(), &at.collect::<Vec<_>>()),
                 false => None,
@@ -172,11 +172,14 @@ impl<'a, 'c> Search<'a, 'c> {
         };
         match formula::solve(&local, sense) {
             Solved::All(mut solutions) => {
-                // A distance along an axis: on the side where the sketch has it.
+                // A distance along an axis: on the side where the sketch has it, if it is certain which of the two that
+                // is; otherwise both.
                 if let [row] = rows.as_slice()
                     && is_square(row)
-                    && sense.is_some()
-                    && solutions.len() > 1
+                    && let Some(sense) = sense
+                    && let [first, second] = solutions.as_slice()
+                    && formula::sense_at(&local, first) == Some(sense)
+                    && formula::sense_at(&local, second) == Some(-sense)
                 {
                     let u = block.unknowns[0];
                     self.keeps_directions |= cut.system.unknowns[u].role != Role::Positive;

@@ -35,18 +35,34 @@ pub(in crate::edit) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
         },
         Item::Axis(_) => Vec::new(),
     };
-    let kinds = ["angles", "tangent", "perpendicular", "distances"];
+    let kinds = [
+        "angles",
+        "tangent",
+        "perpendicular",
+        "distances",
+        "equal_angles",
+        "equal_distances",
+    ];
     let all = problem.constraints.iter();
     for constraint in all.filter(|c| kinds.contains(&c.kind.as_str())) {
         let points: Vec<usize> = constraint.items.iter().flat_map(points_of).collect();
-        match *points.as_slice() {
-            [a, b, c] => out.put(vec![a, b, c]),
-            // A point of one line with the other line.
-            [a, b, c, d] => {
-                out.put(vec![a, b, c]);
-                out.put(vec![a, b, d]);
+        // Of two angles, and of two points with a line each, each half has a sense.
+        let parts = match constraint.kind.as_str() {
+            "equal_angles" if !matches!(points.len(), 6 | 8) => continue,
+            "equal_distances" if points.len() != 6 => continue,
+            "equal_angles" | "equal_distances" => 2,
+            _ => 1,
+        };
+        for points in points.chunks(points.len().div_ceil(parts).max(1)) {
+            match *points {
+                [a, b, c] => out.put(vec![a, b, c]),
+                // A point of one line with the other line.
+                [a, b, c, d] => {
+                    out.put(vec![a, b, c]);
+                    out.put(vec![a, b, d]);
+                }
+                _ => {}
             }
-            _ => {}
         }
     }
     out.0.into_iter().collect()

@@ -15,7 +15,7 @@
 mod hold;
 
 use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
-use crate::problem::{Decimal, Problem};
+use crate::problem::{Decimal, Problem, Target};
 use hold::{Held, hold};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -387,7 +387,10 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
             Held::Flat(points) => builder.constraint("coplanar", of(&points)),
         };
     }
-    let problem = builder.finish().map_err(|error| error.to_string())?;
+    let mut problem = builder.finish().map_err(|error| error.to_string())?;
+    if let Some(bend) = bend(&problem) {
+        problem.homotopy.bend = bend;
+    }
     Ok(Imported {
         problem,
         unsupported: BTreeMap::new(),
@@ -396,6 +399,35 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
             lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
         }),
     })
+}
+
+/// A distance to bend, by index: the last one that cannot vanish on the way, because a third atom is at fixed distances from
+/// both that are not about equal. (Where the two hydrogens of water meet, the path of a bent distance between them ends.)
+/// `None`: there is none such, and the last one bends. Any choice gives a path with a proof of its own.
+fn bend(problem: &Problem) -> Option<usize> {
+    // A difference of so small a part keeps atoms no further apart than paths go in any case.
+    const UNEQUAL: f64 = 0.01;
+    let mut near: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); problem.points.len()];
+    for distance in &problem.distances {
+        let length = match &distance.target {
+            Target::Length(length) => length.to_f64(),
+            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+        };
+        let [a, b] = distance.points;
+        near[a].insert(b, length);
+        near[b].insert(a, length);
+    }
+    let is_kept_apart = |[a, b]: [usize; 2]| {
+        let mut third = near[a].iter();
+        third.any(|(w, one)| {
+            let other = near[b].get(w);
+            other.is_some_and(|other| (one - other).abs() > UNEQUAL * one.max(*other))
+        })
+    };
+    problem
+        .distances
+        .iter()
+        .rposition(|distance| is_kept_apart(distance.points))
 }
 
 /// The file with new coordinates, all other characters as they were.

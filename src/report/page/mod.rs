@@ -5,6 +5,7 @@
 //! `page.css`, `page.js` and the data in it.
 
 mod complete;
+mod cut;
 mod edited;
 mod exchange;
 mod explored;

@@ -1,7 +1,7 @@
 //! The page of a result, from its JSON: whichever verb wrote it.
 
 use super::reader::{Reader, ShowError, wrong};
-use super::{Page, complete, edited, explored, ranges, solved, swept};
+use super::{Page, complete, cut, edited, explored, ranges, solved, swept};
 use serde_json::Value;
 
 impl Page {
@@ -23,6 +23,11 @@ impl Page {
         let verb = verb.as_str().or(verb.is_null().then_some("solve"));
         let mut page = match verb {
             Some("solve") if result["blocks"].is_object() => solved::blocks(&reader()?),
+            // A sketch in its own frame, block by block: from the start, or where the path of the whole stopped.
+            Some("solve") if result["blocks"].is_array() => cut::page(&reader()?),
+            Some("solve") if result["by_blocks"]["verb"].is_string() => {
+                cut::page(&Reader::new(&result["by_blocks"])?)
+            }
             Some("solve") => solved::page(&reader()?),
             Some("edit") => edited::page(&reader()?),
             Some("sweep") => swept::page(&reader()?),

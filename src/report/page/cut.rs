@@ -1,0 +1,135 @@
+//! The page of a sketch that was solved block by block in its own frame.
+
+use super::reader::{Reader, ShowError, list, text, wrong};
+use super::{Figure, Page, Text, Tone};
+use serde_json::{Map, Value, json};
+
+pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
+    let result = reader.result;
+    let mut page = reader.page()?;
+    page.figures[0].note = "not a solution: drawn for comparison".into();
+    let status = text(result, "status")?;
+    (page.badge, page.tone) = match status {
+        "complete" => ("proved · all there are".into(), Tone::Proved),
+        "combined" => (
+            "proved · complete for the paths of the blocks".into(),
+            Tone::Proved,
+        ),
+        _ => ("each proved; there may be more".into(), Tone::Stopped),
+    };
+    page.verdict = text(result, "verdict")?.to_owned();
+    let figures = list(result, "figures")?;
+    for found in figures {
+        let number = found["number"].as_u64().ok_or(wrong("figures"))?;
+        let figure = reader.figure(&found["points"], &circles(&found["radii"]));
+        let how = [choices(&found["choices"]), senses(&found["senses"])];
+        let how: Vec<String> = how.into_iter().flatten().collect();
+        page.figures.push(Figure {
+            name: format!("Figure {}", number + 1),
+            note: how.join("; "),
+            class: Some(number as usize),
+            ..figure.ok_or(wrong("figures"))?
+        });
+    }
+    let blocks = list(result, "blocks")?;
+    page.text = vec![Text::Paragraph(
+        "The sketch's equations fall apart into blocks, which are solved in order, each with those that it needs where they \
+         are. A block of linear equations, of one unknown, or of two as circles and lines make them is solved by formula; \
+         the path of any other is followed. The box of each figure holds exactly one that meets all constraints."
+            .into(),
+    )];
+    if !blocks.is_empty() {
+        let all = blocks.iter().map(block).collect::<Option<Vec<String>>>();
+        page.text.push(Text::List(all.ok_or(wrong("blocks"))?));
+    }
+    if let Some(reason) = result["reason"].as_str() {
+        page.text
+            .push(Text::Paragraph(format!("Why there may be more: {reason}.")));
+    }
+    page.digits = reader.proved_digits();
+    let shown = figures.len();
+    page.rows = vec![
+        ("blocks".into(), blocks.len().to_string()),
+        (
+            "figures".into(),
+            match result["count"].as_u64() {
+                Some(count) if count == shown as u64 => count.to_string(),
+                Some(count) => format!("{count}, {shown} of them here (`--all`: all)"),
+                None => format!("more than 2^64, {shown} of them here"),
+            },
+        ),
+    ];
+    if let Some(kept) = result["senses"]["kept"].as_u64() {
+        let label = "figures with all senses of the sketch".to_owned();
+        page.rows.push((label, kept.to_string()));
+    }
+    let free = list(result, "free")?.iter().filter_map(Value::as_str);
+    let free: Vec<&str> = free.collect();
+    if !free.is_empty() {
+        let label = "free, held where it is drawn".to_owned();
+        page.rows.push((label, free.join(", ")));
+    }
+    Ok(page)
+}
+
+/// Circles with their radii, as objects of a result have them.
+fn circles(radii: &Value) -> Value {
+    let radii = radii.as_object().into_iter().flatten();
+    let all = radii.map(|(name, radius)| (name.clone(), json!({"radius": radius})));
+    Value::Object(all.collect::<Map<String, Value>>())
+}
+
+/// `block 1 solution 1, block 2 solution 3`; `None` where no block has several.
+fn choices(choices: &Value) -> Option<String> {
+    let each = choices.as_array()?.iter().map(|choice| {
+        let (block, solution) = (choice["block"].as_u64()?, choice["solution"].as_u64()?);
+        Some(format!("block {} solution {}", block + 1, solution + 1))
+    });
+    let each = each.collect::<Option<Vec<_>>>()?;
+    (!each.is_empty()).then(|| each.join(", "))
+}
+
+/// How the senses of a figure stand to the sketch's.
+fn senses(senses: &Value) -> Option<String> {
+    const MOST: usize = 4;
+    let named = |key: &str, what: &str| -> Option<String> {
+        let names = senses[key].as_array()?.iter().filter_map(Value::as_str);
+        let names: Vec<&str> = names.collect();
+        let more = match names.len().saturating_sub(MOST) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let shown = names[..names.len().min(MOST)].join(", ");
+        (!names.is_empty()).then(|| format!("{what}: {shown}{more}"))
+    };
+    let all = [
+        named("other", "turned the other way"),
+        named("flat", "flat"),
+        named("undecided", "not certain which way"),
+    ];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    match senses["as_in_sketch"].as_bool() {
+        Some(true) => Some("senses as in the sketch".to_owned()),
+        _ => (!all.is_empty()).then(|| all.join("; ")),
+    }
+}
+
+/// `x of d, y of d: by formula, 2 solutions`.
+fn block(block: &Value) -> Option<String> {
+    let unknowns = block["unknowns"].as_array()?.iter();
+    let unknowns: Vec<&str> = unknowns.filter_map(Value::as_str).collect();
+    let way = match block["way"].as_str()? {
+        "formula" => "by formula".to_owned(),
+        _ => format!("its path of {} tubes", block["tubes"]),
+    };
+    let (low, high) = (
+        block["solutions"][0].as_u64()?,
+        block["solutions"][1].as_u64()?,
+    );
+    let solutions = match (low, high) {
+        (1, 1) => "1 solution".to_owned(),
+        _ if low == high => format!("{high} solutions"),
+        _ => format!("{low} to {high} solutions"),
+    };
+    Some(format!("{}: {way}, {solutions}", unknowns.join(", ")))
+}
