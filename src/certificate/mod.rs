@@ -2,7 +2,7 @@
 //!
 //! A certificate holds the problem and, for each tube, the little that has to be known to prove
 //! it again. [`Writer`] makes one while a run goes on; [`verify`] checks all of its claims in
-//! interval and whole-number arithmetic of its own. The checker uses the problem, the intervals,
+//! arithmetic of its own: intervals, whole numbers, and floats with a bound on what they lose. The checker uses the problem, the intervals,
 //! and the definition of the equations, and nothing of the tracker: who trusts it has few lines
 //! to read. The format and the mathematics are in `certs/README.md`.
 //!

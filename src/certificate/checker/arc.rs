@@ -2,9 +2,9 @@
 
 use super::equations::{Equations, ZERO};
 use super::guess;
+use super::matrix::exact;
 use super::place::{HALF, Place, Spot, component};
 use super::tube::{Tube, everywhere};
-use super::whole::exact;
 use crate::certificate::format::{ArcClaim, FoldClaim, TubeClaim};
 use crate::certificate::verdict::{Fault, Flaw};
 use crate::constraint::{Record, try_lower_editable};

@@ -3,6 +3,7 @@
 
 use crate::interval::{DoubleDouble, Interval, point};
 use crate::system::Homotopy;
+use std::ops::Sub;
 use std::sync::OnceLock;
 
 /// A factor, and the two forms that it multiplies.
@@ -24,6 +25,8 @@ pub struct Equations {
     pub nonzero: Vec<Vec<[usize; 2]>>,
     /// Per equation the terms of all 2 ∂q_e/∂x_i: i, a factor, and the form that it multiplies.
     pub gradient: Vec<Vec<(usize, i64, usize)>>,
+    /// No equation has more of these.
+    pub longest: usize,
     doubles: OnceLock<Vec<Doubles>>,
 }
 
@@ -63,22 +66,26 @@ impl Equations {
         forms: Vec<[usize; 2]>,
         products: Vec<Vec<Product>>,
     ) -> Self {
-        let gradient = products.iter().map(|products| {
-            let terms = products.iter().flat_map(|&(factor, [left, right])| {
-                let (same, halves) = (left == right, [(left, right), (right, left)]);
-                let (count, factor) = if same { (1, 2 * factor) } else { (2, factor) };
-                halves.into_iter().take(count).flat_map({
-                    let forms = &forms;
-                    move |(by, form)| [0, 1].map(|k| (forms[by][k], [factor, -factor][k], form))
-                })
-            });
-            terms.filter(|term| term.0 < m).collect()
-        });
+        let gradient: Vec<Vec<_>> = products
+            .iter()
+            .map(|products| {
+                let terms = products.iter().flat_map(|&(factor, [left, right])| {
+                    let (same, halves) = (left == right, [(left, right), (right, left)]);
+                    let (count, factor) = if same { (1, 2 * factor) } else { (2, factor) };
+                    halves.into_iter().take(count).flat_map({
+                        let forms = &forms;
+                        move |(by, form)| [0, 1].map(|k| (forms[by][k], [factor, -factor][k], form))
+                    })
+                });
+                terms.filter(|term| term.0 < m).collect()
+            })
+            .collect();
         Equations {
             positive: homotopy.positive_unknowns(),
             nonzero: homotopy.nonzero_vectors(),
             m,
-            gradient: gradient.collect(),
+            longest: gradient.iter().map(Vec::len).max().unwrap_or(0),
+            gradient,
             forms,
             products,
             homotopy,
@@ -115,13 +122,14 @@ impl Equations {
         Self::of(self.homotopy.clone(), 2 * m, forms, products)
     }
 
-    /// What an index in a form stands for: an unknown other than t, the number 1, or 0.
-    pub fn entry<T>(&self, i: usize, unknown: impl FnOnce(usize) -> T, [zero, one]: [T; 2]) -> T {
-        match i {
-            i if i < self.m => unknown(i),
-            i if i == self.m + 2 => one,
-            _ => zero,
-        }
+    /// All forms of unknowns, of which t is none, for these values of 0 and 1.
+    pub fn differences<T: Copy + Sub<Output = T>>(&self, x: &[T], [zero, one]: [T; 2]) -> Vec<T> {
+        let all: Vec<T> = x[..self.m]
+            .iter()
+            .copied()
+            .chain([zero, zero, one])
+            .collect();
+        self.forms.iter().map(|&[i, j]| all[i] - all[j]).collect()
     }
 
     /// The coefficients of E_e(t₀ + τ) in τ.
@@ -145,14 +153,8 @@ impl Equations {
 
     /// E'' on a range of t.
     pub fn bend(&self, e: usize, t: Interval) -> Interval {
-        let Some(right) = self.homotopy.rights.get(e) else {
-            return ZERO;
-        };
-        let c = right.enclosures();
-        match right.degree {
-            ..=2 => c[2] * point(2.0),
-            _ => c[2] * point(2.0) + t * (c[3] * point(6.0) + t * (c[4] * point(12.0))),
-        }
+        let right = self.homotopy.rights.get(e);
+        right.map_or(ZERO, |right| right.enclose_curvature(t))
     }
 
     /// The degree of E_e.

@@ -2,9 +2,9 @@
 //!
 //! Only F at a point needs so many: at the middle of a tube, where it is left, and at a solution.
 
-use super::equations::{Equations, Product, ZERO};
+use super::equations::{Equations, ZERO};
 use super::krawczyk::{LARGE, around};
-use super::whole::{between, power, size};
+use super::matrix::{between, power, size};
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 use num_bigint::BigInt;
@@ -21,7 +21,9 @@ const E_BITS: i32 = 200;
 pub struct Low {
     /// For each unknown, and t.
     pub floats: Vec<f64>,
-    /// For each form.
+    /// For each form, exactly: differences of whole numbers below 2⁵¹.
+    pub differences: Vec<f64>,
+    /// The same in units.
     forms: Vec<i64>,
     t: BigInt,
 }
@@ -43,31 +45,15 @@ impl Low {
         if !(fits && t.round() == t) {
             return Err(LARGE);
         }
-        let of = |i: usize| eq.entry(i, |i| whole[i] as i64, [0, 0]);
+        let forms = eq.differences(&whole, [0.0; 2]);
         let t = (BigInt::from(t as i128) << (T_BITS[1] - T_BITS[0])) + whole[eq.m] as i64;
         let floats = whole.iter().enumerate().map(|(i, x)| x * power(-unit(i)));
         Ok(Low {
             floats: floats.collect(),
-            forms: eq.forms.iter().map(|&[i, j]| of(i) - of(j)).collect(),
+            differences: forms.iter().map(|x| x * power(-bits - FINER)).collect(),
+            forms: forms.into_iter().map(|x| x as i64).collect(),
             t,
         })
-    }
-
-    /// What is to be added to ½ Σ x y for the forms x of the point and those `y` of a coefficient in units of 2^−bits:
-    /// twice, in either order.
-    pub fn product(&self, eq: &Equations, e: usize, bits: [i32; 2], y: &[i64]) -> Interval {
-        let term = |&(factor, [l, r]): &Product| {
-            let sum = i128::from(self.forms[l]) * i128::from(y[r])
-                + i128::from(y[l]) * i128::from(self.forms[r]);
-            i128::from(factor) * sum
-        };
-        let sum = eq.products[e].iter().map(term).sum::<i128>();
-        enclosed(sum.into(), bits[0] + FINER + bits[1] + 1)
-    }
-
-    /// How far an entry of 2 J is from that of the point without this: for one term.
-    pub fn change(&self, form: usize, bits: i32) -> Interval {
-        point(self.forms[form].unsigned_abs() as f64 * power(-bits - FINER))
     }
 
     /// F_e at the point, whose `forms` have so many bits.
@@ -120,6 +106,7 @@ fn enclosed(x: BigInt, bits: i32) -> Interval {
 mod tests {
     use super::*;
     use crate::certificate::checker::krawczyk::{Curve, ORDER};
+    use crate::interval::rounding::gamma;
     use crate::problem::Problem;
     use crate::system::Homotopy;
     use num_rational::BigRational;
@@ -155,7 +142,7 @@ mod tests {
                     let mut z: Vec<f64> = (0..n).map(|_| 0.1 * random()).collect();
                     // E is then a constant.
                     z[m] = 0.0;
-                    curve.push(&z).unwrap();
+                    curve.push(z).unwrap();
                 }
                 let mut z: Vec<Vec<BigRational>> = Vec::new();
                 for z_k in &curve.z {
@@ -168,7 +155,11 @@ mod tests {
                 }
                 let zero = || BigRational::from_integer(0.into());
                 for k in 0..=2 * ORDER {
-                    let found = curve.residual(k);
+                    let found = if k == 0 {
+                        curve.value()
+                    } else {
+                        curve.residual(k)
+                    };
                     for e in 0..m {
                         let terms = eq.homotopy.terms(e);
                         let form = |form: Option<[usize; 2]>, a: usize| match form {
@@ -197,6 +188,15 @@ mod tests {
                                 room = 2.0 * room * high[m].abs() + 2.0 * radius + 1e-50;
                             }
                         }
+                        // What floats may lose beyond the point itself.
+                        let mut size = 0.0;
+                        for term in &terms {
+                            for a in k.saturating_sub(ORDER)..=k.min(ORDER) {
+                                let product = form(term.left, a) * form(term.right, k - a);
+                                let half = 0.5 * f64::from(term.factor);
+                                size += (half * product.to_f64().unwrap()).abs();
+                            }
+                        }
                         let value = coefficient(0) - &right;
                         assert!(
                             holds(found[e], &value, room),
@@ -209,7 +209,7 @@ mod tests {
                                 <= if k == 0 {
                                     1e-15 * found[e].mag() + 1e-25
                                 } else {
-                                    1e-14
+                                    2.0 * gamma(terms.len() + ORDER + 12) * size + 1e-200
                                 },
                             "{name} {k}: {width:e}"
                         );

@@ -1,9 +1,9 @@
 //! Guesses in floats, which nobody has to trust: the proofs hold whatever these are.
 
 use super::equations::{Equations, Product};
-use super::krawczyk::{Curve, LARGE, ORDER, Section, magnitude, weight};
-use super::whole::{J_BITS, Whole, power};
-use crate::certificate::format::{FoldClaim, TubeClaim, WEIGHT_UNIT};
+use super::krawczyk::{Curve, ORDER, Section, weights};
+use super::matrix::{Matrix, add};
+use crate::certificate::format::{FoldClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
 use faer::MatRef;
 use faer::linalg::solvers::DenseSolveCore;
@@ -11,66 +11,41 @@ use faer::linalg::solvers::DenseSolveCore;
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
 
-/// Powers of two near the largest entries of the rows of [J(z₀); c] U, as exponents.
-pub fn scale(curve: &Curve, c: &[f64], u: &[u16]) -> Vec<i32> {
-    let m = curve.eq.m;
-    let units = power(-curve.bits[0]) * 0.5 * WEIGHT_UNIT;
-    let row = |e: usize| {
-        let entry = |&(i, factor, form): &(usize, i64, usize)| {
-            (factor as f64) * curve.forms[0][form] as f64 * f64::from(u[i]) * units
-        };
-        let time = (curve.slope(e, 0) * weight(u[m])).mag();
-        let entries = curve.eq.gradient[e].iter().map(entry).chain([time]);
-        magnitude(&entries.collect::<Vec<f64>>())
-    };
-    let normal = c
-        .iter()
-        .zip(u)
-        .map(|(c, &u)| c * WEIGHT_UNIT * f64::from(u));
-    let normal: Vec<f64> = normal.collect();
-    (0..m).map(row).chain([magnitude(&normal)]).collect()
-}
-
-/// A matrix near the inverse of [J(z₀); c] U, its rows scaled.
+/// A matrix Y near the inverse of [J(z₀); c] U.
 pub struct Inverse {
-    pub whole: Whole,
-    /// U Y with columns scaled, column by column: the inverse of [J(z₀); c].
-    unscaled: Vec<f64>,
+    pub y: Matrix,
+    u: Vec<f64>,
 }
 
 impl Inverse {
     pub fn new(at: &Section) -> Result<Inverse, Fault> {
         let n = at.u.len();
+        // Row by row as column by column: the inverse of the transposed matrix is that of the matrix, transposed.
         let mut matrix = vec![0.0; n * n];
-        for (i, column) in at.j0.iter().enumerate() {
-            for &(e, x) in column {
-                matrix[e * n + i] += x as f64 * power(-J_BITS);
-            }
+        for (row, column) in matrix.chunks_mut(n).zip(&at.j0) {
+            column.iter().for_each(|&(e, x)| row[e] += x);
         }
-        let floats = invert(n, matrix).ok_or(Fault::because("its Jacobian is singular"))?;
-        let mut unscaled = vec![0.0; n * n];
-        for (i, row) in floats.chunks(n).enumerate() {
-            let u = WEIGHT_UNIT * f64::from(at.u[i]);
-            for (e, y) in row.iter().enumerate() {
-                unscaled[e * n + i] = y * u * power(-at.scale[e]);
-            }
-        }
+        let entries = invert(n, matrix).ok_or(Fault::because("its Jacobian is singular"))?;
         Ok(Inverse {
-            whole: Whole::nearest(&floats, &at.scale).ok_or(LARGE)?,
-            unscaled,
+            y: Matrix { n, entries },
+            u: at.u.clone(),
         })
     }
 
-    /// U Y f, in floats.
+    /// U Y f.
     pub fn times(&self, f: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; f.len()];
-        for (column, f) in self.unscaled.chunks(f.len()).zip(f) {
-            for (out, y) in out.iter_mut().zip(column) {
-                *out += y * f;
-            }
-        }
-        out
+        let v = product(&self.y, f);
+        v.iter().zip(&self.u).map(|(v, u)| v * u).collect()
     }
+}
+
+/// A matrix times a vector.
+fn product(matrix: &Matrix, v: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; matrix.n];
+    for (column, v) in matrix.entries.chunks(matrix.n).zip(v) {
+        add(&mut out, column, |y| y * v);
+    }
+    out
 }
 
 /// Makes a curve of degree 5 whose F(ẑ(σ)) has small coefficients; `advance` is c·z₁.
@@ -78,7 +53,7 @@ pub fn expand(curve: &mut Curve, inverse: &Inverse, advance: f64) -> Result<(), 
     for k in 1..=ORDER {
         let mut f: Vec<f64> = curve.residual(k).iter().map(|f| -f.mid()).collect();
         f.push(if k == 1 { advance } else { 0.0 });
-        curve.push(&inverse.times(&f))?;
+        curve.push(inverse.times(&f))?;
     }
     Ok(())
 }
@@ -89,14 +64,14 @@ pub fn newton<'a>(
     eq: &'a Equations,
     (near, extended): (&[f64], bool),
     c: &[f64],
-    u: &[u16],
+    u: &[f64],
 ) -> Result<(Curve<'a>, Section, Inverse), Fault> {
     let mut curve = Curve::at(eq, near)?;
-    let mut at = curve.section(c, u, scale(&curve, c, u))?;
+    let mut at = curve.section(c, u);
     let inverse = Inverse::new(&at)?;
     let (mut z, mut last) = (near.to_vec(), f64::INFINITY);
     for _ in 0..if extended { 0 } else { STEPS } {
-        let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
+        let mut f: Vec<f64> = curve.value().iter().map(|f| f.mid()).collect();
         f.push(0.0);
         let step = inverse.times(&f);
         z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
@@ -109,12 +84,12 @@ pub fn newton<'a>(
     }
     if extended {
         curve = refined(eq, &z, |curve| {
-            let mut f: Vec<f64> = curve.residual(0).iter().map(|f| f.mid()).collect();
+            let mut f: Vec<f64> = curve.value().iter().map(|f| f.mid()).collect();
             f.push(0.0);
             inverse.times(&f)
         })?;
     }
-    at = curve.section(c, u, at.scale)?;
+    at = curve.section(c, u);
     Ok((curve, at, inverse))
 }
 
@@ -146,7 +121,7 @@ pub fn fold(eq: &Equations, claim: &FoldClaim, tube: &TubeClaim) -> Result<Vec<f
     z.push(claim.t);
     let c: Vec<f64> = tube.normal.iter().map(|&c| c.into()).collect();
     let curve = Curve::at(eq, &z)?;
-    let at = curve.section(&c, &tube.weights, scale(&curve, &c, &tube.weights))?;
+    let at = curve.section(&c, &weights(&tube.weights));
     let mut last = vec![0.0; eq.m + 1];
     last[eq.m] = 1.0;
     let tangent = Inverse::new(&at)?.times(&last);
@@ -159,41 +134,29 @@ pub struct Moving<'a> {
     curve: &'a Curve<'a>,
     at: &'a Section,
     inverse: &'a Inverse,
-    /// E'' t₁ for each equation.
-    bends: Vec<f64>,
+    a: &'a Matrix,
     /// The coefficients of E.
     right: Vec<[f64; 5]>,
 }
 
 impl<'a> Moving<'a> {
-    pub fn new(curve: &'a Curve<'a>, at: &'a Section, inverse: &'a Inverse) -> Self {
-        let (eq, z) = (curve.eq, &curve.z);
-        let t = crate::interval::point(z[0][eq.m]);
+    pub fn new(curve: &'a Curve<'a>, at: &'a Section, inverse: &'a Inverse, a: &'a Matrix) -> Self {
+        let rights = curve.eq.homotopy.rights.iter();
         Moving {
-            bends: (0..eq.m)
-                .map(|e| eq.bend(e, t).mid() * z[1][eq.m])
-                .collect(),
-            right: eq.homotopy.rights.iter().map(|right| right.e).collect(),
             curve,
             at,
             inverse,
+            a,
+            right: rights.map(|right| right.e).collect(),
         }
     }
 
-    /// U Ỹ(s) f.
+    /// U (I − sA) Y f.
     fn times(&self, f: &[f64], s: f64) -> Vec<f64> {
-        let mut v = self.inverse.times(f);
-        let (eq, mut change) = (
-            self.curve.eq,
-            directional(self.curve.eq, (&self.curve.z[1], 0.0), &v),
-        );
-        for (change, bend) in change.iter_mut().zip(&self.bends) {
-            *change -= bend * v[eq.m];
-        }
-        change.push(0.0);
-        let back = self.inverse.times(&change);
-        v.iter_mut().zip(back).for_each(|(v, x)| *v -= s * x);
-        v
+        let v = product(&self.inverse.y, f);
+        let change = product(self.a, &v);
+        let all = v.iter().zip(change).zip(&self.at.u);
+        all.map(|((v, x), u)| (v - s * x) * u).collect()
     }
 
     /// A point near the zero of F in the cross-section through ẑ(s): with steps, in the norm, below
@@ -214,7 +177,7 @@ impl<'a> Moving<'a> {
             return Curve::at(eq, &near);
         }
         refined(eq, &start, |there| {
-            let mut f: Vec<f64> = there.residual(0).iter().map(|f| f.mid()).collect();
+            let mut f: Vec<f64> = there.value().iter().map(|f| f.mid()).collect();
             let low = |i: usize| (there.low_of(i) - self.curve.low_of(i)).mid();
             let off = |i: usize| (there.z[0][i] - z[0][i]) + low(i) - way(i);
             f.push((0..n).map(|i| self.at.c[i] * off(i)).sum());
@@ -238,9 +201,14 @@ impl<'a> Moving<'a> {
             terms.fold(0.0, |sum, k| sum * near[eq.m] + k as f64 * e[k])
         };
         let slopes: Vec<f64> = self.right.iter().map(slope_of).collect();
-        let enough = 1e-9 * self.norm(&v);
+        let (enough, forms) = (1e-6 * self.norm(&v), eq.differences(near, [0.0, 1.0]));
         self.improve(&mut v, s, enough, |v| {
-            let left = directional(eq, (near, 1.0), v).into_iter().zip(&slopes);
+            let left = eq.gradient.iter().map(|terms| {
+                let terms = terms.iter();
+                let terms = terms.map(|&(i, factor, form)| factor as f64 * forms[form] * v[i]);
+                0.5 * terms.sum::<f64>()
+            });
+            let left = left.zip(&slopes);
             left.map(|(f, e)| f - e * v[eq.m])
                 .chain([along(v) - 1.0])
                 .collect()
@@ -264,36 +232,15 @@ impl<'a> Moving<'a> {
 
     fn norm(&self, v: &[f64]) -> f64 {
         let ratios = v.iter().zip(&self.at.u);
-        ratios.fold(0.0, |max, (v, &u)| {
-            max.max(v.abs() / (WEIGHT_UNIT * f64::from(u)))
-        })
+        ratios.fold(0.0, |max, (v, u)| max.max(v.abs() / u))
     }
 }
 
 /// All q_e at a point, in floats.
 fn value(eq: &Equations, z: &[f64]) -> Vec<f64> {
-    let of = |form: usize| {
-        let [i, j] = eq.forms[form].map(|i| eq.entry(i, |i| z[i], [0.0, 1.0]));
-        i - j
-    };
-    let term = |&(factor, [left, right]): &Product| 0.5 * factor as f64 * of(left) * of(right);
-    let products = eq.products.iter();
-    products
-        .map(|products| products.iter().map(term).sum())
-        .collect()
-}
-
-/// The derivatives of all q_e at a point in a direction, in floats; the number 1 is `one` there.
-fn directional(eq: &Equations, (z, one): (&[f64], f64), v: &[f64]) -> Vec<f64> {
-    let of = |v: &[f64], form: usize, one: f64| {
-        let [i, j] = eq.forms[form].map(|i| eq.entry(i, |i| v[i], [0.0, one]));
-        i - j
-    };
-    let term = |&(factor, [left, right]): &Product| {
-        let [x, y] = [left, right].map(|form| of(z, form, one));
-        let [dx, dy] = [left, right].map(|form| of(v, form, 0.0));
-        0.5 * factor as f64 * (x * dy + dx * y)
-    };
+    let forms = eq.differences(z, [0.0, 1.0]);
+    let term =
+        |&(factor, [left, right]): &Product| 0.5 * factor as f64 * forms[left] * forms[right];
     let products = eq.products.iter();
     products
         .map(|products| products.iter().map(term).sum())
@@ -308,7 +255,6 @@ fn invert(n: usize, a: Vec<f64>) -> Option<Vec<f64>> {
     if n < LARGE_INVERSE {
         return eliminate(n, a);
     }
-    // Row by row as column by column: the inverse of the transposed matrix is that of the matrix, transposed.
     let inverse = MatRef::from_column_major_slice(&a, n, n)
         .partial_piv_lu()
         .inverse();
@@ -324,7 +270,10 @@ fn eliminate(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
         let size = |i: &usize| a[i * n + k].abs();
         let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
         pivots.push(pivot);
-        (0..n).for_each(|j| a.swap(k * n + j, pivot * n + j));
+        if pivot > k {
+            let (above, below) = a.split_at_mut(pivot * n);
+            above[k * n..(k + 1) * n].swap_with_slice(&mut below[..n]);
+        }
         let scale = 1.0 / a[k * n + k];
         if !scale.is_finite() {
             return None;
@@ -338,10 +287,7 @@ fn eliminate(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
             }
             let factor = std::mem::take(&mut other[k]);
             if factor != 0.0 {
-                other
-                    .iter_mut()
-                    .zip(&row)
-                    .for_each(|(x, y)| *x -= factor * y);
+                add(other, &row, |y| -factor * y);
             }
         }
     }

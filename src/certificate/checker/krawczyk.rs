@@ -3,65 +3,83 @@
 
 use super::equations::{Equations, ZERO};
 use super::extended::{Low, rounded_time};
-use super::whole::{Columns, J_BITS, LIMIT, Whole, above, between, exact, power, size, split};
+use super::matrix::{Columns, Matrix, between, enclosed, exact, lost, power, size};
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::verdict::Fault;
+use crate::interval::rounding::{UNDERFLOW, gamma, round_up};
 use crate::interval::{Interval, point};
 
 /// The degree of ẑ.
 pub const ORDER: usize = 5;
 /// The largest power of σ in F(ẑ(σ)), in which t occurs to the fourth.
 const DEGREE: usize = 4 * ORDER;
-/// Weights are multiples of 2 to minus this.
-const WEIGHT_BITS: i32 = 16;
+/// No coefficient of τ⁴, where τ = Σ t_k σᵏ, or of the sizes went through more roundings: three times a product and ORDER + 1 sums.
+const POWER_ROUNDINGS: usize = 3 * (ORDER + 2);
+/// Entries of ẑ's coefficients are smaller: then what underflow takes from powers of τ, 2⁻¹⁰⁷² from the second, is at most
+/// 2⁻⁹⁸⁴ of the fourth, far less than γ UNDERFLOW.
+const LIMIT: f64 = (1u64 << 41) as f64;
 
 pub const LARGE: Fault = Fault::because("its numbers are too large or too far apart for the test");
 
-/// Cross-sections c·z = const with the norm's weights u in them, and [J; c] U at a curve's z₀. Its rows are
-/// divided by the powers of two to the exponents in `scale`, in units of 2⁻⁴⁴, and rounded.
+/// Cross-sections c·z = const with the norm's weights u in them, and [J; c] U at a curve's z₀, rounded.
 pub struct Section {
     pub c: Vec<f64>,
-    pub u: Vec<u16>,
-    pub scale: Vec<i32>,
+    pub u: Vec<f64>,
     pub j0: Columns,
-    /// What every row may have lost, undivided.
-    rests: Vec<Interval>,
+    /// What every row may have lost, and what products with it may lose.
+    rests: Vec<f64>,
 }
 
-/// A polynomial ẑ(σ) = Σ z_k σᵏ, |σ| ≤ 1, whose coordinates are multiples of powers of two: differences of
-/// coordinates and their products are exact.
+/// A polynomial ẑ(σ) = Σ z_k σᵏ, |σ| ≤ 1. The coordinates of z₀ are multiples of a power of two: their differences, and the
+/// products of these, are exact.
 pub struct Curve<'a> {
     pub eq: &'a Equations,
-    /// The units of z₀ are 2 to minus the first of these, those of all others 2 to minus the second.
-    pub bits: [i32; 2],
+    /// The units of z₀ are 2 to minus this.
+    pub bits: i32,
     /// Its coefficients.
     pub z: Vec<Vec<f64>>,
     /// What z₀ is more than its floats.
     pub low: Option<Low>,
-    /// For each coefficient all forms, in its units.
-    pub forms: Vec<Vec<i64>>,
-    /// The coefficients of E_e(t₀ + τ) in τ, per equation.
-    right: Vec<[Interval; 5]>,
-    /// Where τ = Σ t_k σᵏ, k ≥ 1: the coefficients of τʲ.
-    powers: [[Interval; DEGREE + 1]; 5],
+    /// All forms at z₀, in its units.
+    whole: Vec<i64>,
+    /// For each form its coefficients, those of σ and its powers rounded once.
+    pub forms: Vec<[f64; ORDER + 1]>,
+    /// E_e(t₀), and the coefficients of τ in E_e(t₀ + τ) with what they may be off by.
+    right: Vec<(Interval, [[f64; 2]; 5])>,
+    /// Where τ = Σ t_k σᵏ, k ≥ 1: the coefficients of τʲ, rounded; and those where all t_k are replaced with their sizes.
+    powers: [[[f64; 2]; DEGREE + 1]; 5],
 }
 
 impl<'a> Curve<'a> {
     /// The constant polynomial that is nearest to a point.
     pub fn at(eq: &'a Equations, centre: &[f64]) -> Result<Self, Fault> {
+        let m = eq.m;
+        // The number 1 is a multiple of the unit, too.
+        let bits = 51 - magnitude(&centre[..m]).max(0);
+        let whole: Vec<f64> = centre[..m]
+            .iter()
+            .map(|x| (x * power(bits)).round())
+            .collect();
+        // Then differences have 53 bits, and the sums of products 121.
+        if !(whole.iter().all(|x| x.abs() < power(52)) && centre[m].abs() < LIMIT) {
+            return Err(LARGE);
+        }
+        let differences = eq.differences(&whole, [0.0, power(bits)]);
+        let form = |x: &f64| std::array::from_fn(|k| if k == 0 { x * power(-bits) } else { 0.0 });
+        let z = whole.iter().map(|x| x * power(-bits)).chain([centre[m]]);
+        let mut powers = [[[0.0; 2]; DEGREE + 1]; 5];
+        powers[0][0] = [1.0; 2];
         let mut curve = Curve {
             eq,
-            // The number 1 is a multiple of the unit, too.
-            bits: [51 - magnitude(&centre[..eq.m]).max(0); 2],
-            z: Vec::new(),
+            bits,
+            z: vec![z.collect()],
             low: None,
-            forms: Vec::new(),
+            whole: differences.iter().map(|&x| x as i64).collect(),
+            forms: differences.iter().map(form).collect(),
             right: Vec::new(),
-            powers: [[ZERO; DEGREE + 1]; 5],
+            powers,
         };
-        curve.push(centre)?;
-        let t = point(curve.z[0][eq.m]);
-        curve.right = (0..eq.m).map(|e| eq.right_at(e, t)).collect();
+        curve.expand_right();
         Ok(curve)
     }
 
@@ -73,10 +91,17 @@ impl<'a> Curve<'a> {
         let mut curve = Curve::at(eq, &sum)?;
         let pairs = high.iter().zip(low).zip(&curve.z[0]);
         let rest: Vec<f64> = pairs.map(|((x, y), z)| (x - z) + y).collect();
-        curve.low = Some(Low::near(eq, curve.z[0][eq.m], curve.bits[0], &rest)?);
-        let t = point(curve.z[0][eq.m]) + curve.low_of(eq.m);
-        curve.right = (0..eq.m).map(|e| eq.right_at(e, t)).collect();
+        curve.low = Some(Low::near(eq, curve.z[0][eq.m], curve.bits, &rest)?);
+        curve.expand_right();
         Ok(curve)
+    }
+
+    /// Takes the coefficients of all E_e around t₀.
+    fn expand_right(&mut self) {
+        let t = point(self.z[0][self.eq.m]) + self.low_of(self.eq.m);
+        let rights = (0..self.eq.m).map(|e| self.eq.right_at(e, t));
+        let rights = rights.map(|c| (c[0], c.map(|c| [c.mid(), c.rad()])));
+        self.right = rights.collect();
     }
 
     /// An entry of what z₀ is more than its floats.
@@ -84,76 +109,75 @@ impl<'a> Curve<'a> {
         self.low.as_ref().map_or(ZERO, |low| point(low.floats[i]))
     }
 
-    /// Adds the next coefficient, its coordinates rounded.
-    pub fn push(&mut self, z: &[f64]) -> Result<(), Fault> {
+    /// What a form at z₀ is more than its float.
+    fn low_form(&self, form: usize) -> f64 {
+        self.low.as_ref().map_or(0.0, |low| low.differences[form])
+    }
+
+    /// Adds the next coefficient.
+    pub fn push(&mut self, z: Vec<f64>) -> Result<(), Fault> {
         let (k, m) = (self.z.len(), self.eq.m);
-        if k == 1 {
-            // All others may be 64 times as large, or 4 times where more digits are needed.
-            let spare = if self.low.is_some() { 3 } else { 7 };
-            self.bits[1] = (52 - spare - magnitude(&z[..m])).max(self.bits[0]);
-        }
-        let bits = self.bits[k.min(1)];
-        let mut whole: Vec<f64> = z[..m].iter().map(|x| (x * power(bits)).round()).collect();
-        // Then differences have 53 bits, and the sums of products 121.
-        if !(whole.iter().all(|x| x.abs() < power(52)) && z[m].is_finite()) {
+        if !z.iter().all(|x| x.abs() < LIMIT) {
             return Err(LARGE);
         }
-        let one = if k == 0 { power(bits) } else { 0.0 };
-        let of = |i: usize| self.eq.entry(i, |i| whole[i], [0.0, one]);
-        let forms = self.eq.forms.iter().map(|&[i, j]| (of(i) - of(j)) as i64);
-        self.forms.push(forms.collect());
-        whole.iter_mut().for_each(|x| *x *= power(-bits));
-        // t is in no form.
-        whole.push(z[m]);
-        self.z.push(whole);
-        if k > 0 {
-            self.powers[1][k] = point(z[m]);
+        let differences = self.eq.differences(&z[..m], [0.0; 2]);
+        for (form, x) in self.forms.iter_mut().zip(differences) {
+            form[k] = x;
         }
+        self.powers[1][k] = [z[m], z[m].abs()];
+        self.z.push(z);
         // What is known now of the powers of τ: all of them once ẑ is complete.
         for k in k + 1..=if k == ORDER { DEGREE } else { k + 1 } {
             for j in 2..5 {
-                let factors =
-                    (1..k.min(ORDER + 1)).map(|a| (self.powers[1][a], self.powers[j - 1][k - a]));
-                let factors = factors.filter(|&(_, y)| y != ZERO);
-                self.powers[j][k] = factors.fold(ZERO, |sum, (x, y)| sum + x * y);
+                self.powers[j][k] = [0, 1].map(|of| {
+                    let factors = 1..k.min(ORDER + 1);
+                    let product = |a: usize| self.powers[1][a][of] * self.powers[j - 1][k - a][of];
+                    factors.map(product).sum::<f64>() + [0.0, UNDERFLOW][of]
+                });
             }
         }
         Ok(())
     }
 
-    /// The sum of the products of q_e for two coefficients, doubled.
-    fn products(&self, e: usize, a: usize, b: usize) -> i128 {
-        let (x, y) = (&self.forms[a], &self.forms[b]);
-        let product = |&(factor, [left, right]): &(i64, [usize; 2])| {
-            i128::from(factor) * (i128::from(x[left]) * i128::from(y[right]))
+    /// F at z₀: the sums of products are exact.
+    pub fn value(&self) -> Vec<Interval> {
+        let value = |e: usize| {
+            if let Some(low) = &self.low {
+                return low.value(self.eq, e, self.bits, &self.whole);
+            }
+            let product = |&(factor, [left, right]): &(i64, [usize; 2])| {
+                i128::from(factor) * (i128::from(self.whole[left]) * i128::from(self.whole[right]))
+            };
+            let sum = self.eq.products[e].iter().map(product).sum();
+            nearly(sum, 2 * self.bits + 1) - self.right[e].0
         };
-        self.eq.products[e].iter().map(product).sum()
+        (0..self.eq.m).map(value).collect()
     }
 
-    /// The coefficient of σᵏ in F(ẑ(σ)).
+    /// The coefficient of σᵏ in F(ẑ(σ)), k ≥ 1.
     pub fn residual(&self, k: usize) -> Vec<Interval> {
-        let ([coarse, fine], known) = (self.bits, self.z.len());
+        let orders = k.saturating_sub(ORDER)..=k.min(ORDER);
         let residual = |e: usize| {
-            let (right, degree) = (&self.right[e], self.eq.degree(e));
-            if k == 0 {
-                return match &self.low {
-                    None => nearly(self.products(e, 0, 0), 2 * coarse + 1) - right[0],
-                    Some(low) => low.value(self.eq, e, coarse, &self.forms[0]),
-                };
-            }
-            let inner = 1.max((k + 1).saturating_sub(known))..known.min(k);
-            let inner: i128 = inner.map(|a| self.products(e, a, k - a)).sum();
-            let mut f = nearly(inner, 2 * fine + 1);
-            if k < known {
-                let outer = self.products(e, 0, k) + self.products(e, k, 0);
-                f += nearly(outer, coarse + fine + 1);
-                if let Some(low) = &self.low {
-                    f += low.product(self.eq, e, [coarse, fine], &self.forms[k]);
+            let (mut sum, mut sizes) = (0.0, 0.0);
+            for &(factor, [left, right]) in &self.eq.products[e] {
+                let (x, y, half) = (&self.forms[left], &self.forms[right], 0.5 * factor as f64);
+                let (mut product, mut size) = (0.0, 0.0);
+                for a in orders.clone() {
+                    product += x[a] * y[k - a];
+                    size += (x[a] * y[k - a]).abs();
                 }
+                if self.low.is_some() && k <= ORDER {
+                    let [x, y] = [self.low_form(left) * y[k], x[k] * self.low_form(right)];
+                    product += x + y;
+                    size += x.abs() + y.abs();
+                }
+                sum += half * product;
+                sizes += half.abs() * size;
             }
-            let powers = (1..=degree).map(|j| (right[j], self.powers[j][k]));
-            let powers = powers.filter(|&(_, power)| power != ZERO);
-            powers.fold(f, |sum, (right, power)| sum - right * power)
+            let (right, error) = self.right(e, k, 0);
+            // Two forms, their product and that with a factor, three sums with what z₀ is more, and E.
+            let roundings = orders.clone().count() + self.eq.products[e].len() + 8;
+            enclosed(sum - right, lost(sizes + right.abs(), roundings, error))
         };
         // Beyond 2 ORDER there are only powers of t, in equations of higher degree.
         let zero = |e: usize| k > 2 * ORDER && self.eq.degree(e) <= 2;
@@ -162,148 +186,156 @@ impl<'a> Curve<'a> {
             .collect()
     }
 
-    /// The coefficient of σᵏ in E_e'(t).
-    pub fn slope(&self, e: usize, k: usize) -> Interval {
-        let right = &self.right[e];
-        if k == 0 {
-            return right[1];
+    /// The coefficient of σᵏ in E_e(t), without E_e(t₀), or where `derivative` is 1 in E_e'(t); and what that may be off
+    /// by.
+    fn right(&self, e: usize, k: usize, derivative: usize) -> (f64, f64) {
+        let (mut sum, mut sizes, mut errors) = (0.0, 0.0, 0.0);
+        for j in 1..=self.eq.degree(e) {
+            let ([middle, radius], [power, most]) =
+                (self.right[e].1[j], self.powers[j - derivative][k]);
+            let times = if derivative == 1 { j as f64 } else { 1.0 };
+            sum += times * middle * power;
+            sizes += times * middle.abs() * most;
+            errors += times * radius * most;
         }
-        let terms = 2..=self.eq.degree(e);
-        terms.fold(ZERO, |sum, j| {
-            sum + point(j as f64) * right[j] * self.powers[j - 1][k]
-        })
+        // With j, with the coefficient, and four sums.
+        let roundings = POWER_ROUNDINGS + 6;
+        (sum, lost(sizes, roundings, errors))
     }
 
-    /// The coefficient of σᵏ in J(ẑ(σ)) U. Adds bounds on what every row of it lost to `rests`.
-    fn jacobian(
-        &self,
-        k: usize,
-        (u, scale): (&[u16], &[i32]),
-        rests: &mut [Interval],
-    ) -> Result<Columns, Fault> {
-        let m = self.eq.m;
-        let mut columns: Columns = vec![Vec::new(); m + 1];
-        for (e, &scale) in scale.iter().enumerate().take(m) {
-            let bits = self.bits[k.min(1)] + 1 + WEIGHT_BITS + scale;
+    /// The coefficient of σᵏ in J(ẑ(σ)) U. Adds bounds on what every row of it lost, and on what its products with Y
+    /// may lose, to `rests`.
+    fn jacobian(&self, k: usize, u: &[f64], rests: &mut [f64]) -> Columns {
+        let (m, mut sizes) = (self.eq.m, vec![0.0; self.eq.m]);
+        let mut columns: Columns = vec![Vec::with_capacity(self.eq.longest + 1); m + 1];
+        columns[m].reserve(m);
+        for e in 0..m {
             for &(i, factor, form) in &self.eq.gradient[e] {
-                let entry = i128::from(factor) * i128::from(self.forms[k][form]) * i128::from(u[i]);
-                columns[i].push((e, in_units(entry, bits - J_BITS).ok_or(LARGE)?));
+                // Weights have 16 bits and factors 12.
+                let entry = 0.5 * factor as f64 * u[i] * self.forms[form][k];
+                columns[i].push((e, entry));
+                sizes[e] += entry.abs();
             }
-            let slope = self.slope(e, k) * -weight(u[m]) * point(power(-scale));
-            let (entry, rest) = split(slope).ok_or(LARGE)?;
-            columns[m].push((e, entry));
-            // Half a unit for each of the others.
-            let units = point(self.eq.gradient[e].len() as f64 * power(-J_BITS - 1));
-            rests[e] += (rest + units) * point(power(scale));
+            let (slope, error) = self.right(e, k, 1);
+            columns[m].push((e, -slope * u[m]));
+            sizes[e] += (slope * u[m]).abs();
+            rests[e] += error * u[m];
         }
-        Ok(columns)
+        // A form, its product with weight and factor, that with an entry of Y; and the sums.
+        let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
+        for (rest, size) in rests.iter_mut().zip(sizes) {
+            *rest = round_up(*rest + gamma(longest + 4) * size, self.eq.longest + 4);
+        }
+        columns
     }
 
     /// [J(z₀); c] U.
-    pub fn section(&self, c: &[f64], u: &[u16], scale: Vec<i32>) -> Result<Section, Fault> {
+    pub fn section(&self, c: &[f64], u: &[f64]) -> Section {
         let m = self.eq.m;
-        let mut rests = vec![ZERO; m + 1];
-        let mut j0 = self.jacobian(0, (u, &scale), &mut rests)?;
-        for (e, rest) in rests[..m].iter_mut().enumerate() {
-            for &(i, factor, form) in self.low.iter().flat_map(|_| &self.eq.gradient[e]) {
-                let change = self.low.as_ref().map(|low| low.change(form, self.bits[0]));
-                *rest += point(0.5 * factor.abs() as f64) * change.unwrap_or(ZERO) * weight(u[i]);
+        let mut rests = vec![0.0; m + 1];
+        let mut j0 = self.jacobian(0, u, &mut rests);
+        if self.low.is_some() {
+            for (e, rest) in rests[..m].iter_mut().enumerate() {
+                let terms = self.eq.gradient[e].iter();
+                let changes = terms.map(|&(i, factor, form)| {
+                    (0.5 * factor as f64 * u[i] * self.low_form(form)).abs()
+                });
+                *rest = round_up(*rest + changes.sum::<f64>(), self.eq.longest + 3);
             }
         }
         for ((column, &c), &u) in j0.iter_mut().zip(c).zip(u) {
-            // Normals have 24 bits and weights 16: all is exact up to the rounding to a whole number.
-            let entry = (c * f64::from(u) * power(J_BITS - WEIGHT_BITS - scale[m])).round();
-            if !(entry.abs() < LIMIT) {
-                return Err(LARGE);
-            }
-            column.push((m, entry as i64));
-            rests[m] += point(power(scale[m] - J_BITS));
+            // Normals have 24 bits and weights 16: this is exact.
+            column.push((m, c * u));
+            rests[m] += (c * u).abs();
         }
-        let (c, u) = (c.to_vec(), u.to_vec());
-        Ok(Section {
-            c,
-            u,
-            scale,
+        let longest = j0.iter().map(Vec::len).max().unwrap_or(0);
+        rests[m] = round_up(gamma(longest + 4) * rests[m], m + 2);
+        Section {
+            c: c.to_vec(),
+            u: u.to_vec(),
             j0,
             rests,
-        })
+        }
     }
 
     /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `y`, near the
     /// inverse of [J(z₀); c] U, is any matrix.
-    pub fn test(&self, y: &Whole, at: &Section, r: Interval) -> Result<Test, Fault> {
+    pub fn test(&self, y: &Matrix, at: &Section, r: Interval) -> Test {
         let (m, n, order, u) = (self.eq.m, self.eq.m + 1, self.z.len() - 1, &at.u);
         let mut rests = at.rests.clone();
-        let mut stiff = y.defect(&at.j0);
-        let (mut moving, mut square) = (point(1.0), ZERO);
+        let stiff = y.times(&at.j0).minus_identity().norm();
+        let (mut moving, mut square, mut a) = (point(1.0), ZERO, None);
         if order > 0 {
-            let [j1, j2] = [1, 2].map(|k| self.jacobian(k, (u, &at.scale), &mut rests));
-            let a = y.moving(&j1?, &j2?).ok_or(LARGE)?;
-            stiff += a.rest;
-            moving += a.norm;
-            square = a.square + a.norm * a.second;
+            let [j1, j2] = [1, 2].map(|k| y.times(&self.jacobian(k, u, &mut rests)));
+            let (norm, lost) = (j1.norm(), exact(gamma(n + 1)));
+            moving += norm;
+            square = j1.square_minus(&j2).norm() + lost * norm * norm + norm * j2.norm();
+            a = Some(j1);
         }
-        let t = polynomial(&self.z, m, around(point(1.0))) + around(r * weight(u[m]));
+        let t = polynomial(&self.z, m, around(point(1.0))) + around(r * point(u[m]));
         let t = t + self.low_of(m);
         let t_slope = (1..=order).fold(ZERO, |sum, k| {
             sum + point(k as f64) * point(self.z[k][m].abs())
         });
-        let weight_of = |i: usize| u.get(i).filter(|_| i < m).map_or(0, |&u| u128::from(u));
-        let width = |form: usize| self.eq.forms[form].map(weight_of).iter().sum::<u128>();
-        let (mut wide, mut turn) = (vec![ZERO; n], vec![ZERO; n]);
+        // Of each form: how much it changes with w, what is left from order 3 on, and of its derivative by σ.
+        let weight_of = |i: usize| if i < m { u[i] } else { 0.0 };
+        let change = |([i, j], x): (&[usize; 2], &[f64; ORDER + 1])| {
+            let slopes = x.iter().enumerate().map(|(k, x)| k as f64 * x.abs());
+            let beyond = x[3..].iter().map(|x| x.abs());
+            [weight_of(*i) + weight_of(*j), beyond.sum(), slopes.sum()]
+        };
+        let changes: Vec<[f64; 3]> = self.eq.forms.iter().zip(&self.forms).map(change).collect();
+        let (mut wide, mut turn) = (vec![0.0; n], vec![0.0; n]);
         for e in 0..m {
-            let (mut square, mut beyond, mut slope) = (0u128, 0u128, 0u128);
+            let mut all = [0.0; 3];
             for &(i, factor, form) in &self.eq.gradient[e] {
-                let by = u128::from(factor.unsigned_abs()) * weight_of(i);
-                square += by * width(form);
-                let forms = self.forms.iter().skip(3).map(|f| f[form].unsigned_abs());
-                beyond += by * forms.map(u128::from).sum::<u128>();
+                let by = 0.5 * factor.abs() as f64 * u[i];
+                all.iter_mut()
+                    .zip(changes[form])
+                    .for_each(|(all, x)| *all += by * x);
             }
-            for (k, forms) in self.forms.iter().enumerate().skip(1) {
-                for &(factor, [left, right]) in &self.eq.products[e] {
-                    let size = |form: usize| u128::from(forms[form].unsigned_abs());
-                    let change = size(left) * width(right) + size(right) * width(left);
-                    slope += k as u128 * u128::from(factor.unsigned_abs()) * change;
-                }
-            }
+            // Also a rounding of each of the forms.
+            let [square, beyond, slope] = all.map(|x| round_up(x, self.eq.longest + ORDER + 5));
             let slopes = 3..=(self.eq.degree(e).max(2) - 1) * order;
-            let slopes = slopes.fold(ZERO, |sum, k| sum + size(self.slope(e, k)));
-            let bend = size(self.eq.bend(e, t)) * weight(u[m]);
-            let fine = self.bits[1] + WEIGHT_BITS + 1;
-            rests[e] += above(beyond, fine) + slopes * weight(u[m]);
-            wide[e] = above(square, 2 * WEIGHT_BITS + 1) + bend * weight(u[m]);
-            turn[e] = above(slope, fine) + bend * t_slope;
+            let slopes = slopes.map(|k| self.right(e, k, 1));
+            let slopes: f64 = slopes.map(|(slope, error)| slope.abs() + error).sum();
+            let slopes = round_up(slopes * u[m], DEGREE);
+            let bend = size(self.eq.bend(e, t)) * point(u[m]);
+            rests[e] = round_up(rests[e] + beyond + slopes, 2);
+            wide[e] = (exact(square) + bend * point(u[m])).sup();
+            turn[e] = (exact(slope) + bend * t_slope).sup();
         }
 
         // The first coefficients of F(ẑ(σ)), and those of t alone, are as good as zero: of them their sizes, and
         // k times these, will do.
-        let (mut small, mut small_slope) = (vec![ZERO; n], vec![ZERO; n]);
-        let (mut defect, mut defect_slope, mut constant) = (ZERO, ZERO, ZERO);
-        for k in 0..=if order > 0 { DEGREE } else { 0 } {
-            let (f, times) = (self.residual(k), point(k as f64));
-            if k == 0 {
-                constant = upper(y.image(&f));
-                continue;
-            }
+        let (mut small, mut small_slope) = (vec![0.0; n], vec![0.0; n]);
+        let (mut defect, mut defect_slope) = (ZERO, ZERO);
+        for k in 1..=if order > 0 { DEGREE } else { 0 } {
+            let (f, times) = (self.residual(k), k as f64);
             if (ORDER + 1..=2 * ORDER).contains(&k) {
                 let image = upper(y.image(&f));
-                (defect, defect_slope) = (defect + image, defect_slope + times * image);
+                (defect, defect_slope) = (defect + image, defect_slope + point(times) * image);
                 continue;
             }
-            for (e, f) in f.into_iter().enumerate().filter(|&(_, f)| f != ZERO) {
-                small[e] += size(f);
-                small_slope[e] += times * size(f);
+            for (e, f) in f.into_iter().enumerate() {
+                small[e] += f.mag();
+                small_slope[e] += times * f.mag();
             }
         }
-        Ok(Test {
+        let [small, small_slope] = [small, small_slope].map(|sums| {
+            let sums: Vec<f64> = sums.into_iter().map(|x| round_up(x, DEGREE + 1)).collect();
+            y.bound(&sums)
+        });
+        Test {
             stiff: upper(moving * (stiff + y.bound(&rests)) + square),
             width: upper(moving * y.bound(&wide)),
-            constant: upper(moving * constant),
-            growing: upper(moving * (defect + y.bound(&small))),
-            defect_slope: upper(moving * (defect_slope + y.bound(&small_slope))),
+            constant: upper(moving * upper(y.image(&self.value()))),
+            growing: upper(moving * (defect + small)),
+            defect_slope: upper(moving * (defect_slope + small_slope)),
             turn: upper(moving * y.bound(&turn)),
             moving: upper(moving),
-        })
+            a,
+        }
     }
 }
 
@@ -318,6 +350,8 @@ pub struct Test {
     defect_slope: Interval,
     turn: Interval,
     moving: Interval,
+    /// The A in Ỹ(σ) = (I − σA) Y.
+    pub a: Option<Matrix>,
 }
 
 /// That every cross-section has exactly one zero φ(σ) in its box.
@@ -376,20 +410,9 @@ fn nearly(x: i128, bits: i32) -> Interval {
     }
 }
 
-/// x 2^−shift, rounded to a whole number, for |x| below 2¹⁰⁰. `None`: too large.
-fn in_units(x: i128, shift: i32) -> Option<i64> {
-    let entry = match shift {
-        110.. => 0,
-        1..110 => (x + (1 << (shift - 1))) >> shift,
-        -50..1 => x.checked_mul(1 << -shift)?,
-        _ => return None,
-    };
-    (entry.unsigned_abs() < LIMIT as u128).then_some(entry as i64)
-}
-
-/// A weight.
-pub fn weight(u: u16) -> Interval {
-    point(WEIGHT_UNIT * f64::from(u))
+/// Weights, exactly.
+pub fn weights(u: &[u16]) -> Vec<f64> {
+    u.iter().map(|&u| WEIGHT_UNIT * f64::from(u)).collect()
 }
 
 /// Σ z_k σᵏ, one of its entries.
@@ -411,4 +434,196 @@ pub fn around(x: Interval) -> Interval {
 /// The upper end.
 pub fn upper(x: Interval) -> Interval {
     exact(x.sup())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::guess::Inverse;
+    use super::*;
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
+    use num_rational::BigRational;
+    use num_traits::{Signed, ToPrimitive, Zero};
+    use proptest::prelude::*;
+
+    fn ratio(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    /// A triangle with E_e(t) that floats are: with a bend, of degree 4.
+    fn triangle(c: &str) -> Equations {
+        let problem = Problem::build("triangle", 2)
+            .point("a", ["0", "0"])
+            .point("b", ["3", "0"])
+            .point("c", ["0", "4"])
+            .distance("a", "b", "4")
+            .distance("b", "c", "4.5")
+            .distance("c", "a", "3.25")
+            .bend(["b", "c"])
+            .bend_coefficient(c)
+            .finish()
+            .unwrap();
+        let eq = Equations::new(Homotopy::with_unit(&problem, 1.0).unwrap());
+        assert!(
+            eq.homotopy
+                .rights
+                .iter()
+                .all(|r| r.enclosures().iter().all(|e| e.wid() == 0.0))
+        );
+        eq
+    }
+
+    type Polynomial = Vec<BigRational>;
+
+    fn zero() -> BigRational {
+        BigRational::zero()
+    }
+
+    fn times(a: &Polynomial, b: &Polynomial) -> Polynomial {
+        let mut out = vec![zero(); a.len() + b.len() - 1];
+        for (i, x) in a.iter().enumerate() {
+            for (j, y) in b.iter().enumerate() {
+                out[i + j] += x * y;
+            }
+        }
+        out
+    }
+
+    fn plus(a: &Polynomial, b: &Polynomial, factor: f64) -> Polynomial {
+        let of = |p: &Polynomial, k: usize| p.get(k).cloned().unwrap_or_else(zero);
+        (0..a.len().max(b.len()))
+            .map(|k| of(a, k) + of(b, k) * ratio(factor))
+            .collect()
+    }
+
+    fn value(p: &Polynomial, s: &BigRational) -> BigRational {
+        p.iter().rev().fold(zero(), |sum, x| sum * s + x)
+    }
+
+    /// F along z(σ) as polynomials, and the rows of its derivative there.
+    fn exactly(eq: &Equations, z: &[Polynomial]) -> Vec<(Polynomial, Vec<Polynomial>)> {
+        let of = |i: usize| match i {
+            i if i < eq.m => z[i].clone(),
+            i => vec![ratio(if i == eq.m + 2 { 1.0 } else { 0.0 })],
+        };
+        let forms: Vec<Polynomial> = eq
+            .forms
+            .iter()
+            .map(|&[i, j]| plus(&of(i), &of(j), -1.0))
+            .collect();
+        let row = |e: usize| {
+            let mut f = vec![zero()];
+            for &(factor, [l, r]) in &eq.products[e] {
+                f = plus(&f, &times(&forms[l], &forms[r]), 0.5 * factor as f64);
+            }
+            let mut j = vec![vec![zero()]; eq.m + 1];
+            for &(i, factor, form) in &eq.gradient[e] {
+                j[i] = plus(&j[i], &forms[form], 0.5 * factor as f64);
+            }
+            let mut power = vec![ratio(1.0)];
+            for (k, c) in eq.homotopy.rights[e].enclosures().iter().enumerate() {
+                f = plus(&f, &power, -c.mid());
+                if let Some(next) = eq.homotopy.rights[e].enclosures().get(k + 1) {
+                    j[eq.m] = plus(&j[eq.m], &power, -next.mid() * (k + 1) as f64);
+                }
+                power = times(&power, &z[eq.m]);
+            }
+            (f, j)
+        };
+        (0..eq.m).map(row).collect()
+    }
+
+    fn numbers(n: usize) -> impl Strategy<Value = Vec<f64>> {
+        prop::collection::vec(-1.0f64..1.0, n)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        /// Along any polynomial, with Y near the inverse or not: the coefficients of F, and all bounds of the test at some σ
+        /// and some w, against rational numbers. Weights, steps and the size of the figure take extreme values.
+        #[test]
+        fn what_the_test_claims_is_so(
+            (bent, size, step) in (any::<bool>(), -30i32..30, -60i32..4),
+            (z0, ahead) in (numbers(4), prop::collection::vec(numbers(4), ORDER)),
+            (c, weights, off) in (numbers(4), prop::collection::vec(1u16.., 4), numbers(4)),
+            (noise, noisy, s, r) in (numbers(16), -50i32..2, -1.0f64..1.0, -40i32..2),
+        ) {
+            let eq = triangle(if bent { "0.5" } else { "0" });
+            let n = eq.m + 1;
+            let scaled = |v: &[f64], e: i32| v.iter().map(|x| x * power(e)).collect::<Vec<f64>>();
+            let mut centre = scaled(&z0, size);
+            centre[eq.m] = z0[eq.m];
+            let mut curve = Curve::at(&eq, &centre).unwrap();
+            let c: Vec<f64> = c.iter().map(|&c| f64::from(c as f32)).collect();
+            let u = super::weights(&weights);
+            let at = curve.section(&c, &u);
+            let Ok(Inverse { mut y, .. }) = Inverse::new(&at) else {
+                return Ok(());
+            };
+            for (y, x) in y.entries.iter_mut().zip(noise) {
+                *y += *y * x * power(noisy);
+            }
+            for z in &ahead {
+                curve.push(scaled(z, step)).unwrap();
+            }
+            let z: Vec<Polynomial> = (0..n).map(|i| curve.z.iter().map(|z| ratio(z[i])).collect()).collect();
+            let rows = exactly(&eq, &z);
+            for k in 0..=DEGREE {
+                let found = if k == 0 { curve.value() } else { curve.residual(k) };
+                for (found, (f, _)) in found.iter().zip(&rows) {
+                    let f = f.get(k).cloned().unwrap_or_else(zero);
+                    prop_assert!(ratio(found.inf()) <= f && f <= ratio(found.sup()), "{k}: {found:?} {f}");
+                }
+            }
+
+            let radius = point(power(r));
+            let test = curve.test(&y, &at, radius);
+            let a = test.a.as_ref().unwrap();
+            let s = ratio(s);
+            // Ỹ(σ), exactly.
+            let entry = |m: &Matrix, i: usize, j: usize| ratio(m.entries[j * n + i]);
+            let moved = |i: usize, e: usize| {
+                let change = (0..n).fold(zero(), |sum, k| sum + entry(a, i, k) * entry(&y, k, e));
+                entry(&y, i, e) - &s * change
+            };
+            let y: Vec<Vec<BigRational>> = (0..n).map(|i| (0..n).map(|e| moved(i, e)).collect()).collect();
+            let most = |v: &dyn Fn(usize) -> BigRational| (0..n).map(|i| v(i).abs()).max().unwrap();
+            let image = |f: &[BigRational]| most(&|i| (0..f.len()).fold(zero(), |sum, e| sum + &y[i][e] * &f[e]));
+            let f: Vec<BigRational> = rows.iter().map(|(f, _)| value(f, &s)).collect();
+            let growing = s.abs() * ratio(test.growing.sup());
+            prop_assert!(image(&f) <= ratio(test.constant.sup()) + growing);
+            let slopes = |f: &Polynomial| -> Polynomial { f.iter().enumerate().skip(1).map(|(k, x)| x * ratio(k as f64)).collect() };
+            let f: Vec<BigRational> = rows.iter().map(|(f, _)| value(&slopes(f), &s)).collect();
+            prop_assert!(image(&f) <= ratio(test.defect_slope.sup()));
+
+            // At ẑ(σ), and beside it.
+            let way = |i: usize| value(&z[i], &s);
+            for rho in [0.0, 0.3 * power(r), power(r)] {
+                let place: Vec<Polynomial> = (0..n)
+                    .map(|i| vec![way(i) + ratio(rho) * ratio(off[i]) * ratio(u[i])])
+                    .collect();
+                let mut all: Vec<Vec<BigRational>> = exactly(&eq, &place)
+                    .into_iter()
+                    .map(|(_, j)| j.iter().map(|j| value(j, &s)).collect())
+                    .collect();
+                all.push(c.iter().map(|&c| ratio(c)).collect());
+                let defect = |i: usize, k: usize| {
+                    let sum = (0..n).fold(zero(), |sum, e| sum + &y[i][e] * &all[e][k] * ratio(u[k]));
+                    ratio(f64::from(u8::from(i == k))) - sum
+                };
+                let norm = most(&|i| (0..n).fold(zero(), |sum, k| sum + defect(i, k).abs()));
+                let q = test.contraction(exact(rho));
+                prop_assert!(norm <= ratio(q.sup().min(f64::MAX)), "{rho:e}: {:e} {q:?}", norm.to_f64().unwrap());
+
+                let direction: Vec<BigRational> = z.iter().map(|z| value(&slopes(z), &s)).collect();
+                let turned: Vec<BigRational> = (0..eq.m)
+                    .map(|e| {
+                        let there = |i: usize| &all[e][i] - value(&rows[e].1[i], &s);
+                        (0..n).fold(zero(), |sum, i| sum + there(i) * &direction[i])
+                    })
+                    .collect();
+                prop_assert!(image(&turned) <= ratio((test.turn * exact(rho)).sup()));
+            }
+        }
+    }
 }

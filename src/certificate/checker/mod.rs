@@ -9,10 +9,10 @@ mod equations;
 mod extended;
 mod guess;
 mod krawczyk;
+mod matrix;
 mod place;
 mod refute;
 mod tube;
-mod whole;
 
 use super::format::{Ending, FormatError, Record, SolutionClaim, TubeClaim};
 use super::reader::Reader;

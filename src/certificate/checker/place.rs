@@ -2,9 +2,10 @@
 
 use super::equations::{Equations, ZERO};
 use super::guess::newton;
-use super::krawczyk::{Section, around, weight};
+use super::krawczyk::{Section, around};
+use super::matrix::{exact, size};
 use super::refute;
-use super::whole::{exact, size};
+use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::format::{SolutionClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
@@ -31,18 +32,14 @@ impl Spot {
     /// [J; c] v − e_n at this point.
     pub fn off_direction(&self, eq: &Equations, at: &Section, v: &[f64]) -> Vec<Interval> {
         let t = self.at(eq.m);
-        let of = |i: usize| {
-            let of = |i: usize| (exact(self.near[i]), self.rest[i]);
-            eq.entry(i, of, [(ZERO, ZERO), (point(1.0), ZERO)])
-        };
-        let form = |form: usize| {
-            let [(a, da), (b, db)] = eq.forms[form].map(of);
-            (a - b) + (da - db)
-        };
+        let near: Vec<Interval> = self.near.iter().map(|&x| exact(x)).collect();
+        let near = eq.differences(&near, [ZERO, point(1.0)]);
+        let rest = eq.differences(&self.rest, [ZERO; 2]);
+        let forms: Vec<Interval> = near.iter().zip(rest).map(|(&x, y)| x + y).collect();
         let row = |e: usize| {
             let terms = eq.gradient[e].iter();
             let terms =
-                terms.map(|&(i, factor, f)| point(0.5 * factor as f64) * form(f) * exact(v[i]));
+                terms.map(|&(i, factor, f)| forms[f] * (point(0.5 * factor as f64) * exact(v[i])));
             let time = eq.right_at(e, t)[1] * exact(v[eq.m]);
             terms.fold(-time, |sum, x| sum + x)
         };
@@ -72,7 +69,7 @@ pub struct Place {
 }
 
 /// Solutions are tested with the weight ½ for coordinates, and next to none for t.
-pub const HALF: u16 = 1 << 15;
+pub const HALF: f64 = 0.5;
 /// The distance, in weights, up to which a test can see.
 const SIGHT: f64 = 1.0;
 
@@ -88,7 +85,7 @@ impl Place {
         let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
         let extended = !tube.low.is_empty();
         let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
-        (c[eq.m], u[eq.m]) = (1.0, 1);
+        (c[eq.m], u[eq.m]) = (1.0, WEIGHT_UNIT);
         let place = Place::prove(eq, (&near, extended), (&c, &u), claimed.clone());
         let place = place.and_then(|mut place| {
             // In this cross-section t is what it is in the middle.
@@ -115,17 +112,17 @@ impl Place {
     pub fn prove(
         eq: &Equations,
         (near, extended): (&[f64], bool),
-        (c, u): (&[f64], &[u16]),
+        (c, u): (&[f64], &[f64]),
         claimed: Vec<Interval>,
     ) -> Result<Place, Fault> {
         let (curve, at, inverse) = newton(eq, (near, extended), c, u)?;
-        let test = curve.test(&inverse.whole, &at, point(SIGHT))?;
+        let test = curve.test(&inverse.y, &at, point(SIGHT));
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
         let near = curve.z[0].clone();
-        let weights = || u.iter().map(|&u| weight(u));
+        let weights = || u.iter().map(|&u| point(u));
         let low = || (0..near.len()).map(|i| curve.low_of(i));
         let rest = weights().zip(low());
         let rest = rest.map(|(u, low)| low + around(proof.distance * u));

@@ -2,25 +2,25 @@
 //! a refuted one has.
 
 use super::equations::{Equations, ZERO};
-use super::krawczyk::{Curve, Section, Test, polynomial, weight};
+use super::krawczyk::{Curve, Section, Test, polynomial};
+use super::matrix::{Matrix, between, exact, size};
 use super::place::{Place, Spot};
 use super::tube::Tube;
-use super::whole::{Whole, between, exact, size};
 use crate::certificate::format::TubeClaim;
 use crate::interval::{Interval, point};
 
 /// Whether a tube's first claim is false: that the cross-section through its centre holds a zero of F
 /// within its radius. For a zero w* would be |Y G(0)| = |Y (G(0) − G(w*))| ≤ (1 + q) |w*|.
-pub fn tube(claim: &TubeClaim, curve: &Curve, y: &Whole, at: &Section, test: &Test) -> bool {
+pub fn tube(claim: &TubeClaim, curve: &Curve, y: &Matrix, at: &Section, test: &Test) -> bool {
     // The centre was moved by rounding: a zero within r of where it was is within `wider`, and in a
     // cross-section beside this one.
     let low = |i: usize| claim.low.get(i).map_or(ZERO, |&x| point(x)) - curve.low_of(i);
     let moved = |i: usize| exact(claim.centre[i]) - point(curve.z[0][i]) + low(i);
     let along = (0..at.u.len()).fold(ZERO, |sum, i| sum + point(at.c[i]) * moved(i));
-    let away = (0..at.u.len()).map(|i| size(moved(i) / weight(at.u[i])).sup());
+    let away = (0..at.u.len()).map(|i| size(moved(i) / point(at.u[i])).sup());
     let wider = point(claim.r.into()) + exact(away.fold(0.0, f64::max));
     let most = wider * (point(1.0) + test.contraction(wider));
-    let mut off = curve.residual(0);
+    let mut off = curve.value();
     off.push(-along);
     y.image(&off).inf() > most.sup()
 }
@@ -49,13 +49,12 @@ pub fn missing(tube: &Tube, part: Interval, solutions: &[Place]) -> bool {
 /// Whether a box certainly holds no zero of F with t = 1: one of the equations has none in it; or the
 /// whole box is where a figure is the only one, and that is not in it.
 pub fn empty(eq: &Equations, claimed: &[Interval], place: Option<&Place>) -> bool {
-    let value = |i: usize| eq.entry(i, |i| claimed[i], [ZERO, point(1.0)]);
-    let form = |f: usize| value(eq.forms[f][0]) - value(eq.forms[f][1]);
+    let forms = eq.differences(claimed, [ZERO, point(1.0)]);
     let excluded = |e: usize| {
         let products = eq.products[e].iter().map(|&(factor, [left, right])| {
             let product = match left == right {
-                true => form(left).sqr(),
-                false => form(left) * form(right),
+                true => forms[left].sqr(),
+                false => forms[left] * forms[right],
             };
             point(0.5 * factor as f64) * product
         });

@@ -1,11 +1,13 @@
 //! One tube, proved again. The mathematics and its notation are in `certs/README.md`.
 
 use super::equations::{Equations, ZERO};
-use super::guess::{Inverse, Moving, expand, scale};
-use super::krawczyk::{Curve, ORDER, Proof, Section, around, derivative, polynomial, weight};
+use super::guess::{Inverse, Moving, expand};
+use super::krawczyk::{
+    Curve, LARGE, ORDER, Proof, Section, around, derivative, polynomial, weights,
+};
+use super::matrix::{Matrix, between, exact, size};
 use super::place::{Place, Spot, component};
 use super::refute;
-use super::whole::{between, exact, size};
 use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, hull, point};
@@ -66,22 +68,23 @@ struct Work<'a> {
     inverse: Inverse,
     r: Interval,
     proof: Proof,
+    a: Matrix,
 }
 
 impl<'a> Work<'a> {
     fn new(eq: &'a Equations, claim: &TubeClaim) -> Result<Work<'a>, Fault> {
         let c: Vec<f64> = claim.normal.iter().map(|&c| c.into()).collect();
-        let (u, r) = (&claim.weights, point(claim.r.into()));
+        let r = point(claim.r.into());
         let mut curve = match claim.low.is_empty() {
             true => Curve::at(eq, &claim.centre)?,
             false => Curve::at_sum(eq, &claim.centre, &claim.low)?,
         };
-        let at = curve.section(&c, u, scale(&curve, &c, u))?;
+        let at = curve.section(&c, &weights(&claim.weights));
         let inverse = Inverse::new(&at)?;
         expand(&mut curve, &inverse, claim.h)?;
-        let test = curve.test(&inverse.whole, &at, r)?;
+        let test = curve.test(&inverse.y, &at, r);
         let proof = test.within(r).map_err(|fault| Fault {
-            is_false: refute::tube(claim, &curve, &inverse.whole, &at, &test),
+            is_false: refute::tube(claim, &curve, &inverse.y, &at, &test),
             ..fault
         })?;
         Ok(Work {
@@ -90,12 +93,17 @@ impl<'a> Work<'a> {
             inverse,
             r,
             proof,
+            a: test.a.ok_or(LARGE)?,
         })
+    }
+
+    fn moving(&self) -> Moving<'_> {
+        Moving::new(&self.curve, &self.at, &self.inverse, &self.a)
     }
 
     /// Encloses φ(s): for any w in the box, |w − w*| ≤ |Ỹ G(w)| / (1 − q) for the zero w*.
     fn spot(&self, s: f64, moving: &Moving) -> Option<Spot> {
-        let (z, u) = (&self.curve.z, || self.at.u.iter().map(|&u| weight(u)));
+        let (z, u) = (&self.curve.z, || self.at.u.iter().map(|&u| point(u)));
         let there = moving.zero(s, ENOUGH * self.r.sup()).ok()?;
         let near = there.z[0].clone();
         let s = point(s);
@@ -108,9 +116,9 @@ impl<'a> Work<'a> {
         if !inside.all(|(&off, u)| size(off).sup() < (self.r * u).inf()) {
             return None;
         }
-        let mut f = there.residual(0);
+        let mut f = there.value();
         f.push(component(&off, &self.at.c));
-        let distance = self.proof.inverse * self.inverse.whole.image(&f);
+        let distance = self.proof.inverse * self.inverse.y.image(&f);
         let rest = u().enumerate();
         let rest = rest.map(|(i, u)| there.low_of(i) + around(distance * u));
         Some(Spot {
@@ -124,10 +132,10 @@ impl<'a> Work<'a> {
     fn direction(&self, spot: &Spot, s: f64, moving: &Moving) -> Vec<Interval> {
         let v = moving.tangent(&spot.near, s);
         let off = spot.off_direction(self.curve.eq, &self.at, &v);
-        let distance = self.proof.inverse * self.inverse.whole.image(&off);
+        let distance = self.proof.inverse * self.inverse.y.image(&off);
         let entries = v.iter().zip(&self.at.u);
         entries
-            .map(|(&v, &u)| exact(v) + around(distance * weight(u)))
+            .map(|(&v, &u)| exact(v) + around(distance * point(u)))
             .collect()
     }
 }
@@ -135,11 +143,7 @@ impl<'a> Work<'a> {
 /// The path's direction at a point that lies in a tube for certain: with c·T = 1 for the tube's normal c.
 pub fn direction(eq: &Equations, claim: &TubeClaim, spot: &Spot) -> Result<Vec<Interval>, Fault> {
     let work = Work::new(eq, claim)?;
-    Ok(work.direction(
-        spot,
-        0.0,
-        &Moving::new(&work.curve, &work.at, &work.inverse),
-    ))
+    Ok(work.direction(spot, 0.0, &work.moving()))
 }
 
 impl Tube {
@@ -160,7 +164,7 @@ impl Tube {
         }
         // A parameter in [−1, 1], whatever is rounded.
         let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);
-        let moving = Moving::new(&work.curve, &work.at, &work.inverse);
+        let moving = work.moving();
         let exit = work.spot(exit_at, &moving);
         let exit = exit.ok_or(Fault::because("its exit cannot be enclosed"))?;
         Ok(Tube {
@@ -169,7 +173,7 @@ impl Tube {
             exit,
             low: (0..=eq.m).map(|i| work.curve.low_of(i)).collect(),
             z: work.curve.z,
-            u: claim.weights.iter().map(|&u| weight(u)).collect(),
+            u: work.at.u.iter().map(|&u| point(u)).collect(),
             r: work.r,
             distance: work.proof.distance,
             distances: work.proof.distances,
@@ -347,12 +351,22 @@ mod tests {
                     let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
                     // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
-                    let (curve, ..) =
-                        newton(&eq, (&middle, false), &tube.normal, &claim.weights).unwrap();
+                    let (curve, ..) = newton(
+                        &eq,
+                        (&middle, false),
+                        &tube.normal,
+                        &weights(&claim.weights),
+                    )
+                    .unwrap();
                     // With the inverse there.
                     let middle = curve.z[0][..n].to_vec();
-                    let (curve, _, inverse) =
-                        newton(&eq, (&middle, false), &tube.normal, &claim.weights).unwrap();
+                    let (curve, _, inverse) = newton(
+                        &eq,
+                        (&middle, false),
+                        &tube.normal,
+                        &weights(&claim.weights),
+                    )
+                    .unwrap();
                     let mut last = vec![0.0; n];
                     last[n - 1] = 1.0;
                     let tangent = inverse.times(&last);
