@@ -158,7 +158,7 @@ impl Tail {
 
     /// The equations of a homotopy behind its distances.
     pub fn new(homotopy: &Homotopy) -> Self {
-        let (m, first) = (homotopy.equations, homotopy.edges.len());
+        let (m, first) = (homotopy.equations, homotopy.half_squares().count());
         let zero = m as u32 + 1;
         let mut ends = vec![[zero; 2]];
         let mut known = HashMap::from([(None, Self::ONE as u32)]);
