@@ -6,7 +6,8 @@
 //! wanted are the same, and so is the number of unknowns; the paths differ. Shipped problems with other
 //! constraints stand beside a generated strip of about as many unknowns. The times are those of following the
 //! path over all tubes tried, medians of several runs that take turns. The goal is 1.3 times at most, by the
-//! median of all ratios.
+//! median of all ratios. `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be
+//! profiled one by one.
 
 use krawl::generate::{Family, Recipe};
 use krawl::problem::{Problem, Target};
@@ -44,6 +45,10 @@ fn main() {
         let plain = Recipe::new(Family::Strip, unknowns.max(25)).problem();
         let plain = plain.expect("a recipe");
         pairs.push((name.to_owned(), plain, other));
+    }
+    let mut arguments = std::env::args().skip_while(|argument| argument != "--write");
+    if let Some(folder) = arguments.nth(1) {
+        return write(&pairs, &folder);
     }
     println!(
         "{:<16} {:<8} {:>9} {:>9} {:>13} {:>13} {:>7}  outcome",
@@ -91,6 +96,17 @@ fn main() {
             space,
             if middle <= GOAL { "met" } else { "MISSED" }
         );
+    }
+}
+
+/// Writes the problems to files instead, so that `krawl solve` can be profiled on each.
+fn write(pairs: &[(String, Problem, Problem)], folder: &str) {
+    for (name, plain, other) in pairs {
+        let name = name.replace(' ', "-");
+        for (kind, problem) in [("distances", plain), ("others", other)] {
+            let file = format!("{folder}/{name}-{kind}.toml");
+            std::fs::write(&file, problem.to_toml()).expect("a folder that can be written to");
+        }
     }
 }
 

@@ -24,3 +24,13 @@ pub fn multiply(a: &[Real], b: &[Real]) -> Polynomial {
     }
     out
 }
+
+/// The sum of two polynomials.
+pub fn add(a: &[Real], b: &[Real]) -> Polynomial {
+    let (long, short) = if a.len() < b.len() { (b, a) } else { (a, b) };
+    let mut out = long.to_vec();
+    for (x, y) in out.iter_mut().zip(short) {
+        *x = &*x + y;
+    }
+    out
+}

@@ -64,6 +64,29 @@ pub struct Equation {
     pub power: i32,
 }
 
+impl Equation {
+    /// The two points of an equation that has half the square of their distance on the left, in so many dimensions:
+    /// a product of factor 1 for each axis, in order, of the difference of their coordinates with itself.
+    pub fn ends(&self, dimension: usize) -> Option<[usize; 2]> {
+        let ends_on = |(axis, product): (usize, &Product)| match (product.left, product.right) {
+            (
+                Form::Difference(
+                    Entry::Coordinate { point: a, axis: k },
+                    Entry::Coordinate { point: b, axis: l },
+                ),
+                right,
+            ) if product.factor == 1 && product.left == right && (k, l) == (axis, axis) => {
+                Some([a, b])
+            }
+            _ => None,
+        };
+        let mut ends = self.products.iter().enumerate().map(ends_on);
+        let first = ends.next().flatten()?;
+        (self.products.len() == dimension && ends.all(|other| other == Some(first)))
+            .then_some(first)
+    }
+}
+
 /// What has to be proved of an auxiliary unknown along the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {

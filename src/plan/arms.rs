@@ -49,7 +49,7 @@ impl Graph {
         let mut plan = Plan {
             dimension: homotopy.dimension,
             points: homotopy.points,
-            edges: homotopy.edges.len(),
+            edges: self.lengths.len(),
             instructions: instructions.collect(),
         };
         plan.place_references(&homotopy.sketch);
@@ -69,7 +69,7 @@ impl Graph {
         order: &[usize],
         plan: Plan,
     ) -> Plan {
-        let length = |edge: usize| homotopy.lengths[edge].value(0.0);
+        let length = |edge: usize| self.lengths[edge];
         let product = |plan: &Plan| -> f64 {
             plan.removed()
                 .into_iter()

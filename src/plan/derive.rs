@@ -1,7 +1,7 @@
 //! Finding a plan with few driving parameters in the constraint graph.
 
 use super::Plan;
-use crate::system::Homotopy;
+use crate::system::{Edge, Homotopy};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 
@@ -18,7 +18,12 @@ impl Plan {
     /// it needs, those are used that are farthest from a boundary configuration in the sketch,
     /// and the reference points of driving parameters are placed to suit the sketch.
     pub fn derive(homotopy: &Homotopy) -> Plan {
-        let graph = Graph::new(homotopy);
+        Self::derive_for(homotopy, &homotopy.edges)
+    }
+
+    /// Likewise from other distances, where more equations than the problem's distances are of their form.
+    pub(crate) fn derive_for(homotopy: &Homotopy, edges: &[Edge]) -> Plan {
+        let graph = Graph::new(homotopy, edges);
         let order = graph.order();
         let plan = graph.plan(homotopy, &order);
         graph.with_shorter_arms(homotopy, &order, plan)
@@ -55,18 +60,29 @@ pub(super) struct Graph {
     /// For each point its neighbours and the distances to them.
     neighbours: Vec<Vec<(usize, usize)>>,
     reference: Vec<usize>,
+    /// The lengths of all distances in the sketch.
+    pub(super) lengths: Vec<f64>,
 }
 
 impl Graph {
-    fn new(homotopy: &Homotopy) -> Self {
+    fn new(homotopy: &Homotopy, edges: &[Edge]) -> Self {
         let mut neighbours = vec![Vec::new(); homotopy.points];
-        for (e, edge) in homotopy.edges.iter().enumerate() {
+        for (e, edge) in edges.iter().enumerate() {
             let [a, b] = edge.points;
             neighbours[a].push((b, e));
             neighbours[b].push((a, e));
         }
+        let in_sketch = |(e, edge): (usize, &Edge)| match homotopy.lengths.get(e) {
+            Some(length) => length.value(0.0),
+            None => {
+                let [a, b] = edge.points.map(|p| p * homotopy.dimension);
+                let of_axis = |k: usize| (homotopy.sketch[a + k] - homotopy.sketch[b + k]).powi(2);
+                (0..homotopy.dimension).map(of_axis).sum::<f64>().sqrt()
+            }
+        };
         Graph {
             dimension: homotopy.dimension,
+            lengths: edges.iter().enumerate().map(in_sketch).collect(),
             neighbours,
             reference: homotopy.gauge.reference.clone(),
         }

@@ -315,6 +315,15 @@ impl Homotopy {
             .filter(|&v| v < self.equations)
     }
 
+    /// The points of the equations that have half the square of a distance on the left: of the distances, and of the
+    /// constraints that come next to them and are of the same form.
+    pub fn half_squares(&self) -> impl Iterator<Item = Edge> + '_ {
+        let tail = self.tail.equations.iter();
+        let alike = tail.map_while(|equation| equation.ends(self.dimension));
+        let distances = self.edges.iter().copied();
+        distances.chain(alike.map(|points| Edge { points }))
+    }
+
     /// The terms of 2 q_e of any equation: the squares of a distance's differences, or what a
     /// constraint has.
     pub fn terms(&self, equation: usize) -> Vec<Term> {

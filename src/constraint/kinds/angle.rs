@@ -2,7 +2,8 @@
 //!
 //! The cosine `u·v / (|u| |v|)` is led linearly from that of the sketch to that of the angle. Where both
 //! lengths are dimensions of the problem it needs no unknowns: `u·v` is a polynomial in t. The angle at a
-//! point is that between the two legs. Lines and planes have two angles, which add up to 180 degrees: the
+//! point is that between the two legs; where the lengths of both are given, the distance between their other ends
+//! takes its place. Lines and planes have two angles, which add up to 180 degrees: the
 //! one meant is the one that the sketch comes nearer to.
 
 use super::prelude::*;
@@ -39,15 +40,12 @@ impl Kind for Angles {
             if a == c {
                 return Err("both legs are one and the same: name another point".to_owned());
             }
+            let target = Real::cosine_of_degrees(degrees);
+            if low.measure_opposite(of.name, [a, b, c], &target)? {
+                return Ok(());
+            }
             let (u, v) = (low.span(b, a)?, low.span(b, c)?);
-            return between(
-                of.name,
-                low,
-                &u,
-                &v,
-                Real::cosine_of_degrees(degrees),
-                false,
-            );
+            return between(of.name, low, &u, &v, target, false);
         }
         let (first, second) = directions(&mut of.items, low)?;
         let target = if first.1 == second.1 {

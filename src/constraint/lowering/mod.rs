@@ -220,14 +220,37 @@ impl<'a> Lowering<'a> {
             factor: 2 * p.factor,
             ..p
         });
-        self.tail.equations.push(Equation {
+        let equation = Equation {
             name,
             products: products.collect(),
             right,
             power,
-        });
-        self.vanishing.push(vanishing);
-        self.owners.push(self.owner);
+        };
+        self.insert(self.tail.equations.len(), equation, vanishing);
+    }
+
+    /// Puts an equation in its place among the others.
+    fn insert(&mut self, at: usize, equation: Equation, vanishing: bool) {
+        self.tail.equations.insert(at, equation);
+        self.vanishing.insert(at, vanishing);
+        self.owners.insert(at, self.owner);
+    }
+
+    /// The equation ½|a − b|² = right of two points, like that of a distance. It comes before all equations of
+    /// other forms, so that trackers find such equations next to the distances.
+    pub(super) fn equate_half_square(&mut self, name: &str, points: [usize; 2], right: Polynomial) {
+        let [a, b] = points.map(|point| self.place(point));
+        let span = self.between(&a, &b);
+        let equation = Equation {
+            name: name.to_owned(),
+            products: self.dot(1, &span.forms, &span.forms),
+            right,
+            power: 2,
+        };
+        let mut others = self.tail.equations.iter();
+        let at = others.position(|other| other.ends(self.dimension()).is_none());
+        let at = at.unwrap_or(self.tail.equations.len());
+        self.insert(at, equation, false);
     }
 
     /// The equation Σ products = right.
@@ -240,8 +263,14 @@ impl<'a> Lowering<'a> {
     /// sketch: led there linearly, or, where the sketch meets it, kept (see
     /// [`crate::problem::HomotopyChoices::detour`]).
     pub fn vanish(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
+        let right = self.way_to_zero(start);
+        self.push(name.to_owned(), products, right, power, true);
+    }
+
+    /// The way to zero of what is `start` in the sketch, see [`Lowering::vanish`].
+    pub(super) fn way_to_zero(&self, start: Real) -> Polynomial {
         let detour = self.problem.homotopy.detour.value();
-        let right = if !matches!(self.from, Start::Sketch) {
+        if !matches!(self.from, Start::Sketch) {
             vec![Real::zero()]
         } else if !start.is_zero() {
             let back = -&start;
@@ -251,8 +280,7 @@ impl<'a> Lowering<'a> {
         } else {
             let there = Real::from(detour.clone());
             vec![Real::zero(), there.clone(), -&there]
-        };
-        self.push(name.to_owned(), products, right, power, true);
+        }
     }
 
     /// The linear equation Σ products = 0 that has to hold at t = 1, where Σ products is `start` in the sketch:

@@ -1,9 +1,9 @@
 //! What constraints of several kinds say: a number is so much, two vectors are parallel, something stays where it is.
 
 use super::super::frame::{cross_in_plane, dot, length, minus, times};
-use super::super::polynomial::multiply;
+use super::super::polynomial::{add, multiply};
 use super::super::quadratic::{Entry, Form, MAX_DEGREE, Product, product, value};
-use super::{Arrow, Lowering, Parity};
+use super::{Arrow, Fault, Lowering, Parity};
 use crate::interval::Real;
 use num_rational::BigRational;
 
@@ -65,6 +65,38 @@ impl Lowering<'_> {
         let mut products = of.products;
         products.push(product(-1, value(factor), value(scale)));
         self.equate(name, products, vec![Real::zero()], power);
+    }
+
+    /// Says that the cosine of the angle at a point between two bars of given lengths is led linearly to `then`: by the
+    /// cosine rule, that the square of the distance between their other ends is what follows from it. The figures are
+    /// those of the bars' product at every t, and the equation is that of a distance. False: a length is not
+    /// given, and nothing was said.
+    pub fn measure_opposite(
+        &mut self,
+        name: &str,
+        [from, at, to]: [usize; 3],
+        then: &Real,
+    ) -> Result<bool, Fault> {
+        let arrows = [self.span(at, from)?, self.span(at, to)?];
+        let [Some(u), Some(v)] = arrows.each_ref().map(|arrow| arrow.known.clone()) else {
+            return Ok(false);
+        };
+        let now = Real::from(dot(&arrows[0].at, &arrows[1].at));
+        let product = if then.is_zero() && !self.is_editable() {
+            self.way_to_zero(now)
+        } else {
+            let [a, b] = arrows.each_ref().map(|arrow| length(&arrow.at));
+            let cosine = self.lead(&now / &(&a * &b), then.clone());
+            multiply(&multiply(&cosine, &u), &v)
+        };
+        let half = Real::from(BigRational::new(1.into(), 2.into()));
+        let squares = add(&multiply(&u, &u), &multiply(&v, &v));
+        let right = add(
+            &multiply(&[half], &squares),
+            &multiply(&[Real::whole(-1)], &product),
+        );
+        self.equate_half_square(name, [from, to], right);
+        Ok(true)
     }
 
     /// Says that an unknown stays what it is in the sketch.

@@ -74,8 +74,8 @@ impl<const D: usize> Equations<D> {
             free => free,
         };
         let ends: [Vec<[u32; 2]>; D] = std::array::from_fn(|axis| {
-            let edges = homotopy.edges.iter();
-            edges
+            homotopy
+                .half_squares()
                 .map(|edge| edge.points.map(|p| entry(p, axis) as u32))
                 .collect()
         });
@@ -412,7 +412,9 @@ impl<const D: usize> Equations<D> {
     /// What an equation has beyond degree 2 in t.
     #[inline(always)]
     fn bend_of(&self, equation: usize) -> Option<&Bend> {
-        self.bends.iter().find(|bend| bend.edge == equation)
+        // They are in order.
+        let found = self.bends.binary_search_by_key(&equation, |bend| bend.edge);
+        found.ok().map(|b| &self.bends[b])
     }
 
     /// An inverter for the Jacobian with its last row, and room for that matrix's values.

@@ -169,17 +169,27 @@ impl<const D: usize> KrawczykTest<D> {
             low,
             ..
         } = &mut self.bounds;
-        let size = |form: usize, k: usize| local.d[k].forms[form].abs() * hs[k];
+        let lanes = local.d[0].forms.lanes().len();
+        let forms: [_; ORDER + 1] = std::array::from_fn(|k| &local.d[k].forms.lanes()[..lanes]);
         let (near, far) = (&mut self.near.forms, &mut self.far.forms);
-        near.set(tail, |form| size(form, 0) + size(form, 1) + size(form, 2));
-        far.set(tail, |form| (3..=ORDER).map(|k| size(form, k)).sum());
+        near.set_lanes(tail, |lane| {
+            let size = |k: usize, i: usize| forms[k][lane][i].abs() * hs[k];
+            std::array::from_fn(|i| size(0, i) + size(1, i) + size(2, i))
+        });
+        far.set_lanes(tail, |lane| {
+            let size = |k: usize, i: usize| forms[k][lane][i].abs() * hs[k];
+            std::array::from_fn(|i| (3..=ORDER).fold(0.0, |sum: f64, k| sum + size(k, i)))
+        });
         let sums = &self.sums.forms;
         // |J_k| u and |J'(w)| u: either factor changes while the other is there.
         tail.add_products_abs(per_entry, near, sums, rounding);
         tail.add_products_abs(1.0, far, sums, higher);
         tail.add_products_abs(1.0, sums, sums, width);
         let coefficients = &mut self.tail_sizes;
-        coefficients.set(tail, |form| near[form] + far[form]);
+        let (near, far) = (near.lanes(), far.lanes());
+        coefficients.set_lanes(tail, |lane| {
+            std::array::from_fn(|i| near[lane][i] + far[lane][i])
+        });
         tail.add_squares_abs(2.0 * per_term, coefficients, low);
     }
 

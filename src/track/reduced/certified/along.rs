@@ -56,8 +56,8 @@ pub struct Along<const D: usize> {
     pub curvature: Vector,
     /// Sizes over the tube for the tail's equations, those that are no distances.
     pub tail: TailSizes,
-    /// What the bend's E' adds above s^SIGNED.
-    bend_tails: Vec<f64>,
+    /// By equation what orders above s^SIGNED add to E'.
+    pub slope_tails: Vector,
     coefficient: Vector,
 }
 
@@ -82,7 +82,7 @@ impl<const D: usize> Along<D> {
             slope_radius: equations.per_edge(),
             curvature: equations.per_edge(),
             tail: TailSizes::new(equations),
-            bend_tails: vec![0.0; equations.bends.len()],
+            slope_tails: equations.per_edge(),
             coefficient: equations.per_edge(),
         }
     }
@@ -204,10 +204,9 @@ impl<const D: usize> Along<D> {
                 slope[i] += rounding * turned + radii[l][i] * self.time.speed;
             }
         }
-        for e in equations.tail.first()..equations.m {
-            let (at_0, beyond, turned) = self.tail.terms(equations, e);
-            self.low[e] += at_point * at_0 + rounding * beyond;
-            self.low_slope[e] += rounding * turned;
+        if !equations.tail.is_empty() {
+            let into = (&mut self.low, &mut self.low_slope);
+            self.tail.add_terms(equations, (at_point, rounding), into);
         }
         // Up to t² the bend's coefficients are among the others.
         let beyond = |c: [f64; 5], t: f64| t * t * t * (c[3] + t * c[4]);
@@ -221,8 +220,11 @@ impl<const D: usize> Along<D> {
     fn measure_time(&mut self, equations: &Equations<D>, local: &Locals<D>) {
         let hs = &self.powers;
         self.time = Time::new(std::array::from_fn(|k| local.z[k][equations.m]), hs);
-        for (b, tail) in self.bend_tails.iter_mut().enumerate() {
-            *tail = (SIGNED + 1..=(MAX_DEGREE - 1) * ORDER)
+        let tail = self.time.tail;
+        let tails = self.slope_tails.iter_mut().zip(equations.e[2].iter());
+        tails.for_each(|(out, e2)| *out = 2.0 * e2.abs() * tail);
+        for (b, bend) in equations.bends.iter().enumerate() {
+            self.slope_tails[bend.edge] = (SIGNED + 1..=(MAX_DEGREE - 1) * ORDER)
                 .map(|k| local.bend_slope(b, k).abs() * hs[k])
                 .sum();
         }
@@ -246,14 +248,6 @@ impl<const D: usize> Along<D> {
             self.slope_size[bend.edge] = size;
             self.slope_radius[bend.edge] = radius;
             self.curvature[bend.edge] = second(bend.e.map(f64::abs)) + second(bend.e_radius);
-        }
-    }
-
-    /// What orders above s^SIGNED add to the slope of a length's half square.
-    pub fn slope_tail(&self, equations: &Equations<D>, e: usize) -> f64 {
-        match equations.bends.iter().position(|bend| bend.edge == e) {
-            Some(b) => self.bend_tails[b],
-            None => 2.0 * equations.e[2][e].abs() * self.time.tail,
         }
     }
 

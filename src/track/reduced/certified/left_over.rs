@@ -39,7 +39,7 @@ pub fn of_z<const D: usize, const W: usize>(
         }
     }
     let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
-    for e in 0..equations.m {
+    for e in 0..equations.tail.first() {
         let mut tails = [0.0; SERIES + 1];
         for axis in 0..D {
             let [i, j] = equations.ends[axis][e];

@@ -116,7 +116,9 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
             for r in 0..size {
-                self.make_row(equations, block, r, d, h);
+                if (block.rows[r] as usize) < tail.first() {
+                    self.make_row(equations, block, r, d, h);
+                }
             }
             if block.has_tail(tail.first()) {
                 self.make_tail_rows(equations, block, entries, h);
@@ -194,8 +196,20 @@ impl<const D: usize> Resolvent<D> {
                 let &(from, to) = self.rows.get(position as usize)?;
                 Some((&self.x[from..to], entries.map(|entries| entries[entry])))
             });
-            let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
-            sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+            // Room for all but very long rows.
+            let mut room: [(&[Lane], [f64; 2]); 24] = [(&[], [0.0; 2]); 24];
+            let count = tail.row(e).len();
+            if count <= room.len() {
+                let count = room
+                    .iter_mut()
+                    .zip(terms)
+                    .map(|(room, term)| *room = term)
+                    .count();
+                sum_row(&mut self.n[at..end], &room[..count], block.start + r, h);
+            } else {
+                let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
+                sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+            }
         }
     }
 
@@ -247,12 +261,12 @@ impl<const D: usize> Resolvent<D> {
     ) -> [Lane; 3] {
         let tail = &equations.tail;
         for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
-            for entry in tail.row(e as usize) {
-                let from = self.position[tail.unknown(entry)] as usize;
+            for (unknown, spread) in tail.row_with(e as usize, &self.spread_of_tail) {
+                let from = self.position[unknown] as usize;
                 // Neither key nor of this block.
                 if from < block.start {
                     for i in 0..LANE {
-                        rest[i] = v[from][i].mul_add(self.spread_of_tail[entry], rest[i]);
+                        rest[i] = v[from][i].mul_add(spread, rest[i]);
                     }
                 }
             }
@@ -368,14 +382,14 @@ fn subtract_tails<const D: usize>(
     let tail = &equations.tail;
     let lanes = n.len() / block.size;
     for (n, &e) in n.chunks_exact_mut(lanes).zip(&block.rows) {
-        for entry in tail.row(e as usize) {
-            let row = position[tail.unknown(entry)] as usize;
+        for (unknown, entry) in tail.row_with(e as usize, entries) {
+            let row = position[unknown] as usize;
             // Neither key nor of this block.
             if row < block.start {
                 let (from, to) = rows[row];
                 for (sum, x) in n.iter_mut().zip(&before[from..to]) {
                     for i in 0..LANE {
-                        sum[i] = x[i].mul_add(-entries[entry], sum[i]);
+                        sum[i] = x[i].mul_add(-entry, sum[i]);
                     }
                 }
             }

@@ -146,11 +146,11 @@ impl<const D: usize> ReducedTest<D> {
         let omega = &self.shape.omega[..];
         let first = equations.tail.first();
         if first < equations.m {
-            along.tail.set_sums(equations, omega);
+            along.tail.measure_in_box(equations, omega);
         }
         let along = &*along;
         for e in 0..equations.m {
-            let (mut cubic, mut width) = (along.slope_tail(equations, e) * omega[t], 0.0);
+            let (mut cubic, mut width) = (along.slope_tails[e] * omega[t], 0.0);
             for axis in 0..D {
                 let ends = equations.ends[axis][e];
                 cubic += along.from5[axis][e] * both(moved0, ends)
@@ -168,7 +168,7 @@ impl<const D: usize> ReducedTest<D> {
             let times = |entries, moved| along.tail.times(equations, e, entries, moved);
             sides.g[e][first::CUBIC] +=
                 times(from5, moved0) + times(from4, moved1) + times(from3, moved2);
-            sides.g[e][first::WIDTH] += along.tail.width(equations, e);
+            sides.g[e][first::WIDTH] += along.tail.width[e];
         }
         sides.g[t] = [0.0; LANE];
         sides.gather(y);
@@ -250,7 +250,7 @@ impl<const D: usize> ReducedTest<D> {
         let ut = omega[m];
         let first = equations.tail.first();
         if first < m {
-            along.tail.set_sums(equations, omega);
+            along.tail.measure_in_box(equations, omega);
         }
         let along = &*along;
         for e in 0..m {
@@ -274,8 +274,8 @@ impl<const D: usize> ReducedTest<D> {
             let [all, ..] = &along.tail.entries;
             sides.g[e][second::CONSTANT] +=
                 place.per_entry * along.tail.times(equations, e, all, omega);
-            sides.g[e][second::WIDTH] += along.tail.width(equations, e);
-            sides.g[e][second::TURN] += along.tail.turn(equations, e);
+            sides.g[e][second::WIDTH] += along.tail.width[e];
+            sides.g[e][second::TURN] += along.tail.turn[e];
         }
         sides.g[m] = [
             place.per_entry * sum_of_sizes(&local.normal[..n], omega),

@@ -3,7 +3,8 @@
 use super::frame::Locals;
 use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
-use crate::track::full::Equations;
+use crate::linalg::{LANE, Vector};
+use crate::track::full::{Equations, Forms};
 
 /// Sizes over a tube of a length that was chosen last; nothing where there are distances only.
 #[derive(Debug)]
@@ -11,22 +12,28 @@ pub struct TailSizes {
     /// By entry of the tail's rows of the Jacobian, J_k being the coefficient of sᵏ: the terms that entries are
     /// sums of, Σ_k hᵏ, without regard to signs; then bounds on Σ_{k≥j} |J_k| hᵏ for j = 2, 3, 4, 5.
     pub entries: [Vec<f64>; 5],
+    /// By equation a bound on (J(ẑ + w) − J(ẑ)) w' for |w|, |w'| ≤ ω, as either factor of a product changes while
+    /// the other is there; and one on (J(ẑ + w) − J(ẑ)) ẑ'.
+    pub width: Vector,
+    pub turn: Vector,
     /// By form, f_k being its coefficient of sᵏ: |f₀|, Σ_{k≥1} |f_k| hᵏ, the sum of these, and Σ k |f_k| hᵏ⁻¹.
-    at_0: Vec<f64>,
-    from1: Vec<f64>,
-    all: Vec<f64>,
-    slopes: Vec<f64>,
+    at_0: Forms,
+    from1: Forms,
+    all: Forms,
+    slopes: Forms,
     /// By form: the sum of the sizes of the unknowns it is the difference of.
-    sums: Vec<f64>,
+    sums: Forms,
 }
 
 impl TailSizes {
     /// Room for them.
     pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
         let tail = &equations.tail;
-        let forms = || vec![0.0; tail.forms()];
+        let forms = || Forms::new(tail);
         TailSizes {
             entries: std::array::from_fn(|_| vec![0.0; tail.entries()]),
+            width: equations.per_edge(),
+            turn: equations.per_edge(),
             at_0: forms(),
             from1: forms(),
             all: forms(),
@@ -35,7 +42,7 @@ impl TailSizes {
         }
     }
 
-    /// Measures all but `sums`, from the tube's forms and the `values` of entries order by order.
+    /// Measures what does not depend on ω, from the tube's forms and the `values` of entries order by order.
     pub fn measure<const D: usize>(
         &mut self,
         equations: &Equations<D>,
@@ -44,26 +51,47 @@ impl TailSizes {
         hs: &[f64; DEGREE + 1],
     ) {
         let tail = &equations.tail;
-        for form in 0..tail.forms() {
-            let size = |k: usize| local.d[k].forms[form].abs();
-            self.at_0[form] = size(0);
-            self.from1[form] = (1..=ORDER).rev().map(|k| size(k) * hs[k]).sum();
-            self.all[form] = self.at_0[form] + self.from1[form];
-            let slope = |k: usize| k as f64 * size(k) * hs[k - 1];
-            self.slopes[form] = (1..=ORDER).rev().map(slope).sum();
-        }
+        let lanes = local.d[0].forms.lanes().len();
+        let forms: [_; COEFFICIENTS] = std::array::from_fn(|k| &local.d[k].forms.lanes()[..lanes]);
+        // Σ f_k w_k from k = 1 on, without signs.
+        let weighed = |lane: usize, weights: &[f64; COEFFICIENTS]| -> [f64; LANE] {
+            let mut sum = [0.0; LANE];
+            for k in (1..=ORDER).rev() {
+                for i in 0..LANE {
+                    sum[i] = forms[k][lane][i].abs().mul_add(weights[k], sum[i]);
+                }
+            }
+            sum
+        };
+        let powers = std::array::from_fn(|k| hs[k]);
+        let rates = std::array::from_fn(|k| k as f64 * hs[k.saturating_sub(1)]);
+        self.at_0
+            .set_lanes(tail, |lane| forms[0][lane].map(f64::abs));
+        self.from1.set_lanes(tail, |lane| weighed(lane, &powers));
+        let (at_0, from1) = (self.at_0.lanes(), self.from1.lanes());
+        self.all.set_lanes(tail, |lane| {
+            std::array::from_fn(|i| at_0[lane][i] + from1[lane][i])
+        });
+        self.slopes.set_lanes(tail, |lane| weighed(lane, &rates));
         let [all, from2, from3, from4, from5] = &mut self.entries;
         tail.row_sizes(&self.all, all);
         // An entry is a sum of terms with signs: the computed one is off by γ times these at most, one
         // rounding for the form, one for the product, and one for each part.
         let hidden = gamma(equations.roundings_of_row(2 * COEFFICIENTS));
-        for entry in 0..tail.entries() {
+        let count = all.len();
+        let values = values.each_ref().map(|values| &values[..count]);
+        let [from2, from3, from4, from5] =
+            [from2, from3, from4, from5].map(|bounds| &mut bounds[..count]);
+        for entry in 0..count {
             let size = |k: usize| values[k][entry].abs() * hs[k];
-            let five = (5..=ORDER).rev().map(size).sum::<f64>() + hidden * all[entry];
+            let five = (5..=ORDER).rev().fold(0.0, |sum: f64, k| sum + size(k));
+            let five = five + hidden * all[entry];
+            let four = five + size(4);
+            let three = four + size(3);
             from5[entry] = five;
-            from4[entry] = five + size(4);
-            from3[entry] = five + size(4) + size(3);
-            from2[entry] = five + size(4) + size(3) + size(2);
+            from4[entry] = four;
+            from3[entry] = three;
+            from2[entry] = three + size(2);
         }
     }
 
@@ -75,39 +103,35 @@ impl TailSizes {
         entries: &[f64],
         u: &[f64],
     ) -> f64 {
+        let row = equations.tail.row_with(e, entries);
+        row.fold(0.0, |sum: f64, (unknown, entry)| {
+            entry.mul_add(u[unknown], sum)
+        })
+    }
+
+    /// Measures what depends on the sizes ω of unknowns.
+    pub fn measure_in_box<const D: usize>(&mut self, equations: &Equations<D>, omega: &[f64]) {
         let tail = &equations.tail;
-        let row = tail.row(e);
-        row.map(|entry| entries[entry] * u[tail.unknown(entry)])
-            .sum()
+        tail.sums(omega, &mut self.sums);
+        self.width.fill(0.0);
+        tail.add_squares_abs(2.0, &self.sums, &mut self.width);
+        self.turn.fill(0.0);
+        tail.add_products_abs(1.0, &self.sums, &self.slopes, &mut self.turn);
     }
 
-    /// Takes the sizes of unknowns.
-    pub fn set_sums<const D: usize>(&mut self, equations: &Equations<D>, omega: &[f64]) {
-        for (form, sum) in self.sums.iter_mut().enumerate() {
-            *sum = equations.tail.sum_of(form, omega);
-        }
-    }
-
-    /// A bound on (J(ẑ + w) − J(ẑ)) w' for |w|, |w'| ≤ ω, as either factor of a product changes while the other
-    /// is there.
-    pub fn width<const D: usize>(&self, equations: &Equations<D>, e: usize) -> f64 {
-        2.0 * equations.tail.half_products_abs(e, &self.sums, &self.sums)
-    }
-
-    /// A bound on (J(ẑ + w) − J(ẑ)) ẑ'.
-    pub fn turn<const D: usize>(&self, equations: &Equations<D>, e: usize) -> f64 {
-        let both = |x, y| equations.tail.half_products_abs(e, x, y);
-        both(&self.sums, &self.slopes) + both(&self.slopes, &self.sums)
-    }
-
-    /// Of one equation's products along ẑ, the terms without regard to signs: at s = 0; what those of higher
-    /// orders add; and their derivative by s. They are twice as much, as in `along.rs`.
-    pub fn terms<const D: usize>(&self, equations: &Equations<D>, e: usize) -> (f64, f64, f64) {
-        let both = |x, y| 2.0 * equations.tail.half_products_abs(e, x, y);
-        (
-            both(&self.at_0, &self.at_0),
-            both(&self.from1, &self.all) + both(&self.at_0, &self.from1),
-            both(&self.slopes, &self.all) + both(&self.all, &self.slopes),
-        )
+    /// Adds bounds on the products along ẑ, the terms without regard to signs: `at_point` times those at s = 0 and
+    /// `rounding` times what higher orders add to `low`, and `rounding` times their derivative by s to `slope`.
+    /// They are twice as much, as in `along.rs`.
+    pub fn add_terms<const D: usize>(
+        &self,
+        equations: &Equations<D>,
+        (at_point, rounding): (f64, f64),
+        (low, slope): (&mut Vector, &mut Vector),
+    ) {
+        let tail = &equations.tail;
+        tail.add_squares_abs(2.0 * at_point, &self.at_0, low);
+        // Of either factor the higher orders, times all of the other: no less than what they add to the product.
+        tail.add_products_abs(2.0 * rounding, &self.from1, &self.all, low);
+        tail.add_products_abs(2.0 * rounding, &self.slopes, &self.all, slope);
     }
 }

@@ -3,7 +3,7 @@
 use super::sequence::groups_in_order;
 use crate::linalg::rstructure::rows::MAX_KEYS;
 use crate::plan::Plan;
-use crate::system::Homotopy;
+use crate::system::{Edge, Homotopy};
 use crate::track::full::{Differences, Equations};
 
 /// The points in the order of a construction plan, each with its coordinates and the distances to
@@ -133,14 +133,15 @@ impl<const D: usize> Order<D> {
     }
 
     fn of_plan(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
-        let plan = Plan::derive(homotopy);
+        let edges: Vec<Edge> = homotopy.half_squares().collect();
+        let plan = Plan::derive_for(homotopy, &edges);
         let constructed: Vec<usize> = plan.instructions.iter().map(|i| i.point).collect();
         let mut rank = vec![0; homotopy.points];
         for (at, &point) in constructed.iter().enumerate() {
             rank[point] = at + 1;
         }
         let mut distances = vec![Vec::new(); homotopy.points];
-        for (edge, distance) in homotopy.edges.iter().enumerate() {
+        for (edge, distance) in edges.iter().enumerate() {
             let [i, j] = distance.points;
             let (later, sign) = if rank[i] > rank[j] {
                 (i, 1.0)

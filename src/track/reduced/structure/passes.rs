@@ -7,7 +7,7 @@
 //! other equations, whose differences are zero; one comparison per row tells them apart.
 
 use super::layout::{Block, Layout};
-use crate::linalg::rstructure::rows::{Row, add};
+use crate::linalg::rstructure::rows::{Row, add, zeros};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Tail;
 
@@ -46,28 +46,28 @@ impl<const D: usize> Derivative<'_, D> {
 
     /// Row e of J K for any equation.
     pub fn any_row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
-        let mut sum = self.row(e, k);
-        if e >= self.tail.first() {
-            self.add_tail(e, k, &mut sum);
+        match e < self.tail.first() {
+            true => self.row(e, k),
+            false => self.tail_row(e, k, zeros()),
         }
-        sum
     }
 
-    /// Adds the tail's entries in a row of J, times K.
-    #[cold]
-    #[inline(never)]
-    fn add_tail<const W: usize>(&self, e: usize, k: &[Row<W>], sum: &mut Row<W>) {
-        for entry in self.tail.row(e) {
-            add(sum, self.entries[entry], &k[self.tail.unknown(entry)]);
+    /// The row of J K of one of the tail's equations, added to `sum`.
+    #[inline(always)]
+    fn tail_row<const W: usize>(&self, e: usize, k: &[Row<W>], mut sum: Row<W>) -> Row<W> {
+        for (unknown, entry) in self.tail.row_with(e, self.entries) {
+            add(&mut sum, entry, &k[unknown]);
         }
+        add(&mut sum, -self.slope[e], &k[self.t]);
+        sum
     }
 
     /// Adds the tail's entries in a row of J, times a row, to the rows of their unknowns.
     #[cold]
     #[inline(never)]
     fn add_tail_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
-        for entry in self.tail.row(e) {
-            add(&mut out[self.tail.unknown(entry)], self.entries[entry], z);
+        for (unknown, entry) in self.tail.row_with(e, self.entries) {
+            add(&mut out[unknown], entry, z);
         }
     }
 
@@ -77,17 +77,13 @@ impl<const D: usize> Derivative<'_, D> {
         block.has_tail(self.tail.first())
     }
 
-    /// A block's rows of J K with the tail's entries. (By value, lest they live in memory where there are none.)
+    /// The rows of J K of a block with rows of the tail.
     #[cold]
     #[inline(never)]
-    fn with_tails<const W: usize>(
-        &self,
-        block: &Block,
-        k: &[Row<W>],
-        mut sums: [Row<W>; 3],
-    ) -> [Row<W>; 3] {
+    fn rows_with_tails<const W: usize>(&self, block: &Block, k: &[Row<W>]) -> [Row<W>; 3] {
+        let mut sums = [zeros(); 3];
         for (sum, &e) in sums.iter_mut().zip(&block.rows[..block.size]) {
-            self.add_tail(e as usize, k, sum);
+            *sum = self.any_row(e as usize, k);
         }
         sums
     }
@@ -97,8 +93,8 @@ impl<const D: usize> Derivative<'_, D> {
     #[inline(never)]
     fn without_tails(&self, block: &Block, x: &[f64], mut rest: [f64; 3]) -> [f64; 3] {
         for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
-            for entry in self.tail.row(e as usize) {
-                *rest -= self.entries[entry] * x[self.tail.unknown(entry)];
+            for (unknown, entry) in self.tail.row_with(e as usize, self.entries) {
+                *rest -= entry * x[unknown];
             }
         }
         rest
@@ -122,13 +118,13 @@ impl<const D: usize> Derivative<'_, D> {
 
     /// `out += J K`.
     pub fn times<const W: usize>(&self, k: &[Row<W>], out: &mut [Row<W>]) {
-        let m = self.slope.len();
+        let (m, first) = (self.slope.len(), self.tail.first());
         let (ends, d) = (
-            self.ends.each_ref().map(|ends| &ends[..m]),
-            self.d.map(|d| &d[..m]),
+            self.ends.each_ref().map(|ends| &ends[..first]),
+            self.d.map(|d| &d[..first]),
         );
         let last = k[self.t];
-        for ((e, out), slope) in out[..m].iter_mut().enumerate().zip(self.slope) {
+        for ((e, out), slope) in out[..first].iter_mut().enumerate().zip(self.slope) {
             let mut sum = *out;
             for axis in 0..D {
                 let [i, j] = ends[axis][e];
@@ -142,21 +138,22 @@ impl<const D: usize> Derivative<'_, D> {
             add(&mut sum, -slope, &last);
             *out = sum;
         }
-        for e in self.tail.first()..m {
-            self.add_tail(e, k, &mut out[e]);
+        for e in first..m {
+            out[e] = self.tail_row(e, k, out[e]);
         }
     }
 
     /// `out += Zᵀ J`, without t: rows per equation times J, one row per unknown.
     pub fn times_left<const W: usize>(&self, z: &[Row<W>], out: &mut [Row<W>]) {
+        let first = self.tail.first();
         for axis in 0..D {
-            for ((ends, d), z) in self.ends[axis].iter().zip(self.d[axis]).zip(z) {
+            for ((ends, d), z) in self.ends[axis][..first].iter().zip(self.d[axis]).zip(z) {
                 let [i, j] = ends.map(|end| end as usize);
                 add(&mut out[i], *d, z);
                 add(&mut out[j], -*d, z);
             }
         }
-        for e in self.tail.first()..z.len() {
+        for e in first..z.len() {
             self.add_tail_left(e, &z[e], out);
         }
     }
@@ -207,13 +204,17 @@ impl<const D: usize> Derivative<'_, D> {
     ) {
         for (block, inverse) in layout.blocks.iter().zip(inverses) {
             let mut sums = [[[0.0; LANE]; W]; 3];
-            for r in 0..block.size {
-                let e = block.rows[r] as usize;
-                sums[r] = self.row(e, k);
-                known(e, &mut sums[r]);
-            }
             if self.has_tail(block) {
-                sums = self.with_tails(block, k, sums);
+                sums = self.rows_with_tails(block, k);
+                for r in 0..block.size {
+                    known(block.rows[r] as usize, &mut sums[r]);
+                }
+            } else {
+                for r in 0..block.size {
+                    let e = block.rows[r] as usize;
+                    sums[r] = self.row(e, k);
+                    known(e, &mut sums[r]);
+                }
             }
             for c in 0..block.size {
                 let row = &mut k[block.unknowns[c] as usize];
@@ -300,9 +301,8 @@ impl<const D: usize> Derivative<'_, D> {
     #[cold]
     #[inline(never)]
     fn tail_row_of(&self, e: usize, x: &[f64]) -> f64 {
-        let tail = self.tail.row(e);
-        let terms = tail.map(|entry| self.entries[entry] * x[self.tail.unknown(entry)]);
-        terms.sum()
+        let row = self.tail.row_with(e, self.entries);
+        row.map(|(unknown, entry)| entry * x[unknown]).sum()
     }
 }
 
