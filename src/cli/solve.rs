@@ -290,11 +290,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 lines += &(value.to_string() + "\n");
             }
             if !silent {
-                let gap = if k == 0 || arguments.summary {
-                    ""
-                } else {
-                    "\n"
-                };
+                let gap = arguments.gap_before(k);
                 written &= output::print(&format!("{gap}{text}"));
             }
             worst = worse(worst, code);
@@ -348,11 +344,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                     written &= pictures.write(&page);
                 }
                 if !silent {
-                    let gap = if k == 0 || arguments.summary {
-                        ""
-                    } else {
-                        "\n"
-                    };
+                    let gap = arguments.gap_before(k);
                     written &= output::print(&format!("{gap}{text}"));
                 }
                 worst = worse(worst, code);
@@ -380,11 +372,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                     written &= pictures.write(&page.map_err(|error| error.to_string())?);
                 }
                 if !silent {
-                    let gap = if k == 0 || arguments.summary {
-                        ""
-                    } else {
-                        "\n"
-                    };
+                    let gap = arguments.gap_before(k);
                     let hints = hints(problem, &outcome, &input::name(file));
                     written &=
                         output::print(&format!("{gap}{}{hints}", arguments.shown_blocks(&all)));
@@ -430,11 +418,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             written &= pictures.write(&page);
         }
         if !silent {
-            let gap = if k == 0 || arguments.summary {
-                ""
-            } else {
-                "\n"
-            };
+            let gap = arguments.gap_before(k);
             let text = match (first, arguments.first) {
                 (Some(text), _) => text,
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
@@ -525,6 +509,14 @@ fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
 }
 
 impl Arguments {
+    /// What stands between the result before and this one, if there is one before.
+    fn gap_before(&self, k: usize) -> &'static str {
+        match k == 0 || self.summary {
+            true => "",
+            false => "\n",
+        }
+    }
+
     /// Whether a problem that stops may be followed block by block.
     fn can_be_cut(&self, cancel: &AtomicBool) -> bool {
         self.mode == Mode::Certified && !self.first && !cancel.load(Ordering::Relaxed)

@@ -122,6 +122,20 @@ pub struct Nonzero {
     pub forms: [Form; 3],
 }
 
+impl Nonzero {
+    /// The unknowns in its coordinates, of which it has so many.
+    pub fn unknowns(&self, dimension: usize) -> impl Iterator<Item = usize> + '_ {
+        let entries = self.forms[..dimension].iter().flat_map(|form| match *form {
+            Form::One => [Entry::Zero; 2],
+            Form::Difference(a, b) => [a, b],
+        });
+        entries.filter_map(|entry| match entry {
+            Entry::Unknown(u) => Some(u),
+            _ => None,
+        })
+    }
+}
+
 /// All unknowns and equations beyond coordinates of points and distances. There are as many unknowns
 /// and equations in all as the problem has free coordinates and distances, and these.
 #[derive(Debug, Clone, PartialEq)]

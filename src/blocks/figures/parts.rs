@@ -52,9 +52,10 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
     let rows: Vec<usize> = rows
         .map(|&row| join(&mut parent, &blocks_of(&cut.system.rows[row].unknowns)))
         .collect();
-    let vectors = 0..cut.system.nonzero.len();
+    let vectors = cut.system.nonzero.iter();
+    let vectors = vectors.map(|v| v.unknowns(cut.problem.dimension).collect::<Vec<_>>());
     let vectors: Vec<usize> = vectors
-        .map(|v| join(&mut parent, &blocks_of(&unknowns_of_vector(cut, v))))
+        .map(|unknowns| join(&mut parent, &blocks_of(&unknowns)))
         .collect();
     let mut parts: Vec<(usize, Part)> = Vec::new();
     let mut part_of = |b: usize| -> usize {
@@ -88,20 +89,6 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
         parts[part].1.vectors.push(v);
     }
     parts.into_iter().map(|(_, part)| part).collect()
-}
-
-fn unknowns_of_vector(cut: &Cut, vector: usize) -> Vec<usize> {
-    let forms = cut.system.nonzero[vector].forms[..cut.problem.dimension].iter();
-    let entries = forms.flat_map(|form| match *form {
-        Form::One => [Entry::Zero; 2],
-        Form::Difference(a, b) => [a, b],
-    });
-    entries
-        .filter_map(|entry| match entry {
-            Entry::Unknown(u) => Some(u),
-            _ => None,
-        })
-        .collect()
 }
 
 fn side(form: Form, values: &[Option<Number>]) -> Number {

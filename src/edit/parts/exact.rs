@@ -81,21 +81,6 @@ impl Parts {
         }
     }
 
-    /// The unknowns in a vector.
-    pub(super) fn unknowns_of_vector(&self, vector: &Nonzero) -> Vec<usize> {
-        let entries = vector.forms[..self.problem.dimension].iter();
-        let entries = entries.flat_map(|form| match *form {
-            Form::One => [Entry::Zero; 2],
-            Form::Difference(a, b) => [a, b],
-        });
-        entries
-            .filter_map(|entry| match entry {
-                Entry::Unknown(u) => Some(u),
-                _ => None,
-            })
-            .collect()
-    }
-
     /// The coordinates of a vector, from enclosures of unknowns.
     fn coordinates_of(&self, vector: &Nonzero, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
         let value = |entry: Entry| match entry {
@@ -132,7 +117,7 @@ impl Parts {
         let paths = self.paths(exact);
         let mut vectors = self.system.nonzero.iter();
         let vector = vectors.find(|vector| {
-            let of = self.unknowns_of_vector(vector);
+            let of: Vec<usize> = vector.unknowns(self.problem.dimension).collect();
             let is_exact = |u: &usize| self.is_exact[self.blocks.of_unknown[*u]];
             if !of.iter().all(is_exact) || !of.iter().any(|u| exact.contains_key(u)) {
                 return false;

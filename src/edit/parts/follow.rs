@@ -234,8 +234,8 @@ impl Parts {
             places.all(|place| coordinates[place].is_some())
         };
         let nonzero = self.system.nonzero.iter().filter(|vector| {
-            let of = self.unknowns_of_vector(vector);
-            of.iter().all(|u| local.contains_key(u))
+            let mut of = vector.unknowns(d);
+            of.all(|u| local.contains_key(&u))
         });
         let nonzero = nonzero.map(|vector| Nonzero {
             name: vector.name.clone(),

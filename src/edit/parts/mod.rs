@@ -253,7 +253,7 @@ impl Parts {
             places.map(|place| self.system.coordinates[place]).collect()
         });
         let vectors = self.system.nonzero.iter();
-        let vectors = vectors.map(|vector| self.unknowns_of_vector(vector));
+        let vectors = vectors.map(|vector| vector.unknowns(d).collect());
         senses.chain(vectors).map(blocks).collect()
     }
 
