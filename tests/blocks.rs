@@ -494,6 +494,10 @@ fn pages_draw_the_figures_of_blocks() {
         "{text}"
     );
     assert!(text.contains("\nFigure 4"), "{text}");
+    assert!(
+        text.contains("The path of the whole, as far as it was followed:\n\nSlot: Stopped"),
+        "{text}"
+    );
     let backwards = ["solve", "problems/sketches/bracket.slvs", "--reverse"];
     let (_, text) = krawl(&backwards, "");
     assert!(
