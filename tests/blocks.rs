@@ -233,6 +233,49 @@ fn a_chain_of_intersections_has_all_its_figures() {
         partial = next;
     }
     assert_eq!(count as usize, partial.len());
+    // The senses are those of the triangles in floats, far from flat.
+    let senses = figures.senses().unwrap();
+    let area = |at: &dyn Fn(usize) -> [f64; 2], set: &[usize]| {
+        let [a, b, c] = [0, 1, 2].map(|k| at(set[k]));
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    let sketch = |p: usize| [0, 1].map(|k| problem.points[p].sketch[k].to_f64());
+    let mut kept = Vec::new();
+    for number in 0..count {
+        let (points, _) = figures.figure(number);
+        let now = |p: usize| [0, 1].map(|k| points[p][k].mid());
+        let compared = figures.compared(number);
+        assert!(compared.len() >= places.len() - 2);
+        for (sense, compared) in senses.iter().zip(&compared) {
+            let index = |name: &str| names.iter().position(|n| *n == name).unwrap();
+            let set: Vec<usize> = sense.name.split(", ").map(index).collect();
+            let product = area(&sketch, &set) * area(&now, &set);
+            let expected = match product > 0.0 {
+                true => krawl::blocks::Comparison::Same,
+                false => krawl::blocks::Comparison::Other,
+            };
+            assert!(product.abs() > 1e-6);
+            assert_eq!(*compared, expected, "{}", sense.name);
+        }
+        if compared
+            .iter()
+            .all(|c| *c == krawl::blocks::Comparison::Same)
+        {
+            let off = (0..places.len()).map(|p| {
+                let (a, b) = (sketch(p), now(p));
+                (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)
+            });
+            kept.push((off.sum::<f64>(), number));
+        }
+    }
+    let with = figures.with_senses().unwrap();
+    assert_eq!((with.proved as usize, with.undecided), (kept.len(), 0));
+    kept.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let first = krawl::blocks::First::Figure {
+        number: kept[0].1,
+        is_nearest: true,
+    };
+    assert_eq!(figures.first(), first);
     // The first is the one that is drawn.
     let (points, _) = figures.figure(0);
     for (point, at) in points.iter().zip(places) {
@@ -451,6 +494,10 @@ fn pages_draw_the_figures_of_blocks() {
         "{text}"
     );
     assert!(text.contains("\nFigure 4"), "{text}");
+    assert!(
+        text.contains("The path of the whole, as far as it was followed:\n\nSlot: Stopped"),
+        "{text}"
+    );
     let backwards = ["solve", "problems/sketches/bracket.slvs", "--reverse"];
     let (_, text) = krawl(&backwards, "");
     assert!(

@@ -325,8 +325,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             && arguments.can_be_cut(cancel)
         {
             if problem.is_absolute()
-                && let Some((text, value, code)) = arguments.instead(problem, reason)
+                && let Some((mut text, value, code)) = arguments.instead(problem, reason)
             {
+                if arguments.cert.is_some() {
+                    // What the certificate is about.
+                    let whole = arguments.shown(problem, &outcome);
+                    text +=
+                        &format!("\nThe path of the whole, as far as it was followed:\n\n{whole}");
+                }
                 if json.is_some() {
                     let run = Run {
                         problem,
@@ -586,7 +592,7 @@ impl Arguments {
     }
 
     /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole: as text, as a
-    /// value for JSON, and the exit code. `None`: its blocks do not come to an end either.
+    /// value for JSON, and the exit code. `None`: its blocks do not come to an end either, and no certificate is asked for.
     fn instead(&self, problem: &Problem, reason: &str) -> Option<(String, Value, u8)> {
         let (text, value, code) = self.by_blocks(problem).ok()?;
         let certificate = match self.cert {
@@ -609,7 +615,8 @@ impl Arguments {
             Some(_) => STOPPED,
             None => code,
         };
-        (code == CLOSED).then(|| (introduction + &text, value, worth))
+        let is_worth_it = code == CLOSED || self.cert.is_some();
+        is_worth_it.then(|| (introduction + &text, value, worth))
     }
 
     fn shown_blocks(&self, all: &BlockRuns) -> String {
