@@ -10,7 +10,7 @@ use krawl::track::{Control, Options, solve};
 use std::time::Instant;
 
 /// Check over run, at most.
-const BUDGET: f64 = 15.0;
+const BUDGET: f64 = 10.0;
 
 fn main() {
     // `cargo bench` passes --bench; anything else picks problems by name.

@@ -76,7 +76,7 @@ impl Tally {
             self.faults.join("\n")
         );
         assert!(self.closed >= least_closed, "{what}: {self:?}");
-        assert!(self.extended <= 16, "{what}: {self:?}");
+        assert!(self.extended <= 2, "{what}: {self:?}");
     }
 }
 

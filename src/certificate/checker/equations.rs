@@ -153,8 +153,11 @@ impl Equations {
 
     /// E'' on a range of t.
     pub fn bend(&self, e: usize, t: Interval) -> Interval {
-        let right = self.homotopy.rights.get(e);
-        right.map_or(ZERO, |right| right.enclose_curvature(t))
+        match self.homotopy.rights.get(e) {
+            None => ZERO,
+            Some(right) if right.degree <= 2 => right.enclosures()[2] * point(2.0),
+            Some(right) => right.enclose_curvature(t),
+        }
     }
 
     /// The degree of E_e.

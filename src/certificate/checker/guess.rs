@@ -70,10 +70,18 @@ pub fn newton<'a>(
     let mut at = curve.section(c, u);
     let inverse = Inverse::new(&at)?;
     let (mut z, mut last) = (near.to_vec(), f64::INFINITY);
-    for _ in 0..if extended { 0 } else { STEPS } {
+    let step_at = |curve: &Curve| {
         let mut f: Vec<f64> = curve.value().iter().map(|f| f.mid()).collect();
         f.push(0.0);
-        let step = inverse.times(&f);
+        let mut step = inverse.times(&f);
+        // Where the cross-section is that of one t, rounding does not lead out of it.
+        if c[..eq.m].iter().all(|&c| c == 0.0) {
+            step[eq.m] = 0.0;
+        }
+        step
+    };
+    for _ in 0..if extended { 0 } else { STEPS } {
+        let step = step_at(&curve);
         z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
         curve = Curve::at(eq, &z)?;
         let size = step.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
@@ -83,11 +91,7 @@ pub fn newton<'a>(
         last = size;
     }
     if extended {
-        curve = refined(eq, &z, |curve| {
-            let mut f: Vec<f64> = curve.value().iter().map(|f| f.mid()).collect();
-            f.push(0.0);
-            inverse.times(&f)
-        })?;
+        curve = refined(eq, &z, step_at)?;
     }
     at = curve.section(c, u);
     Ok((curve, at, inverse))

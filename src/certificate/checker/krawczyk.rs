@@ -211,10 +211,14 @@ impl<'a> Curve<'a> {
         columns[m].reserve(m);
         for e in 0..m {
             for &(i, factor, form) in &self.eq.gradient[e] {
-                // Weights have 16 bits and factors 12.
-                let entry = 0.5 * factor as f64 * u[i] * self.forms[form][k];
+                // Weights have 16 bits and factors 12: this product is exact.
+                let by = 0.5 * factor as f64 * u[i];
+                let entry = by * self.forms[form][k];
                 columns[i].push((e, entry));
                 sizes[e] += entry.abs();
+                if k == 0 {
+                    rests[e] += (by * self.low_form(form)).abs();
+                }
             }
             let (slope, error) = self.right(e, k, 1);
             columns[m].push((e, -slope * u[m]));
@@ -224,7 +228,7 @@ impl<'a> Curve<'a> {
         // A form, its product with weight and factor, that with an entry of Y; and the sums.
         let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
         for (rest, size) in rests.iter_mut().zip(sizes) {
-            *rest = round_up(*rest + gamma(longest + 4) * size, self.eq.longest + 4);
+            *rest = round_up(*rest + gamma(longest + 4) * size, self.eq.longest + 5);
         }
         columns
     }
@@ -234,15 +238,6 @@ impl<'a> Curve<'a> {
         let m = self.eq.m;
         let mut rests = vec![0.0; m + 1];
         let mut j0 = self.jacobian(0, u, &mut rests);
-        if self.low.is_some() {
-            for (e, rest) in rests[..m].iter_mut().enumerate() {
-                let terms = self.eq.gradient[e].iter();
-                let changes = terms.map(|&(i, factor, form)| {
-                    (0.5 * factor as f64 * u[i] * self.low_form(form)).abs()
-                });
-                *rest = round_up(*rest + changes.sum::<f64>(), self.eq.longest + 3);
-            }
-        }
         for ((column, &c), &u) in j0.iter_mut().zip(c).zip(u) {
             // Normals have 24 bits and weights 16: this is exact.
             column.push((m, c * u));

@@ -120,8 +120,9 @@ impl Matrix {
         let (n, mut sums, mut errors) = (self.n, vec![0.0; self.n], vec![0.0; self.n]);
         for (column, v) in self.entries.chunks(n).zip(v) {
             let middle = v.mid();
-            // What is lost of this times |Y|, with the radius.
-            let error = round_up(gamma(n + 1) * middle.abs() + (*v - exact(middle)).mag(), 2);
+            // A step up covers the rounding of the difference.
+            let radius = (v.sup() - middle).max(middle - v.inf()).next_up();
+            let error = lost(middle.abs(), n + 1, radius);
             add(&mut sums, column, |y| y * middle);
             add(&mut errors, column, |y| y.abs() * error);
         }

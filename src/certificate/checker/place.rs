@@ -3,7 +3,7 @@
 use super::equations::{Equations, ZERO};
 use super::guess::newton;
 use super::krawczyk::{Section, around};
-use super::matrix::{exact, size};
+use super::matrix::{enclosed, exact, lost, size};
 use super::refute;
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::format::{SolutionClaim, TubeClaim};
@@ -32,16 +32,19 @@ impl Spot {
     /// [J; c] v − e_n at this point.
     pub fn off_direction(&self, eq: &Equations, at: &Section, v: &[f64]) -> Vec<Interval> {
         let t = self.at(eq.m);
-        let near: Vec<Interval> = self.near.iter().map(|&x| exact(x)).collect();
-        let near = eq.differences(&near, [ZERO, point(1.0)]);
-        let rest = eq.differences(&self.rest, [ZERO; 2]);
-        let forms: Vec<Interval> = near.iter().zip(rest).map(|(&x, y)| x + y).collect();
+        let near = eq.differences(&self.near, [0.0, 1.0]);
+        let rest = |i: usize| if i < eq.m { self.rest[i].mag() } else { 0.0 };
         let row = |e: usize| {
-            let terms = eq.gradient[e].iter();
-            let terms =
-                terms.map(|&(i, factor, f)| forms[f] * (point(0.5 * factor as f64) * exact(v[i])));
+            let (mut sum, mut sizes, mut errors) = (0.0, 0.0, 0.0);
+            for &(i, factor, form) in &eq.gradient[e] {
+                let (by, [from, to]) = (0.5 * factor as f64 * v[i], eq.forms[form]);
+                sum += by * near[form];
+                sizes += (by * near[form]).abs();
+                errors += by.abs() * (rest(from) + rest(to));
+            }
             let time = eq.right_at(e, t)[1] * exact(v[eq.m]);
-            terms.fold(-time, |sum, x| sum + x)
+            // A difference, its product with factor and direction, and the sums.
+            enclosed(sum, lost(sizes, eq.longest + 3, errors)) - time
         };
         let along = v.iter().zip(&at.c).map(|(&v, &c)| exact(v) * point(c));
         let along = along.fold(point(-1.0), |sum, x| sum + x);
