@@ -3,10 +3,12 @@
 //!
 //! Problems of distances are measured beside the same with as many of their distances as possible replaced by
 //! angles: in a triangle all of whose sides are given, one side becomes the angle opposite to it. The figures
-//! wanted are the same, and so is the number of unknowns; the paths differ. Shipped problems with other
+//! wanted are the same, and so is the number of unknowns; the paths differ. As an angle at a point it has the form of a
+//! distance in the equations; as an angle between the lines of the two other sides it is a sum of products, and
+//! only these, marked *lines*, count as others than distances. Shipped problems with other
 //! constraints stand beside a generated strip of about as many unknowns. The times are those of following the
 //! path over all tubes tried, medians of several runs that take turns. The goal is 1.3 times at most, by the
-//! median of all ratios. `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be
+//! median of the ratios of problems with equations in the tail; that of the others is printed beside it. `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be
 //! profiled one by one.
 
 use krawl::generate::{Family, Recipe};
@@ -24,7 +26,7 @@ fn main() {
     let shipped = ["octahedron", "disulfide", "icosahedron-c1", "dodecagon"];
     for name in shipped {
         let plain = Problem::read(format!("problems/{name}.toml")).expect("a shipped problem");
-        pairs.extend(with_angles(&plain).map(|other| (name.to_owned(), plain, other)));
+        add(&mut pairs, name, &plain);
     }
     for (family, size) in [
         (Family::Strip, 30),
@@ -35,7 +37,7 @@ fn main() {
     ] {
         let plain = Recipe::new(family, size).problem().expect("a recipe");
         let name = format!("{} {size}", family.name());
-        pairs.extend(with_angles(&plain).map(|other| (name, plain, other)));
+        add(&mut pairs, &name, &plain);
     }
     for name in ["pentahedron", "3p3l", "3p3l-orthogonal"] {
         let file = format!("problems/constraints/{name}.toml");
@@ -51,11 +53,11 @@ fn main() {
         return write(&pairs, &folder);
     }
     println!(
-        "{:<16} {:<8} {:>9} {:>9} {:>13} {:>13} {:>7}  outcome",
+        "{:<22} {:<8} {:>9} {:>9} {:>13} {:>13} {:>7}  outcome",
         "problem", "space", "unknowns", "tail", "distances, µs", "others, µs", "ratio"
     );
     for space in [Space::Full, Space::Reduced] {
-        let mut ratios = Vec::new();
+        let mut ratios = [Vec::new(), Vec::new()];
         for (name, plain, other) in &pairs {
             let options = Options {
                 space,
@@ -71,9 +73,10 @@ fn main() {
             }
             let [before, after] = times.map(median);
             let homotopy = Homotopy::new(other).expect("a gauge");
+            let tail = homotopy.equations - homotopy.half_squares().count();
             let ratio = after / before;
             println!(
-                "{name:<16} {:<8} {:>4}, {:>3} {:>9} {before:>13.2} {after:>13.2} {ratio:>7.2}  {}",
+                "{name:<22} {:<8} {:>4}, {:>3} {:>9} {before:>13.2} {after:>13.2} {ratio:>7.2}  {}",
                 if space == Space::Full {
                     "full"
                 } else {
@@ -81,21 +84,28 @@ fn main() {
                 },
                 Homotopy::new(plain).expect("a gauge").equations,
                 homotopy.equations,
-                homotopy.equations - homotopy.edges.len(),
+                tail,
                 match outcome.map(|seen| seen.status) {
                     Some(Status::Closed) => "closed",
                     Some(Status::Open(_)) => "open",
                     _ => "stopped",
                 }
             );
-            ratios.push(ratio);
+            ratios[usize::from(tail > 0)].push(ratio);
         }
-        let middle = median(ratios);
+        let [alike, middle] = ratios.map(median);
         println!(
-            "{:?}: {middle:.2} times by the median, goal {GOAL}: {}",
-            space,
+            "{space:?}: {middle:.2} times by the median, goal {GOAL}: {}; angles in the form of distances {alike:.2}",
             if middle <= GOAL { "met" } else { "MISSED" }
         );
+    }
+}
+
+/// Adds a problem of distances beside the same with angles, at points and between lines.
+fn add(pairs: &mut Vec<(String, Problem, Problem)>, name: &str, plain: &Problem) {
+    for (lines, what) in [(false, ""), (true, " lines")] {
+        let others = with_angles(plain, lines).into_iter();
+        pairs.extend(others.map(|other| (format!("{name}{what}"), plain.clone(), other)));
     }
 }
 
@@ -120,8 +130,9 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The same problem with angles in the place of distances; `None` if there is no triangle for one.
-fn with_angles(problem: &Problem) -> Option<Problem> {
+/// The same problem with angles in the place of distances, at points or between lines; `None` if there is no
+/// triangle for one.
+fn with_angles(problem: &Problem, lines: bool) -> Option<Problem> {
     let length = |d: usize| match &problem.distances[d].target {
         Target::Length(length) => length.to_f64(),
         Target::SquaredLength(square) => square.to_f64().sqrt(),
@@ -160,6 +171,9 @@ fn with_angles(problem: &Problem) -> Option<Problem> {
     for (distance, angle) in problem.distances.iter().zip(&angles) {
         let [a, b] = distance.points.map(name);
         builder = match (angle, &distance.target) {
+            (Some((p, degrees)), _) if lines => {
+                builder.dimension("angles", [name(*p), a, name(*p), b], *degrees)
+            }
             (Some((p, degrees)), _) => builder.dimension("angles", [a, name(*p), b], *degrees),
             (None, Target::Length(length)) => builder.distance(&a, &b, length.clone()),
             (None, Target::SquaredLength(square)) => {

@@ -1,6 +1,8 @@
 //! What constraints mean, kind by kind.
 
-use super::testing::{Figure, angle, cross, dot, examine, near, size};
+use super::testing::{Figure, angle, cross, dot, examine, near, read, size};
+use crate::interval::point;
+use crate::system::{Edge, Homotopy};
 
 /// A problem in the plane.
 fn plane(points: &str, rest: &str) -> Figure {
@@ -27,6 +29,61 @@ fn angles_at_a_point_between_known_lengths() {
         "[constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5]]\nangles = [[\"a\", \"b\", \"c\", 70]]",
     );
     near(angle(f.arrow("b", "a"), f.arrow("b", "c")), 70.0);
+}
+
+/// The right-hand side is that of the cosine rule at every t, lengths and the cosine being led linearly, or for a right
+/// angle the bars' product.
+#[test]
+fn angles_between_given_lengths_have_the_form_of_distances() {
+    for (dimension, degrees) in [(2, 70.0f64), (3, 110.0), (2, 90.0)] {
+        let z = if dimension == 3 { ", 0.3" } else { "" };
+        let more = match dimension {
+            3 => "\nd = [1, 1.1, 1.9]",
+            _ => "",
+        };
+        let joined = match dimension {
+            3 => ", [\"a\", \"d\", 2.5], [\"b\", \"d\", 3], [\"c\", \"d\", 2.6]",
+            _ => "",
+        };
+        let problem = read(&format!(
+            "name = \"test\"\ndimension = {dimension}\n[points]\na = [0.1, 0{z}]\nb = [3.1, 0.2{z}]\nc = [2.9, 2.2{z}]{more}\n\
+             [constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5]{joined}]\n\
+             angles = [[\"a\", \"b\", \"c\", {degrees}]]\n"
+        ));
+        let homotopy = Homotopy::new(&problem).unwrap();
+        let all: Vec<Edge> = homotopy.half_squares().collect();
+        assert_eq!(all.len(), homotopy.equations);
+        let mut ends = all[homotopy.equations - 1].points;
+        ends.sort_unstable();
+        assert_eq!(ends, [0, 2]);
+        let at = |p: usize| problem.points[p].sketch.each_ref().map(|x| x.to_f64());
+        let arrow = |to: usize| -> [f64; 3] { std::array::from_fn(|k| at(to)[k] - at(1)[k]) };
+        let (u, v) = (arrow(0), arrow(2));
+        let product = dot(u, v);
+        for t in [0.0, 0.25, 0.7, 1.0] {
+            let lead = |from: f64, to: f64| from + t * (to - from);
+            let bend = problem.bend();
+            let c = problem.homotopy.bend_coefficient.to_f64();
+            let bent = |d: usize| {
+                if bend == Some(d) {
+                    c * t * (1.0 - t)
+                } else {
+                    0.0
+                }
+            };
+            let a = lead(size(u), 3.0) + bent(0);
+            let b = lead(size(v), 2.5) + bent(1);
+            let inner = match degrees {
+                90.0 => lead(product, 0.0),
+                _ => a * b * lead(product / (size(u) * size(v)), degrees.to_radians().cos()),
+            };
+            let unit = homotopy.unit;
+            let right = homotopy.rights[homotopy.equations - 1]
+                .enclose(point(t))
+                .mid();
+            near(right * unit * unit, 0.5 * (a * a + b * b) - inner);
+        }
+    }
 }
 
 #[test]

@@ -24,4 +24,6 @@ pub use local::{DEGREE, Local, ORDER, condition, dot};
 pub use preconditioner::{InverseMaker, Preconditioner};
 pub use refine::{CrossingRoom, RefineError};
 pub use start::{LARGEST_TANGENT, first_normal, path_length};
+#[cfg(test)]
+pub use tail::Part;
 pub use tail::{Forms, Tail};

@@ -13,6 +13,7 @@ mod known_paths;
 #[path = "../../../../tests/common/mixed/mod.rs"]
 #[allow(dead_code, unused_imports)]
 mod mixed;
+mod mutations;
 mod precise;
 mod reduced;
 mod reruns;

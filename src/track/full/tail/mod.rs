@@ -228,3 +228,43 @@ impl Tail {
         }
     }
 }
+
+/// What of an equation tests put a fault into.
+#[cfg(test)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The coefficient of a product, in F and in what bounds it.
+    Product,
+    /// That of an entry of the Jacobian's row.
+    Entry,
+    /// That of an entry of the Jacobian as a sparse matrix.
+    Source,
+}
+
+#[cfg(test)]
+impl Tail {
+    /// Multiplies the coefficients of an equation's k-th product, entry or source; nothing if it has fewer.
+    pub fn spoil(&mut self, equation: usize, part: Part, k: usize, by: f64) {
+        match part {
+            Part::Product => self.slots.spoil(equation, k, by),
+            Part::Entry => {
+                let row = self.row(equation);
+                self.rows.spoil(row.clone().nth(k), by);
+            }
+            Part::Source => {
+                let mut sources = self.sources.iter_mut();
+                let of_row = sources.by_ref().filter(|s| s.row as usize == equation);
+                of_row.skip(k).take(1).for_each(|s| s.factor *= by);
+            }
+        }
+    }
+
+    /// Row and column of each source of the Jacobian as a sparse matrix, with its value.
+    pub fn sparse(&self, forms: &[f64]) -> Vec<([usize; 2], f64)> {
+        let columns = (0..self.columns.len() - 1).flat_map(|column| {
+            let sources = self.sources[self.of_column(column)].iter();
+            sources.map(move |s| ([s.row as usize, column], s.factor * forms[s.form as usize]))
+        });
+        columns.collect()
+    }
+}

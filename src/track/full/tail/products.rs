@@ -238,3 +238,19 @@ impl Tail {
         self.add(value, out);
     }
 }
+
+#[cfg(test)]
+impl Slots {
+    /// Multiplies the coefficient of an equation's k-th product.
+    pub fn spoil(&mut self, equation: usize, k: usize, by: f64) {
+        let lane = self
+            .lanes
+            .iter()
+            .find(|lane| lane.first == equation - equation % LANE);
+        if let Some(lane) = lane
+            && k < lane.slots.len()
+        {
+            self.half[lane.slots.start + k][equation % LANE] *= by;
+        }
+    }
+}

@@ -111,3 +111,13 @@ impl Tail {
         }
     }
 }
+
+#[cfg(test)]
+impl Rows {
+    /// Multiplies the first part of an entry.
+    pub fn spoil(&mut self, entry: Option<usize>, by: f64) {
+        if let Some(entry) = entry {
+            self.parts[entry][0].1 *= by;
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The solutions in the end, with their classes of congruence.
+
+use super::Ledger;
+use crate::interval::Interval;
+use crate::interval::rounding::round_up;
+use crate::system::Homotopy;
+use crate::track::Solution;
+use crate::track::certified::solution::{Same, SolutionBox};
+
+impl<const D: usize> Ledger<D> {
+    /// The solutions with their classes; the reason, if a claim about them could not be proved.
+    pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
+        let mut reason = None;
+        let mut classes: Vec<usize> = Vec::new();
+        let mut mirrors: Vec<Option<usize>> = Vec::new();
+        for (k, found) in self.found.iter().enumerate() {
+            let (mut class, mut mirror) = (None, None);
+            for (j, other) in self.found[..k].iter().enumerate() {
+                match is_congruent(homotopy, found, other) {
+                    (Same::Yes, mirrored) => {
+                        class = Some(classes[j]);
+                        mirror = mirror.or(mirrored.then_some(j));
+                    }
+                    (Same::No, _) => {}
+                    (Same::Unknown, _) => {
+                        reason.get_or_insert(format!(
+                            "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
+                             are congruent; another reference may help",
+                            j + 1,
+                            k + 1,
+                            found.greatest_radius().max(other.greatest_radius())
+                                * homotopy.unit
+                        ));
+                    }
+                }
+            }
+            mirrors.push(mirror);
+            classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
+        }
+        let solutions = self
+            .found
+            .iter()
+            .zip(&self.places)
+            .zip(classes.into_iter().zip(mirrors))
+            .map(|((found, &place), (class, mirror_of))| {
+                let points = found.points(homotopy);
+                let width = relative_width(&points);
+                Solution {
+                    objects: found.objects(homotopy, &points),
+                    points,
+                    class,
+                    width,
+                    place: Some(place),
+                    mirror_of,
+                    is_degenerate: found.is_flat,
+                }
+            })
+            .collect();
+        match reason {
+            None => Ok(solutions),
+            Some(reason) => Err((reason, solutions)),
+        }
+    }
+}
+
+/// Whether two different solutions are congruent up to reflection, and if so, whether one is the
+/// mirror image of the other (otherwise it is the other one moved).
+///
+/// The isometries that keep the gauge change the signs of coordinates. The second reference
+/// point's first coordinate and the third's second one tell which signs they must change;
+/// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
+/// constraints fix the figure in its frame no isometry is left. Each of them goes with the changes of
+/// sign that leave a figure as it is, of the directions of lines of their own.
+pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> (Same, bool) {
+    let gauge = &homotopy.gauge;
+    let mut turned = [false; 3];
+    for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
+        let i = gauge.variable[p * homotopy.dimension + axis];
+        let side = |s: &SolutionBox| {
+            let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
+            (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
+        };
+        match (side(one), side(other)) {
+            (Some(a), Some(b)) => turned[axis] = a != b,
+            _ => return (Same::Unknown, false),
+        }
+    }
+    let twins = homotopy.twins();
+    // A motion first: a flat figure in space is its own mirror image.
+    let odd = turned.iter().filter(|&&turned| turned).count() % 2 == 1;
+    let last = match gauge.reference.is_empty() {
+        true => &[false][..],
+        false => &[odd, !odd][..],
+    };
+    for &last in last {
+        turned[homotopy.dimension - 1] = last;
+        let reversed = turned.iter().filter(|&&turned| turned).count();
+        if reversed % 2 == 1 && !homotopy.tail.mirrors {
+            continue;
+        }
+        let flips = |i: usize| {
+            let flips =
+                (0..homotopy.dimension).filter(|&axis| turned[axis] && homotopy.flips(i, axis));
+            flips.count() % 2 == 1
+        };
+        let Some(twins) = &twins else {
+            // They are too many to try all: figures differ where points do.
+            if one.may_be(other, flips, gauge.place.len()) {
+                return (Same::Unknown, false);
+            }
+            continue;
+        };
+        for twin in twins {
+            // Without any change of sign they are known to differ.
+            if reversed == 0 && !twin.contains(&true) {
+                continue;
+            }
+            match one.is_same(other, |i| flips(i) ^ twin[i]) {
+                Same::No => {}
+                decided => return (decided, reversed % 2 == 1),
+            }
+        }
+    }
+    (Same::No, false)
+}
+
+/// The widest coordinate's width over the largest coordinate.
+fn relative_width(points: &[[Interval; 3]]) -> f64 {
+    let all = || points.iter().flatten();
+    let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
+    all().fold(0.0, |max: f64, x| max.max(x.wid())) / size
+}

@@ -1,0 +1,120 @@
+//! Why a run ended, and what was switched on in it, in words.
+
+use super::crossing::Crossing;
+use super::{POINT_TOLERANCE, SINGULAR, Test, Tracker};
+use crate::track::certified::reasons::{
+    Rejection, precision, undecided, unlinked, unproved, unrefined,
+};
+use crate::track::flexible;
+use crate::track::full::condition;
+
+impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+    pub(super) fn place(&self) -> String {
+        let t = self.now.local.z[0][self.equations.m];
+        format!(
+            "at t = {t:.9} after {} tubes{}",
+            self.steps,
+            self.condition()
+        )
+    }
+
+    fn condition(&self) -> String {
+        match condition(
+            &self.equations,
+            &self.now.local.z[0],
+            &self.now.local.normal,
+        ) {
+            Some(condition) => format!(" (condition of the Jacobian about {condition:.1e})"),
+            None => String::new(),
+        }
+    }
+
+    /// Why the run ends here, a tube of about the half length `reach` being the last that was tried.
+    pub(super) fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> String {
+        let now = &self.now.local;
+        let condition = condition(&self.equations, &now.z[0], &now.normal);
+        self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
+        self.is_stuck = true;
+        let t = self.now.local.z[0][self.equations.m];
+        let remark = self.homotopy.remark_on_lengths(t);
+        format!(
+            "{}, at the smallest step, {:.1e}{}, {}{remark}",
+            self.why(rejection, false, limit),
+            reach * self.homotopy.unit,
+            precision(self.extension.is_on()),
+            self.place()
+        )
+    }
+
+    /// The reason why a run ends where no step can be proved, after the words for a figure that is not rigid at t = 1,
+    /// if that is what the path comes to.
+    pub(super) fn with_flexibility(&self, reason: String) -> String {
+        if !self.is_stuck || self.arc.is_some() {
+            return reason;
+        }
+        let (z, m) = (&self.now.local.z[0], self.equations.m);
+        match flexible::in_words(&self.homotopy, z, z[m]) {
+            Some(words) => format!("{words}; {reason}"),
+            None => reason,
+        }
+    }
+
+    /// Why it ends at the sketch.
+    pub(super) fn stuck_at_sketch(&mut self, rejection: Rejection, limit: f64) -> String {
+        format!(
+            "at the sketch{}, {}{}",
+            precision(self.extension.is_on()),
+            self.why(rejection, true, limit),
+            self.condition()
+        )
+    }
+
+    /// In words, with numbers of what was tried last: `first`, the tube around the sketch.
+    fn why(&mut self, rejection: Rejection, first: bool, limit: f64) -> String {
+        let (equations, unit) = (&self.equations, self.homotopy.unit);
+        let (tube, before) = match first {
+            true => (&mut self.now, None),
+            false => (&mut self.next, Some(&self.now)),
+        };
+        match rejection {
+            Rejection::Refine(e) => unrefined(e, equations, &mut tube.local, POINT_TOLERANCE, unit),
+            Rejection::Unproved => {
+                unproved(self.test.shortfall(equations, tube, limit), tube, unit)
+            }
+            Rejection::Short(_) | Rejection::Unlinked => match before {
+                None => unlinked("the sketch", &self.sketch, 0.0, tube, unit),
+                Some(before) => {
+                    let direction = match before.exit_is_tight {
+                        true => before.exit_slope_radius,
+                        false => before.proof.slope_distance,
+                    };
+                    unlinked("that one's end", &before.exit, direction, tube, unit)
+                }
+            },
+            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), &self.homotopy),
+        }
+    }
+
+    pub(super) fn switched_on(&self) -> Vec<String> {
+        let mut list = Vec::new();
+        if self.shortened > 0 {
+            let times = match self.shortened {
+                1 => "once".to_owned(),
+                n => format!("{n} times"),
+            };
+            list.push(format!(
+                "shorter tubes, {times}: t = 1 could not be separated from a fold or another \
+                 solution in the longer ones"
+            ));
+        }
+        if let Some([ahead, back]) = self.ways {
+            list.push(format!(
+                "two threads: the path was followed both ways from the sketch at once, {ahead} tubes ahead and \
+                 {back} back, until these met (several threads were asked for)"
+            ));
+        }
+        list.extend(self.extension.in_words());
+        list.extend(self.crossing.iter().filter_map(Crossing::in_words));
+        list
+    }
+}

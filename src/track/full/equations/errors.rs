@@ -1,0 +1,98 @@
+//! How far F and J v may be from what is computed of them.
+
+use super::{Bend, Differences, Equations};
+use crate::interval::rounding::{gamma, round_up};
+use crate::linalg::{LANE, Vector};
+
+impl<const D: usize> Equations<D> {
+    /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
+    /// radii of the coefficients. No term of a distance goes through more than 20 roundings.
+    pub fn residual_error(&self, d: &Differences<D>, t: f64, out: &mut Vector) {
+        let t = t.abs();
+        let (per_term, roundings) = (gamma(self.roundings(20)), self.roundings(24));
+        let axes = d.each_ref().map(|d| d.lanes());
+        let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
+        let [r0, r1, r2] = self.e_radius.each_ref().map(|r| r.lanes());
+        let lanes = out.lanes_mut().iter_mut().take(e0.len());
+        for (l, out) in lanes.enumerate() {
+            for k in 0..LANE {
+                let squared: f64 = (0..D).map(|axis| axes[axis][l][k] * axes[axis][l][k]).sum();
+                let size = e0[l][k].abs() + t * (e1[l][k].abs() + t * e2[l][k].abs());
+                let radius = r0[l][k] + t * (r1[l][k] + t * r2[l][k]);
+                out[k] = round_up(per_term * (0.5 * squared + size) + radius, roundings);
+            }
+        }
+        let cube = t * t * t;
+        for bend in &self.bends {
+            let (c, r) = (&bend.e, &bend.e_radius);
+            let size = cube * (c[3].abs() + t * c[4].abs());
+            let radius = cube * (r[3] + t * r[4]);
+            let more = per_term * size + radius;
+            out[bend.edge] = round_up(out[bend.edge] + more, roundings);
+        }
+        for e in self.tail.first()..self.m {
+            let size = self.tail.half_products_abs(e, &d.forms, &d.forms);
+            out[e] = round_up(out[e] + per_term * size, self.roundings_of_bound(24));
+        }
+    }
+
+    /// How far J v may be from what [`Equations::jacobian_times`] computes, J being taken anywhere
+    /// within the given radii (as differences' sums, and of t) of the point: no term of a distance goes
+    /// through more than 20 roundings.
+    pub fn jacobian_times_error(
+        &self,
+        (d, t): (&Differences<D>, f64),
+        (spread, t_radius): (&Differences<D>, f64),
+        (dv, vt): (&Differences<D>, f64),
+        out: &mut [f64],
+    ) {
+        let (t, vt) = (t.abs() + t_radius, vt.abs());
+        // Either factor of a product passes through one sum more than a distance's difference does.
+        let per_term = gamma(self.roundings_of_derivative(20));
+        for (e, out) in out[..self.m].iter_mut().enumerate() {
+            let (mut size, mut moved) = (0.0, 0.0);
+            for axis in 0..D {
+                size += (d[axis][e] * dv[axis][e]).abs();
+                moved += spread[axis][e] * dv[axis][e].abs();
+            }
+            if !self.tail.is_empty() {
+                let both = |a, b| self.tail.half_products_abs(e, a, b);
+                let of_v = &dv.forms;
+                size += both(&d.forms, of_v) + both(of_v, &d.forms);
+                moved += both(&spread.forms, of_v) + both(of_v, &spread.forms);
+            }
+            let (slope_size, slope_radius) = self.slope_of_length(e, t);
+            let mut curvature = 2.0 * (self.e[2][e].abs() + self.e_radius[2][e]);
+            if let Some(bend) = self.bend_of(e) {
+                let (c, r) = (bend.e.map(f64::abs), &bend.e_radius);
+                curvature += t * (6.0 * (c[3] + r[3]) + 12.0 * t * (c[4] + r[4]));
+            }
+            let time = slope_radius + curvature * t_radius;
+            let bound = per_term * (size + slope_size * vt) + moved + time * vt;
+            *out = round_up(bound, self.roundings_of_bound(40));
+        }
+    }
+
+    /// Σ j |e_j| tʲ⁻¹ of E's coefficients e_j for one distance, and of their radii, for t ≥ 0: bounds on
+    /// E' at |t|, and on how far it may be from that of the coefficients. At most twelve roundings.
+    pub fn slope_of_length(&self, edge: usize, t: f64) -> (f64, f64) {
+        let slope = |e: [f64; 5]| {
+            let [_, e1, e2, e3, e4] = e.map(f64::abs);
+            e1 + t * (2.0 * e2 + t * (3.0 * e3 + t * (4.0 * e4)))
+        };
+        if let Some(bend) = self.bend_of(edge) {
+            (slope(bend.e), slope(bend.e_radius))
+        } else {
+            let of = |c: &[Vector; 3]| [c[0][edge], c[1][edge], c[2][edge], 0.0, 0.0];
+            (slope(of(&self.e)), slope(of(&self.e_radius)))
+        }
+    }
+
+    /// What an equation has beyond degree 2 in t.
+    #[inline(always)]
+    fn bend_of(&self, equation: usize) -> Option<&Bend> {
+        // They are in order.
+        let found = self.bends.binary_search_by_key(&equation, |bend| bend.edge);
+        found.ok().map(|b| &self.bends[b])
+    }
+}
