@@ -3,9 +3,9 @@
 mod common;
 
 use common::random::{recipe, same_each_time};
-use krawl::certificate::cover::{Cover, CoverVerdict, Mark, verify_cover};
+use krawl::certificate::cover::{Cover, CoverVerdict, Kind, Mark, Radius, verify_cover};
 use krawl::complete::{Complete, Options, Status, all};
-use krawl::problem::Problem;
+use krawl::problem::{Problem, Target};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, TestRunner};
@@ -114,9 +114,17 @@ fn damaged(cover: &Cover) -> Option<CoverVerdict> {
 
 /// The cover of a problem with solutions whose search needs no fold.
 fn without_folds() -> Cover {
+    without_folds_and(6..=7, |_| true)
+}
+
+/// The same, and its marks are such.
+fn without_folds_and(
+    points: std::ops::RangeInclusive<usize>,
+    wanted: impl Fn(&[Mark]) -> bool,
+) -> Cover {
     let mut runner = TestRunner::new_with_rng(Config::default(), same_each_time());
     loop {
-        let tree = recipe(2, 6..=7).new_tree(&mut runner).unwrap();
+        let tree = recipe(2, points.clone()).new_tree(&mut runner).unwrap();
         let Ok(problem) = tree.current().build() else {
             continue;
         };
@@ -131,13 +139,15 @@ fn without_folds() -> Cover {
         let Some(bytes) = result.cover else { continue };
         let cover = Cover::from_bytes(&bytes).unwrap();
         assert_eq!(Cover::from_bytes(&cover.to_bytes()).unwrap(), cover);
-        let (mut at, mut count, mut folded) = (0, 0, false);
+        let (mut at, mut seen, mut folded) = (0, Vec::new(), false);
         while !folded && at < cover.marks.len() {
             let (mark, next) = Mark::read(&cover.marks, at, cover.drives.len()).unwrap();
             folded = matches!(mark, Mark::Fold(..));
-            (at, count) = (next, count + 1);
+            seen.push(mark);
+            at = next;
         }
-        if !folded && cover.figures.len() > 1 && cover.drives.len() == 1 && count > 40 {
+        let large = cover.figures.len() > 1 && cover.drives.len() == 1 && seen.len() > 40;
+        if !folded && large && wanted(&seen) {
             return cover;
         }
     }
@@ -167,6 +177,7 @@ fn a_mark_left_out_or_turned_into_another_is_noticed() {
             for wrong in [
                 Mark::Excluded(cover.steps.len() - 1),
                 Mark::WrongDistance(cover.steps.len() - 1, 0),
+                Mark::WrongPair(cover.steps.len() - 1, cover.base[0]),
             ] {
                 let mut other = cover.clone();
                 let mut bytes = Vec::new();
@@ -181,7 +192,7 @@ fn a_mark_left_out_or_turned_into_another_is_noticed() {
         // And what is excluded holds no figure.
         if matches!(
             mark,
-            Mark::NoPlace(_) | Mark::Excluded(_) | Mark::WrongDistance(..)
+            Mark::NoPlace(_) | Mark::Excluded(_) | Mark::WrongDistance(..) | Mark::WrongPair(..)
         ) {
             let mut other = cover.clone();
             other.marks.splice(*at..*end, [8]);
@@ -196,6 +207,102 @@ fn a_mark_left_out_or_turned_into_another_is_noticed() {
             assert!(verdict.flaw.is_none() && verdict.undecided == 1);
         }
     }
+}
+
+#[test]
+fn no_pair_of_points_is_called_wrong_where_a_figure_is() {
+    let mut seen = 0;
+    let is_pair = |mark: &Mark| matches!(mark, Mark::WrongPair(..));
+    let with_pairs = without_folds_and(6..=8, |marks| marks.iter().any(is_pair));
+    for cover in [without_folds(), with_pairs] {
+        let (points, steps) = (cover.base.len() + cover.steps.len(), cover.steps.len());
+        let all = marks(&cover);
+        let ends = all.iter().map(|m| m.0).skip(1).chain([cover.marks.len()]);
+        for (&(at, mark), end) in all.iter().zip(ends) {
+            let mut others: Vec<Mark> = Vec::new();
+            if mark == Mark::Figure {
+                seen += 1;
+                let pairs = |step| (0..points + 2).map(move |p| Mark::WrongPair(step, p));
+                others.extend((0..steps).flat_map(pairs));
+            }
+            if let Mark::WrongPair(step, _) = mark {
+                // A point from itself, from points that do not stand yet, and from none.
+                let later = cover.steps[step..].iter().map(|s| s.0);
+                others.extend(later.chain([points, 255]).map(|p| Mark::WrongPair(step, p)));
+            }
+            for other in others {
+                let mut bytes = Vec::new();
+                other.put(cover.drives.len(), &mut bytes);
+                let mut wrong = cover.clone();
+                wrong.marks.splice(at..end, bytes);
+                let verdict = damaged(&wrong);
+                assert!(
+                    verdict.is_none_or(|v| v.flaw.is_some()),
+                    "{other:?} for {mark:?}"
+                );
+            }
+        }
+    }
+    assert!(seen > 1, "{seen}");
+}
+
+#[test]
+fn a_parameter_that_ranges_over_less_than_it_must_is_noticed() {
+    let (_, bytes) = searched(&shipped("octahedron"));
+    let mut cover = Cover::from_bytes(&bytes).unwrap();
+    // The distance from the third point of the hinge drives its point, in place of the angle; nothing is decided.
+    let hinge = cover.steps[0].clone();
+    let (_, Kind::Hinge([c1, c2, q], 0)) = hinge else {
+        panic!("{hinge:?}");
+    };
+    let radii = [
+        (c1, Radius::Given),
+        (c2, Radius::Given),
+        (q, Radius::Parameter(0)),
+    ];
+    cover.steps[0].1 = Kind::Meet(radii.to_vec());
+    cover.figures.clear();
+    cover.marks = vec![9];
+    let flaw = |range: [f64; 2]| {
+        let mut other = cover.clone();
+        other.drives[0] = Some(range);
+        let verdict = damaged(&other).unwrap();
+        assert_eq!(verdict.undecided, u64::from(verdict.flaw.is_none()));
+        verdict.flaw
+    };
+    // The two faces at the hinge, laid flat, give the bounds.
+    assert_eq!(flaw([0.0, 100.0]), None);
+    let bound = |good: &dyn Fn(f64) -> bool, mut yes: f64, mut no: f64| {
+        for _ in 0..50 {
+            let middle = 0.5 * (yes + no);
+            *(if good(middle) { &mut yes } else { &mut no }) = middle;
+        }
+        yes
+    };
+    let most = bound(&|x| flaw([0.0, x]).is_none(), 100.0, 0.0);
+    let least = bound(&|x| flaw([x, 100.0]).is_none(), 0.0, 100.0);
+    let problem = shipped("octahedron");
+    let unit = 2f64.powi(cover.unit_exponent);
+    let length = |a: usize, b: usize| {
+        let is_it = |d: &&krawl::problem::Distance| d.points == [a, b] || d.points == [b, a];
+        let found = problem.distances.iter().find(is_it).unwrap();
+        match &found.target {
+            Target::Length(x) => x.to_f64() / unit,
+            Target::SquaredLength(x) => x.to_f64().sqrt() / unit,
+        }
+    };
+    let bar = length(c1, c2);
+    let flat = |p: usize| {
+        let (r, s) = (length(c1, p), length(c2, p));
+        let x = (r * r - s * s + bar * bar) / (2.0 * bar);
+        (x, (r * r - x * x).sqrt())
+    };
+    let ((x, h), (y, k)) = (flat(hinge.0), flat(q));
+    let near = (x - y).powi(2) + (h - k).powi(2);
+    let far = (x - y).powi(2) + (h + k).powi(2);
+    // Other triangles may bring the bounds nearer to each other, not farther apart.
+    assert!(near - 1e-9 < least && least < most && most < far + 1e-9);
+    assert!(flaw([most, least]).is_some());
 }
 
 #[test]

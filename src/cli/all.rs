@@ -3,7 +3,7 @@
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
-use krawl::complete::{Options, Progress, Status, all};
+use krawl::complete::{Keep, Options, Progress, Status, Unserved, all};
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
@@ -20,6 +20,10 @@ use std::time::{Duration, Instant};
 Examples:
   krawl all problems/disulfide.toml
   krawl all problems/disulfide.toml --html all.html --xyz all.xyz
+  krawl all problems/dodecagon.toml --store parts    ended at any moment, the same command goes on
+
+Two machines share a search: one runs it with --store a --share 1/2, the other with --store b --share 2/2. Then
+--store a --merge b, with neither share, brings both together.
 
 Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.")]
 pub struct Arguments {
@@ -40,6 +44,16 @@ pub struct Arguments {
     /// Stop after so many seconds, and say what is undecided
     #[arg(long, value_name = "S", value_parser = seconds)]
     time: Option<f64>,
+    /// Keep parts that are done in this folder, which is made where there is none: whenever the search is ended, the
+    /// same command goes on there
+    #[arg(long, value_name = "DIR")]
+    store: Option<PathBuf>,
+    /// Search the K-th of N shares only, and leave the others to other machines
+    #[arg(long, value_name = "K/N", value_parser = share, requires = "store")]
+    share: Option<[usize; 2]>,
+    /// Take over what another store of the same search has: its folder, or the file in it; may be given several times
+    #[arg(long, value_name = "PATH", requires = "store")]
+    merge: Vec<PathBuf>,
     #[command(flatten)]
     pictures: Pictures,
     /// Print no table and no progress
@@ -51,6 +65,16 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x < 1e9 => Ok(x),
         _ => Err("must be a number greater than 0".to_owned()),
+    }
+}
+
+fn share(text: &str) -> Result<[usize; 2], String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(k, n)| Some([k.parse().ok()?, n.parse().ok()?]));
+    match numbers {
+        Some([k, n]) if (1..=n).contains(&k) && n <= 1000 => Ok([k, n]),
+        _ => Err("must be K/N, the K-th of N shares: 1/4, 2/4, 3/4, 4/4; at most 1000".to_owned()),
     }
 }
 
@@ -83,7 +107,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let begin = Instant::now();
     let tell = |now: Progress| {
         if let Ok(mut line) = line.lock() {
-            line.show_search(now.share, now.boxes, begin.elapsed().as_secs_f64());
+            line.show_search(now, begin.elapsed().as_secs_f64());
         }
     };
     let options = Options {
@@ -92,6 +116,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
         progress: Some(&tell),
+        store: arguments.store.as_ref().map(|folder| Keep {
+            folder: folder.clone(),
+            share: arguments.share,
+            merge: arguments.merge.clone(),
+        }),
         ..Options::default()
     };
     let result = all(&problem, &options);
@@ -100,6 +129,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let result = match result {
         Ok(result) => result,
+        Err(Unserved::Store(what)) => return Err(what),
         Err(unserved) => {
             output::complain(&format!("{}: {unserved}", arguments.file.display()));
             return Ok(STOPPED);

@@ -4,6 +4,7 @@
 //! number. Among those it still differs by orders of magnitude (the deeper points hang on one another,
 //! and the later distances close, the more), so that samples decide.
 
+use super::pairs::Pairs;
 use super::plan::{Drive, HingeNumbers, Kind, Plan, Radius, Step, base_coordinates};
 use super::targets::Targets;
 
@@ -23,14 +24,13 @@ pub enum NoPlan {
 }
 
 /// Plans with the fewest parameters, the most promising ones first.
-pub fn plans(targets: &Targets) -> Result<Vec<Plan>, NoPlan> {
+pub fn plans(targets: &Targets, pairs: &Pairs) -> Result<Vec<Plan>, NoPlan> {
     let bases = bases(targets);
     if bases.is_empty() {
         return Err(NoPlan::NoBase);
     }
-    let limits = pair_bounds(targets);
     for parameters in 0..=MOST_PARAMETERS {
-        let mut draft = Draft::new(targets, &limits);
+        let mut draft = Draft::new(targets, pairs);
         for base in &bases {
             draft.begin(base);
             draft.complete(parameters);
@@ -42,6 +42,52 @@ pub fn plans(targets: &Targets) -> Result<Vec<Plan>, NoPlan> {
         }
     }
     Err(NoPlan::TooManyParameters)
+}
+
+/// A plan with the same steps in another order, points that then have more neighbours than they need being placed
+/// from those that are deep least. `choose` says which of so many steps comes next.
+pub fn reordered(
+    targets: &Targets,
+    pairs: &Pairs,
+    plan: &Plan,
+    choose: &mut impl FnMut(usize) -> usize,
+) -> Plan {
+    let mut draft = Draft::new(targets, pairs);
+    draft.begin(&plan.base);
+    let mut left: Vec<&Step> = plan.steps.iter().collect();
+    while !left.is_empty() {
+        let ready: Vec<usize> = (0..left.len())
+            .filter(|&i| left[i].kind.from().iter().all(|&q| draft.placed[q]))
+            .collect();
+        let step = left.remove(ready[choose(ready.len())]);
+        let mut kind = step.kind.clone();
+        let first = draft.drives.len();
+        // The parameters are numbered in the order of the steps.
+        match &mut kind {
+            Kind::Arm { parameter, .. } | Kind::Hinge { parameter, .. } => {
+                draft.drives.push(plan.drives[*parameter]);
+                *parameter = first;
+            }
+            Kind::Meet { radii, .. } => {
+                for radius in radii {
+                    if let Radius::Parameter(parameter) = radius {
+                        draft.drives.push(plan.drives[*parameter]);
+                        *parameter = draft.drives.len() - 1;
+                    }
+                }
+            }
+        }
+        let standing = draft.standing(step.point);
+        if draft.drives.len() == first && standing.len() > targets.dimension {
+            kind = draft.meet(step.point, &standing);
+        }
+        draft.push(step.point, kind);
+    }
+    Plan {
+        base: plan.base.clone(),
+        steps: draft.steps,
+        drives: draft.drives,
+    }
 }
 
 fn bases(targets: &Targets) -> Vec<Vec<usize>> {
@@ -62,31 +108,9 @@ fn bases(targets: &Targets) -> Vec<Vec<usize>> {
     out
 }
 
-/// Bounds of all distances by shortest paths, for parameters that are distances: roughly, rounded outwards.
-fn pair_bounds(targets: &Targets) -> Vec<f64> {
-    let n = targets.points;
-    let mut most = vec![f64::INFINITY; n * n];
-    for (edge, length) in targets.edges.iter().zip(&targets.lengths) {
-        let [a, b] = *edge;
-        most[a * n + b] = length.sup();
-        most[b * n + a] = length.sup();
-    }
-    for k in 0..n {
-        for a in 0..n {
-            for b in 0..n {
-                let way = (most[a * n + k] + most[k * n + b]).next_up();
-                if way < most[a * n + b] {
-                    most[a * n + b] = way;
-                }
-            }
-        }
-    }
-    most
-}
-
 struct Draft<'a> {
     targets: &'a Targets,
-    most: &'a [f64],
+    pairs: &'a Pairs,
     neighbours: Vec<Vec<usize>>,
     base: Vec<usize>,
     placed: Vec<bool>,
@@ -98,7 +122,7 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(targets: &'a Targets, most: &'a [f64]) -> Self {
+    fn new(targets: &'a Targets, pairs: &'a Pairs) -> Self {
         let mut neighbours = vec![Vec::new(); targets.points];
         for &[a, b] in &targets.edges {
             neighbours[a].push(b);
@@ -106,7 +130,7 @@ impl<'a> Draft<'a> {
         }
         Draft {
             targets,
-            most,
+            pairs,
             neighbours,
             base: Vec::new(),
             placed: Vec::new(),
@@ -159,12 +183,8 @@ impl<'a> Draft<'a> {
                     (standing.len(), std::cmp::Reverse((deep, *p)))
                 });
             let Some((standing, p)) = next else { break };
-            let centres = self.centres(&standing);
-            let radii = centres
-                .iter()
-                .map(|&q| Radius::Edge(self.targets.edge(p, q).expect("a neighbour")))
-                .collect();
-            self.push(p, Kind::Meet { centres, radii });
+            let kind = self.meet(p, &standing);
+            self.push(p, kind);
         }
         if self.steps.len() + d == self.targets.points {
             let plan = Plan {
@@ -201,12 +221,16 @@ impl<'a> Draft<'a> {
         }
     }
 
+    /// How a point is placed from neighbours, without a parameter.
+    fn meet(&self, p: usize, standing: &[usize]) -> Kind {
+        let centres = self.centres(standing);
+        let radius = |&q: &usize| Radius::Edge(self.targets.edge(p, q).expect("a neighbour"));
+        let radii = centres.iter().map(radius).collect();
+        Kind::Meet { centres, radii }
+    }
+
     fn push(&mut self, p: usize, kind: Kind) {
-        let from: Vec<usize> = match &kind {
-            Kind::Arm { centre, .. } => vec![*centre],
-            Kind::Hinge { frame, .. } => frame.to_vec(),
-            Kind::Meet { centres, .. } => centres.clone(),
-        };
+        let from = kind.from();
         let used = |q: usize| match &kind {
             Kind::Hinge { frame, .. } => frame[..2].contains(&q),
             Kind::Meet { centres, radii } => centres
@@ -315,10 +339,10 @@ impl<'a> Draft<'a> {
             .collect();
         let mut drives = Vec::new();
         for q in others.into_iter().take(3 - standing.len()) {
-            let most = self.most[p * self.targets.points + q];
+            let [least, most] = self.pairs.squares(p, q);
             radii.push(Radius::Parameter(parameter + drives.len()));
             // A little more, so that who bounds it with other roundings comes to less.
-            drives.push(Drive::Square([0.0, most * most * (1.0 + 1e-9)]));
+            drives.push(Drive::Square([least * (1.0 - 1e-9), most * (1.0 + 1e-9)]));
             centres.push(q);
         }
         (centres.len() == 3).then_some((Kind::Meet { centres, radii }, drives))

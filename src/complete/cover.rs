@@ -5,11 +5,13 @@ use super::plan::{Drive, Kind, Plan, Radius};
 use super::search::Search;
 use crate::certificate::cover::{self, Cover, Mark};
 use crate::problem::Problem;
+use serde::{Deserialize, Serialize};
 
 /// Where marks go: nowhere, or into bytes.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Marks {
     /// The bytes, if they are wanted.
+    #[serde(with = "hexadecimal")]
     pub bytes: Option<Vec<u8>>,
 }
 
@@ -19,6 +21,36 @@ impl Marks {
         if let Some(bytes) = &mut self.bytes {
             mark.put(symbols, bytes);
         }
+    }
+}
+
+/// Bytes as a text of hexadecimal digits.
+mod hexadecimal {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+    use std::fmt::Write;
+
+    pub fn serialize<S: Serializer>(bytes: &Option<Vec<u8>>, to: S) -> Result<S::Ok, S::Error> {
+        let text = bytes.as_ref().map(|bytes| {
+            bytes.iter().fold(String::new(), |mut text, byte| {
+                // Writing to a string cannot fail.
+                let _ = write!(text, "{byte:02x}");
+                text
+            })
+        });
+        text.serialize(to)
+    }
+
+    pub fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<Option<Vec<u8>>, D::Error> {
+        let text: Option<String> = Option::deserialize(from)?;
+        let byte = |pair: &[u8]| {
+            let digits = std::str::from_utf8(pair).ok()?;
+            (pair.len() == 2).then(|| u8::from_str_radix(digits, 16).ok())?
+        };
+        text.map(|text| {
+            let bytes: Option<Vec<u8>> = text.as_bytes().chunks(2).map(byte).collect();
+            bytes.ok_or_else(|| D::Error::custom("not hexadecimal digits"))
+        })
+        .transpose()
     }
 }
 
@@ -35,7 +67,7 @@ pub fn file(problem: &Problem, search: &Search, figures: &[Figure], marks: Vec<u
             .iter()
             .map(|drive| match drive {
                 Drive::Angle => None,
-                Drive::Square([_, most]) => Some(*most),
+                Drive::Square(bounds) => Some(*bounds),
             })
             .collect(),
         figures: figures.iter().map(|figure| figure.centre.clone()).collect(),

@@ -5,9 +5,10 @@ use super::plan::Plan;
 use super::targets::Targets;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, point};
+use serde::{Deserialize, Serialize};
 
 /// A figure with the distances wanted, in the base of a plan, proved to exist.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Figure {
     /// The middle of its box, three coordinates a point, in the search's unit.
     pub centre: Vec<[f64; 3]>,

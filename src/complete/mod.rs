@@ -33,20 +33,27 @@ mod krawczyk;
 mod model;
 mod node;
 mod outcome;
+mod pairs;
+mod pieces;
 mod place;
 mod plan;
 mod search;
+mod store;
 mod targets;
 mod visit;
 
 pub use outcome::{Complete, Options, Part, Progress, Status, Unserved};
+pub use store::Keep;
 pub use visit::Why;
 
 use crate::problem::Problem;
+use pairs::Pairs;
 use plan::Plan;
+use rayon::prelude::*;
 use search::{Run, Search, Unfit};
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
+use store::{Head, Store};
 use targets::Targets;
 use visit::Found;
 
@@ -61,7 +68,8 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let targets = Targets::new(problem);
     let in_words =
         emptiness::too_long(&targets).map(|(edge, way)| outcome::too_long(problem, edge, &way));
-    let plans = match (choose::plans(&targets), &in_words) {
+    let pairs = Pairs::new(&targets);
+    let plans = match (choose::plans(&targets, &pairs), &in_words) {
         (Ok(plans), None) => plans,
         // A reason in words needs no search, but a cover does.
         (Ok(plans), Some(_)) if options.cover => plans,
@@ -74,10 +82,21 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         boxes: AtomicU64::new(0),
         most_boxes: options.most_boxes,
         done: AtomicU64::new(0),
+        before: AtomicU64::new(0),
         cover: options.cover,
     };
-    let result = options.watched(&run, begin, || searched(&targets, plans, &run));
-    match result {
+    let store = match &options.store {
+        Some(keep) => {
+            let opened = Store::open(keep, problem, options.cover);
+            Some((keep, opened.map_err(Unserved::Store)?))
+        }
+        None => None,
+    };
+    let result = options.watched(&run, begin, || match store {
+        None => Ok(searched(&targets, &pairs, plans, &run)),
+        Some((keep, store)) => kept(problem, (&targets, &pairs, plans), &run, keep, store),
+    });
+    match result.map_err(Unserved::Store)? {
         Ok((search, found)) => {
             let mut result = Complete::new(problem, &search, found, begin);
             if result.status == Status::Complete && in_words.is_some() {
@@ -95,12 +114,61 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     }
 }
 
+/// Runs the search, or goes on with it, with a store.
+fn kept(
+    problem: &Problem,
+    (targets, pairs, plans): (&Targets, &Pairs, Vec<Plan>),
+    run: &Run,
+    keep: &Keep,
+    mut store: Store,
+) -> Result<Result<(Search, Found), Unfit>, String> {
+    let search = match &store.head {
+        // The plan that the parts were made by.
+        Some(head) => match Search::new(targets, pairs, head.plan.clone()) {
+            Ok(search) => search,
+            Err(unfit) => return Ok(Err(unfit)),
+        },
+        None => {
+            let search = match chosen(targets, pairs, plans, run) {
+                Ok((search, _)) => search,
+                Err(unfit) => return Ok(Err(unfit)),
+            };
+            // A choice that was broken off is no choice: another run might make another.
+            if run.stop.load(Ordering::Relaxed) {
+                let found = search.run(run);
+                return Ok(Ok((search, found)));
+            }
+            store.begin(Head::new(problem, &search.plan, run.cover))?;
+            search
+        }
+    };
+    let found = search.kept(run, keep, store)?;
+    Ok(Ok((search, found)))
+}
+
 /// Runs the search by the best plan.
-fn searched(targets: &Targets, plans: Vec<Plan>, run: &Run) -> Result<(Search, Found), Unfit> {
+fn searched(
+    targets: &Targets,
+    pairs: &Pairs,
+    plans: Vec<Plan>,
+    run: &Run,
+) -> Result<(Search, Found), Unfit> {
+    let (search, found) = chosen(targets, pairs, plans, run)?;
+    let found = found.unwrap_or_else(|| search.run(run));
+    Ok((search, found))
+}
+
+/// The best plan, and what was found if it came to an end in a trial.
+fn chosen(
+    targets: &Targets,
+    pairs: &Pairs,
+    plans: Vec<Plan>,
+    run: &Run,
+) -> Result<(Search, Option<Found>), Unfit> {
     let mut searches = Vec::new();
     let mut unfit = Unfit::Large;
     for plan in plans.into_iter().take(CANDIDATES) {
-        match Search::new(targets, plan) {
+        match Search::new(targets, pairs, plan) {
             Ok(search) => searches.push(search),
             Err(Unfit::Empty(point)) => return Err(Unfit::Empty(point)),
             Err(other) => unfit = other,
@@ -109,44 +177,103 @@ fn searched(targets: &Targets, plans: Vec<Plan>, run: &Run) -> Result<(Search, F
     if searches.is_empty() {
         return Err(unfit);
     }
-    let (order, best) = best_of(&searches);
+    let (order, sampled) = best_of(&searches);
     // Samples miss what is deep and narrow: the first plan that gets through with few parts wins.
     for budget in BUDGETS {
         for &which in &order {
             let trial = Run {
                 boxes: AtomicU64::new(0),
                 done: AtomicU64::new(0),
+                before: AtomicU64::new(0),
                 most_boxes: budget.min(run.most_boxes),
                 ..*run
             };
             let found = searches[which].run(&trial);
             // What a search has looked at when it is through does not depend on the threads.
             if found.unfinished == 0 && found.boxes <= trial.most_boxes {
-                return Ok((searches.swap_remove(which), found));
+                return Ok((searches.swap_remove(which), Some(found)));
             }
         }
         if budget >= run.most_boxes {
             break;
         }
     }
-    let search = searches.swap_remove(best);
-    let found = search.run(run);
-    Ok((search, found))
+    let search = match run.most_boxes > LONG && searches[0].plan.parameters() > 1 {
+        true => raced(targets, pairs, searches, &sampled, run),
+        false => searches.swap_remove(sampled[0]),
+    };
+    Ok((search, None))
 }
 
+/// The plan that a long search is run by: the ones that samples put first, and the first of these with their steps in
+/// other orders, are compared by whole subtrees, the better ones by more.
+fn raced(
+    targets: &Targets,
+    pairs: &Pairs,
+    mut searches: Vec<Search>,
+    sampled: &[usize],
+    run: &Run,
+) -> Search {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut choose = |count: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 33) as usize % count
+    };
+    let mut others: Vec<Plan> = Vec::new();
+    for &which in &sampled[..sampled.len().min(ORDERED)] {
+        for _ in 0..ORDERS {
+            let plan = choose::reordered(targets, pairs, &searches[which].plan, &mut choose);
+            if plan != searches[which].plan && !others.contains(&plan) {
+                others.push(plan);
+            }
+        }
+    }
+    let mut taken = vec![false; searches.len()];
+    sampled.iter().for_each(|&which| taken[which] = true);
+    let mut kept = taken.iter();
+    searches.retain(|_| kept.next() == Some(&true));
+    let others = others.into_iter();
+    searches.extend(others.filter_map(|plan| Search::new(targets, pairs, plan).ok()));
+    for (budget, left) in RACE {
+        let mut projected: Vec<(f64, Search)> = searches
+            .into_par_iter()
+            .map(|search| (search.projected(budget, run.stop), search))
+            .collect();
+        projected.sort_by(|a, b| a.0.total_cmp(&b.0));
+        projected.truncate(left);
+        // To compare further would cost more than to search.
+        let enough = projected[0].0 < (5 * budget) as f64;
+        searches = projected.into_iter().map(|x| x.1).collect();
+        if enough {
+            break;
+        }
+    }
+    searches.swap_remove(0)
+}
+
+/// Searches that may take more parts than this are worth a race.
+const LONG: u64 = 1_000_000;
+/// Plans of which other orders take part in the race, and how many are tried.
+const ORDERED: usize = 8;
+const ORDERS: usize = 6;
+/// The rounds of the race: parts for each, and how many are left.
+const RACE: [(u64, usize); 3] = [(6_000, 12), (30_000, 4), (150_000, 1)];
+
 /// How many parts each of the best plans is tried for, before the one that samples say is best is run to its end.
-const BUDGETS: [u64; 3] = [600, 3000, 15_000];
+const BUDGETS: [u64; 4] = [600, 3000, 15_000, 75_000];
 
 /// Plans that are sampled at most.
 const CANDIDATES: usize = 64;
 /// The rounds of samples: how many plans take part, and how many ways down the tree of each.
-const ROUNDS: [(usize, usize); 2] = [(CANDIDATES, 16), (12, 128)];
+const ROUNDS: [(usize, usize); 2] = [(CANDIDATES, 16), (16, 128)];
 /// Plans that are tried.
 const TRIED: usize = 3;
 
-/// The plans to try: the one guessed to be best, then those that samples say are least work; and which of these
-/// samples put first. Sampled are at first all plans by few ways, then the best ones by more.
-fn best_of(searches: &[Search]) -> (Vec<usize>, usize) {
+/// The plans to try: the one guessed to be best, then those that samples say are least work; and all that were sampled to
+/// the end, the best ones first. Sampled are at first all plans by few ways, then the best ones by more.
+fn best_of(searches: &[Search]) -> (Vec<usize>, Vec<usize>) {
     let k = searches[0].plan.parameters();
     let mut order: Vec<usize> = (0..searches.len()).collect();
     match k {
@@ -170,10 +297,10 @@ fn best_of(searches: &[Search]) -> (Vec<usize>, usize) {
             break;
         }
     }
+    let sampled = order.clone();
     order.truncate(TRIED);
-    let best = order[0];
     // The guess is often right where samples are not.
     order.retain(|&i| i != 0);
     order.insert(0, 0);
-    (order, best)
+    (order, sampled)
 }

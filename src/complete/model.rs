@@ -47,6 +47,76 @@ impl Number {
         let (mid, rad) = (x.mid(), x.rad());
         Number { mid, rad }
     }
+
+    /// x + f y for a float f.
+    pub fn plus(self, factor: f64, other: Number) -> Number {
+        let product = factor * other.mid;
+        let mid = self.mid + product;
+        // A product and a sum are rounded once each.
+        let rounded = UNIT_ROUNDOFF * (product.abs() + mid.abs()) + UNDERFLOW;
+        let rad = (self.rad + factor.abs() * other.rad + rounded) * UP;
+        Number { mid, rad }
+    }
+
+    /// x y.
+    pub fn times(self, other: Number) -> Number {
+        let mid = self.mid * other.mid;
+        let rounded = UNIT_ROUNDOFF * mid.abs() + UNDERFLOW;
+        let spread = self.mid.abs() * other.rad + self.rad * (other.mid.abs() + other.rad);
+        Number {
+            mid,
+            rad: (spread + rounded) * UP,
+        }
+    }
+}
+
+/// A model as a factor of products, with bounds of its parts.
+#[derive(Debug, Clone, Copy)]
+pub struct Factor<'m, const S: usize, const M: usize> {
+    model: &'m Model<S, M>,
+    linear: f64,
+    quadratic: f64,
+    /// Of the polynomial.
+    all: f64,
+}
+
+/// start ± f₁ g₁ ± f₂ g₂ …, rounded as one sum.
+///
+/// No term of a coefficient passes through more than N + 4 roundings: its product, up to three sums within
+/// the product of the models, and up to N on the way to `start`. All terms of all coefficients together are at most
+/// |start| + Σ |f||g|, the sizes of the polynomials.
+#[inline(always)]
+pub fn combined<const N: usize, const S: usize, const M: usize>(
+    start: &Model<S, M>,
+    terms: [(f64, Factor<S, M>, Factor<S, M>); N],
+) -> Model<S, M> {
+    let mut c = start.c;
+    let (mut size, mut r) = (start.polynomial(), start.r);
+    for (sign, f, g) in terms {
+        let (a, b) = (&f.model.c, &g.model.c);
+        debug_assert!(sign.abs() == 1.0);
+        let lead = sign * a[0];
+        c[0] += lead * b[0];
+        let mut q = 1 + S;
+        for i in 1..1 + S {
+            let own = sign * a[i];
+            c[i] += lead * b[i] + own * b[0];
+            c[q] += lead * b[q] + sign * a[q] * b[0] + own * b[i];
+            q += 1;
+            for j in i + 1..1 + S {
+                let cross = own * b[j] + sign * a[j] * b[i];
+                c[q] += lead * b[q] + sign * a[q] * b[0] + cross;
+                q += 1;
+            }
+        }
+        r += f.linear * g.quadratic
+            + f.quadratic * (g.linear + g.quadratic)
+            + f.all * g.model.r
+            + f.model.r * (g.all + g.model.r);
+        size += f.all * g.all;
+    }
+    let r = (r + gamma(N + 5) * size) * UP + UNDERFLOW;
+    Model { c, r }
 }
 
 impl Range {
@@ -55,6 +125,26 @@ impl Range {
     pub fn misses_zero(&self, size: f64) -> bool {
         self.lo > 1e-9 * size || self.hi < -1e-9 * size
     }
+}
+
+/// start + x₁ f₁ + x₂ f₂ … for numbers x, rounded as one sum: every term passes through a product and up to N sums.
+#[inline(always)]
+pub fn weighted<const N: usize, const S: usize, const M: usize>(
+    start: &Model<S, M>,
+    terms: [(Number, &Model<S, M>); N],
+) -> Model<S, M> {
+    let mut c = start.c;
+    let (mut size, mut r) = (start.polynomial(), start.r);
+    for (x, f) in terms {
+        for q in 0..M {
+            c[q] += x.mid * f.c[q];
+        }
+        let all = f.polynomial();
+        r += (x.mid.abs() + x.rad) * f.r + x.rad * all;
+        size += x.mid.abs() * all;
+    }
+    let r = (r + gamma(N + 2) * size) * UP + UNDERFLOW;
+    Model { c, r }
 }
 
 impl<const S: usize, const M: usize> Model<S, M> {
@@ -82,13 +172,33 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// A bound on the linear part.
+    #[inline(always)]
     pub fn linear(&self) -> f64 {
         self.c[1..1 + S].iter().map(|x| x.abs()).sum()
     }
 
     /// A bound on the quadratic part.
+    #[inline(always)]
     pub fn quadratic(&self) -> f64 {
         self.c[1 + S..].iter().map(|x| x.abs()).sum()
+    }
+
+    /// A bound on the size of the polynomial.
+    #[inline(always)]
+    pub fn polynomial(&self) -> f64 {
+        self.c.iter().map(|x| x.abs()).sum()
+    }
+
+    /// As a factor of products.
+    #[inline(always)]
+    pub fn factor(&self) -> Factor<'_, S, M> {
+        let (linear, quadratic) = (self.linear(), self.quadratic());
+        Factor {
+            model: self,
+            linear,
+            quadratic,
+            all: self.c[0].abs() + linear + quadratic,
+        }
     }
 
     /// A bound on how far the function is from its constant coefficient.
@@ -102,6 +212,7 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// f + g.
+    #[inline(always)]
     pub fn plus(&self, other: &Self) -> Self {
         let mut c = self.c;
         let mut size = 0.0;
@@ -115,6 +226,7 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// f − g.
+    #[inline(always)]
     pub fn minus(&self, other: &Self) -> Self {
         let mut c = self.c;
         let mut size = 0.0;
@@ -127,6 +239,7 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// f times a float.
+    #[inline(always)]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut c = self.c;
         let mut size = 0.0;
@@ -139,6 +252,7 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// f times a number.
+    #[inline(always)]
     pub fn by(&self, factor: Number) -> Self {
         let mut out = self.scaled(factor.mid);
         out.r = (out.r + self.size() * factor.rad) * UP;
@@ -146,6 +260,7 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// f plus a number.
+    #[inline(always)]
     pub fn shifted(&self, by: Number) -> Self {
         let mut out = *self;
         out.c[0] += by.mid;
@@ -154,39 +269,16 @@ impl<const S: usize, const M: usize> Model<S, M> {
     }
 
     /// f g.
+    #[inline(always)]
     pub fn times(&self, other: &Self) -> Self {
-        let (a, b) = (&self.c, &other.c);
-        let mut c = [0.0; M];
-        c[0] = a[0] * b[0];
-        for i in 1..1 + S {
-            c[i] = a[0] * b[i] + a[i] * b[0];
-        }
-        let mut q = 1 + S;
-        for i in 1..1 + S {
-            c[q] = a[0] * b[q] + a[q] * b[0] + a[i] * b[i];
-            q += 1;
-            for j in i + 1..1 + S {
-                c[q] = a[0] * b[q] + a[q] * b[0] + (a[i] * b[j] + a[j] * b[i]);
-                q += 1;
-            }
-        }
-        let (la, qa) = (self.linear(), self.quadratic());
-        let (lb, qb) = (other.linear(), other.quadratic());
-        let (all_a, all_b) = (a[0].abs() + la + qa, b[0].abs() + lb + qb);
-        // No coefficient's terms pass through more than four roundings.
-        let r = (la * qb + qa * (lb + qb))
-            + all_a * other.r
-            + self.r * (all_b + other.r)
-            + gamma(5) * (all_a * all_b);
-        Model {
-            c,
-            r: r * UP + UNDERFLOW,
-        }
+        combined(&Self::ZERO, [(1.0, self.factor(), other.factor())])
     }
 
     /// f².
+    #[inline(always)]
     pub fn squared(&self) -> Self {
-        self.times(self)
+        let factor = self.factor();
+        combined(&Self::ZERO, [(1.0, factor, factor)])
     }
 
     /// Bounds of the function: the terms g u + h u² of one symbol exactly, the others by size.
@@ -419,6 +511,16 @@ mod tests {
             let near = exact(factor) + exact(0.01) * exact(part[1]);
             prop_assert!(encloses(&f.by(number), &u, &(&x * &near)));
             prop_assert!(encloses(&f.shifted(number), &u, &(&x + &near)));
+            let sum = weighted(&f, [(number, &g), (Number { mid: -1.0, rad: 0.0 }, &f)]);
+            prop_assert!(encloses(&sum, &u, &(&near * &y)));
+            let numbers = (number, Number { mid: shift, rad: 0.001 });
+            let (a, b) = (near.clone(), exact(shift) + exact(0.001) * exact(part[0]));
+            let holds = |n: Number, x: &BigRational| (exact(n.mid) - x).abs() <= exact(n.rad);
+            prop_assert!(holds(numbers.0.times(numbers.1), &(&a * &b)));
+            prop_assert!(holds(numbers.0.plus(-0.5, numbers.1), &(&a - &b * exact(0.5))));
+            let (a, b) = (f.factor(), g.factor());
+            let sum = combined(&f, [(1.0, a, b), (-1.0, b, b), (1.0, a, a)]);
+            prop_assert!(encloses(&sum, &u, &(&x + &x * &y - &y * &y + &x * &x)));
             let range = f.range();
             prop_assert!(exact(range.lo) <= x && x <= exact(range.hi));
             prop_assert!((&x - exact(f.c[0])).abs() <= exact(f.reach()));

@@ -2,6 +2,7 @@
 
 use super::choose::NoPlan;
 use super::search::{Run, Search, different};
+use super::store::Keep;
 use super::visit::{Found, Why};
 use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
@@ -96,6 +97,9 @@ pub enum Unserved {
         "not served yet: the problem has more than 250 points, or more than 64 with two places each"
     )]
     Large,
+    /// The store cannot be used.
+    #[error("{0}")]
+    Store(String),
 }
 
 impl From<NoPlan> for Unserved {
@@ -112,6 +116,8 @@ impl From<NoPlan> for Unserved {
 pub struct Progress {
     /// The share of the parameter space that is done.
     pub share: f64,
+    /// What of the share earlier runs did that left it in a store.
+    pub before: f64,
     /// Parts looked at.
     pub boxes: u64,
 }
@@ -128,6 +134,8 @@ pub struct Options<'a> {
     pub cover: bool,
     /// Threads; 0 for one per processor.
     pub threads: usize,
+    /// Where parts that are done are kept.
+    pub store: Option<Keep>,
     /// Told now and then where the search is.
     #[allow(clippy::type_complexity)]
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
@@ -141,6 +149,7 @@ impl Default for Options<'_> {
             most_boxes: 4_000_000_000,
             cover: false,
             threads: 0,
+            store: None,
             progress: None,
         }
     }
@@ -181,6 +190,7 @@ impl Options<'_> {
                     if let Some(tell) = self.progress {
                         tell(Progress {
                             share: run.share_done(),
+                            before: run.share_before(),
                             boxes: run.boxes.load(Ordering::Relaxed),
                         });
                     }

@@ -1,9 +1,10 @@
 //! Where one step puts its point, as Taylor models.
 
-use super::model::{Model, Number, rotation};
+use super::model::{Model, Number, combined, rotation, weighted};
 use super::node::{Node, Sign};
 use super::plan::{Drive, HingeNumbers, Kind, MeetNumbers, Meeting, Plan, Radius};
 use super::targets::Targets;
+use crate::interval::rounding::UNDERFLOW;
 
 /// A point, or the difference of two.
 pub type Place<const D: usize, const S: usize, const M: usize> = [Model<S, M>; D];
@@ -15,8 +16,88 @@ pub enum Known {
     Length(Number),
     /// A hinge's constants.
     Hinge(HingeNumbers),
-    /// A meeting's constants, and which of the steps with two places it is.
-    Meeting(Meeting, usize),
+    /// A meeting's constants, which of the steps with two places it is, and what it is computed from otherwise.
+    Meeting(Meeting, usize, Squares),
+}
+
+/// The squared distances of a meeting that are the problem's.
+#[derive(Debug, Clone, Copy)]
+pub struct Squares {
+    /// From the centres to the new point.
+    radii: [Option<Number>; 3],
+    /// Between the centres: the first two, the first and the third, the last two.
+    between: [Option<Number>; 3],
+}
+
+impl Squares {
+    /// Of a new point's centres.
+    pub fn new(targets: &Targets, centres: &[usize], radii: &[Radius]) -> Self {
+        let between = |i: usize, j: usize| {
+            let edge = targets.edge(*centres.get(i)?, *centres.get(j)?)?;
+            Some(Number::new(targets.squares[edge]))
+        };
+        let radius = |k: usize| match radii.get(k) {
+            Some(Radius::Edge(edge)) => Some(Number::new(targets.squares[*edge])),
+            _ => None,
+        };
+        Squares {
+            radii: [radius(0), radius(1), radius(2)],
+            between: [between(0, 1), between(0, 2), between(1, 2)],
+        }
+    }
+}
+
+/// A number, or a function of the symbols.
+#[derive(Clone, Copy)]
+enum Quantity<const S: usize, const M: usize> {
+    Fixed(Number),
+    Moving(Model<S, M>),
+}
+
+use Quantity::{Fixed, Moving};
+
+impl<const S: usize, const M: usize> Quantity<S, M> {
+    fn model(&self) -> Model<S, M> {
+        match self {
+            Fixed(x) => Model::constant(*x),
+            Moving(f) => *f,
+        }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Fixed(x), Fixed(y)) => Fixed(x.plus(1.0, *y)),
+            (Fixed(x), Moving(f)) | (Moving(f), Fixed(x)) => Moving(f.shifted(*x)),
+            (Moving(f), Moving(g)) => Moving(f.plus(g)),
+        }
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Fixed(x), Fixed(y)) => Fixed(x.plus(-1.0, *y)),
+            (Moving(f), Fixed(x)) => Moving(f.shifted(Number { mid: -x.mid, ..*x })),
+            (Moving(f), Moving(g)) => Moving(f.minus(g)),
+            (Fixed(x), Moving(f)) => Moving(f.scaled(-1.0).shifted(*x)),
+        }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Fixed(x), Fixed(y)) => Fixed(x.times(*y)),
+            (Fixed(x), Moving(f)) | (Moving(f), Fixed(x)) => Moving(f.by(*x)),
+            (Moving(f), Moving(g)) => Moving(f.times(g)),
+        }
+    }
+
+    fn half(&self) -> Self {
+        match self {
+            Fixed(x) => Fixed(Number {
+                mid: 0.5 * x.mid,
+                rad: 0.5 * x.rad + UNDERFLOW,
+            }),
+            Moving(f) => Moving(f.scaled(0.5)),
+        }
+    }
 }
 
 /// What placing a point came to.
@@ -71,36 +152,12 @@ fn minus<const D: usize, const S: usize, const M: usize>(
     std::array::from_fn(|k| a[k].minus(&b[k]))
 }
 
-fn plus<const D: usize, const S: usize, const M: usize>(
-    a: &Place<D, S, M>,
-    b: &Place<D, S, M>,
-) -> Place<D, S, M> {
-    std::array::from_fn(|k| a[k].plus(&b[k]))
-}
-
-fn by<const D: usize, const S: usize, const M: usize>(
-    a: &Place<D, S, M>,
-    factor: Number,
-) -> Place<D, S, M> {
-    a.each_ref().map(|x| x.by(factor))
-}
-
-fn times<const D: usize, const S: usize, const M: usize>(
-    a: &Place<D, S, M>,
-    factor: &Model<S, M>,
-) -> Place<D, S, M> {
-    a.each_ref().map(|x| x.times(factor))
-}
-
 fn dot<const D: usize, const S: usize, const M: usize>(
     a: &Place<D, S, M>,
     b: &Place<D, S, M>,
 ) -> Model<S, M> {
-    let mut sum = a[0].times(&b[0]);
-    for k in 1..D {
-        sum = sum.plus(&a[k].times(&b[k]));
-    }
-    sum
+    let terms = std::array::from_fn(|k| (1.0, a[k].factor(), b[k].factor()));
+    combined::<D, S, M>(&Model::ZERO, terms)
 }
 
 /// |a − b|².
@@ -122,14 +179,17 @@ fn normal<const D: usize, const S: usize, const M: usize>(
             if k == 0 { a[1].scaled(-1.0) } else { a[0] }
         } else {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            a[i].times(&b[j]).minus(&a[j].times(&b[i]))
+            let terms = [
+                (1.0, a[i].factor(), b[j].factor()),
+                (-1.0, a[j].factor(), b[i].factor()),
+            ];
+            combined(&Model::ZERO, terms)
         }
     })
 }
 
 /// Places the point of a step.
 pub fn place<const D: usize, const S: usize, const M: usize>(
-    targets: &Targets,
     plan: &Plan,
     node: &Node,
     (step, known): (usize, &Known),
@@ -139,20 +199,34 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
         (&Kind::Arm { centre, parameter }, &Known::Length(length)) => {
             let direction = angle(node, parameter);
             Placed::Here(std::array::from_fn(|k| {
-                points[centre][k].plus(&direction[k].by(length))
+                weighted(&points[centre][k], [(length, &direction[k])])
             }))
         }
         (&Kind::Hinge { frame, parameter }, &Known::Hinge(numbers)) => {
             let [c1, c2, q] = frame.map(|p| &points[p]);
             let a = minus(c2, c1);
-            let v = minus(&minus(q, c1), &by(&a, numbers.foot));
+            let minus_one = Number {
+                mid: -1.0,
+                rad: 0.0,
+            };
+            let minus_foot = Number {
+                mid: -numbers.foot.mid,
+                ..numbers.foot
+            };
+            let v: Place<D, S, M> = std::array::from_fn(|k| {
+                weighted(&q[k], [(minus_one, &c1[k]), (minus_foot, &a[k])])
+            });
             let [cos, sin] = angle(node, parameter);
-            let foot = plus(c1, &by(&a, numbers.along));
-            let side = times(&v, &cos.by(numbers.side));
-            let up = times(&normal(&a, &v), &sin.by(numbers.up));
-            Placed::Here(plus(&foot, &plus(&side, &up)))
+            let (cos, sin) = (cos.by(numbers.side), sin.by(numbers.up));
+            let (cos, sin) = (cos.factor(), sin.factor());
+            let up = normal(&a, &v);
+            Placed::Here(std::array::from_fn(|k| {
+                let foot = weighted(&c1[k], [(numbers.along, &a[k])]);
+                let terms = [(1.0, v[k].factor(), cos), (1.0, up[k].factor(), sin)];
+                combined(&foot, terms)
+            }))
         }
-        (Kind::Meet { centres, radii }, Known::Meeting(meeting, index)) => {
+        (Kind::Meet { centres, radii }, Known::Meeting(meeting, index, squares)) => {
             let c1 = &points[centres[0]];
             let a = minus(&points[centres[1]], c1);
             let b = match centres.get(2) {
@@ -162,9 +236,7 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
             match meeting {
                 Meeting::Empty => Placed::None,
                 Meeting::Rigid(numbers) => rigid(node, *index, numbers, c1, (&a, &b)),
-                Meeting::Moving => {
-                    moving(targets, plan, node, *index, (centres, radii), c1, (&a, &b))
-                }
+                Meeting::Moving => moving(plan, node, *index, (radii, squares), c1, (&a, &b)),
             }
         }
         _ => unreachable!("what is known of a step is of the step's own kind"),
@@ -178,79 +250,61 @@ fn rigid<const D: usize, const S: usize, const M: usize>(
     c1: &Place<D, S, M>,
     (a, b): (&Place<D, S, M>, &Place<D, S, M>),
 ) -> Placed<D, S, M> {
-    let mut middle = plus(c1, &by(a, numbers.first));
-    if D == 3 {
-        middle = plus(&middle, &by(b, numbers.second));
-    }
-    sided(node, index, middle, by(&normal(a, b), numbers.over))
-}
-
-fn sided<const D: usize, const S: usize, const M: usize>(
-    node: &Node,
-    index: usize,
-    middle: Place<D, S, M>,
-    off: Place<D, S, M>,
-) -> Placed<D, S, M> {
+    let middle = std::array::from_fn(|k| match D {
+        2 => weighted(&c1[k], [(numbers.first, &a[k])]),
+        _ => weighted(&c1[k], [(numbers.first, &a[k]), (numbers.second, &b[k])]),
+    });
+    let off = normal(a, b).map(|x| x.by(numbers.over));
     match node.sign(index) {
-        Some(Sign::Plus) => Placed::Here(plus(&middle, &off)),
+        Some(Sign::Plus) => Placed::Here(std::array::from_fn(|k| middle[k].plus(&off[k]))),
         Some(Sign::Minus) => Placed::Here(minus(&middle, &off)),
         _ => Placed::Either { middle, off },
     }
 }
 
 fn moving<const D: usize, const S: usize, const M: usize>(
-    targets: &Targets,
     plan: &Plan,
     node: &Node,
     index: usize,
-    (centres, radii): (&[usize], &[Radius]),
+    (radii, squares): (&[Radius], &Squares),
     c1: &Place<D, S, M>,
     (a, b): (&Place<D, S, M>, &Place<D, S, M>),
 ) -> Placed<D, S, M> {
-    let square = |one: usize, other: usize, d: &Place<D, S, M>| {
-        match targets.edge(centres[one], centres[other]) {
-            // What the distance must be is known better than what the models say.
-            Some(edge) => Model::constant(Number::new(targets.squares[edge])),
-            None => dot(d, d),
-        }
+    // What a distance must be is known better than what the models say.
+    let between = |which: usize, x: &Place<D, S, M>, y: &Place<D, S, M>| {
+        squares.between[which].map_or_else(|| Moving(dot(x, y)), Fixed)
     };
-    let radius = |k: usize| match radii[k] {
-        Radius::Edge(edge) => Model::constant(Number::new(targets.squares[edge])),
-        Radius::Parameter(parameter) => {
+    let radius = |k: usize| match (squares.radii[k], radii[k]) {
+        (Some(known), _) => Fixed(known),
+        (None, Radius::Parameter(parameter)) => {
             debug_assert!(matches!(plan.drives[parameter], Drive::Square(_)));
             let (middle, reach) = node.middle(parameter);
-            let mut out = Model::symbol(parameter, middle, reach);
-            // Above zero, and rounding of the middle is in the reach.
-            out.r = 0.0;
-            out
+            Moving(Model::symbol(parameter, middle, reach))
         }
+        (None, Radius::Edge(_)) => unreachable!("the problem's distances are known"),
     };
     // With A = |a|², B = |b|², C = a·b, q₁ = a·(p − c₁), q₂ = b·(p − c₁): the new point is
     // c₁ + ((q₁B − q₂C) a + (q₂A − q₁C) b ± √N n)/Δ, Δ = AB − C² = |n|², with
     // N = r₁²Δ − (q₁²B − 2q₁q₂C + q₂²A). In the plane Δ = A, N = r₁²A − q₁².
-    let (r1, big_a) = (radius(0), square(0, 1, a));
-    let q1 = r1.minus(&radius(1)).plus(&big_a).scaled(0.5);
+    let (r1, big_a) = (radius(0), between(0, a, a));
+    let q1 = r1.minus(&radius(1)).plus(&big_a).half();
     let (first, second, delta, n) = if D == 2 {
-        let n = r1.times(&big_a).minus(&q1.squared());
-        (q1, Model::ZERO, big_a, n)
+        let n = r1.times(&big_a).minus(&q1.times(&q1));
+        (q1, q1, big_a, n)
     } else {
-        let big_b = square(0, 2, b);
-        let c = match targets.edge(centres[1], centres[2]) {
-            Some(edge) => big_a
-                .plus(&big_b)
-                .minus(&Model::constant(Number::new(targets.squares[edge])))
-                .scaled(0.5),
-            None => dot(a, b),
+        let big_b = between(1, b, b);
+        let c = match squares.between[2] {
+            Some(third) => big_a.plus(&big_b).minus(&Fixed(third)).half(),
+            None => Moving(dot(a, b)),
         };
-        let q2 = r1.minus(&radius(2)).plus(&big_b).scaled(0.5);
-        let delta = big_a.times(&big_b).minus(&c.squared());
+        let q2 = r1.minus(&radius(2)).plus(&big_b).half();
+        let delta = big_a.times(&big_b).minus(&c.times(&c));
         let first = q1.times(&big_b).minus(&q2.times(&c));
         let second = q2.times(&big_a).minus(&q1.times(&c));
-        let n = r1
-            .times(&delta)
-            .minus(&first.times(&q1).plus(&second.times(&q2)));
-        (first, second, delta, n)
+        let off = first.times(&q1).plus(&second.times(&q2));
+        (first, second, delta, r1.times(&delta).minus(&off))
     };
+    let (delta, n) = (delta.model(), n.model());
     let height = n.range();
     if height.hi < -1e-9 {
         return Placed::None;
@@ -259,28 +313,48 @@ fn moving<const D: usize, const S: usize, const M: usize>(
     if !(width.lo > 1e-3 * width.hi) {
         return Placed::Degenerate(delta);
     }
-    let over = delta.reciprocal(width);
-    let mut middle = plus(c1, &times(a, &first.times(&over)));
-    if D == 3 {
-        middle = plus(&middle, &times(b, &second.times(&over)));
-    }
-    let n_vector = times(&normal(a, b), &over);
     let sign = node.sign(index);
-    if sign == Some(Sign::Fold) {
-        let symbol = node.fold_symbol(plan.parameters(), index);
-        let (centre, reach) = node.middle(symbol);
-        let w = Model::symbol(symbol, centre, reach);
-        let here = plus(&middle, &times(&n_vector, &w));
-        return Placed::Folded(here, n.minus(&w.squared()));
-    }
     let least = if sign.is_some() {
         LEAST_DECIDED
     } else {
         LEAST_OPEN
     };
-    if height.lo > least * height.hi && height.lo > 1e-9 {
-        let off = times(&n_vector, &n.square_root(height));
-        return sided(node, index, middle, off);
+    let opens = height.lo > least * height.hi && height.lo > 1e-9;
+    if sign == Some(Sign::Fold) || opens {
+        let over = delta.reciprocal(width);
+        let along = first.times(&Moving(over)).model();
+        let middle: Place<D, S, M> = if D == 2 {
+            std::array::from_fn(|k| combined(&c1[k], [(1.0, a[k].factor(), along.factor())]))
+        } else {
+            let across = second.times(&Moving(over)).model();
+            let (along, across) = (along.factor(), across.factor());
+            std::array::from_fn(|k| {
+                let terms = [(1.0, a[k].factor(), along), (1.0, b[k].factor(), across)];
+                combined(&c1[k], terms)
+            })
+        };
+        let out = over.factor();
+        let normal = normal(a, b).map(|x| combined(&Model::ZERO, [(1.0, x.factor(), out)]));
+        let beside = |sign: f64, height: &Model<S, M>| -> Place<D, S, M> {
+            let height = height.factor();
+            std::array::from_fn(|k| combined(&middle[k], [(sign, normal[k].factor(), height)]))
+        };
+        if sign == Some(Sign::Fold) {
+            let symbol = node.fold_symbol(plan.parameters(), index);
+            let (centre, reach) = node.middle(symbol);
+            let w = Model::symbol(symbol, centre, reach);
+            return Placed::Folded(beside(1.0, &w), n.minus(&w.squared()));
+        }
+        let root = n.square_root(height);
+        return match sign {
+            Some(Sign::Plus) => Placed::Here(beside(1.0, &root)),
+            Some(Sign::Minus) => Placed::Here(beside(-1.0, &root)),
+            _ => {
+                let root = root.factor();
+                let off = normal.map(|x| combined(&Model::ZERO, [(1.0, x.factor(), root)]));
+                Placed::Either { middle, off }
+            }
+        };
     }
     // A little more, so that who evaluates it with other roundings comes to less.
     let more = 1e-12 * (1.0 + n.size());

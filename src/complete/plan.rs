@@ -8,9 +8,10 @@
 use super::model::Number;
 use super::targets::{Targets, not_negative};
 use crate::interval::{Interval, point};
+use serde::{Deserialize, Serialize};
 
 /// How a point is placed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Kind {
     /// In the plane, at a given distance from one point, in the direction of a driving angle.
     Arm {
@@ -39,7 +40,7 @@ pub enum Kind {
 }
 
 /// The distance between a new point and one that it is placed from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Radius {
     /// A distance of the problem.
     Edge(usize),
@@ -48,7 +49,7 @@ pub enum Radius {
 }
 
 /// What a driving parameter is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Drive {
     /// An angle, in two halves: e^(iθ) = ± i (1 + iτ)/(1 − iτ), −1 ≤ τ ≤ 1.
     Angle,
@@ -57,7 +58,7 @@ pub enum Drive {
 }
 
 /// One point placed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Step {
     /// Which point.
     pub point: usize,
@@ -68,7 +69,7 @@ pub struct Step {
 }
 
 /// A construction plan.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// The base: the first point lies at the origin, the second on the positive x axis, in space the
     /// third in the xy plane above it.
@@ -77,6 +78,17 @@ pub struct Plan {
     pub steps: Vec<Step>,
     /// The driving parameters.
     pub drives: Vec<Drive>,
+}
+
+impl Kind {
+    /// The points that have to stand before.
+    pub fn from(&self) -> Vec<usize> {
+        match self {
+            Kind::Arm { centre, .. } => vec![*centre],
+            Kind::Hinge { frame, .. } => frame.to_vec(),
+            Kind::Meet { centres, .. } => centres.clone(),
+        }
+    }
 }
 
 impl Plan {

@@ -3,11 +3,13 @@
 use super::krawczyk::{Figure, Prover};
 use super::model::Number;
 use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
-use super::place::Known;
+use super::pairs::Pairs;
+use super::place::{Known, Squares};
 use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Why, visit};
 use rayon::prelude::*;
+use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// One plan's search.
@@ -24,6 +26,9 @@ pub struct Search {
     pub signed: Vec<usize>,
     /// The negatives of the squared distances wanted.
     pub minus_squares: Vec<Number>,
+    /// For each step, the points that stand before and have no given distance from the new one, with bounds of the
+    /// squared distance.
+    pub pairs: Vec<Vec<(usize, [f64; 2])>>,
     /// The test in all coordinates.
     pub prover: Prover,
     /// Symbols' ranges narrower than this are not halved.
@@ -55,6 +60,8 @@ pub struct Run<'a> {
     pub most_boxes: u64,
     /// The share that is done, in units of 2⁻⁶⁰.
     pub done: AtomicU64,
+    /// What of that was done before this run.
+    pub before: AtomicU64,
     /// Whether the cover is wanted.
     pub cover: bool,
 }
@@ -67,7 +74,7 @@ const SHARE_UNIT: f64 = (1u64 << 60) as f64;
 
 impl Search {
     /// Prepares the search by a plan.
-    pub fn new(targets: &Targets, plan: Plan) -> Result<Self, Unfit> {
+    pub fn new(targets: &Targets, pairs: &Pairs, plan: Plan) -> Result<Self, Unfit> {
         if targets.points > 250 || plan.steps.iter().filter(|s| s.is_signed()).count() > MAX_SIGNED
         {
             return Err(Unfit::Large);
@@ -93,11 +100,22 @@ impl Search {
                 Kind::Meet { centres, radii } => {
                     *signed.last_mut().expect("just pushed") = count;
                     count += 1;
-                    Known::Meeting(Meeting::new(targets, centres, radii), count - 1)
+                    let squares = Squares::new(targets, centres, radii);
+                    Known::Meeting(Meeting::new(targets, centres, radii), count - 1, squares)
                 }
             });
         }
+        let mut standing = plan.base.clone();
+        let bounded = plan.steps.iter().map(|step| {
+            let others = standing
+                .iter()
+                .filter(|&&q| targets.edge(step.point, q).is_none());
+            let bounds = others.map(|&q| (q, pairs.squares(step.point, q))).collect();
+            standing.push(step.point);
+            bounds
+        });
         Ok(Search {
+            pairs: bounded.collect(),
             prover: Prover::new(targets, &plan),
             minus_squares: targets.squares.iter().map(|&s| Number::new(-s)).collect(),
             base: base.into_iter().map(|p| p.map(Number::new)).collect(),
@@ -170,6 +188,22 @@ impl Search {
         run.boxes.fetch_add(count, Ordering::Relaxed);
     }
 
+    /// All below a part.
+    pub fn below(&self, run: &Run, node: Node) -> Found {
+        self.descend(run, node, 0)
+    }
+
+    /// One part, and those that it is parted into.
+    pub fn one(&self, run: &Run, node: Node) -> (Found, Vec<Node>) {
+        let (mut found, mut children) = (Found::default(), Vec::new());
+        if run.cover {
+            found.marks.bytes = Some(Vec::new());
+        }
+        self.look_at(node, run, &mut found, &mut children);
+        run.boxes.fetch_add(1, Ordering::Relaxed);
+        (found, children)
+    }
+
     fn look(&self, run: &Run, node: Node, found: &mut Found, children: &mut Vec<Node>) {
         if run.stop.load(Ordering::Relaxed) || run.boxes.load(Ordering::Relaxed) > run.most_boxes {
             let share = node.share;
@@ -182,8 +216,7 @@ impl Search {
         let share = node.share;
         visit(self, node, found, children);
         let open: f64 = children.iter().map(|c| c.share).sum();
-        let done = (share - open).max(0.0) * SHARE_UNIT;
-        run.done.fetch_add(done as u64, Ordering::Relaxed);
+        run.add_done((share - open).max(0.0));
     }
 
     /// Samples of how many parts a search would look at: random ways down the tree, each part weighted
@@ -224,6 +257,37 @@ impl Search {
             largest = largest.max(total / (ways / 4) as f64);
         }
         largest
+    }
+
+    /// How many parts a search would look at, from whole subtrees: the space is parted, the parts looked at longest ago
+    /// first, until there are thousands, and all below some of them, spread evenly, is searched. It ends after about
+    /// so many parts as `budget`; what is deep and narrow counts for what was seen of it.
+    pub fn projected(&self, budget: u64, stop: &AtomicBool) -> f64 {
+        const PARTS: usize = 4096;
+        let mut parts: VecDeque<Node> = Node::roots(&self.plan).into();
+        let (mut found, mut children) = (Found::default(), Vec::new());
+        let mut looked = 0u64;
+        while parts.len() < PARTS && looked < budget {
+            let Some(node) = parts.pop_front() else {
+                return looked as f64;
+            };
+            looked += 1;
+            visit(self, node, &mut found, &mut children);
+            parts.extend(children.drain(..));
+        }
+        let (mut below, mut taken) = (0u64, 0usize);
+        // A step prime to any number of parts about 4096 in size, and far from its fractions with small denominators.
+        let step = 2531;
+        while taken < parts.len() && below < budget && !stop.load(Ordering::Relaxed) {
+            let mut stack = vec![parts[taken * step % parts.len()].clone()];
+            taken += 1;
+            while let Some(node) = stack.pop().filter(|_| below < 2 * budget) {
+                below += 1;
+                visit(self, node, &mut found, &mut children);
+                stack.append(&mut children);
+            }
+        }
+        looked as f64 + parts.len() as f64 * below as f64 / taken.max(1) as f64
     }
 
     /// Whether floats see a curve of figures through (or very near) this one: a small step along the
@@ -357,6 +421,17 @@ pub fn different(figures: &[Figure], dimension: usize) -> Result<Vec<Figure>, us
 }
 
 impl Run<'_> {
+    /// Notes that a share of the parameter space is done.
+    pub fn add_done(&self, share: f64) {
+        let units = (share * SHARE_UNIT) as u64;
+        self.done.fetch_add(units, Ordering::Relaxed);
+    }
+
+    /// The share that was done before this run.
+    pub fn share_before(&self) -> f64 {
+        self.before.load(Ordering::Relaxed) as f64 / SHARE_UNIT
+    }
+
     /// The share of the parameter space that is done.
     pub fn share_done(&self) -> f64 {
         self.done.load(Ordering::Relaxed) as f64 / SHARE_UNIT

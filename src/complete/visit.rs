@@ -9,9 +9,10 @@ use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::place::{Place, Placed, place, squared_distance};
 use super::search::Search;
 use crate::certificate::cover::Mark;
+use serde::{Deserialize, Serialize};
 
 /// Why a part stays undecided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Why {
     /// A curve of figures goes through it, as far as floats see.
     Flexible,
@@ -24,7 +25,7 @@ pub enum Why {
 }
 
 /// A part that stays undecided.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Undecided {
     /// Why.
     pub why: Why,
@@ -33,7 +34,7 @@ pub struct Undecided {
 }
 
 /// What visits find.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Found {
     /// Figures proved, maybe several times.
     pub figures: Vec<Figure>,
@@ -157,13 +158,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         }
         let point = search.plan.steps[step].point;
         let known = &search.known[step];
-        let placed = place(
-            &search.targets,
-            &search.plan,
-            &self.node,
-            (step, known),
-            &self.points,
-        );
+        let placed = place(&search.plan, &self.node, (step, known), &self.points);
         match placed {
             Placed::Here(here) => {
                 self.points[point] = here;
@@ -240,6 +235,11 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             }
             self.equations.push(equation);
         }
+        if let Some(other) = self.wrong_pair(step) {
+            self.found.marks.put(Mark::WrongPair(step, other), S);
+            self.equations.truncate(before);
+            return;
+        }
         let folded = self.node.sign(search.signed[step]) == Some(Sign::Fold);
         if self.equations.len() > before || folded {
             let mut u = [Range { lo: -1.0, hi: 1.0 }; S];
@@ -256,6 +256,23 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         }
         self.go(step + 1);
         self.equations.truncate(before);
+    }
+
+    /// A point that all over the part is nearer to or farther from the one of `step` than they are in any figure.
+    fn wrong_pair(&self, step: usize) -> Option<usize> {
+        let here = &self.points[self.search.plan.steps[step].point];
+        let wrong = |&&(other, [least, most]): &&(usize, [f64; 2])| {
+            let there = &self.points[other];
+            // Where the middle of the part is in order, the whole is not wrong.
+            let middle: f64 = (0..D).map(|k| (here[k].c[0] - there[k].c[0]).powi(2)).sum();
+            if least <= middle && middle <= most {
+                return false;
+            }
+            let range = squared_distance(here, there).range();
+            range.lo > most + 1e-9 || range.hi < least - 1e-9
+        };
+        let found = self.search.pairs[step].iter().find(wrong);
+        found.map(|pair| pair.0)
     }
 
     /// Goes on with a smaller part, if what the equations leave is small enough.

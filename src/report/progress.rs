@@ -1,5 +1,6 @@
 //! A line that shows where a run is.
 
+use crate::complete::Progress as Searched;
 use crate::track::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -55,12 +56,14 @@ impl ProgressLine {
     }
 
     /// Shows where the search for all solutions is: what is left is guessed from what is done.
-    pub fn show_search(&mut self, share: f64, boxes: u64, seconds: f64) {
+    pub fn show_search(&mut self, now: Searched, seconds: f64) {
         if let Some(line) = &self.line {
-            let left = seconds * (1.0 - share) / share.max(1e-9);
+            let (share, fresh) = (now.share, now.share - now.before);
+            let left = seconds * (1.0 - share) / fresh.max(1e-9);
             line.set_message(format!(
-                "{:.4} % of the parameter space   boxes {boxes}   perhaps {left:.0} s left",
-                100.0 * share
+                "{:.4} % of the parameter space   boxes {}   perhaps {left:.0} s left",
+                100.0 * share,
+                now.boxes
             ));
         }
     }

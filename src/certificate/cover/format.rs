@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// The first line of every cover.
 pub const FIRST_LINE: &str = "krawl cover";
 /// The version of the format.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Most symbols at a time.
 pub const MAX_SYMBOLS: usize = 6;
 
@@ -40,8 +40,8 @@ pub struct Cover {
     pub base: Vec<usize>,
     /// The points that are not in the base, and how each is placed.
     pub steps: Vec<(usize, Kind)>,
-    /// The driving parameters: angles, or squared distances up to a bound.
-    pub drives: Vec<Option<f64>>,
+    /// The driving parameters: angles, or squared distances between bounds.
+    pub drives: Vec<Option<[f64; 2]>>,
     /// The middles of the solutions' boxes in the base, three coordinates a point, in units of
     /// two to the power of `unit_exponent`.
     pub figures: Vec<Vec<[f64; 3]>>,
@@ -77,6 +77,8 @@ pub enum Mark {
     Figure,
     /// 9: undecided.
     Undecided,
+    /// 10: when this step's point stands, its distance from this other point is one that no figure has.
+    WrongPair(usize, usize),
 }
 
 impl Cover {
@@ -94,7 +96,7 @@ impl Cover {
         for drive in &self.drives {
             let _ = match drive {
                 None => writeln!(out, "angle"),
-                Some(most) => writeln!(out, "square {most:e}"),
+                Some([least, most]) => writeln!(out, "square {least:e} {most:e}"),
             };
         }
         for (point, kind) in &self.steps {
@@ -193,9 +195,10 @@ impl Cover {
             match kind {
                 "base" => cover.base = words.map(|w| number(Some(w))).collect::<Result<_, _>>()?,
                 "angle" => cover.drives.push(None),
-                "square" => cover
-                    .drives
-                    .push(Some(float(words.next().unwrap_or_default())?)),
+                "square" => {
+                    let mut bound = || float(words.next().unwrap_or_default());
+                    cover.drives.push(Some([bound()?, bound()?]));
+                }
                 "arm" => {
                     let point = number(words.next())?;
                     let kind = Kind::Arm(number(words.next())?, number(words.next())?);
@@ -273,6 +276,7 @@ impl Mark {
             }
             Mark::Figure => out.push(8),
             Mark::Undecided => out.push(9),
+            Mark::WrongPair(step, other) => out.extend([10, step as u8, other as u8]),
         }
     }
 
@@ -299,17 +303,21 @@ impl Mark {
             }
             8 => (Mark::Figure, at + 1),
             9 => (Mark::Undecided, at + 1),
+            10 => (Mark::WrongPair(byte(1)?, byte(2)?), at + 3),
             _ => return None,
         })
     }
 
-    /// The step that the mark is about, and whether that step's point stands then. The last two marks are
-    /// about the whole plan, of `steps` steps, and about whatever stands.
+    /// The step that the mark is about, and whether that step's point stands then. `Figure` is about the whole plan, of
+    /// `steps` steps, and `Undecided` about whatever stands.
     pub fn place(self, steps: usize) -> (usize, bool) {
         match self {
             Mark::NoPlace(s) | Mark::Sides(s) | Mark::Fold(s, _) => (s, false),
             Mark::Halves(s, stands, _) => (s, stands),
-            Mark::WrongDistance(s, _) | Mark::Excluded(s) | Mark::Within(s, _) => (s, true),
+            Mark::WrongDistance(s, _)
+            | Mark::WrongPair(s, _)
+            | Mark::Excluded(s)
+            | Mark::Within(s, _) => (s, true),
             Mark::Figure => (steps, false),
             Mark::Undecided => (0, false),
         }

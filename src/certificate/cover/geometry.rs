@@ -2,6 +2,7 @@
 
 use super::format::{Cover, Kind, Radius};
 use super::model::Model;
+use super::pairs::Pairs;
 use crate::interval::{Interval, enclose, point};
 use crate::problem::{Problem, Target};
 
@@ -22,6 +23,8 @@ pub struct Plan<'a> {
     pub cover: &'a Cover,
     /// The coordinates of the base.
     pub base: Vec<[Interval; 3]>,
+    /// Bounds of all distances.
+    pub pairs: Pairs,
     /// The distances that close at each step.
     pub closing: Vec<Vec<usize>>,
 }
@@ -71,11 +74,14 @@ impl<'a> Plan<'a> {
             };
             square * per_unit * per_unit
         });
+        let squares: Vec<Interval> = squares.collect();
+        let edges: Vec<[usize; 2]> = problem.distances.iter().map(|e| e.points).collect();
         let mut plan = Plan {
             dimension: d,
             points: problem.points.len(),
-            edges: problem.distances.iter().map(|e| e.points).collect(),
-            squares: squares.collect(),
+            pairs: Pairs::new(problem.points.len(), &edges, &squares),
+            edges,
+            squares,
             cover,
             base: Vec::new(),
             closing: Vec::new(),
@@ -169,9 +175,10 @@ impl<'a> Plan<'a> {
                             Radius::Given => used.push(*centre),
                             Radius::Parameter(parameter) => {
                                 drive(*parameter, false)?;
-                                // No figure's distance is larger.
-                                let most = self.most_square(*new, *centre);
-                                if !(cover.drives[*parameter]? >= most) {
+                                // No figure's distance is outside.
+                                let [least, most] = cover.drives[*parameter]?;
+                                let square = self.pairs.square(*new, *centre);
+                                if !(least <= square.inf() && square.sup() <= most) {
                                     return None;
                                 }
                             }
@@ -195,18 +202,10 @@ impl<'a> Plan<'a> {
         (driven == cover.drives.len()).then_some(())
     }
 
-    /// A bound of the squared distance of two points: along the shortest way between them.
-    fn most_square(&self, a: usize, b: usize) -> f64 {
-        let mut way = vec![f64::INFINITY; self.points];
-        way[a] = 0.0;
-        for _ in 0..self.points {
-            for (&[p, q], square) in self.edges.iter().zip(&self.squares) {
-                let length = square.sqrt().sup();
-                way[q] = way[q].min((way[p] + length).next_up());
-                way[p] = way[p].min((way[q] + length).next_up());
-            }
-        }
-        (way[b] * way[b]).next_up()
+    /// Whether a point stands before a step.
+    pub fn stands(&self, p: usize, step: usize) -> bool {
+        let before = &self.cover.steps[..step];
+        self.cover.base.contains(&p) || before.iter().any(|(placed, _)| *placed == p)
     }
 
     /// Whether a step's point has two places.
@@ -226,10 +225,7 @@ impl<'a> Plan<'a> {
             &angles[1..]
         };
         let root = |choice: usize| Node {
-            ranges: drives
-                .iter()
-                .map(|d| d.map_or([-1.0, 1.0], |most| [0.0, most]))
-                .collect(),
+            ranges: drives.iter().map(|d| d.unwrap_or([-1.0, 1.0])).collect(),
             halves: (0..drives.len())
                 .map(|i| {
                     free.iter()

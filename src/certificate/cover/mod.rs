@@ -11,6 +11,7 @@ mod figure;
 mod format;
 mod geometry;
 mod model;
+mod pairs;
 
 pub use format::{Cover, CoverError, FIRST_LINE, Kind, MAX_SYMBOLS, Mark, Radius};
 
@@ -332,7 +333,7 @@ impl Walk<'_> {
         step: usize,
         mark: Mark,
         next: usize,
-        (_points, equations): (&[Place], &[Model]),
+        (points, equations): (&[Place], &[Model]),
     ) -> Result<(), String> {
         self.at = next;
         let symbols = node.ranges.len();
@@ -342,6 +343,13 @@ impl Walk<'_> {
                 let first = equations.len() - self.plan.closing[step].len();
                 let equation = equations[first..].get(place);
                 equation.is_some_and(|e| !e.range().contains(0.0))
+            }
+            Mark::WrongPair(_, other) if self.plan.stands(other, step) => {
+                let new = self.plan.cover.steps[step].0;
+                let d = minus(&points[new], &points[other]);
+                dot(&d, &d)
+                    .range()
+                    .disjoint(self.plan.pairs.square(new, other))
             }
             Mark::Excluded(_) => contracted(symbols, equations).is_none(),
             Mark::Within(_, ranges) => match contracted(symbols, equations) {

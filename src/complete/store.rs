@@ -1,0 +1,240 @@
+//! Finished parts of a search on disk, so that a search that is ended at any moment goes on where it was, and machines
+//! that share a search can bring together what each has done.
+//!
+//! One file in the store's folder: a line that says of what search it is (problem, plan, and into how many pieces the
+//! parameter space is cut), and a line for every piece that is done, behind its checksum. Lines are only ever
+//! appended, each at once: a process that is killed leaves at most one line that is cut off, which is no line.
+
+use super::plan::Plan;
+use super::visit::Found;
+use crate::problem::Problem;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// The name of the file in the folder.
+const NAME: &str = "parts.krawl-all";
+/// What the first line begins with.
+const KIND: &str = "parts of a search for all solutions";
+/// The format of the file, and of the search: other bounds would part the space in another way.
+const VERSION: u32 = 1;
+
+/// Where parts of a search are kept, and which this process works on.
+#[derive(Debug, Clone, Default)]
+pub struct Keep {
+    /// The folder; it is made where there is none.
+    pub folder: PathBuf,
+    /// `Some([k, n])`: the k-th of n shares alone, counted from 1.
+    pub share: Option<[usize; 2]>,
+    /// Other stores of the same search, folders or the files in them, whose parts are taken over first.
+    pub merge: Vec<PathBuf>,
+}
+
+/// What search a store is about.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Head {
+    krawl: String,
+    version: u32,
+    problem: String,
+    /// By which plan.
+    pub(super) plan: Plan,
+    cover: bool,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Line {
+    piece: usize,
+    found: Found,
+}
+
+/// An open store.
+pub(super) struct Store {
+    file: File,
+    path: PathBuf,
+    /// What search it is about, once that is known.
+    pub(super) head: Option<Head>,
+    /// The pieces that are done.
+    pub(super) done: BTreeMap<usize, Found>,
+}
+
+impl Head {
+    /// Of a search by a plan.
+    pub(super) fn new(problem: &Problem, plan: &Plan, cover: bool) -> Head {
+        Head {
+            krawl: KIND.to_owned(),
+            version: VERSION,
+            problem: problem.to_toml(),
+            plan: plan.clone(),
+            cover,
+        }
+    }
+
+    fn is_of(&self, problem: &Problem, cover: bool) -> Result<(), &'static str> {
+        if self.krawl != KIND || self.version != VERSION {
+            Err("another version of krawl wrote it; name another folder")
+        } else if self.problem != problem.to_toml() {
+            Err(
+                "it is about another problem, or the problem file was changed since; name another folder",
+            )
+        } else if self.cover != cover {
+            Err(match cover {
+                true => "it was begun without --cert and has no cover; name another folder",
+                false => "it was begun with --cert; give --cert again, or name another folder",
+            })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+fn json<T: Serialize>(what: &T) -> String {
+    serde_json::to_string(what).expect("strings, numbers and lists have a form in JSON")
+}
+
+/// The checksum of a line: of its text and of the first line's, so that no line passes into another search's file.
+fn checksum(head: &str, text: &str) -> String {
+    let digest = Sha256::new()
+        .chain_update(head)
+        .chain_update(text)
+        .finalize();
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Reads what is whole: the first line, the pieces, and how long all that is.
+fn read(file: &mut File) -> std::io::Result<Option<(Head, BTreeMap<usize, Found>, u64)>> {
+    let mut bytes = Vec::new();
+    file.seek(SeekFrom::Start(0))?;
+    file.read_to_end(&mut bytes)?;
+    let mut lines = bytes.split_inclusive(|&b| b == b'\n');
+    let whole = |line: &[u8]| -> Option<String> {
+        let text = line.strip_suffix(b"\n")?;
+        String::from_utf8(text.to_vec()).ok()
+    };
+    let Some(first) = lines.next() else {
+        return Ok(None);
+    };
+    let broken = |what: &str| std::io::Error::new(std::io::ErrorKind::InvalidData, what);
+    let Some(text) = whole(first) else {
+        // Cut off while the store was being made, or another file altogether.
+        return match first.starts_with(br#"{"krawl":"parts of"#) {
+            true => Ok(None),
+            false => Err(broken("it is not a store of `krawl all`")),
+        };
+    };
+    let head: Head =
+        serde_json::from_str(&text).map_err(|_| broken("it is not a store of `krawl all`"))?;
+    let (mut done, mut length) = (BTreeMap::new(), first.len());
+    let bound = json(&head);
+    let line_of = |line: &[u8]| -> Option<Line> {
+        let text = whole(line)?;
+        let (sum, rest) = text.split_once(' ')?;
+        let right = checksum(&bound, rest) == sum;
+        right.then(|| serde_json::from_str(rest).ok()).flatten()
+    };
+    for line in lines {
+        // From a line on that is damaged nothing is taken: what it was about is searched again.
+        let Some(one) = line_of(line) else { break };
+        length += line.len();
+        if one.found.unfinished == 0 {
+            done.insert(one.piece, one.found);
+        }
+    }
+    Ok(Some((head, done, length as u64)))
+}
+
+impl Store {
+    /// Opens a store, or makes one, and takes what is whole in it.
+    pub(super) fn open(keep: &Keep, problem: &Problem, cover: bool) -> Result<Store, String> {
+        let path = keep.folder.join(NAME);
+        let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        std::fs::create_dir_all(&keep.folder).map_err(|e| at(&e))?;
+        let mut file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)
+            .map_err(|e| at(&e))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(at(
+                    &"another krawl process has this store open; wait for it to end, or share the work by \
+                      --share with a folder for each process",
+                ));
+            }
+            Err(TryLockError::Error(error)) => return Err(at(&error)),
+        }
+        let known = read(&mut file).map_err(|e| at(&e))?;
+        let (head, done, length) = match known {
+            Some((head, done, length)) => (Some(head), done, length),
+            None => (None, BTreeMap::new(), 0),
+        };
+        if let Some(head) = &head {
+            head.is_of(problem, cover).map_err(|what| at(&what))?;
+        }
+        file.set_len(length).map_err(|e| at(&e))?;
+        file.seek(SeekFrom::End(0)).map_err(|e| at(&e))?;
+        Ok(Store {
+            file,
+            path,
+            head,
+            done,
+        })
+    }
+
+    /// Writes what search it is about, if it is new.
+    pub(super) fn begin(&mut self, head: Head) -> Result<(), String> {
+        if self.head.is_none() {
+            self.append(&json(&head))?;
+            self.head = Some(head);
+        }
+        Ok(())
+    }
+
+    /// Takes over what another store of the same search has. Begun must be both.
+    pub(super) fn merge(&mut self, other: &Path) -> Result<(), String> {
+        let path = match other.is_dir() {
+            true => other.join(NAME),
+            false => other.to_owned(),
+        };
+        let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let mut file = File::open(&path).map_err(|e| at(&e))?;
+        let (head, done, _) = read(&mut file)
+            .map_err(|e| at(&e))?
+            .ok_or_else(|| at(&"nothing is in this store"))?;
+        if Some(&head) != self.head.as_ref() {
+            return Err(at(
+                &"it is of another search: of another problem, by another plan, or of another version of krawl",
+            ));
+        }
+        for (piece, found) in done {
+            if !self.done.contains_key(&piece) {
+                self.put(piece, &found)?;
+                self.done.insert(piece, found);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what was found in a piece that is done.
+    pub(super) fn put(&mut self, piece: usize, found: &Found) -> Result<(), String> {
+        let head = self
+            .head
+            .as_ref()
+            .expect("a store is begun before it is filled");
+        let found = found.clone();
+        let text = json(&Line { piece, found });
+        let sum = checksum(&json(head), &text);
+        self.append(&format!("{sum} {text}"))
+    }
+
+    fn append(&mut self, line: &str) -> Result<(), String> {
+        let whole = format!("{line}\n");
+        let written = self.file.write_all(whole.as_bytes());
+        written.map_err(|e| format!("{}: {e}", self.path.display()))
+    }
+}
