@@ -551,8 +551,8 @@ impl Arguments {
     fn whole_in_words(&self, file: &Path) -> String {
         match self.wants_path() {
             Some(option) if input::is_sketch(file) && !self.summary => format!(
-                "Followed as a whole, as `{option}` asks for its path: what nothing determines is held, what follows from \
-                 other constraints is left out. Without it the figures are found block by block.\n"
+                "Followed as a whole, as `{option}` asks for its path: what nothing determines is held, what seems to \
+                 follow from other constraints is left out. Without it the figures are found block by block.\n"
             ),
             _ => String::new(),
         }

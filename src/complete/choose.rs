@@ -44,52 +44,6 @@ pub fn plans(targets: &Targets, pairs: &Pairs) -> Result<Vec<Plan>, NoPlan> {
     Err(NoPlan::TooManyParameters)
 }
 
-/// A plan with the same steps in another order, points that then have more neighbours than they need being placed
-/// from those that are deep least. `choose` says which of so many steps comes next.
-pub fn reordered(
-    targets: &Targets,
-    pairs: &Pairs,
-    plan: &Plan,
-    choose: &mut impl FnMut(usize) -> usize,
-) -> Plan {
-    let mut draft = Draft::new(targets, pairs);
-    draft.begin(&plan.base);
-    let mut left: Vec<&Step> = plan.steps.iter().collect();
-    while !left.is_empty() {
-        let ready: Vec<usize> = (0..left.len())
-            .filter(|&i| left[i].kind.from().iter().all(|&q| draft.placed[q]))
-            .collect();
-        let step = left.remove(ready[choose(ready.len())]);
-        let mut kind = step.kind.clone();
-        let first = draft.drives.len();
-        // The parameters are numbered in the order of the steps.
-        match &mut kind {
-            Kind::Arm { parameter, .. } | Kind::Hinge { parameter, .. } => {
-                draft.drives.push(plan.drives[*parameter]);
-                *parameter = first;
-            }
-            Kind::Meet { radii, .. } => {
-                for radius in radii {
-                    if let Radius::Parameter(parameter) = radius {
-                        draft.drives.push(plan.drives[*parameter]);
-                        *parameter = draft.drives.len() - 1;
-                    }
-                }
-            }
-        }
-        let standing = draft.standing(step.point);
-        if draft.drives.len() == first && standing.len() > targets.dimension {
-            kind = draft.meet(step.point, &standing);
-        }
-        draft.push(step.point, kind);
-    }
-    Plan {
-        base: plan.base.clone(),
-        steps: draft.steps,
-        drives: draft.drives,
-    }
-}
-
 fn bases(targets: &Targets) -> Vec<Vec<usize>> {
     let mut out = Vec::new();
     for &[a, b] in &targets.edges {

@@ -49,7 +49,6 @@ pub use visit::Why;
 use crate::problem::Problem;
 use pairs::Pairs;
 use plan::Plan;
-use rayon::prelude::*;
 use search::{Run, Search, Unfit};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
@@ -177,7 +176,7 @@ fn chosen(
     if searches.is_empty() {
         return Err(unfit);
     }
-    let (order, sampled) = best_of(&searches);
+    let (order, best) = best_of(&searches);
     // Samples miss what is deep and narrow: the first plan that gets through with few parts wins.
     for budget in BUDGETS {
         for &which in &order {
@@ -198,68 +197,8 @@ fn chosen(
             break;
         }
     }
-    let search = match run.most_boxes > LONG && searches[0].plan.parameters() > 1 {
-        true => raced(targets, pairs, searches, &sampled, run),
-        false => searches.swap_remove(sampled[0]),
-    };
-    Ok((search, None))
+    Ok((searches.swap_remove(best), None))
 }
-
-/// The plan that a long search is run by: the ones that samples put first, and the first of these with their steps in
-/// other orders, are compared by whole subtrees, the better ones by more.
-fn raced(
-    targets: &Targets,
-    pairs: &Pairs,
-    mut searches: Vec<Search>,
-    sampled: &[usize],
-    run: &Run,
-) -> Search {
-    let mut state = 0x9e37_79b9_7f4a_7c15u64;
-    let mut choose = |count: usize| {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 33) as usize % count
-    };
-    let mut others: Vec<Plan> = Vec::new();
-    for &which in &sampled[..sampled.len().min(ORDERED)] {
-        for _ in 0..ORDERS {
-            let plan = choose::reordered(targets, pairs, &searches[which].plan, &mut choose);
-            if plan != searches[which].plan && !others.contains(&plan) {
-                others.push(plan);
-            }
-        }
-    }
-    let mut taken = vec![false; searches.len()];
-    sampled.iter().for_each(|&which| taken[which] = true);
-    let mut kept = taken.iter();
-    searches.retain(|_| kept.next() == Some(&true));
-    let others = others.into_iter();
-    searches.extend(others.filter_map(|plan| Search::new(targets, pairs, plan).ok()));
-    for (budget, left) in RACE {
-        let mut projected: Vec<(f64, Search)> = searches
-            .into_par_iter()
-            .map(|search| (search.projected(budget, run.stop), search))
-            .collect();
-        projected.sort_by(|a, b| a.0.total_cmp(&b.0));
-        projected.truncate(left);
-        // To compare further would cost more than to search.
-        let enough = projected[0].0 < (5 * budget) as f64;
-        searches = projected.into_iter().map(|x| x.1).collect();
-        if enough {
-            break;
-        }
-    }
-    searches.swap_remove(0)
-}
-
-/// Searches that may take more parts than this are worth a race.
-const LONG: u64 = 1_000_000;
-/// Plans of which other orders take part in the race, and how many are tried.
-const ORDERED: usize = 8;
-const ORDERS: usize = 6;
-/// The rounds of the race: parts for each, and how many are left.
-const RACE: [(u64, usize); 3] = [(6_000, 12), (30_000, 4), (150_000, 1)];
 
 /// How many parts each of the best plans is tried for, before the one that samples say is best is run to its end.
 const BUDGETS: [u64; 4] = [600, 3000, 15_000, 75_000];
@@ -271,9 +210,9 @@ const ROUNDS: [(usize, usize); 2] = [(CANDIDATES, 16), (16, 128)];
 /// Plans that are tried.
 const TRIED: usize = 3;
 
-/// The plans to try: the one guessed to be best, then those that samples say are least work; and all that were sampled to
-/// the end, the best ones first. Sampled are at first all plans by few ways, then the best ones by more.
-fn best_of(searches: &[Search]) -> (Vec<usize>, Vec<usize>) {
+/// The plans to try: the one guessed to be best, then those that samples say are least work; and which of these
+/// samples put first. Sampled are at first all plans by few ways, then the best ones by more.
+fn best_of(searches: &[Search]) -> (Vec<usize>, usize) {
     let k = searches[0].plan.parameters();
     let mut order: Vec<usize> = (0..searches.len()).collect();
     match k {
@@ -297,10 +236,10 @@ fn best_of(searches: &[Search]) -> (Vec<usize>, Vec<usize>) {
             break;
         }
     }
-    let sampled = order.clone();
     order.truncate(TRIED);
+    let best = order[0];
     // The guess is often right where samples are not.
     order.retain(|&i| i != 0);
     order.insert(0, 0);
-    (order, sampled)
+    (order, best)
 }

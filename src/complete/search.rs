@@ -9,7 +9,6 @@ use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Why, visit};
 use rayon::prelude::*;
-use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// One plan's search.
@@ -257,37 +256,6 @@ impl Search {
             largest = largest.max(total / (ways / 4) as f64);
         }
         largest
-    }
-
-    /// How many parts a search would look at, from whole subtrees: the space is parted, the parts looked at longest ago
-    /// first, until there are thousands, and all below some of them, spread evenly, is searched. It ends after about
-    /// so many parts as `budget`; what is deep and narrow counts for what was seen of it.
-    pub fn projected(&self, budget: u64, stop: &AtomicBool) -> f64 {
-        const PARTS: usize = 4096;
-        let mut parts: VecDeque<Node> = Node::roots(&self.plan).into();
-        let (mut found, mut children) = (Found::default(), Vec::new());
-        let mut looked = 0u64;
-        while parts.len() < PARTS && looked < budget {
-            let Some(node) = parts.pop_front() else {
-                return looked as f64;
-            };
-            looked += 1;
-            visit(self, node, &mut found, &mut children);
-            parts.extend(children.drain(..));
-        }
-        let (mut below, mut taken) = (0u64, 0usize);
-        // A step prime to any number of parts about 4096 in size, and far from its fractions with small denominators.
-        let step = 2531;
-        while taken < parts.len() && below < budget && !stop.load(Ordering::Relaxed) {
-            let mut stack = vec![parts[taken * step % parts.len()].clone()];
-            taken += 1;
-            while let Some(node) = stack.pop().filter(|_| below < 2 * budget) {
-                below += 1;
-                visit(self, node, &mut found, &mut children);
-                stack.append(&mut children);
-            }
-        }
-        looked as f64 + parts.len() as f64 * below as f64 / taken.max(1) as f64
     }
 
     /// Whether floats see a curve of figures through (or very near) this one: a small step along the

@@ -480,6 +480,23 @@ impl Reader<'_> {
         Some(line)
     }
 
+    /// Whether a line is one of the sketch's own, or parallel to its plane.
+    fn is_in_plane(&self, handle: Handle) -> bool {
+        if self.contents.request(handle, self.group).is_some() {
+            return true;
+        }
+        let ends = self.contents.entity(handle).and_then(|entity| {
+            let end = |key: &str| self.contents.place_in_space(entity.hex(key));
+            Some([end("point[0].v")?, end("point[1].v")?])
+        });
+        let Some([from, to]) = ends else {
+            return false;
+        };
+        let along: [f64; 3] = std::array::from_fn(|k| to[k] - from[k]);
+        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+        dot(along, self.plane.normal()).abs() <= ROUNDED * dot(along, along).sqrt()
+    }
+
     /// The direction of a line, as it is drawn.
     fn direction(&self, line: usize) -> Option<[f64; 2]> {
         let Shape::Line(ends) = *self.drawing.shape(line) else {
@@ -563,7 +580,9 @@ impl Reader<'_> {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
                 let along = handle("entityA");
                 let line = match self.line(along) {
-                    Some(line) => line,
+                    Some(line) if self.is_in_plane(along) => line,
+                    // The distance along a line that leaves the sketch's plane is another than that along its image there.
+                    Some(_) => return None,
                     None => self.along_normal(along)?,
                 };
                 let [dx, dy] = self.direction(line)?;
@@ -652,7 +671,11 @@ impl Reader<'_> {
             }
             60 => {
                 let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                let (line, _) = self.trace(handle("entityA"))?;
+                let (line, is_right) = self.trace(handle("entityA"))?;
+                // About a plane at another angle only points in it are mirror images of points of the sketch.
+                if !is_right {
+                    return None;
+                }
                 let items = vec![point(a), point(b), object(line)];
                 self.drawing.constrain(source, "symmetric", items, None);
             }

@@ -76,7 +76,7 @@ pub fn figures_in_words(figures: &Figures) -> String {
         let each = seem
             .iter()
             .take(LISTED)
-            .map(|c| format!("{}, missed by at most {:.0e}", c.name, c.missed));
+            .map(|c| format!("{}, missed by at most {}", c.name, rounded_up(c.missed)));
         let more = match seem.len() > LISTED {
             true => format!(", and {} more", seem.len() - LISTED),
             false => String::new(),
@@ -88,6 +88,15 @@ pub fn figures_in_words(figures: &Figures) -> String {
         );
     }
     out
+}
+
+/// A number of two digits that is no less than this one.
+fn rounded_up(x: f64) -> String {
+    let text = format!("{x:.1e}");
+    match text.parse::<f64>() {
+        Ok(shown) if shown < x => format!("{:.1e}", x * 1.06),
+        _ => text,
+    }
 }
 
 /// How many of the figures have all senses of the sketch, in a sentence.
@@ -109,6 +118,11 @@ fn senses_in_words(figures: &Figures) -> String {
         (Some(1), ..) => format!(" Whether it has {all} is not certain."),
         (_, n, undecided) => {
             let number = match n {
+                0 if undecided > 0 => {
+                    return format!(
+                        " None of them is proved to have {all}; of {undecided} it is not certain."
+                    );
+                }
                 0 => "None of them has".to_owned(),
                 1 => "1 of them has".to_owned(),
                 n => format!("{n} of them have"),

@@ -9,7 +9,7 @@
 use crate::blocks::cut::{Cut, name};
 use crate::blocks::number::Number;
 use crate::constraint::{Arguments, LineName, Sort};
-use crate::interval::point;
+use crate::interval::{Interval, point};
 use crate::problem::Shape;
 use crate::system::simplices;
 use std::collections::BTreeMap;
@@ -68,6 +68,8 @@ enum Quantity {
     Larger(usize, usize),
     /// Six times the volume of a tetrahedron.
     Volume([usize; 4]),
+    /// That of a constraint on what no sense is told of, such as lines of their own: it is certain in no figure.
+    Untold,
 }
 
 type Values<'a> = &'a dyn Fn(usize) -> Number;
@@ -100,6 +102,7 @@ impl Quantity {
                 let [a, b] = [one, other].map(|object| squared_radius(cut, object, of));
                 a.minus(&b)
             }
+            Quantity::Untold => Number::within(Interval::ENTIRE),
             Quantity::Volume([p, a, b, c]) => {
                 let [u, v, w] = [a, b, c].map(|q| Arrow::Between(p, q));
                 (0..3).fold(Number::halves(0), |sum, axis| {
@@ -112,6 +115,9 @@ impl Quantity {
 
     /// The sign, if it is certain and the quantity not [`FLAT`] beside the lengths in it.
     fn clear_sign(&self, cut: &Cut, of: Values) -> Option<i8> {
+        if let Quantity::Untold = self {
+            return Some(1);
+        }
         let near = |u: usize| Number::within(of(u).enclosure());
         let squared = |arrow: Arrow| arrow.dot(arrow, cut, &near).enclosure();
         let size = match *self {
@@ -125,6 +131,7 @@ impl Quantity {
                 .into_iter()
                 .fold(point(1.0), |product, x| product * x)
                 .sqrt(),
+            Quantity::Untold => point(1.0),
         };
         let value = self.value(cut, &near).enclosure();
         let is_clear = value.mig() > (point(FLAT) * size).sup();
@@ -149,6 +156,7 @@ impl Quantity {
                 })
                 .collect(),
             Quantity::Volume(points) => points.into_iter().flat_map(of_point).collect(),
+            Quantity::Untold => Vec::new(),
         };
         out.sort_unstable();
         out.dedup();
@@ -170,7 +178,7 @@ fn squared_radius(cut: &Cut, object: usize, of: Values) -> Number {
         }
         (_, Some(u)) => of(u).times(&of(u)),
         // Nothing is known of it.
-        _ => Number::within(crate::interval::Interval::ENTIRE),
+        _ => Number::within(Interval::ENTIRE),
     }
 }
 
@@ -199,7 +207,8 @@ pub(super) fn senses(cut: &Cut) -> Option<Vec<Sense>> {
     let mut found: Vec<(String, Quantity)> = Vec::new();
     for (c, constraint) in problem.constraints.iter().enumerate() {
         let items = Arguments::new(problem, &constraint.items);
-        let quantities = of_constraint(cut, &constraint.kind, items).unwrap_or_default();
+        let quantities = of_constraint(cut, &constraint.kind, items);
+        let quantities = quantities.unwrap_or_else(|| vec![Quantity::Untold]);
         let called = || name(problem, problem.objects.len() + c);
         found.extend(quantities.into_iter().map(|quantity| (called(), quantity)));
     }

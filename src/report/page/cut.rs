@@ -12,7 +12,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     (page.badge, page.tone) = match status {
         "complete" => ("proved · all there are".into(), Tone::Proved),
         "combined" => (
-            "proved · complete for the paths of the blocks".into(),
+            "each proved; complete as the verdict says".into(),
             Tone::Proved,
         ),
         _ => ("each proved; there may be more".into(), Tone::Stopped),
@@ -35,7 +35,8 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     page.text = vec![Text::Paragraph(
         "The sketch's equations fall apart into blocks, which are solved in order, each with those that it needs where they \
          are. A block of linear equations, of one unknown, or of two as circles and lines make them is solved by formula; \
-         the path of any other is followed. The box of each figure holds exactly one that meets all constraints."
+         the path of any other is followed. The box of each figure holds exactly one that meets all constraints, but for those that \
+         the verdict says are left out."
             .into(),
     )];
     if !blocks.is_empty() {
