@@ -59,16 +59,15 @@ pub fn expand(curve: &mut Curve, inverse: &Inverse, advance: f64) -> Result<(), 
 }
 
 /// The constant curve at a zero of F near a point, in the cross-section with normal `c` through that
-/// point, with its section and inverse.
+/// point, with an inverse near there.
 pub fn newton<'a>(
     eq: &'a Equations,
     (near, extended): (&[f64], bool),
     c: &[f64],
     u: &[f64],
-) -> Result<(Curve<'a>, Section, Inverse), Fault> {
+) -> Result<(Curve<'a>, Inverse), Fault> {
     let mut curve = Curve::at(eq, near)?;
-    let mut at = curve.section(c, u);
-    let inverse = Inverse::new(&at)?;
+    let inverse = Inverse::new(&curve.section(c, u))?;
     let (mut z, mut last) = (near.to_vec(), f64::INFINITY);
     let step_at = |curve: &Curve| {
         let mut f: Vec<f64> = curve.value().iter().map(|f| f.mid()).collect();
@@ -93,8 +92,7 @@ pub fn newton<'a>(
     if extended {
         curve = refined(eq, &z, step_at)?;
     }
-    at = curve.section(c, u);
-    Ok((curve, at, inverse))
+    Ok((curve, inverse))
 }
 
 /// A point of more than 53 bits, to which Newton's steps lead from one of 53.

@@ -61,7 +61,7 @@ impl<'a> Curve<'a> {
             .map(|x| (x * power(bits)).round())
             .collect();
         // Then differences have 53 bits, and the sums of products 121.
-        if !(whole.iter().all(|x| x.abs() < power(52)) && centre[m].abs() < LIMIT) {
+        if !(bits >= 0 && whole.iter().all(|x| x.abs() < power(52)) && centre[m].abs() < LIMIT) {
             return Err(LARGE);
         }
         let differences = eq.differences(&whole, [0.0, power(bits)]);
@@ -257,6 +257,9 @@ impl<'a> Curve<'a> {
     /// inverse of [J(z₀); c] U, is any matrix.
     pub fn test(&self, y: &Matrix, at: &Section, r: Interval) -> Test {
         let (m, n, order, u) = (self.eq.m, self.eq.m + 1, self.z.len() - 1, &at.u);
+        assert!(
+            [0, ORDER].contains(&order) && y.n == n && y.entries.len() == n * n && u.len() == n
+        );
         let mut rests = at.rests.clone();
         let stiff = y.times(&at.j0).minus_identity().norm();
         let (mut moving, mut square, mut a) = (point(1.0), ZERO, None);
@@ -526,6 +529,34 @@ mod tests {
             (f, j)
         };
         (0..eq.m).map(row).collect()
+    }
+
+    /// Beyond 2⁵¹ the number 1 would be no multiple of the unit that coordinates are rounded to.
+    #[test]
+    fn the_number_1_is_itself_beside_large_coordinates() {
+        let problem = Problem::parse(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [3, 4]\n[constraints]\nfixed = [\"a\"]\nx = [[\"b\", 3]]\n\
+             distances = [[\"a\", \"b\", 5]]\n",
+            "test.toml",
+        );
+        let eq = Equations::new(Homotopy::with_unit(&problem.unwrap(), 1.0).unwrap());
+        let one = eq
+            .forms
+            .iter()
+            .position(|form| form[0] == eq.m + 2)
+            .unwrap();
+        let mut taken = 0;
+        for exponent in 30..60 {
+            for factor in [1.0, 1.5, 1.999] {
+                let mut centre = vec![factor * power(exponent); eq.m];
+                centre.push(0.0);
+                if let Ok(curve) = Curve::at(&eq, &centre) {
+                    assert_eq!(curve.whole[one] as f64 * power(-curve.bits), 1.0);
+                    taken = exponent;
+                }
+            }
+        }
+        assert!((45..=51).contains(&taken), "{taken}");
     }
 
     fn numbers(n: usize) -> impl Strategy<Value = Vec<f64>> {

@@ -94,7 +94,7 @@ impl Place {
             // In this cross-section t is what it is in the middle.
             place.spot.rest[eq.m] = ZERO;
             let other = Fault::because("its cross-section is not t = 1");
-            (place.middle[eq.m] == point(1.0))
+            (place.middle[eq.m] == point(1.0) && place.spot.near[eq.m] == 1.0)
                 .then_some(place)
                 .ok_or(other)
         });
@@ -118,7 +118,8 @@ impl Place {
         (c, u): (&[f64], &[f64]),
         claimed: Vec<Interval>,
     ) -> Result<Place, Fault> {
-        let (curve, at, inverse) = newton(eq, (near, extended), c, u)?;
+        let (curve, inverse) = newton(eq, (near, extended), c, u)?;
+        let at = curve.section(c, u);
         let test = curve.test(&inverse.y, &at, point(SIGHT));
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();

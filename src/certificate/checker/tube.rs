@@ -351,7 +351,7 @@ mod tests {
                     let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
                     // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
-                    let (curve, ..) = newton(
+                    let (curve, _) = newton(
                         &eq,
                         (&middle, false),
                         &tube.normal,
@@ -360,7 +360,7 @@ mod tests {
                     .unwrap();
                     // With the inverse there.
                     let middle = curve.z[0][..n].to_vec();
-                    let (curve, _, inverse) = newton(
+                    let (curve, inverse) = newton(
                         &eq,
                         (&middle, false),
                         &tube.normal,
