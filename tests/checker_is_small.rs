@@ -74,7 +74,7 @@ fn the_checker_is_short() {
         "checker/chain.rs",
     ];
     let parts = [
-        ("proofs", lines(&proofs), 1265),
+        ("proofs", lines(&proofs), 1270),
         (
             "proofs of edits, beside those",
             lines(&["checker/arc.rs"]),
