@@ -367,6 +367,9 @@ impl Row {
     fn print(&mut self, name: &str, unknowns: usize) {
         let [reached, limits] = [0, 1].map(|kind| {
             let count = self.seconds[kind].len();
+            if count == 0 {
+                return "0 | |".to_owned();
+            }
             let (ms, tubes) = (
                 1e3 * median(&mut self.seconds[kind]),
                 median(&mut self.tubes[kind]),
