@@ -39,6 +39,18 @@ impl Spec {
     }
 }
 
+impl Spec {
+    /// Whether two points are one, as they are said to be.
+    fn are_one(&self, p: usize, q: usize) -> bool {
+        let said = |names: &[Name]| match *names {
+            [Name::Point(a), Name::Point(b)] => [a, b] == [p, q] || [b, a] == [p, q],
+            _ => false,
+        };
+        let mut constraints = self.constraints.iter();
+        p == q || constraints.any(|c| c.kind == "coincident" && said(&c.names))
+    }
+}
+
 /// Which of the axes x, y, z a key is about.
 fn axis(key: &str) -> usize {
     ["x", "y", "z"]
@@ -72,35 +84,35 @@ impl Figure<'_> {
 
     /// A point of a line, and its direction. That of a line of its own may be the opposite one.
     fn line(&self, name: Name) -> Result<(Vector, Vector), String> {
-        let (a, b) = match name {
+        let (a, b, what) = match name {
             Name::Axis(k) => {
                 return Ok((
                     [0.0; 3],
                     std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }),
                 ));
             }
-            Name::Line(k) => (self.spec.lines[k][0], self.spec.lines[k][1]),
+            Name::Line(k) => (self.spec.lines[k][0], self.spec.lines[k][1], "a line"),
             Name::FreeLine(k) => {
                 let through = &self.spec.free_lines[k].through;
-                (through[0], through[1])
+                (through[0], through[1], "a line of its own")
             }
             other => return Err(format!("{other:?} is no line")),
         };
-        Ok((self.at(a), self.unit(self.span(a, b), "a line")?))
+        Ok((self.at(a), self.unit(self.span(a, b), what)?))
     }
 
     /// A point of a plane, and its normal. That of a plane of its own may be the opposite one.
     fn plane(&self, name: Name) -> Result<(Vector, Vector), String> {
-        let [a, b, c] = match name {
-            Name::Plane(k) => self.spec.planes[k],
+        let ([a, b, c], what) = match name {
+            Name::Plane(k) => (self.spec.planes[k], "a normal"),
             Name::FreePlane(k) => {
                 let through = &self.spec.free_planes[k].through;
-                [through[0], through[1], through[2]]
+                ([through[0], through[1], through[2]], "a normal of its own")
             }
             other => return Err(format!("{other:?} is no plane")),
         };
         let normal = cross(self.span(a, b), self.span(a, c));
-        Ok((self.at(a), self.unit(normal, "a normal")?))
+        Ok((self.at(a), self.unit(normal, what)?))
     }
 
     /// A centre and a radius: that of an arc, one given, or that to a point on it or on one that is equal.
@@ -431,9 +443,11 @@ impl Figure<'_> {
             ("tangent", &[a @ (Circle(_) | Arc(_)), b @ (Circle(_) | Arc(_))]) => {
                 let ((p, r), (q, s)) = (self.round(a)?, self.round(b)?);
                 if let (Arc(a), Arc(b)) = (a, b)
-                    && self.spec.arcs[a][1..]
-                        .iter()
-                        .any(|e| self.spec.arcs[b][1..].contains(e))
+                    && self.spec.arcs[a][1..].iter().any(|&e| {
+                        self.spec.arcs[b][1..]
+                            .iter()
+                            .any(|&f| self.spec.are_one(e, f))
+                    })
                 {
                     // At the end that both share, on either side.
                     let apart = size(self.span(p, q));
@@ -454,7 +468,9 @@ impl Figure<'_> {
                 let at_an_end = match (of, flat) {
                     (Arc(a), Line(l)) => {
                         let line = self.spec.lines[l];
-                        self.spec.arcs[a][1..].iter().any(|e| line.contains(e))
+                        let ends = self.spec.arcs[a][1..].iter();
+                        ends.copied()
+                            .any(|e| line.iter().any(|&p| self.spec.are_one(e, p)))
                     }
                     _ => false,
                 };
