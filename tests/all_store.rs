@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::process::{Command as Process, Stdio};
 use std::time::Duration;
@@ -158,6 +159,77 @@ fn shares_are_merged_to_the_same_answer_and_the_same_cover() {
         .args(["verify", text(&merged), DODECAGON, "--quiet"])
         .assert()
         .code(0);
+}
+
+/// A store whose first line says something else, checksums in order.
+fn with_head(whole: &str, change: impl Fn(&mut Value)) -> String {
+    let sum = |parts: [&str; 2]| -> String {
+        let digest = Sha256::new().chain_update(parts[0]).chain_update(parts[1]);
+        let bytes = digest.finalize();
+        bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    };
+    let mut lines = whole.lines();
+    let (head, _) = lines.next().unwrap().rsplit_once(' ').unwrap();
+    let mut value: Value = serde_json::from_str(head).unwrap();
+    change(&mut value);
+    // What it is comes first.
+    let kind = value.as_object_mut().unwrap().remove("krawl").unwrap();
+    let head = format!("{{\"krawl\":{kind},{}", &value.to_string()[1..]);
+    let mut out = format!("{head} {}\n", sum(["", &head]));
+    for line in lines {
+        let (_, rest) = line.split_once(' ').unwrap();
+        out += &format!("{} {rest}\n", sum([&head, rest]));
+    }
+    out
+}
+
+#[test]
+fn a_first_line_that_is_damaged_or_of_another_search_is_not_believed() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = folder.path().join("store");
+    let once = answer(&[DODECAGON, "--store", text(&store)], 0);
+    let file = store.join(NAME);
+    let whole = std::fs::read_to_string(&file).unwrap();
+    let with = |content: &str| {
+        std::fs::write(&file, content).unwrap();
+        let said = complaint(&[DODECAGON, "--store", text(&store)]);
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), content);
+        said
+    };
+    // The same first line is taken, in whatever order the rest of it is.
+    std::fs::write(&file, with_head(&whole, |_| {})).unwrap();
+    assert_eq!(answer(&[DODECAGON, "--store", text(&store)], 0), once);
+    // One digit of the plan.
+    let first = whole.lines().next().unwrap();
+    let at = first.find(r#""centre":"#).unwrap() + r#""centre":"#.len();
+    let digit = if &first[at..=at] == "9" { "8" } else { "9" };
+    let said = with(&format!("{}{digit}{}", &whole[..at], &whole[at + 1..]));
+    assert!(said.contains("first line is damaged"), "{said}");
+    // Checksums in order, but not the plan: a distance that does not close, a point that is placed twice, none that
+    // is there, a base of another dimension, a parameter left out.
+    let step = |head: &mut Value, change: &dyn Fn(&mut Value)| {
+        change(&mut head["plan"]["steps"][2]);
+    };
+    let changes: [&dyn Fn(&mut Value); 6] = [
+        &|head| {
+            let steps = head["plan"]["steps"].as_array_mut().unwrap();
+            let last = steps.last_mut().unwrap();
+            assert!(last["closing"].as_array_mut().unwrap().pop().is_some());
+        },
+        &|head| step(head, &|s| s["point"] = 0.into()),
+        &|head| step(head, &|s| s["point"] = 1000.into()),
+        &|head| head["plan"]["base"] = serde_json::json!([0, 1, 2]),
+        &|head| head["plan"]["base"] = serde_json::json!([0, 4000]),
+        &|head| head["plan"]["drives"] = serde_json::json!([]),
+    ];
+    for (index, change) in changes.iter().enumerate() {
+        let said = with(&with_head(&whole, change));
+        let right = said.contains("its plan is not one of this problem");
+        assert!(right, "change {index}: {said}");
+    }
+    // Cut into other pieces, as another build might.
+    let said = with(&with_head(&whole, |head| head["pieces"] = "ff".into()));
+    assert!(said.contains("parts the search otherwise"), "{said}");
 }
 
 #[test]

@@ -331,6 +331,41 @@ fn a_solution_left_out_added_or_moved_is_noticed() {
 }
 
 #[test]
+fn a_unit_that_makes_lengths_huge_is_noticed() {
+    let triangle = Problem::build("triangle", 2)
+        .point("a", ["0", "0"])
+        .point("b", ["1e40", "0"])
+        .point("c", ["5e39", "8e39"])
+        .distance("a", "b", "1e40")
+        .distance("b", "c", "1e40")
+        .distance("c", "a", "1e40")
+        .finish()
+        .unwrap();
+    let (_, bytes) = searched(&triangle);
+    let mut cover = Cover::from_bytes(&bytes).unwrap();
+    assert!(proves_all(&damaged(&cover).unwrap()));
+    // The third point turns about the first, and wherever it is, it is said to be farther away than any figure's.
+    cover.unit_exponent = -220;
+    cover.figures.clear();
+    cover.drives = vec![None];
+    let (centre, new) = (cover.base[0], 3 - cover.base[0] - cover.base[1]);
+    cover.steps = vec![(new, Kind::Arm(centre, 0))];
+    cover.marks.clear();
+    fn halved(times: usize, centre: usize, marks: &mut Vec<u8>) {
+        if times == 0 {
+            return Mark::WrongPair(0, centre).put(1, marks);
+        }
+        Mark::Halves(0, false, 0).put(1, marks);
+        (0..2).for_each(|_| halved(times - 1, centre, marks));
+    }
+    halved(8, centre, &mut cover.marks);
+    let flaw = damaged(&cover).unwrap().flaw.unwrap();
+    assert!(flaw.contains("unit"), "{flaw}");
+    cover.unit_exponent = 132;
+    assert!(damaged(&cover).unwrap().flaw.is_some());
+}
+
+#[test]
 fn another_problem_or_plan_is_noticed() {
     // Nothing has these lengths, and something has others: the cover of the one is none of the other.
     let problem = |d: &str| {

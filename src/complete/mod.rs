@@ -48,6 +48,7 @@ pub use visit::Why;
 
 use crate::problem::Problem;
 use pairs::Pairs;
+use pieces::Outline;
 use plan::Plan;
 use search::{Run, Search, Unfit};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -123,25 +124,34 @@ fn kept(
 ) -> Result<Result<(Search, Found), Unfit>, String> {
     let search = match &store.head {
         // The plan that the parts were made by.
-        Some(head) => match Search::new(targets, pairs, head.plan.clone()) {
-            Ok(search) => search,
-            Err(unfit) => return Ok(Err(unfit)),
-        },
-        None => {
-            let search = match chosen(targets, pairs, plans, run) {
-                Ok((search, _)) => search,
-                Err(unfit) => return Ok(Err(unfit)),
-            };
-            // A choice that was broken off is no choice: another run might make another.
-            if run.stop.load(Ordering::Relaxed) {
-                let found = search.run(run);
-                return Ok(Ok((search, found)));
-            }
-            store.begin(Head::new(problem, &search.plan, run.cover))?;
-            search
+        Some(head) if !head.plan.serves(targets, pairs) => {
+            return Err(store.at("its plan is not one of this problem; name another folder"));
         }
+        Some(head) => Search::new(targets, pairs, head.plan.clone()),
+        None => chosen(targets, pairs, plans, run).map(|(search, _)| search),
     };
-    let found = search.kept(run, keep, store)?;
+    let search = match search {
+        Ok(search) => search,
+        Err(unfit) => return Ok(Err(unfit)),
+    };
+    // A choice that was broken off is no choice: another run might make another.
+    if store.head.is_none() && run.stop.load(Ordering::Relaxed) {
+        let found = search.run(run);
+        return Ok(Ok((search, found)));
+    }
+    let outline = Outline::new(&search, run);
+    let digest = outline.digest();
+    match &store.head {
+        Some(head) if head.pieces != digest => {
+            return Err(store.at(
+                "it was begun by another version of krawl or on another kind of processor, which parts the search \
+                 otherwise; name another folder",
+            ));
+        }
+        Some(_) => {}
+        None => store.begin(Head::new(problem, &search.plan, run.cover, digest))?,
+    }
+    let found = search.kept(run, outline, keep, store)?;
     Ok(Ok((search, found)))
 }
 

@@ -155,6 +155,15 @@ impl Default for Options<'_> {
     }
 }
 
+/// Sets what it holds when it is dropped.
+struct AtTheEnd<'a>(&'a AtomicBool);
+
+impl Drop for AtTheEnd<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
 impl Options<'_> {
     /// Runs a search on as many threads as wanted, beside one that looks at the clock.
     pub(super) fn watched<T: Send>(
@@ -196,9 +205,9 @@ impl Options<'_> {
                     }
                 }
             });
-            let result = pooled();
-            ended.store(true, Ordering::Relaxed);
-            result
+            // Also where the search panics: else the thread above would never end.
+            let _at_the_end = AtTheEnd(&ended);
+            pooled()
         })
     }
 }

@@ -5,9 +5,10 @@
 
 use super::node::Node;
 use super::search::{Run, Search};
-use super::store::{Keep, Store};
+use super::store::{Keep, Store, hexadecimal};
 use super::visit::{Found, Why};
 use rayon::prelude::*;
+use sha2::{Digest, Sha256};
 use std::collections::VecDeque;
 use std::sync::Mutex;
 use std::sync::atomic::Ordering;
@@ -24,14 +25,15 @@ enum Entry {
 }
 
 /// The top of a search, and the pieces below.
-struct Outline {
+pub(super) struct Outline {
     entries: Vec<Entry>,
     roots: usize,
     pieces: Vec<usize>,
 }
 
 impl Outline {
-    fn new(search: &Search, run: &Run) -> Outline {
+    /// Of a search.
+    pub(super) fn new(search: &Search, run: &Run) -> Outline {
         let mut entries: Vec<Entry> = Node::roots(&search.plan)
             .into_iter()
             .map(Entry::Piece)
@@ -61,8 +63,22 @@ impl Outline {
         }
     }
 
-    /// All that was found, in the order of the search.
-    fn together(self, mut found_in: impl FnMut(usize) -> Option<Found>) -> Found {
+    /// A digest of what the space is cut into: equal digests, equal pieces.
+    pub(super) fn digest(&self) -> String {
+        let mut digest = Sha256::new();
+        for entry in &self.entries {
+            // Numbers are written such that reading them gives the same floats.
+            digest.update(match entry {
+                Entry::Looked { below, .. } => format!("looked {below:?}\n"),
+                Entry::Piece(node) => format!("{node:?}\n"),
+            });
+        }
+        digest.update(format!("{} {:?}", self.roots, self.pieces));
+        hexadecimal(digest)
+    }
+
+    /// All that was found, in the order of the search; with marks, if a cover is wanted.
+    fn together(self, cover: bool, mut found_in: impl FnMut(usize) -> Option<Found>) -> Found {
         let mut piece_of = vec![usize::MAX; self.entries.len()];
         for (piece, &entry) in self.pieces.iter().enumerate() {
             piece_of[entry] = piece;
@@ -80,7 +96,7 @@ impl Outline {
                     let found = found_in(piece_of[which]);
                     parts.push(found.unwrap_or_else(|| {
                         let mut open = Found::default();
-                        open.marks.bytes = Some(Vec::new());
+                        open.marks.bytes = cover.then(Vec::new);
                         open.leave(node.share, Why::Unfinished);
                         open
                     }));
@@ -94,8 +110,13 @@ impl Outline {
 
 impl Search {
     /// Searches what a store does not have yet, and puts each piece into it as soon as it is done.
-    pub(super) fn kept(&self, run: &Run, keep: &Keep, mut store: Store) -> Result<Found, String> {
-        let outline = Outline::new(self, run);
+    pub(super) fn kept(
+        &self,
+        run: &Run,
+        outline: Outline,
+        keep: &Keep,
+        mut store: Store,
+    ) -> Result<Found, String> {
         for other in &keep.merge {
             store.merge(other)?;
         }
@@ -134,6 +155,6 @@ impl Search {
         for (piece, found) in worked {
             all.insert(piece, found?);
         }
-        Ok(outline.together(|piece| all.remove(&piece)))
+        Ok(outline.together(run.cover, |piece| all.remove(&piece)))
     }
 }

@@ -6,6 +6,8 @@
 //! that no step uses *closes*: it is an equation of the search, as soon as both its ends stand.
 
 use super::model::Number;
+use super::node::MAX_SYMBOLS;
+use super::pairs::Pairs;
 use super::targets::{Targets, not_negative};
 use crate::interval::{Interval, point};
 use serde::{Deserialize, Serialize};
@@ -95,6 +97,82 @@ impl Plan {
     /// The number k of driving parameters.
     pub fn parameters(&self) -> usize {
         self.drives.len()
+    }
+
+    /// Whether it is a plan of this problem, by which a search leaves out no figure: every point is placed once,
+    /// from points that stand, by distances that are given or driven, driven ones between bounds that hold for every
+    /// figure; every other distance closes where both its ends stand.
+    pub fn serves(&self, targets: &Targets, pairs: &Pairs) -> bool {
+        self.follow(targets, pairs).is_some()
+    }
+
+    fn follow(&self, targets: &Targets, pairs: &Pairs) -> Option<()> {
+        let d = targets.dimension;
+        let sized = self.base.len() == d && self.steps.len() + d == targets.points;
+        if !sized || self.drives.len() > MAX_SYMBOLS {
+            return None;
+        }
+        let mut stands = vec![false; targets.points];
+        for (k, &p) in self.base.iter().enumerate() {
+            let joined = |&q: &usize| targets.edge(p, q).is_some();
+            if *stands.get(p)? || !self.base[..k].iter().all(joined) {
+                return None;
+            }
+            stands[p] = true;
+        }
+        let mut drives = self.drives.iter().enumerate();
+        for step in &self.steps {
+            let new = step.point;
+            let from = step.kind.from();
+            let stood = |p: &usize| stands.get(*p).copied().unwrap_or(false);
+            let different = (0..from.len()).all(|k| !from[..k].contains(&from[k]));
+            if stands.get(new) != Some(&false) || !from.iter().all(stood) || !different {
+                return None;
+            }
+            let mut used = Vec::new();
+            match &step.kind {
+                Kind::Arm { centre, parameter } => {
+                    let right = d == 2 && drives.next()? == (*parameter, &Drive::Angle);
+                    right.then_some(())?;
+                    used.push(*centre);
+                }
+                Kind::Hinge { frame, parameter } => {
+                    let [c1, c2, q] = *frame;
+                    let joined = |a, b| targets.edge(a, b).is_some();
+                    let right = d == 3 && drives.next()? == (*parameter, &Drive::Angle);
+                    (right && joined(c1, c2) && joined(c1, q) && joined(c2, q)).then_some(())?;
+                    used.extend([c1, c2]);
+                }
+                Kind::Meet { centres, radii } => {
+                    (centres.len() == d && radii.len() == d).then_some(())?;
+                    for (&centre, radius) in centres.iter().zip(radii) {
+                        match *radius {
+                            Radius::Edge(edge) => {
+                                (targets.edge(new, centre) == Some(edge)).then_some(())?;
+                                used.push(centre);
+                            }
+                            Radius::Parameter(parameter) => {
+                                let (next, &Drive::Square([least, most])) = drives.next()? else {
+                                    return None;
+                                };
+                                let [low, high] = pairs.squares(new, centre);
+                                (next == parameter && least <= low && high <= most).then_some(())?;
+                            }
+                        }
+                    }
+                }
+            }
+            let given = |&p: &usize| targets.edge(new, p).is_some();
+            let closes = |&p: &usize| stands[p] && !used.contains(&p);
+            let closing = (0..targets.points).filter(closes);
+            let mut closing: Vec<usize> = closing.filter_map(|p| targets.edge(new, p)).collect();
+            let mut said = step.closing.clone();
+            closing.sort_unstable();
+            said.sort_unstable();
+            (used.iter().all(given) && closing == said).then_some(())?;
+            stands[new] = true;
+        }
+        drives.next().is_none().then_some(())
     }
 }
 
@@ -241,5 +319,41 @@ impl Step {
     /// Whether the point has two places.
     pub fn is_signed(&self) -> bool {
         matches!(self.kind, Kind::Meet { .. })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::complete::choose;
+    use crate::problem::Problem;
+
+    #[test]
+    fn a_parameter_that_ranges_over_less_than_it_must_does_not_serve() {
+        let problem = Problem::read("problems/octahedron.toml").unwrap();
+        let targets = Targets::new(&problem);
+        let pairs = Pairs::new(&targets);
+        let plans = choose::plans(&targets, &pairs).unwrap();
+        assert!(plans.iter().all(|plan| plan.serves(&targets, &pairs)));
+        // The distance from the third point of the hinge drives its point, in place of the angle.
+        let mut plan = plans[0].clone();
+        let new = plan.steps[0].point;
+        let Kind::Hinge { frame, parameter } = plan.steps[0].kind else {
+            panic!("{plan:?}");
+        };
+        let edge = |p: usize| Radius::Edge(targets.edge(new, p).unwrap());
+        plan.steps[0].kind = Kind::Meet {
+            centres: frame.to_vec(),
+            radii: vec![edge(frame[0]), edge(frame[1]), Radius::Parameter(parameter)],
+        };
+        let [low, high] = pairs.squares(new, frame[2]);
+        assert!(low < high);
+        let mut serves = |range: [f64; 2]| {
+            plan.drives[parameter] = Drive::Square(range);
+            plan.serves(&targets, &pairs)
+        };
+        assert!(serves([low, high]) && serves([0.0, 100.0]));
+        assert!(!serves([low.next_up(), high]) && !serves([low, high.next_down()]));
+        assert!(!serves([f64::NAN, high]) && !serves([high, low]));
     }
 }

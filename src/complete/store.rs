@@ -1,9 +1,9 @@
 //! Finished parts of a search on disk, so that a search that is ended at any moment goes on where it was, and machines
 //! that share a search can bring together what each has done.
 //!
-//! One file in the store's folder: a line that says of what search it is (problem, plan, and into how many pieces the
-//! parameter space is cut), and a line for every piece that is done, behind its checksum. Lines are only ever
-//! appended, each at once: a process that is killed leaves at most one line that is cut off, which is no line.
+//! One file in the store's folder: a line that says of what search it is (problem, plan, and a digest of the pieces
+//! that the parameter space is cut into), and a line for every piece that is done, each with a checksum. Lines are only
+//! ever appended, each at once: a process that is killed leaves at most one line that is cut off, which is no line.
 
 use super::plan::Plan;
 use super::visit::Found;
@@ -19,8 +19,9 @@ use std::path::{Path, PathBuf};
 const NAME: &str = "parts.krawl-all";
 /// What the first line begins with.
 const KIND: &str = "parts of a search for all solutions";
-/// The format of the file, and of the search: other bounds would part the space in another way.
-const VERSION: u32 = 1;
+/// The format of the file, and of what its parts rest on: to be raised with every change of what a search proves, as
+/// parts that were done before are believed.
+const VERSION: u32 = 2;
 
 /// Where parts of a search are kept, and which this process works on.
 #[derive(Debug, Clone, Default)]
@@ -42,6 +43,9 @@ pub(super) struct Head {
     /// By which plan.
     pub(super) plan: Plan,
     cover: bool,
+    /// A digest of the pieces, which lines know by number alone: another processor or build of krawl may round
+    /// otherwise, and so cut the space otherwise.
+    pub(super) pieces: String,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -61,14 +65,15 @@ pub(super) struct Store {
 }
 
 impl Head {
-    /// Of a search by a plan.
-    pub(super) fn new(problem: &Problem, plan: &Plan, cover: bool) -> Head {
+    /// Of a search by a plan, cut into pieces with this digest.
+    pub(super) fn new(problem: &Problem, plan: &Plan, cover: bool, pieces: String) -> Head {
         Head {
             krawl: KIND.to_owned(),
             version: VERSION,
             problem: problem.to_toml(),
             plan: plan.clone(),
             cover,
+            pieces,
         }
     }
 
@@ -96,11 +101,13 @@ fn json<T: Serialize>(what: &T) -> String {
 
 /// The checksum of a line: of its text and of the first line's, so that no line passes into another search's file.
 fn checksum(head: &str, text: &str) -> String {
-    let digest = Sha256::new()
-        .chain_update(head)
-        .chain_update(text)
-        .finalize();
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(Sha256::new().chain_update(head).chain_update(text))
+}
+
+/// A digest in hexadecimal digits.
+pub(super) fn hexadecimal(digest: Sha256) -> String {
+    let bytes = digest.finalize();
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Reads what is whole: the first line, the pieces, and how long all that is.
@@ -124,14 +131,24 @@ fn read(file: &mut File) -> std::io::Result<Option<(Head, BTreeMap<usize, Found>
             false => Err(broken("it is not a store of `krawl all`")),
         };
     };
-    let head: Head =
-        serde_json::from_str(&text).map_err(|_| broken("it is not a store of `krawl all`"))?;
+    if !text.starts_with(r#"{"krawl":"parts of"#) {
+        return Err(broken("it is not a store of `krawl all`"));
+    }
+    let damaged = || {
+        broken(
+            "its first line is damaged, or another version of krawl wrote it; name another folder",
+        )
+    };
+    let (bound, sum) = text.rsplit_once(' ').ok_or_else(damaged)?;
+    if checksum("", bound) != sum {
+        return Err(damaged());
+    }
+    let head: Head = serde_json::from_str(bound).map_err(|_| damaged())?;
     let (mut done, mut length) = (BTreeMap::new(), first.len());
-    let bound = json(&head);
     let line_of = |line: &[u8]| -> Option<Line> {
         let text = whole(line)?;
         let (sum, rest) = text.split_once(' ')?;
-        let right = checksum(&bound, rest) == sum;
+        let right = checksum(bound, rest) == sum;
         right.then(|| serde_json::from_str(rest).ok()).flatten()
     };
     for line in lines {
@@ -186,10 +203,16 @@ impl Store {
         })
     }
 
+    /// A complaint about it.
+    pub(super) fn at(&self, what: &str) -> String {
+        format!("{}: {what}", self.path.display())
+    }
+
     /// Writes what search it is about, if it is new.
     pub(super) fn begin(&mut self, head: Head) -> Result<(), String> {
         if self.head.is_none() {
-            self.append(&json(&head))?;
+            let text = json(&head);
+            self.append(&format!("{text} {}", checksum("", &text)))?;
             self.head = Some(head);
         }
         Ok(())
@@ -208,7 +231,8 @@ impl Store {
             .ok_or_else(|| at(&"nothing is in this store"))?;
         if Some(&head) != self.head.as_ref() {
             return Err(at(
-                &"it is of another search: of another problem, by another plan, or of another version of krawl",
+                &"it is of another search: of another problem, by another plan, with or without --cert where this one is not, \
+                  or by another version of krawl or on another kind of processor",
             ));
         }
         for (piece, found) in done {
@@ -235,6 +259,6 @@ impl Store {
     fn append(&mut self, line: &str) -> Result<(), String> {
         let whole = format!("{line}\n");
         let written = self.file.write_all(whole.as_bytes());
-        written.map_err(|e| format!("{}: {e}", self.path.display()))
+        written.map_err(|e| self.at(&e.to_string()))
     }
 }

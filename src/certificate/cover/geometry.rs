@@ -75,6 +75,10 @@ impl<'a> Plan<'a> {
             square * per_unit * per_unit
         });
         let squares: Vec<Interval> = squares.collect();
+        // Bounds of pairs rest on it (`pairs`).
+        if !squares.iter().all(|s| s.sup() < 1e60) {
+            return Err("in the cover's unit a length is larger than 1e30".to_owned());
+        }
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|e| e.points).collect();
         let mut plan = Plan {
             dimension: d,

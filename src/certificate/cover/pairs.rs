@@ -8,8 +8,8 @@ pub struct Pairs {
     lengths: Vec<Interval>,
 }
 
-/// In place of a bound where none is known. No mark can rest on it: lengths and parameters in a cover are below 1e60,
-/// so that no plan of at most 256 steps places a point this far away.
+/// In place of a bound where none is known. It holds for every figure: lengths and parameters in a cover are below
+/// 1e60 (`geometry`, `format`), so that no plan of fewer than 1e30 steps places a point this far away.
 const FAR: f64 = 1e100;
 
 impl Pairs {
