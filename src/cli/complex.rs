@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// Find all complex solutions, every path proved
+/// Find all complex solutions, every path proved (unless --float)
 ///
 /// Each box holds exactly one; which are real is proved. "Complete" claims that there is no other isolated solution, and
 /// is claimed only where their number meets a proved bound. Without a template one is made first.
@@ -97,6 +97,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let time = arguments.search.time;
     let ways = Ways {
+        proved: !arguments.search.float,
         radius: arguments.radius,
         cancel: Some(interrupt::flag()),
         deadline: time.map(|s| Instant::now() + Duration::from_secs_f64(s)),

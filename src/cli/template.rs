@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// Find the complex solutions of a random instance, to be used for all instances
 ///
 /// A random complex figure with the same constraints has dimensions of its own. Loops of complex dimensions make other
-/// figures with the same dimensions of it, every path proved, until there are as many as a proved bound allows or no
+/// figures with the same dimensions of it, every path proved (unless --float), until there are as many as a proved bound allows or no
 /// loop finds another one. `krawl complex FILE --template T` then takes them to any dimensions.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -46,6 +46,10 @@ pub struct Search {
     /// Stop when there are so many, up to signs of axes: a number that you know from elsewhere, nothing is proved by it
     #[arg(long, value_name = "N")]
     enough: Option<usize>,
+    /// Follow paths in floats, many times as fast and without proof of the steps; every solution that they come to is
+    /// still proved, and so is "complete" or "full", which rests on their number alone
+    #[arg(long)]
+    pub float: bool,
     /// Stop looking after so many seconds
     #[arg(long, value_name = "S", value_parser = super::all::seconds)]
     pub time: Option<f64>,
@@ -79,6 +83,7 @@ impl Search {
             patience: self.patience,
             progress: Some(&tell),
             ways: Ways {
+                proved: !self.float,
                 cancel: Some(interrupt::flag()),
                 deadline: self
                     .time
@@ -160,9 +165,19 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
         ),
     };
     let mut text = format!("{}: {full}\n", problem.name);
+    let Effort {
+        paths,
+        tubes,
+        steps,
+        ..
+    } = fibre.effort;
+    let took = match steps {
+        0 => format!("{tubes} tubes"),
+        _ => format!("{steps} steps in floats"),
+    };
     text += &format!(
-        "{} ways between random instances, {} paths, {} tubes, {seconds:.2} s\n",
-        fibre.ways, fibre.effort.paths, fibre.effort.tubes
+        "{} ways between random instances, {paths} paths, {took}, {seconds:.2} s\n",
+        fibre.ways
     );
     if let (failed, Some(reason)) = &fibre.failed {
         text += &format!("{failed} paths were given up, the last because {reason}\n");

@@ -1,6 +1,7 @@
 //! Following solutions while the parameters move from one place to another.
 
 use super::boxes::SolutionBox;
+use super::float::{FloatEnd, FloatFollower};
 use super::system::System;
 use crate::system::{Homotopy, Right};
 use crate::track::arc::ArcEnd;
@@ -13,7 +14,7 @@ use std::time::{Duration, Instant};
 /// How a path ended.
 #[derive(Debug, Clone)]
 pub enum PathEnd {
-    /// At t = 1, in a box with exactly one solution, which is the continuation of the one at t = 0.
+    /// At t = 1, in a box with exactly one solution, which is the continuation of the one at t = 0 if paths are proved.
     Reached(SolutionBox),
     /// It was followed up to this t < 1, where an unknown is larger than the radius allowed.
     Beyond(f64),
@@ -30,6 +31,8 @@ pub struct Effort {
     pub tubes: usize,
     /// Tubes tried in vain.
     pub rejected: usize,
+    /// Steps in floats.
+    pub steps: usize,
 }
 
 impl Effort {
@@ -38,12 +41,16 @@ impl Effort {
         self.paths += other.paths;
         self.tubes += other.tubes;
         self.rejected += other.rejected;
+        self.steps += other.steps;
     }
 }
 
 /// How to follow paths.
 #[derive(Clone, Copy)]
 pub struct Ways<'a> {
+    /// Whether every step of a path is proved. Otherwise paths are followed in floats, and may jump from one to another;
+    /// what they come to is proved all the same.
+    pub proved: bool,
     /// Beyond this size of an unknown, in units of the typical length, a path is given up as one to infinity.
     pub radius: f64,
     /// A path that takes more tubes is given up.
@@ -61,6 +68,7 @@ pub struct Ways<'a> {
 impl Default for Ways<'_> {
     fn default() -> Self {
         Ways {
+            proved: true,
             radius: 1000.0,
             most_tubes: 20_000,
             extended: true,
@@ -130,6 +138,7 @@ impl Follower {
             paths: 1,
             tubes: run.steps,
             rejected: run.rejected,
+            steps: 0,
         });
         let size = run.last.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         match run.end {
@@ -140,6 +149,32 @@ impl Follower {
         }
     }
 
+    /// Follows the path of one solution in floats, and proves a box around what it comes to.
+    fn follow_in_floats(
+        &mut self,
+        floats: &mut FloatFollower,
+        start: &SolutionBox,
+        ways: &Ways,
+        effort: &mut Effort,
+    ) -> PathEnd {
+        let before = floats.steps;
+        let end = floats.follow(&start.figure.centre, ways.radius, ways.most_tubes);
+        effort.add(Effort {
+            paths: 1,
+            steps: floats.steps - before,
+            ..Effort::default()
+        });
+        match end {
+            FloatEnd::Reached(near) => self
+                .prove(&near)
+                .map_or_else(PathEnd::Stopped, PathEnd::Reached),
+            FloatEnd::Beyond(t) => PathEnd::Beyond(t),
+            FloatEnd::Stopped(t) => PathEnd::Stopped(format!(
+                "in floats the path cannot be followed beyond t = {t:.6}"
+            )),
+        }
+    }
+
     /// Proves a box around the solution near a point, for the parameters at t = 1.
     pub fn prove(&mut self, near: &[f64]) -> Result<SolutionBox, String> {
         let (figure, alone_within) = self.arcs.prove_at_end(near)?;
@@ -147,7 +182,7 @@ impl Follower {
     }
 }
 
-/// Follows the paths of many solutions on all threads of the pool. Results come in the solutions' order.
+/// Follows the paths of many solutions on all threads of the pool, as `ways` says. Results come in the solutions' order.
 pub fn follow_all(
     system: &System,
     rights: &[Right],
@@ -165,12 +200,16 @@ pub fn follow_all(
         .par_chunks(piece)
         .map(|starts| {
             let mut follower = Follower::new(homotopy.clone(), rights, ways);
+            let mut floats = (!ways.proved).then(|| FloatFollower::new(system, rights));
             let mut effort = Effort::default();
             let ends = starts.iter().map(|start| {
                 if ways.is_over() {
                     return PathEnd::Stopped("the time was over, or it was interrupted".to_owned());
                 }
-                let end = follower.follow(start, ways, &mut effort);
+                let end = match &mut floats {
+                    None => follower.follow(start, ways, &mut effort),
+                    Some(floats) => follower.follow_in_floats(floats, start, ways, &mut effort),
+                };
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 if let Some(progress) = ways.progress {
                     progress(count, starts.len());

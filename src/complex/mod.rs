@@ -5,6 +5,9 @@
 //! generic instance of a problem's equations with its solutions: one random figure, and what loops of complex
 //! dimensions make of it ([`monodromy`]). Its solutions are then taken to the dimensions wanted ([`solve()`]).
 //!
+//! Where a bound is known the number of solutions proves that they are all, however they were found: then paths may be
+//! followed in floats ([`Ways::proved`]), ten to twenty times as fast.
+//!
 //! What is proved: every box holds exactly one complex solution; boxes are disjoint; which solutions are real. That there
 //! is no other isolated solution is proved where their number meets a proved bound ([`bound`]), and not claimed elsewhere.
 //!
@@ -30,6 +33,7 @@ mod certify;
 mod count;
 mod exact;
 mod export;
+mod float;
 mod follow;
 mod laman;
 mod lines;

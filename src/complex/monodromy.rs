@@ -2,7 +2,8 @@
 //!
 //! Between two generic instances A and B there are many ways of moving the parameters, bowed in all directions.
 //! Along each of them the solutions of A are taken to those of B, one to one, as no two proved paths can meet. So a
-//! solution of A goes to B one way and comes back another, as a solution of A that may be new.
+//! solution of A goes to B one way and comes back another, as a solution of A that may be new. In floats paths may
+//! jump; then some solutions may be missed along one way, and others be found twice.
 
 use super::boxes::{Found, SolutionBox, SolutionSet};
 use super::exact::{Exact, Parameter, Random, zero};

@@ -55,6 +55,8 @@ pub struct Solutions {
     pub stopped: Vec<String>,
     /// Paths that came to a solution to which another path had come.
     pub repeated: usize,
+    /// Whether every path was proved, step by step.
+    pub paths_proved: bool,
     /// What it took.
     pub effort: Effort,
     /// The time it took.
@@ -102,7 +104,9 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
             }
         }
         // What was found on one way stays proved; another way may come to what this one did not.
-        if stopped.is_empty() || ways.is_over() || is_complete(lowered, &set) {
+        // In floats a path may have jumped to another one's end.
+        let all_came = stopped.is_empty() && (ways.proved || repeated == 0);
+        if all_came || ways.is_over() || is_complete(lowered, &set) {
             break;
         }
     }
@@ -124,6 +128,7 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
         infinite,
         stopped,
         repeated,
+        paths_proved: ways.proved,
         effort,
         seconds: clock.elapsed().as_secs_f64(),
     }

@@ -122,6 +122,8 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
         "repeated": result.repeated,
         "paths": result.effort.paths,
         "tubes": result.effort.tubes,
+        "paths_proved": result.paths_proved,
+        "steps": result.effort.steps,
         "seconds": result.seconds,
         "solutions": solutions.collect::<Value>(),
     });
@@ -166,10 +168,15 @@ fn write_table(
     }
     if result.repeated > 0 {
         let paths = counted(result.repeated, "path");
+        let why = match result.paths_proved {
+            true => "these dimensions have symmetries that others do not have",
+            false => {
+                "these dimensions have symmetries, or paths jumped, as they were followed in floats"
+            }
+        };
         writeln!(
             out,
-            "{paths} came to a solution or a mirror image of one to which another had come: these dimensions have \
-             symmetries that others do not have."
+            "{paths} came to a solution or a mirror image of one to which another had come: {why}."
         )?;
     }
     if let Some(reason) = result.stopped.first() {
@@ -230,11 +237,19 @@ fn write_table(
     }
     writeln!(out, "\ngauge      {}", lowered.system.gauge)?;
     let effort = result.effort;
-    writeln!(
-        out,
-        "paths      {}, {} tubes, {} rejected",
-        effort.paths, effort.tubes, effort.rejected
-    )?;
+    let paths = effort.paths;
+    match result.paths_proved {
+        true => writeln!(
+            out,
+            "paths      {paths}, {} tubes, {} rejected",
+            effort.tubes, effort.rejected
+        )?,
+        false => writeln!(
+            out,
+            "paths      {paths}, followed in floats, {} steps",
+            effort.steps
+        )?,
+    }
     writeln!(out, "seconds    {:.4}", result.seconds)
 }
 
