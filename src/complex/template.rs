@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 /// What [`Template::read`] takes and [`Template::write`] makes.
 pub const VERSION: u32 = 1;
 
+/// Solutions that are alone within less are written with all digits, others with ten.
+const NEAR: f64 = 1e-4;
 /// No parameter takes more characters.
 const LONGEST: usize = 1000;
 /// No parameter or coordinate, in typical lengths, is larger: far from overflow.
@@ -89,10 +91,12 @@ impl Template {
         let text = |x: &crate::interval::Real| x.as_rational().expect("a ratio").to_string();
         let near = |solution: &super::boxes::SolutionBox| {
             let middles = solution.figure.centre.iter();
-            // Newton's method has the rest again.
-            middles
-                .map(|x| format!("{x:.9e}").parse().expect("a number"))
-                .collect()
+            // Newton's method has the rest again, unless another solution is near.
+            let rounded = |x: &f64| match solution.alone_within < NEAR {
+                true => *x,
+                false => format!("{x:.9e}").parse().expect("a number"),
+            };
+            middles.map(rounded).collect()
         };
         let file = File {
             version: VERSION,

@@ -85,14 +85,16 @@ impl<const D: usize> Ledger<D> {
         self.t_range = (f64::INFINITY, f64::NEG_INFINITY);
     }
 
-    /// Proves a box around the solution near a point, beside the account.
+    /// Proves a box around the solution near a point, beside the account; in extended precision if asked for.
     pub fn prove_at_end(
         &mut self,
         equations: &Equations<D>,
         inverter: &mut InverseMaker,
         near: &[f64],
+        extended: bool,
     ) -> Result<&SolutionBox, Doubt> {
-        self.prover.prove(equations, inverter, near, (true, false))
+        self.prover
+            .prove(equations, inverter, near, (true, extended))
     }
 
     /// Where the account stands.

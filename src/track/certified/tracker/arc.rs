@@ -252,11 +252,22 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
         let mut guess = tracker.equations.vector();
         guess[..m].copy_from_slice(near);
         guess[m] = 1.0;
-        let (equations, inverter) = (&tracker.equations, &mut tracker.inverter);
-        match tracker.ledger.prove_at_end(equations, inverter, &guess) {
-            Ok(found) => Ok((figure_of(found), found.alone_within)),
-            Err(doubt) => Err(undecided(doubt, false, &tracker.homotopy)),
+        // Where 53 bits do not suffice, more may.
+        for extended in [false, true] {
+            if extended {
+                tracker.equations.extend(&tracker.homotopy);
+            }
+            let (equations, inverter) = (&tracker.equations, &mut tracker.inverter);
+            let proved = tracker
+                .ledger
+                .prove_at_end(equations, inverter, &guess, extended);
+            match proved {
+                Ok(found) => return Ok((figure_of(found), found.alone_within)),
+                Err(doubt) if extended => return Err(undecided(doubt, false, &tracker.homotopy)),
+                Err(_) => {}
+            }
         }
+        unreachable!("the second round returns")
     }
 
     /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the
