@@ -1,15 +1,15 @@
 //! What a certified tube costs where constraints are no distances, beside one of distances with as many
 //! unknowns: `cargo bench --bench tails`.
 //!
-//! Problems of distances are measured beside the same with as many of their distances as possible replaced by
-//! angles: in a triangle all of whose sides are given, one side becomes the angle opposite to it. The figures
-//! wanted are the same, and so is the number of unknowns; the paths differ. As an angle at a point it has the form of a
-//! distance in the equations; as an angle between the lines of the two other sides it is a sum of products, and
-//! only these, marked *lines*, count as others than distances. Shipped problems with other
-//! constraints stand beside a generated strip of about as many unknowns. The times are those of following the
+//! Problems of distances are measured beside the same with as many of their distances as possible replaced: in a
+//! triangle all of whose sides are given, one side becomes the angle opposite to it, at the point or between the lines of the
+//! two other sides, or in the plane the height over another side. The figures wanted are the same, and so is the
+//! number of unknowns; the paths differ. Angles between given bars with an end in common have the form of a distance
+//! in the equations; heights are sums of products, and only these count as others than distances. Shipped problems
+//! with other constraints stand beside a generated strip of about as many unknowns. The times are those of following the
 //! path over all tubes tried, medians of several runs that take turns. The goal is 1.3 times at most, by the
-//! median of the ratios of problems with equations in the tail; that of the others is printed beside it. `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be
-//! profiled one by one.
+//! median of the ratios of problems with equations in the tail; that of the others is printed beside it.
+//! `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be profiled one by one.
 
 use krawl::generate::{Family, Recipe};
 use krawl::problem::{Problem, Target};
@@ -101,10 +101,29 @@ fn main() {
     }
 }
 
-/// Adds a problem of distances beside the same with angles, at points and between lines.
+/// What comes in the place of a distance.
+#[derive(Clone, Copy, PartialEq)]
+enum Instead {
+    /// The angle opposite to it, at the point.
+    Angle,
+    /// That between the lines of the other sides.
+    Lines,
+    /// The height of one of its ends over the side at the other.
+    Height,
+}
+
+/// Adds a problem of distances beside the same with others in their place.
 fn add(pairs: &mut Vec<(String, Problem, Problem)>, name: &str, plain: &Problem) {
-    for (lines, what) in [(false, ""), (true, " lines")] {
-        let others = with_angles(plain, lines).into_iter();
+    for (instead, what) in [
+        (Instead::Angle, ""),
+        (Instead::Lines, " lines"),
+        (Instead::Height, " heights"),
+    ] {
+        if instead == Instead::Height && plain.dimension == 3 {
+            // A distance from a line in space takes unknowns of its own.
+            continue;
+        }
+        let others = with_others(plain, instead).into_iter();
         pairs.extend(others.map(|other| (format!("{name}{what}"), plain.clone(), other)));
     }
 }
@@ -130,9 +149,8 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The same problem with angles in the place of distances, at points or between lines; `None` if there is no
-/// triangle for one.
-fn with_angles(problem: &Problem, lines: bool) -> Option<Problem> {
+/// The same problem with others in the place of distances; `None` if there is no triangle for one.
+fn with_others(problem: &Problem, instead: Instead) -> Option<Problem> {
     let length = |d: usize| match &problem.distances[d].target {
         Target::Length(length) => length.to_f64(),
         Target::SquaredLength(square) => square.to_f64().sqrt(),
@@ -143,7 +161,7 @@ fn with_angles(problem: &Problem, lines: bool) -> Option<Problem> {
     };
     // Legs stay distances.
     let mut is_leg = vec![false; problem.distances.len()];
-    let mut angles: Vec<Option<(usize, f64)>> = vec![None; problem.distances.len()];
+    let mut angles: Vec<Option<(usize, f64, f64)>> = vec![None; problem.distances.len()];
     for (d, distance) in problem.distances.iter().enumerate() {
         let [a, b] = distance.points;
         if is_leg[d] || d == problem.homotopy.bend {
@@ -154,11 +172,12 @@ fn with_angles(problem: &Problem, lines: bool) -> Option<Problem> {
             let free = legs.iter().all(|&leg| angles[leg].is_none());
             let [x, y, z] = [length(legs[0]), length(legs[1]), length(d)];
             let cosine = (x * x + y * y - z * z) / (2.0 * x * y);
-            (free && cosine.abs() < 0.99).then_some((p, legs, cosine))
+            (free && cosine.abs() < 0.99).then_some((p, legs, cosine, y))
         });
-        if let Some((p, legs, cosine)) = legs {
+        if let Some((p, legs, cosine, leg)) = legs {
             legs.into_iter().for_each(|leg| is_leg[leg] = true);
-            angles[d] = Some((p, cosine.acos().to_degrees()));
+            let angle = cosine.acos();
+            angles[d] = Some((p, angle.to_degrees(), leg * angle.sin()));
         }
     }
     angles.iter().any(Option::is_some).then_some(())?;
@@ -171,10 +190,11 @@ fn with_angles(problem: &Problem, lines: bool) -> Option<Problem> {
     for (distance, angle) in problem.distances.iter().zip(&angles) {
         let [a, b] = distance.points.map(name);
         builder = match (angle, &distance.target) {
-            (Some((p, degrees)), _) if lines => {
-                builder.dimension("angles", [name(*p), a, name(*p), b], *degrees)
-            }
-            (Some((p, degrees)), _) => builder.dimension("angles", [a, name(*p), b], *degrees),
+            (Some((p, degrees, height)), _) => match instead {
+                Instead::Angle => builder.dimension("angles", [a, name(*p), b], *degrees),
+                Instead::Lines => builder.dimension("angles", [name(*p), a, name(*p), b], *degrees),
+                Instead::Height => builder.dimension("distances", [b, a, name(*p)], *height),
+            },
             (None, Target::Length(length)) => builder.distance(&a, &b, length.clone()),
             (None, Target::SquaredLength(square)) => {
                 builder.squared_distance(&a, &b, square.clone())

@@ -32,10 +32,18 @@ fn angles_at_a_point_between_known_lengths() {
 }
 
 /// The right-hand side is that of the cosine rule at every t, lengths and the cosine being led linearly, or for a right
-/// angle the bars' product.
+/// angle the bars' product. Lines have two angles, of which the one nearer to the sketch's is meant, whichever way they run.
 #[test]
 fn angles_between_given_lengths_have_the_form_of_distances() {
-    for (dimension, degrees) in [(2, 70.0f64), (3, 110.0), (2, 90.0)] {
+    let at_point = r#""a", "b", "c""#;
+    let lines = [
+        r#""a", "b", "b", "c""#,
+        r#""b", "a", "b", "c""#,
+        r#""c", "b", "b", "a""#,
+    ];
+    let all = lines.into_iter().chain([at_point]);
+    let all = all.flat_map(|items| [(2, 70.0f64), (3, 110.0), (2, 90.0)].map(|of| (items, of)));
+    for (items, (dimension, degrees)) in all {
         let z = if dimension == 3 { ", 0.3" } else { "" };
         let more = match dimension {
             3 => "\nd = [1, 1.1, 1.9]",
@@ -48,7 +56,7 @@ fn angles_between_given_lengths_have_the_form_of_distances() {
         let problem = read(&format!(
             "name = \"test\"\ndimension = {dimension}\n[points]\na = [0.1, 0{z}]\nb = [3.1, 0.2{z}]\nc = [2.9, 2.2{z}]{more}\n\
              [constraints]\ndistances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2.5]{joined}]\n\
-             angles = [[\"a\", \"b\", \"c\", {degrees}]]\n"
+             angles = [[{items}, {degrees}]]\n"
         ));
         let homotopy = Homotopy::new(&problem).unwrap();
         let all: Vec<Edge> = homotopy.half_squares().collect();
@@ -60,6 +68,11 @@ fn angles_between_given_lengths_have_the_form_of_distances() {
         let arrow = |to: usize| -> [f64; 3] { std::array::from_fn(|k| at(to)[k] - at(1)[k]) };
         let (u, v) = (arrow(0), arrow(2));
         let product = dot(u, v);
+        let cosine = degrees.to_radians().cos();
+        let cosine = match items == at_point {
+            true => cosine,
+            false => cosine.abs() * product.signum(),
+        };
         for t in [0.0, 0.25, 0.7, 1.0] {
             let lead = |from: f64, to: f64| from + t * (to - from);
             let bend = problem.bend();
@@ -75,7 +88,7 @@ fn angles_between_given_lengths_have_the_form_of_distances() {
             let b = lead(size(v), 2.5) + bent(1);
             let inner = match degrees {
                 90.0 => lead(product, 0.0),
-                _ => a * b * lead(product / (size(u) * size(v)), degrees.to_radians().cos()),
+                _ => a * b * lead(product / (size(u) * size(v)), cosine),
             };
             let unit = homotopy.unit;
             let right = homotopy.rights[homotopy.equations - 1]

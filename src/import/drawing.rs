@@ -284,7 +284,8 @@ impl Drawing {
     }
 
     /// Makes coordinates equal that coincidences, horizontals, verticals and given coordinates make equal, where they
-    /// are so but for what a solver leaves: then those constraints hold exactly and take no equations.
+    /// are so but for what a solver leaves: then those constraints hold exactly and take no equations. None moves by more
+    /// than twice [`SNAP`] of the largest coordinate, however many are made equal one after the other.
     fn snap(&mut self) {
         let count = self.places.len();
         let mut parent: Vec<usize> = (0..2 * count).collect();
@@ -296,7 +297,9 @@ impl Drawing {
             x
         }
         let all = self.places.iter().flat_map(|(_, at)| *at);
-        let size = all.fold(0.0f64, |max, x| max.max(x.abs()));
+        let most = SNAP * all.fold(0.0f64, |max, x| max.max(x.abs()));
+        // How far the coordinates that were made equal to one are from it, at most.
+        let mut away = vec![0.0f64; 2 * count];
         let ends = |drawing: &Drawing, items: &[Item]| match *items {
             [Item::Point(a), Item::Point(b)] => Some([a, b]),
             [Item::Object(o)] => match drawing.objects[o].shape {
@@ -316,8 +319,10 @@ impl Drawing {
             if let Some([a, b]) = ends(self, &constraint.items) {
                 for axis in axes {
                     let (a, b) = (root(&parent, 2 * a + axis), root(&parent, 2 * b + axis));
-                    if (value_of(self, a) - value_of(self, b)).abs() <= SNAP * size {
+                    let moved = away[b] + (value_of(self, a) - value_of(self, b)).abs();
+                    if a != b && moved <= most {
                         parent[b] = a;
+                        away[a] = away[a].max(moved);
                     }
                 }
             }
@@ -337,7 +342,7 @@ impl Drawing {
             };
             for (place, value) in places {
                 let place = root(&parent, place);
-                if (value_of(self, place) - value).abs() <= SNAP * size {
+                if (value_of(self, place) - value).abs() <= most {
                     given.entry(place).or_insert(value);
                 }
             }

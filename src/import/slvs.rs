@@ -512,8 +512,9 @@ impl Reader<'_> {
         let ([a, b], [c, d]) = (self.direction(one)?, self.direction(other)?);
         let (long, short) = (a.hypot(b), c.hypot(d));
         let cosine = (a * c + b * d) / (long * short);
-        // An end moves by no more than SNAP of the largest coordinate, along each axis.
-        let moved = 2.0 * self.drawing.size() * SNAP;
+        // An end moves by no more than twice SNAP of the largest coordinate, along each axis; `size` is no less than that
+        // divided by the root of 2.
+        let moved = 4.0 * self.drawing.size() * SNAP;
         (cosine.abs() > 4.0 * moved * (1.0 / long + 1.0 / short)).then_some(cosine)
     }
 

@@ -3,7 +3,7 @@
 //! The cosine `u·v / (|u| |v|)` is led linearly from that of the sketch to that of the angle. Where both
 //! lengths are dimensions of the problem it needs no unknowns: `u·v` is a polynomial in t. The angle at a
 //! point is that between the two legs; where the lengths of both are given, the distance between their other ends
-//! takes its place. Lines and planes have two angles, which add up to 180 degrees: the
+//! takes its place, and so it does for two lines through given bars that have an end in common. Lines and planes have two angles, which add up to 180 degrees: the
 //! one meant is the one that the sketch comes nearer to.
 
 use super::prelude::*;
@@ -47,6 +47,7 @@ impl Kind for Angles {
             let (u, v) = (low.span(b, a)?, low.span(b, c)?);
             return between(of.name, low, &u, &v, target, false);
         }
+        let corner = corner(&of.items);
         let (first, second) = directions(&mut of.items, low)?;
         let target = if first.1 == second.1 {
             Real::cosine_of_degrees(degrees)
@@ -55,8 +56,38 @@ impl Kind for Angles {
         } else {
             Real::sine_of_degrees(degrees)
         };
+        if let Some((points, turned)) = corner
+            && low.are_legs_given(points)?
+        {
+            // The cosine between the legs, of which one may run against its line.
+            let now = dot(&first.0.at, &second.0.at);
+            let cosine = match target.is_zero() && !low.is_editable() {
+                true => target,
+                false => nearer(low, &now, target),
+            };
+            let cosine = if turned { -&cosine } else { cosine };
+            low.measure_opposite(of.name, points, &cosine)?;
+            return Ok(());
+        }
         between(of.name, low, &first.0, &second.0, target, true)
     }
+}
+
+/// Two lines through two points each, one of which they have in common: that one in the middle of the other ends, and
+/// whether one of the lines runs towards it and the other away from it.
+fn corner(items: &Arguments) -> Option<([usize; 3], bool)> {
+    let mut items = items.clone();
+    let (LineName::Points(first), LineName::Points(second)) =
+        (items.line().ok()?, items.line().ok()?)
+    else {
+        return None;
+    };
+    items.end().ok()?;
+    let (i, j) = [(0, 0), (0, 1), (1, 0), (1, 1)]
+        .into_iter()
+        .find(|&(i, j)| first[i] == second[j])?;
+    let (from, to) = (first[1 - i], second[1 - j]);
+    (from != to).then_some(([from, first[i], to], i != j))
 }
 
 /// Two directions or normals, and nothing more.
@@ -114,11 +145,12 @@ fn between(
     let now = dot(&u.at, &v.at);
     let odd = u.axial != v.axial;
     let products = low.dot(1, &u.forms, &v.forms);
-    let opposite = either && now.is_negative() == (target.enclose().inf() > 0.0) && !now.is_zero();
-    let then = if low.sense(opposite) {
-        -&target
-    } else {
-        target
+    let then = match either {
+        true => nearer(low, &now, target),
+        false => {
+            low.sense(false);
+            target
+        }
     };
     low.measure(
         name,
@@ -132,4 +164,13 @@ fn between(
         },
     );
     Ok(())
+}
+
+/// Of a cosine and the opposite number the one that is nearer to the cosine of which `now` has the sign.
+fn nearer(low: &mut Lowering, now: &BigRational, target: Real) -> Real {
+    let opposite = now.is_negative() == (target.enclose().inf() > 0.0) && !now.is_zero();
+    match low.sense(opposite) {
+        true => -&target,
+        false => target,
+    }
 }

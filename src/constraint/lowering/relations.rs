@@ -67,6 +67,11 @@ impl Lowering<'_> {
         self.equate(name, products, vec![Real::zero()], power);
     }
 
+    /// Whether the lengths of both legs of the angle at the middle one of three points are dimensions of the problem.
+    pub fn are_legs_given(&self, [from, at, to]: [usize; 3]) -> Result<bool, Fault> {
+        Ok(self.span(at, from)?.known.is_some() && self.span(at, to)?.known.is_some())
+    }
+
     /// Says that the cosine of the angle at a point between two bars of given lengths is led linearly to `then`: by the
     /// cosine rule, that the square of the distance between their other ends is what follows from it. The figures are
     /// those of the bars' product at every t, and the equation is that of a distance. False: a length is not

@@ -47,14 +47,14 @@ pub(in crate::edit) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
     for constraint in all.filter(|c| kinds.contains(&c.kind.as_str())) {
         let points: Vec<usize> = constraint.items.iter().flat_map(points_of).collect();
         // Of two angles, and of two points with a line each, each half has a sense.
-        let parts = match constraint.kind.as_str() {
-            "equal_angles" if !matches!(points.len(), 6 | 8) => continue,
+        let parts: Vec<Vec<usize>> = match constraint.kind.as_str() {
+            "equal_angles" => angles(&constraint.items, points_of),
             "equal_distances" if points.len() != 6 => continue,
-            "equal_angles" | "equal_distances" => 2,
-            _ => 1,
+            "equal_distances" => points.chunks(3).map(<[usize]>::to_vec).collect(),
+            _ => vec![points],
         };
-        for points in points.chunks(points.len().div_ceil(parts).max(1)) {
-            match *points {
+        for points in parts {
+            match points[..] {
                 [a, b, c] => out.put(vec![a, b, c]),
                 // A point of one line with the other line.
                 [a, b, c, d] => {
@@ -66,6 +66,28 @@ pub(in crate::edit) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
         }
     }
     out.0.into_iter().collect()
+}
+
+/// The points of each of two equal angles: the three of an angle at a point, or the ends of two lines. An angle with a
+/// coordinate axis, which has no points, is none of these.
+fn angles(items: &[Item], points_of: impl Fn(&Item) -> Vec<usize>) -> Vec<Vec<usize>> {
+    let is_point = |item: &Item| matches!(item, Item::Point(_));
+    if items.len() == 6 && items.iter().all(is_point) {
+        let points: Vec<usize> = items.iter().flat_map(points_of).collect();
+        return points.chunks(3).map(<[usize]>::to_vec).collect();
+    }
+    let (mut lines, mut rest) = (Vec::new(), items);
+    while let Some((item, after)) = rest.split_first() {
+        let mut line = points_of(item);
+        rest = after;
+        if let (true, Some((end, after))) = (is_point(item), after.split_first()) {
+            line.extend(points_of(end));
+            rest = after;
+        }
+        lines.push(line);
+    }
+    let halves = lines.chunks(2).map(<[Vec<usize>]>::concat);
+    halves.filter(|points| points.len() == 4).collect()
 }
 
 /// One tetrahedron of each point that is joined to three others at least, the first that is not flat in the sketch.
@@ -102,4 +124,30 @@ pub(super) fn followed(problem: &Problem) -> Vec<Vec<usize>> {
         pairs(problem),
     ));
     out.into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_halves_of_equal_angles_are_not_mixed() {
+        let file = |equal: &str| {
+            format!(
+                "name = \"fan\"\ndimension = 2\n\n[points]\na = [0, 0]\nb = [3, 0]\nc = [3, 2]\nd = [1, 3]\ne = [-1, 2]\nf = [4, 4]\n\n\
+                 [constraints]\nfixed = [\"a\"]\nequal_angles = [{equal}]\n"
+            )
+        };
+        let of = |equal: &str| senses(&Problem::parse_loosely(&file(equal), "fan.toml").unwrap());
+        // Three lines and an axis: only the half without the axis has points to tell its sense by.
+        let expected = vec![vec![2, 3, 4], vec![2, 3, 5]];
+        assert_eq!(
+            of("[\"a\", \"b\", \"x-axis\", \"c\", \"d\", \"e\", \"f\"]"),
+            expected
+        );
+        assert_eq!(
+            of("[\"a\", \"b\", \"c\", \"d\", \"e\", \"f\"]"),
+            [[0, 1, 2], [3, 4, 5]]
+        );
+    }
 }

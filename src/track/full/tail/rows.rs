@@ -84,12 +84,6 @@ impl Tail {
         self.rows.unknowns[entry] as usize
     }
 
-    /// The entry of an unknown in an equation's row, if there is one.
-    pub fn entry(&self, equation: usize, unknown: usize) -> Option<usize> {
-        self.row(equation)
-            .find(|&entry| self.unknown(entry) == unknown)
-    }
-
     /// The values of all entries from those of forms.
     pub fn row_values(&self, forms: &[f64], out: &mut [f64]) {
         self.sum_parts(forms, out, |factor| factor);

@@ -12,13 +12,14 @@
 //! bounded without its signs from block to block; that is what keeps the wrapping effect small
 //! (docs/reduced.md).
 
-use super::diagonal::bound_on_inverse;
+use super::diagonal::{bound_on_inverse, bound_on_wide_inverse};
 use crate::interval::rounding::round_up;
 use crate::linalg::rstructure::rows::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::layout::{Block, Layout};
-use crate::track::reduced::structure::passes::Inverse;
+use crate::track::reduced::structure::groups::each_entry;
+use crate::track::reduced::structure::layout::{Block, Layout, WIDEST};
+use crate::track::reduced::structure::passes::{Inverses, WideInverse};
 
 /// X ≈ A₀⁻¹, N = |A₀ X − I| + H |A₁ X| and Â of a tube, from which bounds on |A(s)⁻¹ g| follow for |s| ≤ H.
 #[derive(Debug, Clone)]
@@ -31,8 +32,9 @@ pub struct Resolvent<const D: usize> {
     /// Â by axis and distance, and by entry of the tail's rows.
     spread: [Vector; D],
     spread_of_tail: Vec<f64>,
-    /// R for each block.
+    /// R for each block; nothing for those whose rows are lists, which have theirs apart.
     diagonal: Vec<[[f64; 3]; 3]>,
+    listed: Vec<WideInverse>,
     /// The position in A of each unknown of A; otherwise too large.
     position: Vec<u32>,
     /// More roundings than any number in a bound goes through.
@@ -49,6 +51,7 @@ impl<const D: usize> Resolvent<D> {
             spread: std::array::from_fn(|_| equations.per_edge()),
             spread_of_tail: vec![0.0; equations.tail.entries()],
             diagonal: Vec::new(),
+            listed: Vec::new(),
             position: Vec::new(),
             roundings: 0,
         }
@@ -70,14 +73,22 @@ impl<const D: usize> Resolvent<D> {
         &mut self,
         equations: &Equations<D>,
         layout: &Layout,
-        inverses: &[Inverse],
+        inverses: &Inverses,
         (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
     ) -> bool {
-        let tail = &equations.tail;
         self.lay_out(equations, layout);
         self.diagonal.clear();
-        for (block, inverse) in layout.blocks.iter().zip(inverses) {
+        self.listed.clear();
+        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
+            if let Some(listed) = block.listed {
+                let inverse = &inverses.listed[listed as usize];
+                self.diagonal.push([[0.0; 3]; 3]);
+                if !self.make_listed(equations, block, inverse, (d, entries), h) {
+                    return false;
+                }
+                continue;
+            }
             let (start, size) = (block.start, block.size);
             let (first, next) = self.rows[start];
             let lanes = next - first;
@@ -100,10 +111,6 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
             }
-            if block.has_tail(tail.first()) {
-                let given = (&self.position[..], &self.rows[..]);
-                subtract_tails(equations, block, entries[0], given, before, n);
-            }
             for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
                 for (l, x) in x.iter_mut().enumerate() {
                     let mut sum = [0.0; LANE];
@@ -116,14 +123,9 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
             for r in 0..size {
-                if (block.rows[r] as usize) < tail.first() {
-                    self.make_row(equations, block, r, d, h);
-                }
+                self.make_row(equations, block, r, d, h);
             }
-            if block.has_tail(tail.first()) {
-                self.make_tail_rows(equations, block, entries, h);
-            }
-            let spreads = self.spreads(equations, block);
+            let spreads = self.spreads(block);
             let mut b = [[0.0; 3]; 3];
             for r in 0..size {
                 for j in start..start + size {
@@ -174,104 +176,214 @@ impl<const D: usize> Resolvent<D> {
         sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
     }
 
-    /// The rows of a block in N, |A₀ X − I| + H |A₁ X|, that belong to the tail's equations.
-    #[cold]
+    /// X and N in a block whose rows are lists. False: the bound does not exist.
     #[inline(never)]
-    fn make_tail_rows(
+    fn make_listed(
         &mut self,
         equations: &Equations<D>,
         block: &Block,
-        entries: [&[f64]; 2],
+        inverse: &WideInverse,
+        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
-    ) {
-        let tail = &equations.tail;
-        for r in 0..block.size {
+    ) -> bool {
+        let (start, size) = (block.start, block.size);
+        let (first, next) = self.rows[start];
+        let lanes = next - first;
+        let of = (&equations.ends, &equations.tail);
+        let [d0, d1] = d.map(|d| d.each_ref().map(|d| &d[..]));
+        let (before, x) = self.x.split_at_mut(first);
+        let n = &mut self.n[first..first + size * lanes];
+        // I − (what is left of the block) X, in the rows of N for the time being.
+        for (r, n) in n.chunks_exact_mut(lanes).enumerate() {
+            n.fill([0.0; LANE]);
+            n[(start + r) / LANE][(start + r) % LANE] = 1.0;
             let e = block.rows[r] as usize;
-            if e < tail.first() {
-                continue;
-            }
-            let (at, end) = self.rows[block.start + r];
-            let terms = tail.row(e).filter_map(|entry| {
-                let position = self.position[tail.unknown(entry)];
-                let &(from, to) = self.rows.get(position as usize)?;
-                Some((&self.x[from..to], entries.map(|entries| entries[entry])))
+            each_entry(of, e, (d0, entries[0]), -1.0, |unknown, entry| {
+                let row = self.position[unknown] as usize;
+                // Neither key nor of this block.
+                if row < start {
+                    let (from, to) = self.rows[row];
+                    for (sum, x) in n.iter_mut().zip(&before[from..to]) {
+                        for i in 0..LANE {
+                            sum[i] = x[i].mul_add(-entry, sum[i]);
+                        }
+                    }
+                }
             });
-            // Room for all but very long rows.
-            let mut room: [(&[Lane], [f64; 2]); 24] = [(&[], [0.0; 2]); 24];
-            let count = tail.row(e).len();
-            if count <= room.len() {
-                let count = room
-                    .iter_mut()
-                    .zip(terms)
-                    .map(|(room, term)| *room = term)
-                    .count();
-                sum_row(&mut self.n[at..end], &room[..count], block.start + r, h);
-            } else {
-                let terms: Vec<(&[Lane], [f64; 2])> = terms.collect();
-                sum_row(&mut self.n[at..end], &terms, block.start + r, h);
+        }
+        for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
+            for (l, x) in x.iter_mut().enumerate() {
+                let mut sum = [0.0; LANE];
+                for r in 0..size {
+                    for i in 0..LANE {
+                        sum[i] = n[r * lanes + l][i].mul_add(inverse[r], sum[i]);
+                    }
+                }
+                *x = sum;
             }
+        }
+        for r in 0..size {
+            // |A₀ X − I| + H |A₁ X|. Room for all but very long rows.
+            let mut room: [(&[Lane], [f64; 2]); 24] = [(&[], [0.0; 2]); 24];
+            let (mut count, mut more) = (0, Vec::new());
+            let e = block.rows[r] as usize;
+            let mut put = |unknown: usize, entries: [f64; 2]| {
+                if let Some(&(from, to)) = self.rows.get(self.position[unknown] as usize) {
+                    let term = (&self.x[from..to], entries);
+                    match room.get_mut(count) {
+                        Some(room) => *room = term,
+                        None => more.push(term),
+                    }
+                    count += 1;
+                }
+            };
+            if e < equations.tail.first() {
+                for axis in 0..D {
+                    let ends = equations.ends[axis][e].map(|end| end as usize);
+                    let at = [d0[axis][e], d1[axis][e]];
+                    put(ends[0], at);
+                    put(ends[1], at.map(|d| -d));
+                }
+            } else {
+                for entry in equations.tail.row(e) {
+                    let at = entries.map(|entries| entries[entry]);
+                    put(equations.tail.unknown(entry), at);
+                }
+            }
+            let (at, end) = self.rows[start + r];
+            let n = &mut self.n[at..end];
+            if count <= room.len() {
+                sum_row(n, &room[..count], start + r, h);
+            } else {
+                let all: Vec<_> = room.into_iter().chain(more).collect();
+                sum_row(n, &all, start + r, h);
+            }
+        }
+        let spreads = self.wide_spreads(equations, block);
+        let mut b = [[0.0; WIDEST]; WIDEST];
+        for r in 0..size {
+            for j in start..start + size {
+                let (l, i) = (j / LANE, j % LANE);
+                let mut entry = self.n[first + r * lanes + l][i];
+                for c in 0..size {
+                    entry += spreads[r][c] * self.x[first + c * lanes + l][i].abs();
+                }
+                b[r][j - start] = round_up(entry, self.roundings);
+            }
+        }
+        match bound_on_wide_inverse(&b, size) {
+            Some(bound) => {
+                self.listed.push(bound);
+                true
+            }
+            None => false,
         }
     }
 
     /// Â in a block.
     #[inline(always)]
-    fn spreads(&self, equations: &Equations<D>, block: &Block) -> [[f64; 3]; 3] {
+    fn spreads(&self, block: &Block) -> [[f64; 3]; 3] {
         let mut out = [[0.0; 3]; 3];
         for r in 0..block.size {
             for c in 0..block.size {
                 out[r][c] = self.spread[block.axes[c] as usize][block.rows[r] as usize];
             }
         }
-        if block.has_tail(equations.tail.first()) {
-            out = self.with_tail_spreads(equations, block, out);
-        }
         out
     }
 
-    #[cold]
-    #[inline(never)]
-    fn with_tail_spreads(
-        &self,
-        equations: &Equations<D>,
-        block: &Block,
-        mut out: [[f64; 3]; 3],
-    ) -> [[f64; 3]; 3] {
-        let tail = &equations.tail;
-        for r in 0..block.size {
-            let e = block.rows[r] as usize;
-            if e >= tail.first() {
-                for c in 0..block.size {
-                    let entry = tail.entry(e, block.unknowns[c] as usize);
-                    out[r][c] = entry.map_or(0.0, |entry| self.spread_of_tail[entry]);
+    /// Calls a function with the unknowns of an equation and Â's entries for them.
+    #[inline(always)]
+    fn each_spread(&self, equations: &Equations<D>, e: usize, to: impl FnMut(usize, f64)) {
+        let of = (&equations.ends, &equations.tail);
+        let spread = self.spread.each_ref().map(|spread| &spread[..]);
+        each_entry(of, e, (spread, &self.spread_of_tail), 1.0, to);
+    }
+
+    /// Â in a block whose rows are lists.
+    fn wide_spreads(&self, equations: &Equations<D>, block: &Block) -> WideInverse {
+        let mut out = [[0.0; WIDEST]; WIDEST];
+        for (out, &e) in out.iter_mut().zip(&block.rows[..block.size]) {
+            self.each_spread(equations, e as usize, |unknown, spread| {
+                let place = (self.position[unknown] as usize).wrapping_sub(block.start);
+                if place < block.size {
+                    out[place] += spread;
                 }
-            }
+            });
         }
         out
     }
 
-    /// Adds Â v for the tail's rows in a block, of v from blocks before it.
-    #[cold]
+    /// What [`Resolvent::bound`] does for a block whose rows are lists.
     #[inline(never)]
-    fn with_spread(
+    fn bound_listed(
         &self,
         equations: &Equations<D>,
         block: &Block,
-        v: &[Lane],
-        mut rest: [Lane; 3],
-    ) -> [Lane; 3] {
-        let tail = &equations.tail;
-        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
-            for (unknown, spread) in tail.row_with(e as usize, &self.spread_of_tail) {
+        bounds: &WideInverse,
+        g: &[Lane],
+        (y, v): (&mut [Lane], &mut [Lane]),
+    ) {
+        let (start, size) = (block.start, block.size);
+        let mut rest = [[0.0; LANE]; WIDEST];
+        let mut near = [[0.0; LANE]; WIDEST];
+        for r in 0..size {
+            (rest[r], near[r]) = self.before(start + r, start, g[start + r], y);
+        }
+        let spreads = self.wide_spreads(equations, block);
+        for r in 0..size {
+            let rest = &mut rest[r];
+            self.each_spread(equations, block.rows[r] as usize, |unknown, spread| {
                 let from = self.position[unknown] as usize;
                 // Neither key nor of this block.
-                if from < block.start {
+                if from < start {
                     for i in 0..LANE {
                         rest[i] = v[from][i].mul_add(spread, rest[i]);
                     }
                 }
+            });
+            for c in 0..size {
+                for i in 0..LANE {
+                    rest[i] = near[c][i].mul_add(spreads[r][c], rest[i]);
+                }
             }
         }
-        rest
+        for r in 0..size {
+            let mut sum = [0.0; LANE];
+            for (bound, rest) in bounds[r][..size].iter().zip(&rest) {
+                for i in 0..LANE {
+                    sum[i] = rest[i].mul_add(*bound, sum[i]);
+                }
+            }
+            y[start + r] = sum;
+        }
+        for c in 0..size {
+            let (at, end) = self.rows[start + c];
+            let x = &self.x[at..end].as_flattened()[start..];
+            for r in 0..size {
+                let x = x[r].abs();
+                for i in 0..LANE {
+                    near[c][i] = y[start + r][i].mul_add(x, near[c][i]);
+                }
+            }
+            v[start + c] = near[c];
+        }
+    }
+
+    /// Of a row, g + N y and |X| y from the columns before `start`.
+    #[inline(always)]
+    fn before(&self, row: usize, start: usize, g: Lane, y: &[Lane]) -> (Lane, Lane) {
+        let (at, end) = self.rows[row];
+        let rows = [&self.n, &self.x].map(|rows| &rows[at..end].as_flattened()[..start]);
+        let (mut sum, mut through) = (g, [0.0; LANE]);
+        for ((n, x), y) in rows[0].iter().zip(rows[1]).zip(&y[..start]) {
+            let x = x.abs();
+            for i in 0..LANE {
+                sum[i] = y[i].mul_add(*n, sum[i]);
+                through[i] = y[i].mul_add(x, through[i]);
+            }
+        }
+        (sum, through)
     }
 
     fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
@@ -291,8 +403,12 @@ impl<const D: usize> Resolvent<D> {
         // All of them are computed.
         self.x.resize(at, [0.0; LANE]);
         self.n.resize(at, [0.0; LANE]);
+        let widest = layout
+            .blocks
+            .iter()
+            .fold(D, |max, block| max.max(block.size));
         // A row of the tail has more entries than that of a distance.
-        let largest = equations.roundings_of_row(layout.order + D + 10);
+        let largest = equations.roundings_of_row(layout.order + widest + 10);
         self.roundings = (layout.blocks.len() + 4) * 2 * largest + 200;
     }
 
@@ -308,25 +424,17 @@ impl<const D: usize> Resolvent<D> {
     ) {
         for (block, bounds) in layout.blocks.iter().zip(&self.diagonal) {
             let (start, size) = (block.start, block.size);
+            if let Some(listed) = block.listed {
+                let bounds = &self.listed[listed as usize];
+                self.bound_listed(equations, block, bounds, g, (y, v));
+                continue;
+            }
             let mut rest = [[0.0; LANE]; 3];
             let mut near = [[0.0; LANE]; 3];
             for r in 0..size {
-                let (at, end) = self.rows[start + r];
-                let rows = [&self.n, &self.x].map(|rows| &rows[at..end].as_flattened()[..start]);
-                let (mut sum, mut through) = (g[start + r], [0.0; LANE]);
-                for ((n, x), y) in rows[0].iter().zip(rows[1]).zip(&y[..start]) {
-                    let x = x.abs();
-                    for i in 0..LANE {
-                        sum[i] = y[i].mul_add(*n, sum[i]);
-                        through[i] = y[i].mul_add(x, through[i]);
-                    }
-                }
-                (rest[r], near[r]) = (sum, through);
+                (rest[r], near[r]) = self.before(start + r, start, g[start + r], y);
             }
-            let spreads = self.spreads(equations, block);
-            if block.has_tail(equations.tail.first()) {
-                rest = self.with_spread(equations, block, v, rest);
-            }
+            let spreads = self.spreads(block);
             for r in 0..size {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);
                 for axis in 0..D {
@@ -363,35 +471,6 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
                 v[start + c] = near[c];
-            }
-        }
-    }
-}
-
-/// Subtracts the tail's rows in a block, times the rows of X before it, from rows of I.
-#[cold]
-#[inline(never)]
-fn subtract_tails<const D: usize>(
-    equations: &Equations<D>,
-    block: &Block,
-    entries: &[f64],
-    (position, rows): (&[u32], &[(usize, usize)]),
-    before: &[Lane],
-    n: &mut [Lane],
-) {
-    let tail = &equations.tail;
-    let lanes = n.len() / block.size;
-    for (n, &e) in n.chunks_exact_mut(lanes).zip(&block.rows) {
-        for (unknown, entry) in tail.row_with(e as usize, entries) {
-            let row = position[unknown] as usize;
-            // Neither key nor of this block.
-            if row < block.start {
-                let (from, to) = rows[row];
-                for (sum, x) in n.iter_mut().zip(&before[from..to]) {
-                    for i in 0..LANE {
-                        sum[i] = x[i].mul_add(-entry, sum[i]);
-                    }
-                }
             }
         }
     }

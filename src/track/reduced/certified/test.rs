@@ -310,7 +310,9 @@ impl<const D: usize> ReducedTest<D> {
         let speed = match y.elimination.reduced.width {
             1 => speed::<D, 1>(y, &rho, &bounds, slope_of),
             2 => speed::<D, 2>(y, &rho, &bounds, slope_of),
+            3 => speed::<D, 3>(y, &rho, &bounds, slope_of),
             4 => speed::<D, 4>(y, &rho, &bounds, slope_of),
+            6 => speed::<D, 6>(y, &rho, &bounds, slope_of),
             _ => speed::<D, 8>(y, &rho, &bounds, slope_of),
         };
         round_up(speed, y.resolvent.roundings() + 1000)

@@ -1,7 +1,7 @@
 //! Elimination through the R-structure at one point: what refines and expands the path.
 
 use super::layout::{Layout, Order};
-use super::passes::{Derivative, Inverse, invert, slices};
+use super::passes::{Derivative, Inverses, slices};
 use crate::linalg::rstructure::elimination::{Blocks, Elimination as Reduced, Solves};
 use crate::linalg::rstructure::rows::{MAX_KEYS, Row, add, zeros};
 use crate::linalg::{Singular, Vector};
@@ -42,7 +42,7 @@ const SINES: f64 = 2.5;
 #[derive(Debug, Clone)]
 pub struct Elimination<const D: usize> {
     pub layout: Arc<Layout>,
-    pub inverses: Vec<Inverse>,
+    pub inverses: Inverses,
     /// K₀ = −A⁻¹H, a row per unknown and one of zeros, and S₀⁻¹ transposed, the normal's row last.
     pub reduced: Reduced,
     d: [Vector; D],
@@ -57,7 +57,7 @@ impl<const D: usize> Elimination<D> {
     pub fn new(equations: &Equations<D>) -> Self {
         Elimination {
             layout: Arc::new(Layout::default()),
-            inverses: Vec::new(),
+            inverses: Inverses::default(),
             reduced: Reduced::default(),
             d: std::array::from_fn(|_| equations.per_edge()),
             slope: equations.per_edge(),
@@ -102,9 +102,7 @@ impl<const D: usize> Elimination<D> {
         self.normal.copy_from_slice(normal);
         equations.tail.row_values(&d.forms, &mut self.entries);
         let mut inverses = std::mem::take(&mut self.inverses);
-        inverses.clear();
-        let jacobian = self.jacobian(equations);
-        inverses.extend(layout.blocks.iter().map(|block| invert(block, &jacobian)));
+        inverses.make(layout, &self.jacobian(equations));
         self.inverses = inverses;
         if !layout.is_square() {
             return Err(Singular);
@@ -142,8 +140,8 @@ impl<const D: usize> Elimination<D> {
     pub fn is_negative(&self, equations: &Equations<D>) -> bool {
         let layout = &*self.layout;
         let mut negative = self.reduced.is_negative;
-        for (block, inverse) in layout.blocks.iter().zip(&self.inverses) {
-            negative ^= determinant(inverse, block.size) < 0.0;
+        for (at, block) in layout.blocks.iter().enumerate() {
+            negative ^= self.inverses.is_negative(at, block);
         }
         let blocks = || layout.blocks.iter();
         let rows = blocks().flat_map(|b| b.rows[..b.size].iter().copied());
@@ -176,7 +174,7 @@ impl<const D: usize> Elimination<D> {
 struct Bordered<'a, const D: usize> {
     jacobian: Derivative<'a, D>,
     layout: &'a Layout,
-    inverses: &'a [Inverse],
+    inverses: &'a Inverses,
     normal: &'a [f64],
     /// The number of equations, that of the normal's row.
     equations: usize,
@@ -232,16 +230,6 @@ impl<const D: usize> Solves<f64> for Bordered<'_, D> {
                 given - dot(self.normal, &x[..self.normal.len()])
             }
         }
-    }
-}
-
-/// Of a diagonal block's inverse.
-fn determinant(a: &Inverse, size: usize) -> f64 {
-    let minor = |r: usize, c: usize| a[1][r] * a[2][c] - a[1][c] * a[2][r];
-    match size {
-        1 => a[0][0],
-        2 => a[0][0] * a[1][1] - a[0][1] * a[1][0],
-        _ => a[0][0] * minor(1, 2) - a[0][1] * minor(0, 2) + a[0][2] * minor(0, 1),
     }
 }
 

@@ -1,14 +1,14 @@
 //! Which unknowns are key and which equations ignored at a point of the path.
 
-use super::sequence::groups_in_order;
+use super::groups::Groups;
+use super::sequence::{Group, groups_in_order};
 use crate::linalg::rstructure::rows::MAX_KEYS;
 use crate::plan::Plan;
 use crate::system::{Edge, Homotopy};
 use crate::track::full::{Differences, Equations};
 
 /// The points in the order of a construction plan, each with its coordinates and the distances to
-/// points before it. Where there are other equations than distances, groups of unknowns in an order of their
-/// own, each with its unknowns and the equations that have others only from groups before it.
+/// points before it.
 #[derive(Debug, Clone)]
 pub struct Order<const D: usize> {
     points: Vec<Placed<D>>,
@@ -17,8 +17,8 @@ pub struct Order<const D: usize> {
     t: u32,
     /// Work space.
     rows: Vec<Candidate<D>>,
-    /// Values of the tail's entries.
-    entries: Vec<f64>,
+    /// Groups of unknowns in the place of points, where there are other equations than distances.
+    groups: Groups,
 }
 
 #[derive(Debug, Clone)]
@@ -27,19 +27,10 @@ struct Placed<const D: usize> {
     unknowns: [u32; D],
     /// Distances to points before it, and on which end it is: 1 for the first, −1 for the second.
     distances: Vec<(u32, f64)>,
-    /// Equations that are no distances, with their entries for these unknowns.
-    others: Vec<(u32, [Option<u32>; D])>,
 }
 
-impl<const D: usize> Placed<D> {
-    /// One of its equations, and the sign that its unknowns have in it if it is a distance.
-    fn equation(&self, index: usize) -> (u32, f64) {
-        match index.checked_sub(self.distances.len()) {
-            None => self.distances[index],
-            Some(k) => (self.others[k].0, 1.0),
-        }
-    }
-}
+/// A block has at most so many rows and columns. Those of a point have three at most.
+pub const WIDEST: usize = 6;
 
 /// One diagonal block of A: the coordinates of a point that are not key, and as many distances (or
 /// unknowns and equations of other kinds).
@@ -49,11 +40,14 @@ pub struct Block {
     pub start: usize,
     pub size: usize,
     /// Its columns: unknowns and their axes (places in their group).
-    pub unknowns: [u32; 3],
-    pub axes: [u8; 3],
+    pub unknowns: [u32; WIDEST],
+    pub axes: [u8; WIDEST],
     /// Its rows: equations, with the sign that the point's coordinates have in distances.
-    pub rows: [u32; 3],
-    pub signs: [f64; 3],
+    pub rows: [u32; WIDEST],
+    pub signs: [f64; WIDEST],
+    /// Where rows are lists of entries, as not all of them are distances from one point to points before it: the
+    /// block's number among such blocks.
+    pub listed: Option<u32>,
 }
 
 /// The R-structure [[A, H], [L, C]] of the Jacobian with the normal for a last row.
@@ -78,57 +72,14 @@ impl<const D: usize> Order<D> {
         }
     }
 
-    /// Each equation goes to the last group that it has unknowns of.
-    fn of_groups(groups: &[[u32; D]], equations: &Equations<D>) -> Self {
-        let (m, spare) = (equations.m, equations.n());
-        let mut rank = vec![0; spare + 1];
-        for (k, group) in groups.iter().enumerate() {
-            let free = group.iter().filter(|&&i| i as usize != spare);
-            free.for_each(|&i| rank[i as usize] = k + 1);
-        }
-        let mut points: Vec<Placed<D>> = groups
-            .iter()
-            .map(|&unknowns| Placed {
-                unknowns,
-                distances: Vec::new(),
-                others: Vec::new(),
-            })
-            .collect();
-        let mut left = Vec::new();
-        let tail = &equations.tail;
-        for e in 0..tail.first() {
-            let of_end = |end: usize| {
-                let ranks = equations
-                    .ends
-                    .iter()
-                    .map(|ends| rank[ends[e][end] as usize]);
-                ranks.max().unwrap_or(0)
-            };
-            let [first, second] = [0, 1].map(of_end);
-            match (first.max(second), first > second) {
-                (0, _) => left.push(e as u32),
-                (k, later) => {
-                    let sign = if later { 1.0 } else { -1.0 };
-                    points[k - 1].distances.push((e as u32, sign));
-                }
-            }
-        }
-        for e in tail.first()..m {
-            match tail.row(e).map(|entry| rank[tail.unknown(entry)]).max() {
-                None | Some(0) => left.push(e as u32),
-                Some(k) => {
-                    let entry = |i: u32| tail.entry(e, i as usize).map(|entry| entry as u32);
-                    let own = points[k - 1].unknowns.map(entry);
-                    points[k - 1].others.push((e as u32, own));
-                }
-            }
-        }
+    fn of_groups(groups: &[Group], equations: &Equations<D>) -> Self {
+        let (groups, left) = Groups::new(groups, equations);
         Order {
-            points,
+            points: Vec::new(),
             left,
-            t: m as u32,
+            t: equations.m as u32,
             rows: Vec::new(),
-            entries: vec![0.0; tail.entries()],
+            groups,
         }
     }
 
@@ -157,14 +108,13 @@ impl<const D: usize> Order<D> {
                 free => free as u32,
             }),
             distances: std::mem::take(&mut distances[point]),
-            others: Vec::new(),
         };
         Order {
             points: constructed.iter().map(placed).collect(),
             left: Vec::new(),
             t: equations.m as u32,
             rows: Vec::new(),
-            entries: Vec::new(),
+            groups: Groups::default(),
         }
     }
 
@@ -185,9 +135,10 @@ impl<const D: usize> Order<D> {
         layout.ignored.clear();
         layout.ignored.extend(&self.left);
         layout.order = 0;
-        let tail = &equations.tail;
-        if !tail.is_empty() {
-            tail.row_values(&d.forms, &mut self.entries);
+        if !equations.tail.is_empty() {
+            self.groups.choose(equations, d, alpha, layout);
+            layout.keys.push(self.t);
+            return;
         }
         let rows = &mut self.rows;
         for point in &self.points {
@@ -203,29 +154,8 @@ impl<const D: usize> Order<D> {
                     taken: false,
                 }
             }));
-            for (e, own) in &point.others {
-                let row = own.map(|entry| entry.map_or(0.0, |entry| self.entries[entry as usize]));
-                let all = tail.row(*e as usize).map(|entry| self.entries[entry]);
-                let others = all.map(|x| x * x).sum::<f64>() - dot(&row, &row);
-                let size = dot(&row, &row).max(others).sqrt();
-                rows.push(Candidate {
-                    row: if size > 0.0 {
-                        row.map(|x| x / size)
-                    } else {
-                        row
-                    },
-                    taken: false,
-                });
-            }
             let mut open = free;
-            let mut block = Block {
-                start: layout.order,
-                size: 0,
-                unknowns: [0; 3],
-                axes: [0; 3],
-                rows: [0; 3],
-                signs: [0.0; 3],
-            };
+            let mut block = Block::empty(layout.order);
             while block.size < free.iter().filter(|free| **free).count() {
                 let (mut best, mut most) = (None, alpha * alpha);
                 for (r, candidate) in rows.iter().enumerate() {
@@ -240,7 +170,7 @@ impl<const D: usize> Order<D> {
                 let direction = scaled(rows[best].row);
                 rows[best].taken = true;
                 open[axis] = false;
-                block.insert((axis as u8, point.unknowns[axis]), point.equation(best));
+                block.insert((axis as u8, point.unknowns[axis]), point.distances[best]);
                 for Candidate { row, .. } in rows.iter_mut() {
                     let along = dot(row, &direction);
                     for k in 0..D {
@@ -250,7 +180,7 @@ impl<const D: usize> Order<D> {
             }
             for (index, candidate) in rows.iter().enumerate() {
                 if !candidate.taken {
-                    layout.ignored.push(point.equation(index).0);
+                    layout.ignored.push(point.distances[index].0);
                 }
             }
             for axis in (0..D).filter(|&axis| open[axis]) {
@@ -291,15 +221,22 @@ impl<const D: usize> Candidate<D> {
 }
 
 impl Block {
-    /// Whether rows of the tail are among its rows, which are in order; the tail's begin at `first`.
-    #[inline(always)]
-    pub fn has_tail(&self, first: usize) -> bool {
-        self.size > 0 && self.rows[self.size - 1] as usize >= first
+    /// None yet, at a place in A.
+    pub(super) fn empty(start: usize) -> Self {
+        Block {
+            start,
+            size: 0,
+            unknowns: [0; WIDEST],
+            axes: [0; WIDEST],
+            rows: [0; WIDEST],
+            signs: [0.0; WIDEST],
+            listed: None,
+        }
     }
 
     /// Adds a column (axis and unknown) and a row (distance and sign): both are kept in the order of
     /// axes and distances, as it does not matter which pivot came first.
-    fn insert(&mut self, (axis, unknown): (u8, u32), (row, sign): (u32, f64)) {
+    pub(super) fn insert(&mut self, (axis, unknown): (u8, u32), (row, sign): (u32, f64)) {
         let (mut c, mut r) = (self.size, self.size);
         while c > 0 && self.axes[c - 1] > axis {
             (self.axes[c], self.unknowns[c]) = (self.axes[c - 1], self.unknowns[c - 1]);

@@ -6,7 +6,8 @@
 //! Rows of the Jacobian are differences per axis for distances, and compressed lists of entries for
 //! other equations, whose differences are zero; one comparison per row tells them apart.
 
-use super::layout::{Block, Layout};
+use super::groups::each_entry;
+use super::layout::{Block, Layout, WIDEST};
 use crate::linalg::rstructure::rows::{Row, add, zeros};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Tail;
@@ -71,49 +72,60 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// Whether a block has rows of the tail: the last of its rows is one then.
-    #[inline(always)]
-    fn has_tail(&self, block: &Block) -> bool {
-        block.has_tail(self.tail.first())
-    }
-
-    /// The rows of J K of a block with rows of the tail.
-    #[cold]
+    /// Sets the rows of a block's unknowns whose rows are lists so that its rows of J K + what is `known` vanish.
     #[inline(never)]
-    fn rows_with_tails<const W: usize>(&self, block: &Block, k: &[Row<W>]) -> [Row<W>; 3] {
-        let mut sums = [zeros(); 3];
+    fn substitute_listed<const W: usize>(
+        &self,
+        block: &Block,
+        inverse: &WideInverse,
+        k: &mut [Row<W>],
+        known: &impl Fn(usize, &mut Row<W>),
+    ) {
+        let mut sums = [zeros(); WIDEST];
         for (sum, &e) in sums.iter_mut().zip(&block.rows[..block.size]) {
             *sum = self.any_row(e as usize, k);
+            known(e as usize, sum);
         }
-        sums
-    }
-
-    /// What is left of a block's right-hand side without the tail's entries of its rows in J x.
-    #[cold]
-    #[inline(never)]
-    fn without_tails(&self, block: &Block, x: &[f64], mut rest: [f64; 3]) -> [f64; 3] {
-        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
-            for (unknown, entry) in self.tail.row_with(e as usize, self.entries) {
-                *rest -= entry * x[unknown];
+        for c in 0..block.size {
+            let row = &mut k[block.unknowns[c] as usize];
+            for r in 0..block.size {
+                add(row, -inverse[c][r], &sums[r]);
             }
         }
-        rest
     }
 
-    /// A diagonal block with the tail's entries.
-    #[cold]
+    /// Sets the rows of the equations of a block whose rows are lists so that its columns in T + Zᵀ J vanish.
     #[inline(never)]
-    fn with_tail_entries(&self, block: &Block, mut out: Inverse) -> Inverse {
+    fn substitute_left_listed<const W: usize>(
+        &self,
+        block: &Block,
+        inverse: &WideInverse,
+        t: &mut [Row<W>],
+        z: &mut [Row<W>],
+    ) {
         for r in 0..block.size {
-            let e = block.rows[r] as usize;
-            if e >= self.tail.first() {
-                for c in 0..block.size {
-                    let entry = self.tail.entry(e, block.unknowns[c] as usize);
-                    out[r][c] = entry.map_or(0.0, |entry| self.entries[entry]);
-                }
+            let mut sum = zeros();
+            for c in 0..block.size {
+                add(&mut sum, -inverse[c][r], &t[block.unknowns[c] as usize]);
             }
+            z[block.rows[r] as usize] = sum;
         }
-        out
+        // Those of its own block are not looked at again.
+        for &e in &block.rows[..block.size] {
+            self.add_left(e as usize, &z[e as usize], t);
+        }
+    }
+
+    /// Sets the unknowns of a block whose rows are lists so that its rows in `f − J x` vanish.
+    #[inline(never)]
+    fn solve_listed(&self, block: &Block, inverse: &WideInverse, f: &[f64], x: &mut [f64]) {
+        let mut rest = [0.0; WIDEST];
+        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
+            *rest = f[e as usize] - self.any_row_of(e as usize, x);
+        }
+        for c in 0..block.size {
+            x[block.unknowns[c] as usize] = (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
+        }
     }
 
     /// `out += J K`.
@@ -176,7 +188,7 @@ impl<const D: usize> Derivative<'_, D> {
     pub fn substitute<const W: usize>(
         &self,
         layout: &Layout,
-        inverses: &[Inverse],
+        inverses: &Inverses,
         g: &[Row<W>],
         k: &mut [Row<W>],
     ) {
@@ -188,7 +200,7 @@ impl<const D: usize> Derivative<'_, D> {
     pub fn substitute_alone<const W: usize>(
         &self,
         layout: &Layout,
-        inverses: &[Inverse],
+        inverses: &Inverses,
         k: &mut [Row<W>],
     ) {
         self.substitute_with(layout, inverses, k, |_, _| {});
@@ -198,23 +210,20 @@ impl<const D: usize> Derivative<'_, D> {
     fn substitute_with<const W: usize>(
         &self,
         layout: &Layout,
-        inverses: &[Inverse],
+        inverses: &Inverses,
         k: &mut [Row<W>],
         known: impl Fn(usize, &mut Row<W>),
     ) {
-        for (block, inverse) in layout.blocks.iter().zip(inverses) {
+        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
+            if let Some(listed) = block.listed {
+                self.substitute_listed(block, &inverses.listed[listed as usize], k, &known);
+                continue;
+            }
             let mut sums = [[[0.0; LANE]; W]; 3];
-            if self.has_tail(block) {
-                sums = self.rows_with_tails(block, k);
-                for r in 0..block.size {
-                    known(block.rows[r] as usize, &mut sums[r]);
-                }
-            } else {
-                for r in 0..block.size {
-                    let e = block.rows[r] as usize;
-                    sums[r] = self.row(e, k);
-                    known(e, &mut sums[r]);
-                }
+            for r in 0..block.size {
+                let e = block.rows[r] as usize;
+                sums[r] = self.row(e, k);
+                known(e, &mut sums[r]);
             }
             for c in 0..block.size {
                 let row = &mut k[block.unknowns[c] as usize];
@@ -230,11 +239,15 @@ impl<const D: usize> Derivative<'_, D> {
     pub fn substitute_left<const W: usize>(
         &self,
         layout: &Layout,
-        inverses: &[Inverse],
+        inverses: &Inverses,
         t: &mut [Row<W>],
         z: &mut [Row<W>],
     ) {
-        for (block, inverse) in layout.blocks.iter().zip(inverses).rev() {
+        for (block, inverse) in layout.blocks.iter().zip(&inverses.points).rev() {
+            if let Some(listed) = block.listed {
+                self.substitute_left_listed(block, &inverses.listed[listed as usize], t, z);
+                continue;
+            }
             for r in 0..block.size {
                 let mut sum = [[0.0; LANE]; W];
                 for c in 0..block.size {
@@ -248,26 +261,21 @@ impl<const D: usize> Derivative<'_, D> {
                     add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
                 }
             }
-            if self.has_tail(block) {
-                // Those of its own block are not looked at again.
-                for &e in &block.rows[..block.size] {
-                    self.add_tail_left(e as usize, &z[e as usize], t);
-                }
-            }
         }
     }
 
     /// Sets A's unknowns in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns
     /// stay as they are.
-    pub fn solve(&self, layout: &Layout, inverses: &[Inverse], f: &[f64], x: &mut [f64]) {
-        for (block, inverse) in layout.blocks.iter().zip(inverses) {
+    pub fn solve(&self, layout: &Layout, inverses: &Inverses, f: &[f64], x: &mut [f64]) {
+        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
+            if let Some(listed) = block.listed {
+                self.solve_listed(block, &inverses.listed[listed as usize], f, x);
+                continue;
+            }
             let mut rest = [0.0; 3];
             for r in 0..block.size {
                 let e = block.rows[r] as usize;
                 rest[r] = f[e] - self.row_of(e, x);
-            }
-            if self.has_tail(block) {
-                rest = self.without_tails(block, x, rest);
             }
             for c in 0..block.size {
                 x[block.unknowns[c] as usize] =
@@ -309,6 +317,124 @@ impl<const D: usize> Derivative<'_, D> {
 /// The inverse of a diagonal block: `inverse[column][row]`.
 pub type Inverse = [[f64; 3]; 3];
 
+/// That of a block whose rows are lists.
+pub type WideInverse = [[f64; WIDEST]; WIDEST];
+
+/// The inverses of all diagonal blocks.
+#[derive(Debug, Clone, Default)]
+pub struct Inverses {
+    /// By block; nothing for those whose rows are lists.
+    pub points: Vec<Inverse>,
+    /// Of those.
+    pub listed: Vec<WideInverse>,
+}
+
+impl Inverses {
+    /// Inverts all diagonal blocks.
+    pub fn make<const D: usize>(&mut self, layout: &Layout, j: &Derivative<D>) {
+        self.points.clear();
+        self.listed.clear();
+        for block in &layout.blocks {
+            if block.listed.is_some() {
+                self.points.push([[0.0; 3]; 3]);
+                self.listed.push(invert_listed(block, j));
+            } else {
+                self.points.push(invert(block, j));
+            }
+        }
+    }
+
+    /// Whether the determinant of a block's inverse is negative.
+    pub fn is_negative(&self, at: usize, block: &Block) -> bool {
+        match block.listed {
+            Some(listed) => {
+                let mut a = self.listed[listed as usize];
+                reduce(&mut a, block.size)
+            }
+            None => determinant(&self.points[at], block.size) < 0.0,
+        }
+    }
+}
+
+/// Of a diagonal block's inverse.
+fn determinant(a: &Inverse, size: usize) -> f64 {
+    let minor = |r: usize, c: usize| a[1][r] * a[2][c] - a[1][c] * a[2][r];
+    match size {
+        1 => a[0][0],
+        2 => a[0][0] * a[1][1] - a[0][1] * a[1][0],
+        _ => a[0][0] * minor(1, 2) - a[0][1] * minor(0, 2) + a[0][2] * minor(0, 1),
+    }
+}
+
+/// The inverse of a block whose rows are lists, as [`invert`] has it.
+fn invert_listed<const D: usize>(block: &Block, j: &Derivative<D>) -> WideInverse {
+    let mut a = [[0.0; WIDEST]; WIDEST];
+    let unknowns = &block.unknowns[..block.size];
+    for (a, &e) in a.iter_mut().zip(&block.rows[..block.size]) {
+        let of = (j.ends, j.tail);
+        each_entry(of, e as usize, (j.d, j.entries), -1.0, |unknown, entry| {
+            if let Some(c) = unknowns.iter().position(|&u| u as usize == unknown) {
+                a[c] += entry;
+            }
+        });
+    }
+    inverse_of(&a, block.size)
+}
+
+/// The inverse of `a[row][column]` by Gauss's and Jordan's elimination in floats, as `inverse[column][row]`: whoever
+/// uses it finds out what it is worth.
+pub fn inverse_of(a: &WideInverse, size: usize) -> WideInverse {
+    let mut a = *a;
+    let mut out = [[0.0; WIDEST]; WIDEST];
+    (0..size).for_each(|k| out[k][k] = 1.0);
+    for k in 0..size {
+        let best = largest_below(&a, k, size);
+        a.swap(k, best);
+        out.swap(k, best);
+        let scale = 1.0 / a[k][k];
+        for c in 0..size {
+            a[k][c] *= scale;
+            out[k][c] *= scale;
+        }
+        let (row, solved) = (a[k], out[k]);
+        for r in (0..size).filter(|&r| r != k) {
+            let factor = a[r][k];
+            for c in 0..size {
+                a[r][c] -= factor * row[c];
+                out[r][c] -= factor * solved[c];
+            }
+        }
+    }
+    out
+}
+
+/// Where the largest entry of a column is, from the diagonal on.
+fn largest_below(a: &WideInverse, k: usize, size: usize) -> usize {
+    let mut best = k;
+    for r in k..size {
+        if a[r][k].abs() > a[best][k].abs() {
+            best = r;
+        }
+    }
+    best
+}
+
+/// Makes a matrix triangular, and tells whether its determinant is negative, as floats see it.
+fn reduce(a: &mut WideInverse, size: usize) -> bool {
+    let mut negative = false;
+    for k in 0..size {
+        let best = largest_below(a, k, size);
+        a.swap(k, best);
+        negative ^= (best != k) != (a[k][k] < 0.0);
+        let row = a[k];
+        for other in &mut a[k + 1..size] {
+            let factor = other[k] / row[k];
+            (k..size).for_each(|c| other[c] -= factor * row[c]);
+        }
+    }
+    negative
+}
+
 /// The inverse of `a[row][column]` by its adjugate, as `inverse[column][row]`: whoever uses it finds
 /// out what it is worth.
 #[inline]
@@ -328,7 +454,7 @@ pub fn by_adjugate(a: &[[f64; 3]; 3]) -> Inverse {
     out
 }
 
-/// The entries of a diagonal block: `entries[row][column]`.
+/// The entries of a diagonal block whose rows are distances: `entries[row][column]`.
 pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
     let mut out = [[0.0; 3]; 3];
     for r in 0..block.size {
@@ -337,9 +463,6 @@ pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
             let axis = block.axes[c] as usize;
             out[r][c] = block.signs[r] * j.d[axis][e];
         }
-    }
-    if j.has_tail(block) {
-        out = j.with_tail_entries(block, out);
     }
     out
 }

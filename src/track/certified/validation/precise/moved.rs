@@ -86,14 +86,12 @@ fn change<const D: usize>(
                 k[i * row..(i + 1) * row].iter_mut().for_each(&mut scale);
             }
         }
-        Change::Inverses => local
-            .y
-            .elimination
-            .inverses
-            .iter_mut()
-            .flatten()
-            .flatten()
-            .for_each(scale),
+        Change::Inverses => {
+            let inverses = &mut local.y.elimination.inverses;
+            let points = inverses.points.as_flattened_mut().as_flattened_mut();
+            let listed = inverses.listed.as_flattened_mut().as_flattened_mut();
+            points.iter_mut().chain(listed).for_each(scale)
+        }
     }
     settle(equations, local);
 }

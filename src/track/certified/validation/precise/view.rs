@@ -19,7 +19,7 @@ pub struct View<'a, const D: usize> {
 impl<'a, const D: usize> View<'a, D> {
     pub fn new(figure: &'a Figure, tube: &'a ReducedTube<D>) -> Self {
         let layout = &tube.local.y.elimination.layout;
-        let of = |list: fn(&Block) -> &[u32; 3]| {
+        let of = |list: fn(&Block) -> &[u32]| {
             let blocks = layout.blocks.iter();
             blocks
                 .flat_map(|b| list(b)[..b.size].iter().map(|&i| i as usize))
@@ -29,8 +29,8 @@ impl<'a, const D: usize> View<'a, D> {
             figure,
             tube,
             keys: layout.keys.iter().map(|&k| k as usize).collect(),
-            unknowns: of(|b| &b.unknowns),
-            rows: of(|b| &b.rows),
+            unknowns: of(|b| &b.unknowns[..]),
+            rows: of(|b| &b.rows[..]),
         }
     }
 
