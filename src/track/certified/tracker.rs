@@ -28,7 +28,7 @@ use crate::track::{Control, Mode, Options, Outcome, Progress, Space, Status, Tub
 use arc::Arc;
 use crossing::{Beyond, Crossing};
 use extension::Extension;
-use parts::{LEFT_OUT, Parts};
+use parts::{LEAST_WEIGHT, LEFT_OUT, Parts};
 use std::borrow::Cow;
 use std::time::Instant;
 use step_control::StepControl;
@@ -366,7 +366,12 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let top = tube.weights[..n]
             .iter()
             .fold(0.0, |max: f64, &u| max.max(u));
-        let weights: Vec<f64> = tube.weights[..n].iter().map(|u| u / top).collect();
+        let least = match T::SPACE {
+            Space::Full => 0.0,
+            Space::Reduced => LEAST_WEIGHT,
+        };
+        let weights = tube.weights[..n].iter();
+        let weights: Vec<f64> = weights.map(|u| (u / top).max(least)).collect();
         let seen = TubeSeen {
             centre: &tube.local.z[0][..n],
             low: tube.local.is_extended.then_some(&tube.local.low[..n]),

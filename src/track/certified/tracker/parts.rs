@@ -9,6 +9,9 @@ use crate::track::{TubeSeen, Witness};
 
 /// Parts claim so much of the tube's radius: less of the box |w|_u ≤ r is outside of the sheared one that was proved.
 const RADII: [f64; 2] = [0.3, 0.08];
+/// Weights of parts are at least so much: a checker bounds the point where the path leaves a tube by one number for all entries,
+/// and where weights differ by more the next tube is too narrow in some entry to hold it.
+pub const LEAST_WEIGHT: f64 = 1.0 / 64.0;
 /// The first order that polynomials of degree 5 leave out, and how much of the radius it may move a part's path.
 pub const LEFT_OUT: usize = 6;
 const REST: f64 = 0.1;
