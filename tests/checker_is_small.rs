@@ -81,6 +81,11 @@ fn the_checker_is_short() {
             140,
         ),
         (
+            "many unknowns, beside those",
+            lines(&["checker/structure.rs"]),
+            50,
+        ),
+        (
             "points of more than 53 bits",
             lines(&["checker/extended.rs"]),
             80,
@@ -95,7 +100,11 @@ fn the_checker_is_short() {
             lines(&["checker/mod.rs"]),
             120,
         ),
-        ("guesses, not trusted", lines(&["checker/guess.rs"]), 260),
+        (
+            "guesses, not trusted",
+            lines(&["checker/guess.rs", "checker/sparse.rs", "checker/trial.rs"]),
+            450,
+        ),
         (
             "format, reader, verdict",
             lines(&["format.rs", "reader.rs", "verdict.rs"]),

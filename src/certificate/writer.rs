@@ -1,5 +1,6 @@
 //! Writing a certificate while a run goes on.
 
+use super::checker::Trial;
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record,
     SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED,
@@ -46,6 +47,9 @@ pub struct Writer<'a, W> {
     cut: Option<String>,
     ended: bool,
     result: io::Result<()>,
+    /// What lengths are divided by, and what tells whether tubes will be proved.
+    unit: f64,
+    trial: Option<Trial>,
 }
 
 /// An edit that is being followed.
@@ -70,6 +74,8 @@ impl<'a, W: Write> Writer<'a, W> {
             cut: None,
             ended: false,
             result: Ok(()),
+            unit: 1.0,
+            trial: None,
         }
     }
 
@@ -124,6 +130,21 @@ fn solution_claim(centre: &[f64], radius: &[f64], wider: f64) -> SolutionClaim {
     }
 }
 
+/// A tube as a certificate has it.
+fn tube_claim(tube: &TubeSeen) -> TubeClaim {
+    let weight = |&u: &f64| (u / WEIGHT_UNIT).round().clamp(1.0, u16::MAX.into()) as u16;
+    TubeClaim {
+        // Without zeros below zero, which differ between builds.
+        centre: tube.centre.iter().map(|x| x + 0.0).collect(),
+        low: tube.low.unwrap_or_default().to_vec(),
+        normal: tube.normal.iter().map(|&c| c as f32 + 0.0).collect(),
+        weights: tube.weights.iter().map(weight).collect(),
+        h: tube.h,
+        r: tube.r as f32,
+        exit: tube.exit,
+    }
+}
+
 /// As much of a reason as fits.
 fn shortened(reason: &str) -> String {
     let end = (0..=reason.len().min(MAX_TEXT)).rev();
@@ -135,6 +156,7 @@ impl<W: Write> Witness for Writer<'_, W> {
     fn begin(&mut self, unit: f64) {
         let exponent = unit.log2() as i16;
         let program = concat!("krawl ", env!("CARGO_PKG_VERSION"));
+        self.unit = unit;
         self.result = write_header(&mut self.out, program, &self.problem.to_toml(), exponent);
     }
 
@@ -151,17 +173,7 @@ impl<W: Write> Witness for Writer<'_, W> {
         if self.cut.is_some() {
             return;
         }
-        let weight = |&u: &f64| (u / WEIGHT_UNIT).round().clamp(1.0, u16::MAX.into()) as u16;
-        let tube = TubeClaim {
-            // Without zeros below zero, which differ between builds.
-            centre: tube.centre.iter().map(|x| x + 0.0).collect(),
-            low: tube.low.unwrap_or_default().to_vec(),
-            normal: tube.normal.iter().map(|&c| c as f32 + 0.0).collect(),
-            weights: tube.weights.iter().map(weight).collect(),
-            h: tube.h,
-            r: tube.r as f32,
-            exit: tube.exit,
-        };
+        let tube = tube_claim(&tube);
         match &mut self.arc {
             Some(arc) => arc.tubes.push(tube),
             None => {
@@ -174,6 +186,14 @@ impl<W: Write> Witness for Writer<'_, W> {
                 }
             }
         }
+    }
+
+    fn is_provable(&mut self, tube: &TubeSeen) -> bool {
+        if self.trial.is_none() {
+            self.trial = Trial::new(self.problem, self.unit);
+        }
+        let trial = self.trial.as_ref();
+        trial.is_none_or(|trial| trial.proves(&tube_claim(tube)))
     }
 
     fn solution(&mut self, centre: &[f64], radius: &[f64]) {

@@ -35,7 +35,7 @@ pub fn solve_in_best_space(
         // Plans in closed form are for distances; without one the full space is faster at most sizes.
         _ if !problem.is_distances_only() => Space::Full,
         Mode::Float => Space::Reduced,
-        // A certificate's tubes are those of the full space.
+        // A run that stops is made again, which a certificate that is being written cannot be.
         Mode::Certified if control.witness.is_some() => Space::Full,
         Mode::Certified => Space::for_certified(problem.distances.len()),
     };

@@ -31,6 +31,10 @@ pub trait Witness {
     fn begin(&mut self, unit: f64);
     /// A tube joined the chain.
     fn tube(&mut self, tube: TubeSeen);
+    /// Whether a checker would prove such a tube. Tubes of the reduced space are told in parts for which this holds.
+    fn is_provable(&mut self, _tube: &TubeSeen) -> bool {
+        true
+    }
     /// In the tube just seen the path meets t = 1 for the first time at this point: `centre` up to
     /// `radius`, per free coordinate.
     fn solution(&mut self, centre: &[f64], radius: &[f64]);

@@ -2,6 +2,7 @@
 
 use super::arc::{Edits, Fold, keeps, rises};
 use super::equations::{Equations, ZERO};
+use super::matrix::between;
 use super::place::{Place, Spot, component};
 use super::refute;
 use super::tube::{Met, Stretch, Tube, direction};
@@ -131,7 +132,7 @@ impl Chain {
             };
             let solutions = &self.solutions[..listed[k]];
             let stretch = self.join((first + k as u64, arc), before, tube, goal, solutions)?;
-            Ok((tube.margin, stretch))
+            Ok((tube.proof.margin, stretch))
         };
         let joined: Vec<_> = (0..tubes.len()).into_par_iter().map(join).collect();
         for joined in joined {
@@ -249,7 +250,8 @@ impl Chain {
             let stretch = tube.account([entry, exit], listed);
             return stretch.map_err(|part| {
                 let claim = Flaw::Unlisted(number, part.inf(), part.sup());
-                flaw(refute::missing(tube, part, listed), claim)
+                let inner = between(entry.sup(), exit.inf());
+                flaw(refute::missing(tube, inner, listed), claim)
             });
         };
         // It begins to rise in the first tube, and goes on in the others.

@@ -1,35 +1,51 @@
 //! Guesses in floats, which nobody has to trust: the proofs hold whatever these are.
 
 use super::equations::{Equations, Product};
-use super::krawczyk::{Curve, ORDER, Section, weights};
-use super::matrix::{Matrix, add};
+use super::krawczyk::{Curve, MANY, ORDER, Section, weights};
+use super::matrix::{Columns, Matrix, add};
+use super::sparse::Sparse;
 use crate::certificate::format::{FoldClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
-use faer::MatRef;
+use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::DenseSolveCore;
+use faer::{Accum, MatMut, MatRef, Par};
 
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
 
-/// A matrix Y near the inverse of [J(z₀); c] U.
+/// A matrix Y near the inverse of M = [J(z₀); c] U.
 pub struct Inverse {
     pub y: Matrix,
     u: Vec<f64>,
+    /// M, if it has few entries.
+    sparse: Option<Sparse>,
 }
 
 impl Inverse {
     pub fn new(at: &Section) -> Result<Inverse, Fault> {
-        let n = at.u.len();
-        // Row by row as column by column: the inverse of the transposed matrix is that of the matrix, transposed.
-        let mut matrix = vec![0.0; n * n];
-        for (row, column) in matrix.chunks_mut(n).zip(&at.j0) {
-            column.iter().for_each(|&(e, x)| row[e] += x);
+        let (n, u) = (at.u.len(), at.u.clone());
+        let sparse = (n >= MANY).then(|| Sparse::new(&at.j0)).flatten();
+        let y = match &sparse {
+            Some(sparse) => Some(sparse.inverse()),
+            None => invert(&at.j0),
+        };
+        let is_finite = |y: &Matrix| y.entries.iter().all(|x| x.is_finite());
+        let y = y.filter(is_finite);
+        let y = y.ok_or(Fault::because("its Jacobian is singular"))?;
+        Ok(Inverse { y, u, sparse })
+    }
+
+    /// (M⁻¹ B)ᵀ from Bᵀ.
+    pub fn solve(&self, b: &Matrix) -> Matrix {
+        let n = b.n;
+        if let Some(sparse) = &self.sparse {
+            return sparse.solve(b);
         }
-        let entries = invert(n, matrix).ok_or(Fault::because("its Jacobian is singular"))?;
-        Ok(Inverse {
-            y: Matrix { n, entries },
-            u: at.u.clone(),
-        })
+        let mut entries = vec![0.0; n * n];
+        let out = MatMut::from_column_major_slice_mut(&mut entries, n, n);
+        let [b, y] = [b, &self.y].map(|a| MatRef::from_column_major_slice(&a.entries, n, n));
+        matmul(out, Accum::Replace, b, y.transpose(), 1.0, Par::Seq);
+        Matrix { n, entries }
     }
 
     /// U Y f.
@@ -249,20 +265,24 @@ fn value(eq: &Equations, z: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Matrices of so many rows and more are inverted by a library that works in blocks.
-const LARGE_INVERSE: usize = 96;
-
 /// A float inverse, or nothing where there is none.
-fn invert(n: usize, a: Vec<f64>) -> Option<Vec<f64>> {
-    if n < LARGE_INVERSE {
-        return eliminate(n, a);
+fn invert(columns: &Columns) -> Option<Matrix> {
+    let n = columns.len();
+    // Row by row as column by column: the inverse of the transposed matrix is that of the matrix, transposed.
+    let mut matrix = vec![0.0; n * n];
+    for (row, column) in matrix.chunks_mut(n).zip(columns) {
+        column.iter().for_each(|&(e, x)| row[e] += x);
     }
-    let inverse = MatRef::from_column_major_slice(&a, n, n)
+    if n < MANY {
+        let entries = eliminate(n, matrix)?;
+        return Some(Matrix { n, entries });
+    }
+    let inverse = MatRef::from_column_major_slice(&matrix, n, n)
         .partial_piv_lu()
         .inverse();
     let columns = (0..n).map(|j| inverse.col_as_slice(j));
-    let all: Vec<f64> = columns.flatten().copied().collect();
-    all.iter().all(|x| x.is_finite()).then_some(all)
+    let entries = columns.flatten().copied().collect();
+    Some(Matrix { n, entries })
 }
 
 /// Gauss and Jordan in place, with row pivots.

@@ -3,7 +3,9 @@
 
 use super::equations::{Equations, ZERO};
 use super::extended::{Low, rounded_time};
-use super::matrix::{Columns, Matrix, between, enclosed, exact, lost, power, size};
+use super::guess::Inverse;
+use super::matrix::{Columns, Matrix, between, enclosed, exact, halves, lost, power};
+use super::structure::image_of_product;
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::verdict::Fault;
 use crate::interval::rounding::{UNDERFLOW, gamma, round_up};
@@ -18,6 +20,9 @@ const POWER_ROUNDINGS: usize = 3 * (ORDER + 2);
 /// Entries of ẑ's coefficients are smaller: then what underflow takes from powers of τ, 2⁻¹⁰⁷² from the second, is at most
 /// 2⁻⁹⁸⁴ of the fourth, far less than γ UNDERFLOW.
 const LIMIT: f64 = (1u64 << 41) as f64;
+
+/// From so many unknowns on no product of two dense matrices is made.
+pub const MANY: usize = 96;
 
 pub const LARGE: Fault = Fault::because("its numbers are too large or too far apart for the test");
 
@@ -100,7 +105,7 @@ impl<'a> Curve<'a> {
     fn expand_right(&mut self) {
         let t = point(self.z[0][self.eq.m]) + self.low_of(self.eq.m);
         let rights = (0..self.eq.m).map(|e| self.eq.right_at(e, t));
-        let rights = rights.map(|c| (c[0], c.map(|c| [c.mid(), c.rad()])));
+        let rights = rights.map(|c| (c[0], c.map(|c| halves(c).into())));
         self.right = rights.collect();
     }
 
@@ -253,28 +258,37 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `y`, near the
-    /// inverse of [J(z₀); c] U, is any matrix.
-    pub fn test(&self, y: &Matrix, at: &Section, r: Interval) -> Test {
+    /// The test on the boxes |w|_u ≤ r around ẑ(σ), in the cross-sections c·w = 0. `inverse` has a Y near the
+    /// inverse of [J(z₀); c] U, any matrix, and guesses what M⁻¹ times others is.
+    pub fn test(&self, inverse: &Inverse, at: &Section, r: Interval) -> Test {
         let (m, n, order, u) = (self.eq.m, self.eq.m + 1, self.z.len() - 1, &at.u);
-        assert!(
-            [0, ORDER].contains(&order) && y.n == n && y.entries.len() == n * n && u.len() == n
-        );
+        let y = &inverse.y;
+        assert!([0, ORDER].contains(&order) && u.len() == n);
+        assert!(y.n == n && y.entries.len() == n * n);
         let mut rests = at.rests.clone();
         let stiff = y.times(&at.j0).minus_identity().norm();
         let (mut moving, mut square, mut a) = (point(1.0), ZERO, None);
         if order > 0 {
-            let [j1, j2] = [1, 2].map(|k| y.times(&self.jacobian(k, u, &mut rests)));
-            let (norm, lost) = (j1.norm(), exact(gamma(n + 1)));
+            let [j1, j2] = [1, 2].map(|k| self.jacobian(k, u, &mut rests));
+            let [moved, second] = [&j1, &j2].map(|j| y.times(j));
+            // What Y J₀, Y J₁ and Y J₂ may have lost, and more.
+            let (norm, lost) = (moved.norm(), y.bound(&rests));
             moving += norm;
-            square = j1.square_minus(&j2).norm() + lost * norm * norm + norm * j2.norm();
-            a = Some(j1);
+            square = match n < MANY {
+                true => moved.square_minus(&second).norm() + exact(gamma(n + 1)) * norm * norm,
+                false => {
+                    let all = [&j1, &j2, &at.j0];
+                    let image = |b: &Matrix| inverse.solve(b);
+                    image_of_product((y, stiff + lost), all, &moved, image) + lost * moving
+                }
+            };
+            square += norm * second.norm();
+            a = Some(moved);
         }
-        let t = polynomial(&self.z, m, around(point(1.0))) + around(r * point(u[m]));
-        let t = t + self.low_of(m);
-        let t_slope = (1..=order).fold(ZERO, |sum, k| {
-            sum + point(k as f64) * point(self.z[k][m].abs())
-        });
+        let t = way(&self.z, m, around(point(1.0))) + around(r * point(u[m]));
+        let t = t + point(self.z[0][m]) + self.low_of(m);
+        let slopes = (1..=order).map(|k| k as f64 * self.z[k][m].abs());
+        let t_slope = round_up(slopes.sum(), ORDER + 1);
         // Of each form: how much it changes with w, what is left from order 3 on, and of its derivative by σ.
         let weight_of = |i: usize| if i < m { u[i] } else { 0.0 };
         let change = |([i, j], x): (&[usize; 2], &[f64; ORDER + 1])| {
@@ -288,9 +302,8 @@ impl<'a> Curve<'a> {
             let mut all = [0.0; 3];
             for &(i, factor, form) in &self.eq.gradient[e] {
                 let by = 0.5 * factor.abs() as f64 * u[i];
-                all.iter_mut()
-                    .zip(changes[form])
-                    .for_each(|(all, x)| *all += by * x);
+                let terms = all.iter_mut().zip(changes[form]);
+                terms.for_each(|(all, x)| *all += by * x);
             }
             // Also a rounding of each of the forms.
             let [square, beyond, slope] = all.map(|x| round_up(x, self.eq.longest + ORDER + 5));
@@ -298,38 +311,29 @@ impl<'a> Curve<'a> {
             let slopes = slopes.map(|k| self.right(e, k, 1));
             let slopes: f64 = slopes.map(|(slope, error)| slope.abs() + error).sum();
             let slopes = round_up(slopes * u[m], DEGREE);
-            let bend = size(self.eq.bend(e, t)) * point(u[m]);
+            let bend = self.eq.bend(e, t).mag() * u[m];
             rests[e] = round_up(rests[e] + beyond + slopes, 2);
-            wide[e] = (exact(square) + bend * point(u[m])).sup();
-            turn[e] = (exact(slope) + bend * t_slope).sup();
+            wide[e] = round_up(square + bend * u[m], 3);
+            turn[e] = round_up(slope + bend * t_slope, 3);
         }
 
-        // The first coefficients of F(ẑ(σ)), and those of t alone, are as good as zero: of them their sizes, and
-        // k times these, will do.
-        let (mut small, mut small_slope) = (vec![0.0; n], vec![0.0; n]);
         let (mut defect, mut defect_slope) = (ZERO, ZERO);
         for k in 1..=if order > 0 { DEGREE } else { 0 } {
-            let (f, times) = (self.residual(k), k as f64);
-            if (ORDER + 1..=2 * ORDER).contains(&k) {
-                let image = upper(y.image(&f));
-                (defect, defect_slope) = (defect + image, defect_slope + point(times) * image);
-                continue;
-            }
-            for (e, f) in f.into_iter().enumerate() {
-                small[e] += f.mag();
-                small_slope[e] += times * f.mag();
-            }
+            let f = self.residual(k);
+            // The first coefficients of F(ẑ(σ)), and those of t alone, are as good as zero: of them their sizes will do.
+            let image = match k {
+                _ if f.iter().all(|&f| f == ZERO) => continue,
+                _ if k > ORDER && k <= 2 * ORDER => y.image(&f),
+                _ => y.bound(&f.iter().map(|f| f.mag()).collect::<Vec<f64>>()),
+            };
+            (defect, defect_slope) = (defect + image, defect_slope + point(k as f64) * image);
         }
-        let [small, small_slope] = [small, small_slope].map(|sums| {
-            let sums: Vec<f64> = sums.into_iter().map(|x| round_up(x, DEGREE + 1)).collect();
-            y.bound(&sums)
-        });
         Test {
             stiff: upper(moving * (stiff + y.bound(&rests)) + square),
             width: upper(moving * y.bound(&wide)),
             constant: upper(moving * upper(y.image(&self.value()))),
-            growing: upper(moving * (defect + small)),
-            defect_slope: upper(moving * (defect_slope + small_slope)),
+            growing: upper(moving * defect),
+            defect_slope: upper(moving * defect_slope),
             turn: upper(moving * y.bound(&turn)),
             moving: upper(moving),
             a,
@@ -413,15 +417,34 @@ pub fn weights(u: &[u16]) -> Vec<f64> {
     u.iter().map(|&u| WEIGHT_UNIT * f64::from(u)).collect()
 }
 
-/// Σ z_k σᵏ, one of its entries.
-pub fn polynomial(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
-    z.iter().rev().fold(ZERO, |sum, z| sum * s + point(z[i]))
+/// Σ z_k σᵏ, k ≥ 1, one of its entries.
+pub fn way(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
+    range(s, |k| if k > 0 && k < z.len() { z[k][i] } else { 0.0 })
 }
 
-/// Σ k z_k σᵏ⁻¹, k ≥ 1, the derivative of Σ z_k σᵏ by σ: one of its entries.
+/// Σ k z_k σᵏ⁻¹, k ≥ 1, the derivative of that: one of its entries.
 pub fn derivative(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
-    let terms = (1..z.len()).rev().map(|k| point(k as f64) * point(z[k][i]));
-    terms.fold(ZERO, |sum, z| sum * s + z)
+    range(s, |k| z.get(k + 1).map_or(0.0, |z| (k + 1) as f64 * z[i]))
+}
+
+/// Σ c_k σᵏ, k ≤ ORDER, on a range of σ: Taylor's expansion about its middle. The coefficients may have gone through a rounding.
+fn range(s: Interval, coefficient: impl Fn(usize) -> f64) -> Interval {
+    let (middle, radius) = halves(s);
+    let mut c: [f64; ORDER + 1] = std::array::from_fn(coefficient);
+    let reach = middle.abs() + radius;
+    let sizes = c.iter().rev().fold(0.0, |sum, c| sum * reach + c.abs());
+    for from in 0..ORDER {
+        for k in (from..ORDER).rev() {
+            c[k] += middle * c[k + 1];
+        }
+    }
+    let away = c[1..]
+        .iter()
+        .rev()
+        .fold(0.0, |sum, c| (sum + c.abs()) * radius);
+    // A term of an expanded coefficient went through at most ORDER sums where it stands, and a product and a sum on each of ORDER
+    // ways down; all of them together are at most `sizes`, a sum of products of as many factors.
+    enclosed(c[0], lost(sizes, 4 * ORDER + 1, round_up(away, 2 * ORDER)))
 }
 
 /// [−x, x] for the upper end of a non-negative x.
@@ -461,14 +484,37 @@ mod tests {
             .bend_coefficient(c)
             .finish()
             .unwrap();
-        let eq = Equations::new(Homotopy::with_unit(&problem, 1.0).unwrap());
+        let eq = equations(&problem);
+        assert!(is_exact(&eq));
+        eq
+    }
+
+    /// Equations with the number 1 in them, products of two different forms, and a coordinate in no product with another.
+    fn right_angle() -> Equations {
+        let text = "dimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nc = [1, 4]\n[constraints]\nfixed = [\"a\"]\n\
+                    x = [[\"b\", 3]]\ndy = [[\"a\", \"c\", 4]]\ndistances = [[\"a\", \"b\", 3.5]]\n\
+                    perpendicular = [[\"a\", \"b\", \"a\", \"c\"]]\n";
+        let eq = equations(&Problem::parse(text, "test.toml").unwrap());
+        assert!(eq.forms.iter().any(|form| form[0] == eq.m + 2));
+        let is_mixed = |p: &(i64, [usize; 2])| eq.forms[p.1[0]] != eq.forms[p.1[1]];
         assert!(
-            eq.homotopy
-                .rights
+            eq.products
                 .iter()
-                .all(|r| r.enclosures().iter().all(|e| e.wid() == 0.0))
+                .flatten()
+                .any(|p| is_mixed(p) && eq.forms[p.1[1]][0] < eq.m)
         );
         eq
+    }
+
+    fn equations(problem: &Problem) -> Equations {
+        Equations::new(Homotopy::with_unit(problem, 1.0).unwrap())
+    }
+
+    /// Whether floats hold all coefficients of E_e(t). Otherwise middles of their enclosures are taken, for which all must be
+    /// so too.
+    fn is_exact(eq: &Equations) -> bool {
+        let mut rights = eq.homotopy.rights.iter().flat_map(|r| r.enclosures());
+        rights.all(|e| e.wid() == 0.0)
     }
 
     type Polynomial = Vec<BigRational>;
@@ -563,36 +609,51 @@ mod tests {
         prop::collection::vec(-1.0f64..1.0, n)
     }
 
+    /// No problem of these tests has more unknowns, t among them.
+    const MOST: usize = 7;
+
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
+        #![proptest_config(ProptestConfig::with_cases(192))]
         /// Along any polynomial, with Y near the inverse or not: the coefficients of F, and all bounds of the test at some σ
         /// and some w, against rational numbers. Weights, steps and the size of the figure take extreme values.
         #[test]
         fn what_the_test_claims_is_so(
-            (bent, size, step) in (any::<bool>(), -30i32..30, -60i32..4),
-            (z0, ahead) in (numbers(4), prop::collection::vec(numbers(4), ORDER)),
-            (c, weights, off) in (numbers(4), prop::collection::vec(1u16.., 4), numbers(4)),
-            (noise, noisy, s, r) in (numbers(16), -50i32..2, -1.0f64..1.0, -40i32..2),
+            (which, size, step) in (0..3usize, -30i32..30, -60i32..4),
+            (z0, ahead) in (numbers(MOST), prop::collection::vec(numbers(MOST), ORDER)),
+            (c, weights, off) in (numbers(MOST), prop::collection::vec(1u16.., MOST), numbers(MOST)),
+            (noise, noisy, s, r) in (numbers(MOST * MOST), -50i32..2, -1.0f64..1.0, -40i32..2),
+            (low, has_low) in (numbers(MOST), any::<bool>()),
         ) {
-            let eq = triangle(if bent { "0.5" } else { "0" });
+            let eq = [|| triangle("0"), || triangle("0.5"), right_angle][which]();
             let n = eq.m + 1;
+            let [z0, c, off, low] = [z0, c, off, low].map(|v| v[..n].to_vec());
+            let weights = &weights[..n];
+            let ahead: Vec<Vec<f64>> = ahead.iter().map(|v| v[..n].to_vec()).collect();
             let scaled = |v: &[f64], e: i32| v.iter().map(|x| x * power(e)).collect::<Vec<f64>>();
             let mut centre = scaled(&z0, size);
             centre[eq.m] = z0[eq.m];
-            let mut curve = Curve::at(&eq, &centre).unwrap();
+            // Coefficients with more digits are those of the problem, not of the enclosures' middles.
+            let mut curve = match has_low && is_exact(&eq) {
+                // What the middle is more than its floats.
+                true => Curve::at_sum(&eq, &centre, &scaled(&low, size.max(0) - 56)).unwrap(),
+                false => Curve::at(&eq, &centre).unwrap(),
+            };
             let c: Vec<f64> = c.iter().map(|&c| f64::from(c as f32)).collect();
-            let u = super::weights(&weights);
+            let u = super::weights(weights);
             let at = curve.section(&c, &u);
-            let Ok(Inverse { mut y, .. }) = Inverse::new(&at) else {
+            let Ok(mut inverse) = Inverse::new(&at) else {
                 return Ok(());
             };
-            for (y, x) in y.entries.iter_mut().zip(noise) {
+            for (y, x) in inverse.y.entries.iter_mut().zip(noise) {
                 *y += *y * x * power(noisy);
             }
             for z in &ahead {
                 curve.push(scaled(z, step)).unwrap();
             }
-            let z: Vec<Polynomial> = (0..n).map(|i| curve.z.iter().map(|z| ratio(z[i])).collect()).collect();
+            let mut z: Vec<Polynomial> = (0..n).map(|i| curve.z.iter().map(|z| ratio(z[i])).collect()).collect();
+            for (i, z) in z.iter_mut().enumerate() {
+                z[0] += ratio(curve.low_of(i).inf());
+            }
             let rows = exactly(&eq, &z);
             for k in 0..=DEGREE {
                 let found = if k == 0 { curve.value() } else { curve.residual(k) };
@@ -603,14 +664,14 @@ mod tests {
             }
 
             let radius = point(power(r));
-            let test = curve.test(&y, &at, radius);
+            let test = curve.test(&inverse, &at, radius);
             let a = test.a.as_ref().unwrap();
             let s = ratio(s);
             // Ỹ(σ), exactly.
             let entry = |m: &Matrix, i: usize, j: usize| ratio(m.entries[j * n + i]);
             let moved = |i: usize, e: usize| {
-                let change = (0..n).fold(zero(), |sum, k| sum + entry(a, i, k) * entry(&y, k, e));
-                entry(&y, i, e) - &s * change
+                let change = (0..n).fold(zero(), |sum, k| sum + entry(a, i, k) * entry(&inverse.y, k, e));
+                entry(&inverse.y, i, e) - &s * change
             };
             let y: Vec<Vec<BigRational>> = (0..n).map(|i| (0..n).map(|e| moved(i, e)).collect()).collect();
             let most = |v: &dyn Fn(usize) -> BigRational| (0..n).map(|i| v(i).abs()).max().unwrap();

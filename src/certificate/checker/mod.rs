@@ -12,6 +12,9 @@ mod krawczyk;
 mod matrix;
 mod place;
 mod refute;
+mod sparse;
+mod structure;
+mod trial;
 mod tube;
 
 use super::format::{Ending, FormatError, Record, SolutionClaim, TubeClaim};
@@ -21,6 +24,8 @@ use crate::system::Homotopy;
 use chain::Chain;
 use equations::Equations;
 use std::io::Read;
+
+pub use trial::Trial;
 
 /// How to check.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -3,11 +3,12 @@
 use super::equations::{Equations, ZERO};
 use super::guess::newton;
 use super::krawczyk::{Section, around};
-use super::matrix::{enclosed, exact, lost, size};
+use super::matrix::{along, enclosed, exact, halves, lost, size};
 use super::refute;
 use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::format::{SolutionClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
+use crate::interval::rounding::round_up;
 use crate::interval::{Interval, point};
 
 /// An enclosure of a point of a curve of F = 0, in n entries: exactly known floats, and what has to be
@@ -46,16 +47,16 @@ impl Spot {
             // A difference, its product with factor and direction, and the sums.
             enclosed(sum, lost(sizes, eq.longest + 3, errors)) - time
         };
-        let along = v.iter().zip(&at.c).map(|(&v, &c)| exact(v) * point(c));
-        let along = along.fold(point(-1.0), |sum, x| sum + x);
+        let along = along(v, &at.c) - point(1.0);
         (0..eq.m).map(row).chain([along]).collect()
     }
 }
 
 /// The component of the vectors in a box along another one.
 pub fn component(direction: &[Interval], normal: &[f64]) -> Interval {
-    let terms = direction.iter().zip(normal);
-    terms.fold(ZERO, |sum, (&x, &c)| sum + x * point(c))
+    let (middles, radii): (Vec<f64>, Vec<f64>) = direction.iter().map(|&x| halves(x)).unzip();
+    let radii = radii.iter().zip(normal).map(|(r, c)| r * c.abs()).sum();
+    along(&middles, normal) + around(exact(round_up(radii, normal.len() + 1)))
 }
 
 /// A figure with t = 1, the only one in its box; or a point where other equations and a cross-section meet.
@@ -120,7 +121,7 @@ impl Place {
     ) -> Result<Place, Fault> {
         let (curve, inverse) = newton(eq, (near, extended), c, u)?;
         let at = curve.section(c, u);
-        let test = curve.test(&inverse.y, &at, point(SIGHT));
+        let test = curve.test(&inverse, &at, point(SIGHT));
         // The test holds for ρ with stiff + width ρ below 1: nine tenths of the largest one.
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });

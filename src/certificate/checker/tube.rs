@@ -2,20 +2,17 @@
 
 use super::equations::{Equations, ZERO};
 use super::guess::{Inverse, Moving, expand};
-use super::krawczyk::{
-    Curve, LARGE, ORDER, Proof, Section, around, derivative, polynomial, weights,
-};
-use super::matrix::{Matrix, between, exact, size};
+use super::krawczyk::{Curve, LARGE, ORDER, Proof, Section, around, derivative, way, weights};
+use super::matrix::{Matrix, along, between, exact, size};
 use super::place::{Place, Spot, component};
 use super::refute;
 use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
+use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
-/// with |z − ẑ(σ)|_u ≤ r, regular, at most `distance` from ẑ(σ),
-/// and at most `distances[0] + |σ| distances[1]`, φ' at
-/// most `slope_distance` from ẑ'.
+/// with |z − ẑ(σ)|_u ≤ r, regular, and as near ẑ(σ), and φ' as near ẑ', as its proof says.
 pub struct Tube {
     /// Coefficients of ẑ, and what z₀ is more than its floats.
     pub z: Vec<Vec<f64>>,
@@ -23,9 +20,7 @@ pub struct Tube {
     pub normal: Vec<f64>,
     pub u: Vec<Interval>,
     r: Interval,
-    pub distance: Interval,
-    distances: [Interval; 2],
-    slope_distance: Interval,
+    pub proof: Proof,
     /// c·ẑ'(σ), positive.
     pub advance: Interval,
     /// The parameter at which the path leaves.
@@ -34,8 +29,6 @@ pub struct Tube {
     pub exit: Spot,
     /// The path's direction there.
     pub exit_direction: Vec<Interval>,
-    /// 1 − q − η/r.
-    pub margin: f64,
 }
 
 /// Whether the path, from a tube's entry to its exit, meets a solution: from what is false to what is true.
@@ -82,9 +75,9 @@ impl<'a> Work<'a> {
         let at = curve.section(&c, &weights(&claim.weights));
         let inverse = Inverse::new(&at)?;
         expand(&mut curve, &inverse, claim.h)?;
-        let test = curve.test(&inverse.y, &at, r);
+        let test = curve.test(&inverse, &at, r);
         let proof = test.within(r).map_err(|fault| Fault {
-            is_false: refute::tube(claim, &curve, &inverse.y, &at, &test),
+            is_false: refute::tube(claim, &curve, &inverse, &at),
             ..fault
         })?;
         Ok(Work {
@@ -109,7 +102,7 @@ impl<'a> Work<'a> {
         let s = point(s);
         let off = |i: usize| {
             let low = there.low_of(i) - self.curve.low_of(i);
-            exact(near[i]) - point(z[0][i]) + low - polynomial(&z[1..], i, s) * s
+            exact(near[i]) - point(z[0][i]) + low - way(z, i, s)
         };
         let off: Vec<Interval> = (0..near.len()).map(off).collect();
         let mut inside = off.iter().zip(u());
@@ -121,10 +114,8 @@ impl<'a> Work<'a> {
         let distance = self.proof.inverse * self.inverse.y.image(&f);
         let rest = u().enumerate();
         let rest = rest.map(|(i, u)| there.low_of(i) + around(distance * u));
-        Some(Spot {
-            rest: rest.collect(),
-            near,
-        })
+        let rest = rest.collect();
+        Some(Spot { rest, near })
     }
 
     /// The path's direction T, c·T = 1, at a point φ(σ) of it near φ(s):
@@ -133,10 +124,8 @@ impl<'a> Work<'a> {
         let v = moving.tangent(&spot.near, s);
         let off = spot.off_direction(self.curve.eq, &self.at, &v);
         let distance = self.proof.inverse * self.inverse.y.image(&off);
-        let entries = v.iter().zip(&self.at.u);
-        entries
-            .map(|(&v, &u)| exact(v) + around(distance * point(u)))
-            .collect()
+        let near = |(&v, &u): (&f64, &f64)| exact(v) + around(distance * point(u));
+        v.iter().zip(&self.at.u).map(near).collect()
     }
 }
 
@@ -149,16 +138,9 @@ pub fn direction(eq: &Equations, claim: &TubeClaim, spot: &Spot) -> Result<Vec<I
 impl Tube {
     pub fn prove(eq: &Equations, claim: &TubeClaim) -> Result<Tube, Fault> {
         let work = Work::new(eq, claim)?;
-        let along = |k: usize| {
-            let z: Vec<Interval> = work.curve.z[k].iter().map(|&z| point(z)).collect();
-            let range = if k == 1 {
-                point(1.0)
-            } else {
-                around(point(k as f64))
-            };
-            component(&z, &work.at.c) * range
-        };
-        let advance = (1..=ORDER).fold(ZERO, |sum, k| sum + along(k));
+        let along = |k: usize| along(&work.curve.z[k], &work.at.c);
+        let beyond = |k: usize| around(point(k as f64)) * along(k);
+        let advance = (2..=ORDER).fold(along(1), |sum, k| sum + beyond(k));
         if !(advance.inf() > 0.0) {
             return Err(Fault::because("its cross-sections may turn back"));
         }
@@ -175,11 +157,8 @@ impl Tube {
             z: work.curve.z,
             u: work.at.u.iter().map(|&u| point(u)).collect(),
             r: work.r,
-            distance: work.proof.distance,
-            distances: work.proof.distances,
-            slope_distance: work.proof.slope_distance,
+            proof: work.proof,
             advance,
-            margin: work.proof.margin,
             normal: work.at.c,
         })
     }
@@ -199,26 +178,22 @@ impl Tube {
     /// The parameters σ with φ(σ) = z, for a zero z of F. `None`: it could not be proved that there is one.
     pub fn locate(&self, z: &Spot) -> Option<Interval> {
         let s = self.parameter(z);
-        let inside = |i: usize| {
-            let along = polynomial(&self.z[1..], i, s) * s;
-            size(self.off(z, i) - along).sup() < (self.r * self.u[i]).inf()
-        };
+        let inside =
+            |i: usize| size(self.off(z, i) - way(&self.z, i, s)).sup() < (self.r * self.u[i]).inf();
         (s.mag() <= 1.0 && (0..self.u.len()).all(inside)).then_some(s)
     }
 
     /// An entry of the path for all parameters of a range, beyond a number.
     pub fn beyond(&self, base: f64, i: usize, s: Interval) -> Interval {
-        let middle = exact(s.mid());
-        let way = polynomial(&self.z[1..], i, middle) * middle;
-        let change = derivative(&self.z, i, s) * (s - middle);
         let start = (point(self.z[0][i]) - point(base)) + self.low[i];
-        let [constant, growing] = self.distances;
-        start + (way + change + around((constant + growing * size(s)) * self.u[i]))
+        let [constant, growing] = self.proof.distances.map(Interval::sup);
+        let away = round_up((constant + growing * s.mag()) * self.u[i].sup(), 3);
+        start + (way(&self.z, i, s) + around(exact(away)))
     }
 
     /// An entry of the path's derivative φ'(σ) for all parameters of a range.
     pub fn slope(&self, i: usize, s: Interval) -> Interval {
-        derivative(&self.z, i, s) + around(self.slope_distance * self.u[i])
+        derivative(&self.z, i, s) + around(self.proof.slope_distance * self.u[i])
     }
 
     /// t − 1 on the path for all parameters of a range.
@@ -277,7 +252,7 @@ impl Tube {
             let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
             !self.time(part).contains(0.0) || here.iter().any(only)
         };
-        everywhere(range, holds, |part| refute::missing(self, part, listed))?;
+        everywhere(range, holds, |_| false)?;
         Ok(stretch)
     }
 }
@@ -348,7 +323,9 @@ mod tests {
                     };
                     let tube = Tube::prove(&eq, &claim).unwrap();
                     let (n, s) = (eq.m + 1, point(tube.exit_at));
-                    let z: Vec<Interval> = (0..n).map(|i| polynomial(&tube.z, i, s)).collect();
+                    let z: Vec<Interval> = (0..n)
+                        .map(|i| point(tube.z[0][i]) + way(&tube.z, i, s))
+                        .collect();
                     // Another way to the same point, and the same direction there.
                     let middle: Vec<f64> = z.iter().map(|z| z.mid()).collect();
                     let (curve, _) = newton(
@@ -376,13 +353,13 @@ mod tests {
                         let away = tube.exit_direction[i] - point(tangent[i]);
                         assert!(away.mig() < 1e-6 && away.wid() < 1e-2, "{name}: {away:?}");
                         let off = (tube.exit.at(i) - z[i]).mig();
-                        let bound = (tube.distance * tube.u[i]).sup();
+                        let bound = (tube.proof.distance * tube.u[i]).sup();
                         assert!(off <= bound, "{name}: {off:e} from the middle, {bound:e}");
                         nearest = nearest.min(bound / off);
                         // With c·T = 1 and c·φ' = c·ẑ'.
                         let slope =
                             tube.exit_direction[i] * tube.advance - derivative(&tube.z, i, s);
-                        let bound = (tube.slope_distance * tube.u[i]).sup();
+                        let bound = (tube.proof.slope_distance * tube.u[i]).sup();
                         assert!(
                             slope.mig() <= bound,
                             "{name}: slope off by {slope:?}, {bound:e}"

@@ -103,20 +103,12 @@ pub fn track<const D: usize>(
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
-    let full = tracker::track::<D, { ORDER + 1 }, KrawczykTest<D>>;
-    match (options.space, control.witness.is_some()) {
-        (Space::Full, _) => full(homotopy, options, control),
-        (Space::Reduced, false) => {
-            tracker::track::<D, { COEFFICIENTS }, ReducedTest<D>>(homotopy, options, control)
+    match options.space {
+        Space::Full => {
+            tracker::track::<D, { ORDER + 1 }, KrawczykTest<D>>(homotopy, options, control)
         }
-        // A certificate's tubes are boxes in the full space.
-        (Space::Reduced, true) => {
-            let mut outcome = full(homotopy, options, control);
-            outcome.switched_on.push(
-                "full space: a certificate was asked for, and its tubes are those of the full space"
-                    .to_owned(),
-            );
-            outcome
+        Space::Reduced => {
+            tracker::track::<D, { COEFFICIENTS }, ReducedTest<D>>(homotopy, options, control)
         }
     }
 }

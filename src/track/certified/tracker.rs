@@ -4,6 +4,7 @@ mod arc;
 mod crossing;
 mod extension;
 mod open;
+mod parts;
 mod sketch;
 mod starts;
 mod step;
@@ -23,10 +24,11 @@ use crate::system::Homotopy;
 use crate::track::arc::Figure;
 use crate::track::ends::{Away, EndKind, PathEnd};
 use crate::track::full::{Equations, InverseMaker};
-use crate::track::{Control, Mode, Options, Outcome, Progress, Status, TubeSeen};
+use crate::track::{Control, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
 use arc::Arc;
 use crossing::{Beyond, Crossing};
 use extension::Extension;
+use parts::{LEAST_WEIGHT, LEFT_OUT, Parts};
 use std::borrow::Cow;
 use std::time::Instant;
 use step_control::StepControl;
@@ -228,7 +230,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), String> {
         let max_h = self.longest(options);
         let is_done = self.start(options, max_h)?;
-        self.show_tube(control, 0);
+        self.show_tube(control, 0, false);
         self.note_starts(control);
         match is_done {
             true => Ok(()),
@@ -271,7 +273,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             match self.step(self.now.exit_at + reach, limit) {
                 Ok(is_done) => {
                     self.steps += 1;
-                    self.show_tube(control, known);
+                    self.show_tube(control, known, is_done);
                     self.note_starts(control);
                     if is_done {
                         return Ok(());
@@ -284,7 +286,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         && self.is_at_crossing()
                         && self.cross(options, control)
                     {
-                        self.show_tube(control, self.ledger.solutions_so_far());
+                        self.show_tube(control, self.ledger.solutions_so_far(), false);
                         steps_ahead = StepControl::new(&self.equations);
                         limit = max_h;
                     }
@@ -350,8 +352,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         }
     }
 
-    /// Shows the tube that was added last, and the solutions in it that were not `known` before.
-    fn show_tube(&self, control: &mut Control, known: usize) {
+    /// Shows the tube that was added last, and the solutions in it that were not `known` before. The `last` one of a closed
+    /// path leads to the sketch.
+    fn show_tube(&self, control: &mut Control, known: usize, is_last: bool) {
         if let Some(trace) = &mut control.trace {
             trace.add(&self.now, self.ledger.last_stretch);
         }
@@ -363,8 +366,13 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         let top = tube.weights[..n]
             .iter()
             .fold(0.0, |max: f64, &u| max.max(u));
-        let weights: Vec<f64> = tube.weights[..n].iter().map(|u| u / top).collect();
-        witness.tube(TubeSeen {
+        let least = match T::SPACE {
+            Space::Full => 0.0,
+            Space::Reduced => LEAST_WEIGHT,
+        };
+        let weights = tube.weights[..n].iter();
+        let weights: Vec<f64> = weights.map(|u| (u / top).max(least)).collect();
+        let seen = TubeSeen {
             centre: &tube.local.z[0][..n],
             low: tube.local.is_extended.then_some(&tube.local.low[..n]),
             normal: &tube.local.normal[..n],
@@ -372,10 +380,32 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             h: tube.proof.h,
             r: top * tube.proof.r,
             exit: tube.exit_at,
+        };
+        let found = self.ledger.found()[known..].iter();
+        let solutions = found.map(|found| {
+            let radius = found.radius_of_centre()[..n - 1].to_vec();
+            (&found.centre[..n - 1], radius)
         });
-        for found in &self.ledger.found()[known..] {
-            witness.solution(&found.centre[..n - 1], &found.radius_of_centre()[..n - 1]);
+        if T::SPACE == Space::Full {
+            witness.tube(seen);
+            solutions.for_each(|(centre, radius)| witness.solution(centre, &radius));
+            return;
         }
+        let to = match is_last && self.arc.is_none() {
+            true => tube.parameter_near(&self.sketch),
+            false => tube.exit_at,
+        };
+        let mut parts = Parts {
+            tube: seen,
+            at: &|s, centre| tube.local.at(s, centre),
+            centre: self.equations.vector(),
+            solutions: solutions.collect(),
+        };
+        parts.tell(
+            &mut **witness,
+            (tube.entry.0, to),
+            &tube.local.z[LEFT_OUT][..n],
+        );
     }
 
     /// Begins anew: from another figure, or with other lengths in the homotopy.

@@ -241,7 +241,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         if direction(&piece.now, piece.now.entry) != Some(rising) {
             return Err(words("it is not certain whether t rises".to_owned()));
         }
-        piece.show_tube(&mut quiet, 0);
+        piece.show_tube(&mut quiet, 0, false);
         loop {
             if !is_there {
                 piece.go_on(&options, max_h, &mut quiet).map_err(words)?;

@@ -1,0 +1,33 @@
+//! Tubes tried before they are claimed, for who writes certificates: nobody has to trust it.
+
+use super::equations::Equations;
+use super::tube::Tube;
+use crate::certificate::format::TubeClaim;
+use crate::problem::Problem;
+use crate::system::Homotopy;
+use std::fmt;
+
+/// A tube is claimed if its test succeeds with such a margin.
+const MARGIN: f64 = 0.05;
+
+/// A problem's equations.
+pub struct Trial(Equations);
+
+impl Trial {
+    /// `None`: the problem has none.
+    pub fn new(problem: &Problem, unit: f64) -> Option<Trial> {
+        let homotopy = Homotopy::with_unit(problem, unit).ok()?;
+        Some(Trial(Equations::new(homotopy)))
+    }
+
+    /// Whether the checker proves a tube.
+    pub fn proves(&self, claim: &TubeClaim) -> bool {
+        Tube::prove(&self.0, claim).is_ok_and(|tube| tube.proof.margin > MARGIN)
+    }
+}
+
+impl fmt::Debug for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Trial").finish_non_exhaustive()
+    }
+}
