@@ -112,6 +112,11 @@ fn results_of_other_verbs_meet_their_schemas() {
         ),
         ("complete", "complete", &["all", "problems/prism.toml"]),
         (
+            "complete",
+            "complete",
+            &["all", "problems/constraints/pentahedron.toml"],
+        ),
+        (
             "figures",
             "complete",
             &["solve", "problems/sketches/bracket.slvs"],
@@ -158,6 +163,25 @@ fn results_of_other_verbs_meet_their_schemas() {
     let (limits, complaints) = written("limits", &["limits", bar]);
     assert_eq!(complaints, [""; 0]);
     assert!(limits["ranges"].as_object().unwrap().len() > 3);
+}
+
+/// "These 8 of 18".
+#[test]
+fn a_cheap_count_of_all_figures_is_told_and_can_be_turned_off() {
+    let validator = schema();
+    let disulfide = "problems/disulfide.toml";
+    let told = solve(&[disulfide]).remove(0);
+    assert_eq!(complain(&validator, &told), [""; 0]);
+    assert_eq!(told["of_all"], 18);
+    for other in [
+        &[disulfide, "--no-count"][..],
+        &[disulfide, "--mode", "float"],
+        &["problems/dodecagon.toml"],
+        &["problems/constraints/3p3l.toml"],
+    ] {
+        let document = solve(other).remove(0);
+        assert!(document.get("of_all").is_none(), "{other:?}");
+    }
 }
 
 #[test]
@@ -371,7 +395,7 @@ fn other_documents_are_refused() {
     for key in good.as_object().unwrap().keys() {
         let mut bad = good.clone();
         bad.as_object_mut().unwrap().remove(key);
-        let optional = ["source", "samples", "objects"].contains(&key.as_str());
+        let optional = ["source", "samples", "objects", "of_all"].contains(&key.as_str());
         assert_eq!(complain(&validator, &bad).is_empty(), optional, "{key}");
     }
 }

@@ -127,6 +127,17 @@ impl<'s> Combined<'s> {
         self.halved
     }
 
+    /// Whether every solution of a block was proved to differ from its mirror image, so that no two combinations are the same
+    /// figure, and none is missing.
+    pub fn has_all_mirror_images(&self) -> bool {
+        let mut joints = self.joints.iter().enumerate();
+        self.halved
+            && joints.all(|(k, joint)| {
+                let images = if k == 0 { 1 } else { 2 };
+                joint.choices.len() == images * self.solutions[joint.block].len()
+            })
+    }
+
     /// What the figure of this number is made of, block by block in the order in which they hang together. Numbers begin
     /// with 0; the choice for the last block changes first.
     pub fn choices(&self, mut number: u64) -> Vec<Choice> {

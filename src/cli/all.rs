@@ -1,4 +1,4 @@
-//! `krawl all`: searches all figures that have the distances wanted.
+//! `krawl all`: searches all figures that meet the dimensions.
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
@@ -13,8 +13,9 @@ use std::time::{Duration, Instant};
 
 /// Find all real solutions, with a proof that there is no other
 ///
-/// The sketch plays no part: every figure that has the distances is listed, up to rigid motions and
-/// reflections. "Complete" claims that these are all; "partial" and "flexible" say what is undecided.
+/// The sketch's path plays no part: every figure that meets the dimensions is listed, up to rigid motions and
+/// reflections where constraints do not say otherwise. "Complete" claims that these are all; "partial" and "flexible" say
+/// what is undecided. Certificates and stores are for distances between points alone.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

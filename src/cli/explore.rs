@@ -227,10 +227,10 @@ fn all_real(problem: &Problem, seconds: f64) -> AllReal {
         ..complete::Options::default()
     };
     match all(problem, &options) {
-        Ok(found) if found.status == complete::Status::Complete => {
-            let classes: BTreeSet<usize> = found.solutions.iter().map(|s| s.class).collect();
-            AllReal::Proved(classes.len())
-        }
+        Ok(found) if found.status == complete::Status::Complete => match found.count {
+            Some(count) => AllReal::Proved(count as usize),
+            None => AllReal::Unknown("more than 2^64, as `krawl all` proves".to_owned()),
+        },
         Ok(_) => AllReal::Unknown(format!(
             "`krawl all` did not prove it within {seconds} s (`--all-time`)"
         )),

@@ -7,12 +7,14 @@ use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
+use krawl::complete::{Among, among};
 use krawl::problem::Problem;
 use krawl::remarks::{Remark, in_words, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
-    BlockRuns, Listed, ProgressLine, Run, figures_to_summary, figures_to_table, figures_to_value,
-    first_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table,
+    BlockRuns, Listed, ProgressLine, Run, among_in_words, figures_to_summary, figures_to_table,
+    figures_to_value, first_in_words, to_first_table, to_no_first, to_short_table, to_summary,
+    to_table,
 };
 use krawl::track::{self, Control, First, Options, Outcome, Progress, Status, Trace, Witness};
 use serde_json::Value;
@@ -114,6 +116,10 @@ pub struct Arguments {
     /// Print all solutions, however many lines they take
     #[arg(long, conflicts_with = "summary")]
     all: bool,
+    /// Do not say how many of all figures the path has. That is looked for, with proof, where it takes but some
+    /// milliseconds: of distances alone, up to 10 points, with a construction plan of one driving parameter
+    #[arg(long)]
+    no_count: bool,
     /// Print no table and no progress
     #[arg(long)]
     quiet: bool,
@@ -416,9 +422,6 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             trace: wants_path.then_some(&trace),
             samples,
         };
-        if json.is_some() {
-            lines += &(run.to_json() + "\n");
-        }
         if shown {
             let page = Page::from_result(&run.to_value()).map_err(|error| error.to_string())?;
             written &= pictures.write(&page);
@@ -438,6 +441,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let hints = hints(problem, &outcome, &input::name(file));
             let whole = arguments.whole_in_words(file);
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
+        }
+        // What the path came to is out by now.
+        let among = arguments.among(problem, &outcome, !silent || json.is_some());
+        if let Some(among) = among
+            && !silent
+            && !arguments.summary
+        {
+            written &= output::print(&among_in_words(among));
+        }
+        if json.is_some() {
+            lines += &(run.to_json_among(among) + "\n");
         }
         k += 1;
         if cancel.load(Ordering::Relaxed) {
@@ -532,6 +546,12 @@ impl Arguments {
     /// for that a path of the whole has alone.
     fn is_by_blocks(&self, file: &Path) -> bool {
         input::is_sketch(file) && self.mode == Mode::Certified && self.wants_path().is_none()
+    }
+
+    /// How many of all figures the path has, where that is wanted and costs little.
+    fn among(&self, problem: &Problem, outcome: &Outcome, is_told: bool) -> Option<Among> {
+        let is_wanted = is_told && !self.no_count && !self.first && self.mode == Mode::Certified;
+        is_wanted.then(|| among(problem, outcome))?
     }
 
     /// What is asked for that only a path of the whole has.

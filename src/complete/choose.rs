@@ -25,11 +25,16 @@ pub enum NoPlan {
 
 /// Plans with the fewest parameters, the most promising ones first.
 pub fn plans(targets: &Targets, pairs: &Pairs) -> Result<Vec<Plan>, NoPlan> {
+    plans_within(targets, pairs, MOST_PARAMETERS)
+}
+
+/// The same, with no more than so many parameters.
+pub fn plans_within(targets: &Targets, pairs: &Pairs, most: usize) -> Result<Vec<Plan>, NoPlan> {
     let bases = bases(targets);
     if bases.is_empty() {
         return Err(NoPlan::NoBase);
     }
-    for parameters in 0..=MOST_PARAMETERS {
+    for parameters in 0..=most {
         let mut draft = Draft::new(targets, pairs);
         for base in &bases {
             draft.begin(base);

@@ -25,8 +25,10 @@
 // A bound that is not a number decides nothing: tests say what they need, and `!(a < b)` is not `a >= b`.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
+mod among;
 mod choose;
 mod contract;
+mod coordinates;
 mod cover;
 mod emptiness;
 mod krawczyk;
@@ -34,6 +36,7 @@ mod model;
 mod node;
 mod outcome;
 mod pairs;
+mod parts;
 mod pieces;
 mod place;
 mod plan;
@@ -42,7 +45,9 @@ mod store;
 mod targets;
 mod visit;
 
-pub use outcome::{Complete, Options, Part, Progress, Status, Unserved};
+pub use among::{Among, among};
+pub use outcome::{Complete, Method, Options, Part, Progress, Status, Unserved};
+pub use parts::Searched;
 pub use store::Keep;
 pub use visit::Why;
 
@@ -57,14 +62,34 @@ use store::{Head, Store};
 use targets::Targets;
 use visit::Found;
 
-/// Searches for all figures that have the distances of a problem, up to rigid motions and reflections.
+/// Searches for all figures of a problem, up to its symmetries: of distances alone up to rigid motions and reflections.
 ///
-/// The sketch and the homotopy play no part.
+/// Of distances alone by a construction plan, part by part where they fall apart; of other constraints over all coordinates. The
+/// sketch plays a part only where constraints say less than they mean (docs/problem-files.md): on which side a point is, which
+/// of two angles is meant.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
-    let begin = Instant::now();
+    let wants_one_search = options.cover || options.store.is_some();
     if !problem.is_distances_only() {
-        return Err(Unserved::Constraints);
+        return match wants_one_search {
+            true => Err(Unserved::Constraints),
+            false => coordinates::all(problem, options),
+        };
     }
+    if !wants_one_search && let Some(result) = parts::searched(problem, options) {
+        return Ok(result);
+    }
+    match by_plan(problem, options) {
+        // Where no plan serves.
+        Err(Unserved::NoBase | Unserved::TooManyParameters) if !wants_one_search => {
+            coordinates::all(problem, options)
+        }
+        result => result,
+    }
+}
+
+/// Searches over the driving parameters of a construction plan.
+fn by_plan(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
+    let begin = Instant::now();
     let targets = Targets::new(problem);
     let in_words =
         emptiness::too_long(&targets).map(|(edge, way)| outcome::too_long(problem, edge, &way));

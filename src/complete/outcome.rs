@@ -1,9 +1,11 @@
 //! What the search for all solutions reports.
 
 use super::choose::NoPlan;
+use super::parts::Searched;
 use super::search::{Run, Search, different};
 use super::store::Keep;
 use super::visit::{Found, Why};
+use crate::constraint::Symmetry;
 use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
@@ -50,6 +52,15 @@ pub struct Part {
 pub struct Complete {
     /// What is proved.
     pub status: Status,
+    /// How the figures were searched.
+    pub method: Method,
+    /// Up to what figures are counted once.
+    pub symmetry: Symmetry,
+    /// How many figures are proved, which may be more than are listed as solutions; `None` where that has no place in 64
+    /// bits.
+    pub count: Option<u64>,
+    /// The parts of a problem that falls apart, each with what was found of it; otherwise none.
+    pub parts: Vec<Searched>,
     /// The solutions in the problem's gauge and units, each box holding exactly one, the boxes disjoint, no
     /// two solutions congruent.
     pub solutions: Vec<Solution>,
@@ -76,7 +87,8 @@ pub struct Complete {
 pub enum Unserved {
     /// Other constraints.
     #[error(
-        "not served yet: the search takes distances between points alone, and there are other constraints"
+        "not served yet: certificates and stores of all solutions are for distances between points alone, and there \
+         are other constraints"
     )]
     Constraints,
     /// No base.
@@ -100,6 +112,31 @@ pub enum Unserved {
     /// The store cannot be used.
     #[error("{0}")]
     Store(String),
+    /// What was asked for cannot be had of this problem: why.
+    #[error("{0}")]
+    Refused(String),
+}
+
+/// How the figures were searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Over the driving parameters of a construction plan.
+    Plan,
+    /// Over all coordinates.
+    Coordinates,
+    /// Block by block, the blocks put together.
+    Blocks,
+}
+
+impl Method {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Plan => "plan",
+            Method::Coordinates => "coordinates",
+            Method::Blocks => "blocks",
+        }
+    }
 }
 
 impl From<NoPlan> for Unserved {
@@ -217,6 +254,10 @@ impl Complete {
     pub(super) fn empty(problem: &Problem, reason: String, begin: Instant) -> Self {
         Complete {
             status: Status::Complete,
+            method: Method::Plan,
+            symmetry: Symmetry::Isometries,
+            count: Some(0),
+            parts: Vec::new(),
             solutions: Vec::new(),
             reference: problem.homotopy.reference.clone(),
             undecided: Vec::new(),
@@ -309,6 +350,10 @@ impl Complete {
         let order = search.plan.base.iter().copied();
         Complete {
             status,
+            method: Method::Plan,
+            symmetry: Symmetry::Isometries,
+            count: Some(solutions.len() as u64),
+            parts: Vec::new(),
             solutions,
             reference,
             undecided,
@@ -339,7 +384,7 @@ pub(super) fn too_long(problem: &Problem, edge: usize, way: &[usize]) -> String 
     )
 }
 
-fn are_apart(one: &Solution, other: &Solution) -> bool {
+pub(super) fn are_apart(one: &Solution, other: &Solution) -> bool {
     let pairs = one
         .points
         .iter()

@@ -22,6 +22,10 @@ pub enum Why {
     Unfinished,
     /// Figures in it are not told apart.
     Apart,
+    /// It goes on without an end: an unknown may be as large as it likes.
+    Unbounded,
+    /// Whether a figure has a vector that must not vanish, or a length that must be positive, is not certain.
+    Vanishing,
 }
 
 /// A part that stays undecided.

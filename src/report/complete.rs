@@ -3,10 +3,14 @@
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::json::Points;
+use super::objects::Objects;
+use super::table::write_objects;
 use crate::certificate::cover::CoverVerdict;
-use crate::complete::{Complete, Status, Why};
+use crate::complete::{Among, Complete, Method, Status, Why};
+use crate::constraint::Symmetry;
 use crate::interval::Interval;
 use crate::problem::{Problem, counted};
+use crate::track::Mode;
 use std::fmt::Write;
 
 /// One JSON object on one line: what is said of every problem (docs/json.md, "The problem"), and
@@ -16,7 +20,7 @@ use std::fmt::Write;
 ///  "reference": ["p1", "p2", "p3"],
 ///  "solutions": [{"points": {"p1": [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]}, "class": 0, "width": 1e-14}],
 ///  "undecided": [{"reason": "...", "parts": 1, "share": 1e-9}],
-///  "boxes": 101, "seconds": 0.0, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
+///  "method": "plan", "count": 4, "boxes": 101, "seconds": 0.0, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
 /// ```
 ///
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
@@ -39,11 +43,29 @@ impl<'a> Document<'a> {
             status: result.status.name(),
             reason: result.reason.as_deref(),
             verdict: verdict(result),
+            method: result.method.name(),
+            count: result.count,
+            parts: result
+                .parts
+                .iter()
+                .map(|part| Piece {
+                    points: part
+                        .problem
+                        .points
+                        .iter()
+                        .map(|p| p.name.as_str())
+                        .collect(),
+                    status: part.result.status.name(),
+                    solutions: part.result.solutions.len(),
+                    boxes: part.result.boxes,
+                })
+                .collect(),
             solutions: result
                 .solutions
                 .iter()
                 .map(|solution| Entry {
                     points: Points(problem, solution.points.clone()),
+                    objects: Objects::new(problem, &solution.objects, |x| *x),
                     class: solution.class,
                     width: solution.width,
                 })
@@ -72,6 +94,10 @@ struct Document<'a> {
     status: &'static str,
     reason: Option<&'a str>,
     verdict: String,
+    method: &'static str,
+    count: Option<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    parts: Vec<Piece<'a>>,
     solutions: Vec<Entry<'a>>,
     undecided: Vec<Undecided>,
     boxes: u64,
@@ -83,8 +109,19 @@ struct Document<'a> {
 #[derive(serde::Serialize)]
 struct Entry<'a> {
     points: Points<'a, [Interval; 3]>,
+    #[serde(skip_serializing_if = "Objects::is_empty")]
+    objects: Objects<'a, Interval>,
     class: usize,
     width: f64,
+}
+
+/// A part of a problem that falls apart.
+#[derive(serde::Serialize)]
+struct Piece<'a> {
+    points: Vec<&'a str>,
+    status: &'static str,
+    solutions: usize,
+    boxes: u64,
 }
 
 #[derive(serde::Serialize)]
@@ -99,6 +136,10 @@ fn why(why: Why) -> &'static str {
         Why::Flexible => "a curve of solutions seems to go through here",
         Why::Small => "a solution that is singular or nearly so, or centres of a step in line",
         Why::Unfinished => "the search was ended before",
+        Why::Unbounded => "unknowns that may be as large as they like",
+        Why::Vanishing => {
+            "whether a vector that must not vanish has a length, or a length is positive, is not certain"
+        }
         Why::Apart => "solutions too close to each other to be told apart",
     }
 }
@@ -118,7 +159,11 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
         let share = 100.0 * part.share;
         writeln!(
             out,
-            "  undecided: {parts} ({share:.1e} % of the parameter space): {}",
+            "  undecided: {parts} ({share:.1e} % of {}): {}",
+            match result.method {
+                Method::Coordinates => "the space of coordinates",
+                _ => "the parameter space",
+            },
             why(part.why)
         )?;
     }
@@ -136,6 +181,11 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             }
             writeln!(out)?;
         }
+        write_objects(out, problem, Mode::Certified, &solution.objects)?;
+    }
+    let listed = result.solutions.len();
+    if result.count.is_none_or(|count| count > listed as u64) {
+        writeln!(out, "\nThe first {listed} are listed.")?;
     }
     if !result.solutions.is_empty() {
         writeln!(
@@ -143,29 +193,67 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
         )?;
     }
-    writeln!(out, "\ndriving parameters  {}", result.driving)?;
+    for part in &result.parts {
+        let names: Vec<&str> = part
+            .problem
+            .points
+            .iter()
+            .map(|p| p.name.as_str())
+            .collect();
+        writeln!(
+            out,
+            "\nPart {}: {}",
+            names.join(", "),
+            verdict(&part.result)
+        )?;
+    }
+    writeln!(out)?;
+    match result.method {
+        Method::Coordinates => writeln!(out, "unknowns            {}", result.driving)?,
+        _ => writeln!(out, "driving parameters  {}", result.driving)?,
+    }
     writeln!(out, "boxes               {}", result.boxes)?;
     writeln!(out, "seconds             {:.4}", result.seconds)
 }
 
 /// What was found, in words that claim no more than was proved.
 fn verdict(result: &Complete) -> String {
-    let count = counted(result.solutions.len(), "solution");
+    let count = match result.count {
+        Some(count) => counted(count as usize, "solution"),
+        None => "more than 2^64 solutions".to_owned(),
+    };
+    let (up_to, different) = match result.symmetry {
+        Symmetry::Isometries => (
+            " up to rigid motions and reflections",
+            "no two are congruent, even up to reflection",
+        ),
+        Symmetry::Motions => (" up to rigid motions", "no two are the same figure moved"),
+        Symmetry::Identity => (
+            " in the coordinates of the file",
+            "no two are the same figure",
+        ),
+    };
+    let space = match result.method {
+        Method::Plan => "the parameter space",
+        Method::Coordinates => "the space of coordinates",
+        Method::Blocks => "the parts' parameter spaces",
+    };
     match result.status {
-        Status::Complete if result.solutions.is_empty() => format!(
+        Status::Complete if result.count == Some(0) => format!(
             "Complete, proved: there is no solution; {}.",
             result.reason.as_deref().unwrap_or("nothing is undecided")
         ),
-        Status::Complete => format!(
-            "Complete, proved: {count} up to rigid motions and reflections, and there is no other. Each box \
-             holds exactly one; no two are congruent, even up to reflection."
-        ),
+        Status::Complete => {
+            format!(
+                "Complete, proved: {count}{up_to}, and there is no other. Each box holds exactly one; {different}."
+            )
+        }
         Status::Partial | Status::Flexible => {
             let what = match result.status {
                 Status::Flexible => {
-                    "Flexible: a curve of solutions is seen, in floating point, in parts that stay undecided"
+                    "Flexible: a curve of solutions is seen, in floating point, in parts that stay undecided".to_owned()
                 }
-                _ => "Partial: some parts of the parameter space stay undecided",
+                _ => format!("Partial: some parts of {space} stay undecided"),
             };
             let why = result
                 .reason
@@ -173,11 +261,26 @@ fn verdict(result: &Complete) -> String {
                 .map(|r| format!(" ({r})"))
                 .unwrap_or_default();
             format!(
-                "{what}{why}. {count} proved, each box holding exactly one, no two congruent; there may be \
-                 more, in the undecided parts only."
+                "{what}{why}. {count} proved, each box holding exactly one, {}; there may be more, in the undecided \
+                 parts only.",
+                different.replace(" are", "")
             )
         }
     }
+}
+
+/// How many of all figures a path has: "these are 8 of 18".
+pub fn among_in_words(among: Among) -> String {
+    let Among { found, all } = among;
+    let these = match found {
+        _ if found as u64 == all => "There is no other, on any path".to_owned(),
+        0 => format!("On other paths: {all}, and no more"),
+        1 => format!("This is 1 of {all}: the others are on other paths"),
+        _ => format!("These are {found} of {all}: the others are on other paths"),
+    };
+    format!(
+        "\n{these}; proved by a search up to rigid motions and reflections (`krawl all` lists them).\n"
+    )
 }
 
 /// What a checked cover proves.

@@ -4,6 +4,7 @@ use super::drawing::{Drawing, names};
 use super::marks::Marks;
 use super::objects::Objects;
 use super::table::verdict;
+use crate::complete::Among;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Problem};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
@@ -39,11 +40,28 @@ impl Run<'_> {
             .expect("strings, numbers and lists have a form in JSON")
     }
 
+    /// The same, with how many of all figures the path has, where that is known.
+    pub fn to_json_among(&self, among: Option<Among>) -> String {
+        let whole = WithAll {
+            document: Document::new(self),
+            of_all: among.map(|among| among.all),
+        };
+        serde_json::to_string(&whole).expect("strings, numbers and lists have a form in JSON")
+    }
+
     /// The results as a value in memory, with the keys of [`Run::to_json`].
     pub fn to_value(&self) -> serde_json::Value {
         serde_json::to_value(Document::new(self))
             .expect("strings, numbers and lists have a form in JSON")
     }
+}
+
+#[derive(Serialize)]
+struct WithAll<'a> {
+    #[serde(flatten)]
+    document: Document<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of_all: Option<u64>,
 }
 
 #[derive(Serialize)]

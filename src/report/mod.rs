@@ -27,7 +27,9 @@ pub use blocks::BlockRuns;
 #[cfg(feature = "cli")]
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
-pub use complete::{complete_to_json, complete_to_table, complete_to_value, cover_theorem};
+pub use complete::{
+    among_in_words, complete_to_json, complete_to_table, complete_to_value, cover_theorem,
+};
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
 pub use digits::certain_digits;
 pub use edit::{

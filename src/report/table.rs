@@ -372,7 +372,7 @@ fn write_solution(
 }
 
 /// Objects that are not told by their points: a line for each.
-fn write_objects(
+pub(super) fn write_objects(
     out: &mut String,
     problem: &Problem,
     mode: Mode,

@@ -103,7 +103,7 @@ pub struct Figures {
 
 /// A line or plane with a direction of its own that is to stay where it is: the equations hold all components of the
 /// direction but one, of which they know the square, and a block by itself would have both of its signs.
-fn fixed_direction(problem: &Problem) -> Option<&str> {
+pub(crate) fn fixed_direction(problem: &Problem) -> Option<&str> {
     let fixed = problem.constraints.iter().filter(|c| c.kind == "fixed");
     let objects = fixed.filter_map(|c| match c.items.first() {
         Some(&Item::Object(o)) => Some(&problem.objects[o]),

@@ -25,12 +25,19 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     };
     (page.badge, page.tone) = (badge.into(), tone);
     page.verdict = text(result, "verdict")?.to_owned();
-    page.text = vec![Text::Paragraph(
-        "All figures with these dimensions were searched, wherever the sketch is: the parameters of a \
-         construction plan were divided into boxes, and in each box that is not listed here it is proved that \
-         there is no solution. Figures that can be moved or mirrored into one another are listed once."
-            .into(),
-    )];
+    let searched = match result["method"].as_str() {
+        Some("coordinates") => {
+            "All figures with these dimensions were searched, on every path and on none: the coordinates of the points, and \
+             what else the constraints need, were divided into boxes, and in each box that is not listed here it is proved \
+             that there is no solution. Figures that the constraints do not tell apart are listed once."
+        }
+        _ => {
+            "All figures with these dimensions were searched, wherever the sketch is: the parameters of a \
+             construction plan were divided into boxes, and in each box that is not listed here it is proved that \
+             there is no solution. Figures that can be moved or mirrored into one another are listed once."
+        }
+    };
+    page.text = vec![Text::Paragraph(searched.into())];
     page.rows = vec![
         ("driving parameters".into(), result["driving"].to_string()),
         ("boxes".into(), result["boxes"].to_string()),

@@ -1,0 +1,252 @@
+//! Bounds of a block's unknowns where the equations one by one have none.
+//!
+//! Circles that touch each other are cones in their centres and radii, and go on for ever; the differences of two such equations are
+//! planes. So whole multiples of equations are added until their products of unknowns cancel, exactly. Where as many linear equations
+//! come of it as there are unknowns, or one fewer, all unknowns are linear in one of them (none), by elimination in intervals; and one
+//! of the equations is then a t² + b t + c = 0 in that unknown t, whence |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|) if a is not 0.
+
+use super::newton::{KNOWN, Square};
+use super::system::{Form, Row};
+use crate::interval::{Interval, ZERO, checked, point};
+use std::collections::BTreeMap;
+
+/// `Σ q_ij x_i x_j + Σ b_i x_i + c = 0`, the q_ij being quarters.
+#[derive(Debug, Clone)]
+struct Expanded {
+    /// Four times q_ij with i ≤ j, not zero.
+    quadratic: BTreeMap<(usize, usize), i64>,
+    linear: Vec<Interval>,
+    constant: Interval,
+}
+
+/// Factors of equations beyond this are not looked at.
+const LARGEST: i64 = 1 << 40;
+
+impl Expanded {
+    /// A row in a block's unknowns, all other entries being known.
+    fn new(row: &Row, square: &Square, x: &[Interval]) -> Option<Self> {
+        let n = square.own.len();
+        let mut out = Expanded {
+            quadratic: BTreeMap::new(),
+            linear: vec![ZERO; n],
+            constant: -row.right,
+        };
+        let side = |form: Form| -> (Vec<(usize, i64)>, Interval) {
+            let mut unknowns = Vec::new();
+            let mut constant = match form {
+                Form::One => point(1.0),
+                Form::Difference(..) => ZERO,
+            };
+            for (entry, sign) in form.entries() {
+                match square.place[entry] {
+                    KNOWN => constant += point(sign) * x[entry],
+                    k => unknowns.push((k, sign as i64)),
+                }
+            }
+            (unknowns, constant)
+        };
+        for p in &row.products {
+            let quarters = 4.0 * p.factor;
+            if quarters != quarters.round() || quarters.abs() > 1e6 {
+                return None;
+            }
+            let (left, right) = (side(p.left), side(p.right));
+            for &(i, f) in &left.0 {
+                for &(j, g) in &right.0 {
+                    *out.quadratic.entry((i.min(j), i.max(j))).or_default() +=
+                        quarters as i64 * f * g;
+                }
+            }
+            for (one, other) in [(&left, &right), (&right, &left)] {
+                for &(i, f) in &one.0 {
+                    out.linear[i] += point(p.factor * f as f64) * other.1;
+                }
+            }
+            out.constant += point(p.factor) * left.1 * right.1;
+        }
+        out.quadratic.retain(|_, q| *q != 0);
+        Some(out)
+    }
+
+    /// `by` times this less `times` times another.
+    fn less(&self, by: i64, other: &Self, times: i64) -> Option<Self> {
+        let mut quadratic = BTreeMap::new();
+        for (&key, &q) in &self.quadratic {
+            *quadratic.entry(key).or_insert(0i64) += by.checked_mul(q)?;
+        }
+        for (&key, &q) in &other.quadratic {
+            let all = quadratic.entry(key).or_insert(0i64);
+            *all = all.checked_sub(times.checked_mul(q)?)?;
+        }
+        quadratic.retain(|_, q| *q != 0);
+        if quadratic.values().any(|q| q.abs() > LARGEST) || by.abs().max(times.abs()) > LARGEST {
+            return None;
+        }
+        let (by, times) = (point(by as f64), point(times as f64));
+        let pairs = self.linear.iter().zip(&other.linear);
+        Some(Expanded {
+            quadratic,
+            linear: pairs.map(|(a, b)| by * *a - times * *b).collect(),
+            constant: by * self.constant - times * other.constant,
+        })
+    }
+}
+
+/// Ranges of the unknowns of a block, in order, that hold all of its zeros. `None`: no better ones than before.
+pub fn bounds(square: &Square, x: &[Interval]) -> Option<Vec<Interval>> {
+    let rows: Option<Vec<Expanded>> = square
+        .rows
+        .iter()
+        .map(|row| Expanded::new(row, square, x))
+        .collect();
+    let rows = rows?;
+    let n = square.own.len();
+    let mut linear: Vec<Expanded> = Vec::new();
+    let mut curved: Vec<Expanded> = Vec::new();
+    for mut row in rows.iter().cloned() {
+        for pivot in &curved {
+            let Some((&key, &p)) = pivot.quadratic.first_key_value() else {
+                continue;
+            };
+            if let Some(&q) = row.quadratic.get(&key) {
+                row = row.less(p, pivot, q)?;
+            }
+        }
+        match row.quadratic.is_empty() {
+            true => linear.push(row),
+            false => curved.push(row),
+        }
+    }
+    if linear.len() + 1 < n {
+        return None;
+    }
+    linear.truncate(n);
+    // Per unknown that was eliminated its line: x = α + β t.
+    let mut pivots: Vec<usize> = Vec::new();
+    for k in 0..linear.len() {
+        let left = (0..n).filter(|c| !pivots.contains(c));
+        let best = left.max_by(|&a, &b| {
+            let size = |c: usize| linear[k].linear[c].mig();
+            size(a).total_cmp(&size(b))
+        })?;
+        let pivot = linear[k].clone();
+        if !(pivot.linear[best].mig() > 0.0) {
+            return None;
+        }
+        for (j, row) in linear.iter_mut().enumerate() {
+            if j == k {
+                continue;
+            }
+            let factor = row.linear[best] / pivot.linear[best];
+            for c in 0..n {
+                row.linear[c] -= factor * pivot.linear[c];
+            }
+            row.linear[best] = ZERO;
+            row.constant -= factor * pivot.constant;
+        }
+        pivots.push(best);
+    }
+    let free = (0..n).find(|c| !pivots.contains(c));
+    let line = |i: usize| -> (Interval, Interval) {
+        let Some(k) = pivots.iter().position(|&p| p == i) else {
+            return (ZERO, point(1.0));
+        };
+        let by = linear[k].linear[i];
+        let slope = free.map_or(ZERO, |t| -(linear[k].linear[t] / by));
+        (-(linear[k].constant / by), slope)
+    };
+    let lines: Vec<(Interval, Interval)> = (0..n).map(line).collect();
+    let range = match free {
+        None => ZERO,
+        Some(_) => {
+            let ranges = rows.iter().filter_map(|row| root_range(row, &lines));
+            ranges.min_by(|a, b| a.mag().total_cmp(&b.mag()))?
+        }
+    };
+    Some(
+        lines
+            .iter()
+            .map(|(alpha, beta)| *alpha + *beta * range)
+            .collect(),
+    )
+}
+
+/// Where t may be, if a row with all unknowns linear in t is quadratic in it.
+fn root_range(row: &Expanded, lines: &[(Interval, Interval)]) -> Option<Interval> {
+    let (mut a, mut b, mut c) = (ZERO, ZERO, row.constant);
+    for (&(i, j), &q) in &row.quadratic {
+        let q = point(0.25 * q as f64);
+        let ((alpha, beta), (gamma, delta)) = (lines[i], lines[j]);
+        if i == j {
+            a += q * beta.sqr();
+            c += q * alpha.sqr();
+        } else {
+            a += q * beta * delta;
+            c += q * alpha * gamma;
+        }
+        b += q * (alpha * delta + beta * gamma);
+    }
+    for (l, (alpha, beta)) in row.linear.iter().zip(lines) {
+        b += *l * *beta;
+        c += *l * *alpha;
+    }
+    let is_bounded = [a, b, c].iter().all(|x| x.is_common_interval());
+    if !(is_bounded && a.mig() > 0.0) {
+        return None;
+    }
+    let (b, ac) = (point(b.mag()), point(a.mag()) * point(c.mag()));
+    let most = (b + (b.sqr() + point(4.0) * ac).sqrt()) / (point(2.0) * point(a.mig()));
+    let most = most.sup();
+    most.is_finite().then(|| checked(-most, most))?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::contract::entire;
+    use super::super::system::Product;
+    use super::*;
+
+    /// (x − p)² + (y − q)² = (r + s)².
+    fn cone([p, q, s]: [f64; 3], known: usize, x: &mut Vec<Interval>) -> Row {
+        // The unknowns are 0, 1 and 2, `zero` is 3; known numbers follow.
+        let at = x.len();
+        x.extend([point(p), point(q), point(-s)]);
+        let square = |factor, a, b| Product {
+            factor,
+            left: Form::Difference(a, b),
+            right: Form::Difference(a, b),
+        };
+        let products = vec![
+            square(1.0, 0, at),
+            square(1.0, 1, at + 1),
+            square(-1.0, 2, at + 2),
+        ];
+        Row::new(products, ZERO, known)
+    }
+
+    #[test]
+    fn a_circle_that_touches_three_others_is_not_far() {
+        let mut x = vec![entire(), entire(), entire(), ZERO];
+        let rows = [[0.0, 0.0, 1.0], [7.0, 0.0, 1.5], [2.0, 6.0, -2.0]];
+        let rows = rows.map(|circle| cone(circle, 3, &mut x));
+        let mut place = vec![KNOWN; x.len()];
+        (0..3).for_each(|k| place[k] = k);
+        let square = Square {
+            rows: rows.iter().collect(),
+            own: vec![0, 1, 2],
+            place,
+        };
+        let found = bounds(&square, &x).unwrap();
+        assert!(found.iter().all(|x| x.mag() < 1000.0), "{found:?}");
+        // Newton's method from somewhere comes to a circle, which has to be within.
+        let start: Vec<Interval> = x.iter().map(|x| point(x.mid().clamp(-9.0, 9.0))).collect();
+        let mut at = start;
+        at[0] = point(3.0);
+        at[1] = point(2.0);
+        at[2] = point(4.0);
+        let zero = square.prove(&at).unwrap();
+        for (k, range) in found.iter().enumerate() {
+            assert!(!range.disjoint(zero.range(k)), "{range:?} {zero:?}");
+        }
+    }
+}

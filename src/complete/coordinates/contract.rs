@@ -1,0 +1,245 @@
+//! Contraction of a box by one equation after the other.
+//!
+//! Every step keeps all zeros of the box: from `factor · L · R + rest = right` follows that L · R is in
+//! (right − rest) / factor; from that, where L = R, that |L| is in the root of it, and otherwise that L is in it
+//! divided by R; and from L = a − b that a is in L + b and b in a − L. All are evaluated in intervals, so that they hold
+//! for every zero in the box and every value that the numbers of blocks before may have.
+
+use super::system::{Form, Row, product};
+use crate::interval::{Interval, ZERO, checked, point};
+
+/// A box in which nothing is left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Empty;
+
+/// An unknown counts as changed where its range became narrower by this part of it.
+const ENOUGH: f64 = 0.05;
+/// How often the rows are gone through.
+const ROUNDS: usize = 12;
+
+/// All numbers.
+pub fn entire() -> Interval {
+    checked(f64::NEG_INFINITY, f64::INFINITY).expect("an interval")
+}
+
+/// All numbers that are not negative.
+pub fn upper_half() -> Interval {
+    checked(0.0, f64::INFINITY).expect("an interval")
+}
+
+/// Contracts the entries that are free by all rows, again and again while that helps.
+pub fn contract(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<(), Empty> {
+    let mut is_dirty = vec![true; x.len()];
+    for _ in 0..ROUNDS {
+        let mut changed = vec![false; x.len()];
+        let mut any = false;
+        for row in rows {
+            if !row.entries.iter().any(|&e| is_dirty[e] || changed[e]) {
+                continue;
+            }
+            revise(row, is_free, x, |entry| {
+                changed[entry] = true;
+                any = true;
+            })?;
+        }
+        if !any {
+            break;
+        }
+        is_dirty = changed;
+    }
+    Ok(())
+}
+
+/// Contracts by one row.
+fn revise(
+    row: &Row,
+    is_free: &[bool],
+    x: &mut [Interval],
+    mut tell: impl FnMut(usize),
+) -> Result<(), Empty> {
+    let count = row.products.len();
+    let values: Vec<Interval> = row
+        .products
+        .iter()
+        .map(|p| point(p.factor) * product(p, x))
+        .collect();
+    // The sums of all products behind each.
+    let mut behind = vec![ZERO; count + 1];
+    for k in (0..count).rev() {
+        behind[k] = behind[k + 1] + values[k];
+    }
+    if behind[0].disjoint(row.right) {
+        return Err(Empty);
+    }
+    let mut before = ZERO;
+    for (k, p) in row.products.iter().enumerate() {
+        let rest = before + behind[k + 1];
+        before += values[k];
+        if rest.is_entire() {
+            continue;
+        }
+        let wanted = (row.right - rest) / point(p.factor);
+        if wanted.is_entire() {
+            continue;
+        }
+        if p.left == p.right {
+            let square = wanted.intersection(upper_half());
+            if square.is_empty() {
+                return Err(Empty);
+            }
+            let root = square.sqrt();
+            let (least, most) = (root.inf(), root.sup());
+            let within = checked(-most, most).unwrap_or_else(entire);
+            narrow(p.left, within, least, is_free, x, &mut tell)?;
+            continue;
+        }
+        for (this, other) in [(p.left, p.right), (p.right, p.left)] {
+            if this == Form::One {
+                continue;
+            }
+            let by = other.value(x);
+            if by.contains(0.0) {
+                if wanted.contains(0.0) {
+                    continue;
+                }
+                // |L| is at least the least of |L R| over the greatest |R|.
+                if by == ZERO {
+                    return Err(Empty);
+                }
+                let least = point(wanted.mig()) / magnitude(by);
+                narrow(this, entire(), least.inf(), is_free, x, &mut tell)?;
+            } else {
+                narrow(this, wanted / by, 0.0, is_free, x, &mut tell)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The greatest absolute value, as an interval that may be unbounded.
+fn magnitude(x: Interval) -> Interval {
+    match x.mag() {
+        size if size.is_finite() => point(size),
+        _ => checked(f64::MAX, f64::INFINITY).expect("an interval"),
+    }
+}
+
+/// Takes away of a range what is nearer to 0 than `least`, where one side of it is left.
+fn outside(x: Interval, least: f64) -> Interval {
+    // A bound that is no number says nothing.
+    if !(least > 0.0) {
+        return x;
+    }
+    let side = |lo, hi| checked(lo, hi).map_or(x, |side| x.intersection(side));
+    if x.inf() > -least {
+        side(least, f64::INFINITY)
+    } else if x.sup() < least {
+        side(f64::NEG_INFINITY, -least)
+    } else {
+        x
+    }
+}
+
+/// Contracts the entries of a form that is within a range and no nearer to 0 than `least`.
+fn narrow(
+    form: Form,
+    within: Interval,
+    least: f64,
+    is_free: &[bool],
+    x: &mut [Interval],
+    tell: &mut impl FnMut(usize),
+) -> Result<(), Empty> {
+    let Form::Difference(a, b) = form else {
+        return Ok(());
+    };
+    let value = outside(form.value(x).intersection(within), least);
+    if value.is_empty() {
+        return Err(Empty);
+    }
+    if a == b {
+        return Ok(());
+    }
+    for (entry, to) in [(a, value + x[b]), (b, x[a] - value)] {
+        if !is_free[entry] {
+            continue;
+        }
+        let old = x[entry];
+        let new = old.intersection(to);
+        if new.is_empty() {
+            return Err(Empty);
+        }
+        if new == old {
+            continue;
+        }
+        x[entry] = new;
+        let is_told = match (old.wid().is_finite(), new.wid().is_finite()) {
+            (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
+            (false, finite) => {
+                // Of an unbounded range a bound that is new, or one that moved well.
+                let moved = |old: f64, new: f64| {
+                    new != old && !(old.is_finite() && (new - old).abs() < 0.5 * old.abs())
+                };
+                finite || moved(old.inf(), new.inf()) || moved(old.sup(), new.sup())
+            }
+        };
+        if is_told {
+            tell(entry);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::system::Product;
+    use super::*;
+    use crate::interval::hull;
+
+    fn square(a: usize, b: usize) -> Product {
+        let form = Form::Difference(a, b);
+        Product {
+            factor: 1.0,
+            left: form,
+            right: form,
+        }
+    }
+
+    #[test]
+    fn a_circle_bounds_what_was_unbounded() {
+        // x² + y² = 4, entry 2 being 0.
+        let row = Row::new(vec![square(0, 2), square(1, 2)], point(4.0), 2);
+        let mut x = vec![entire(), upper_half(), ZERO];
+        contract(&[&row], &[true, true, false], &mut x).unwrap();
+        assert_eq!(x, [hull(-2.0, 2.0), hull(0.0, 2.0), ZERO]);
+        // Where x is at least 1.5, y is at most √1.75, and the other way round nothing is lost.
+        x[0] = hull(1.5, 2.0);
+        contract(&[&row], &[true, true, false], &mut x).unwrap();
+        assert!(x[1].contains(1.75f64.sqrt()) && x[1].sup() < 1.33);
+        x[1] = hull(1.4, 1.5);
+        assert_eq!(contract(&[&row], &[true, true, false], &mut x), Err(Empty));
+    }
+
+    #[test]
+    fn a_product_that_is_not_zero_keeps_its_factors_from_zero() {
+        // x y = 6 with y between −2 and 3 and x above −1: x is at least 2 then.
+        let row = Row::new(
+            vec![Product {
+                factor: 2.0,
+                left: Form::Difference(0, 2),
+                right: Form::Difference(1, 2),
+            }],
+            point(12.0),
+            2,
+        );
+        let mut x = vec![hull(-1.0, 9.0), hull(-2.0, 3.0), ZERO];
+        contract(&[&row], &[true, true, false], &mut x).unwrap();
+        assert!(x[0].contains(2.0) && x[0].inf() > 1.999 && x[0].sup() == 9.0);
+        assert!(x[1].contains(6.0 / 9.0) && x[1].inf() > 0.66);
+        // Neither factor may be 0.
+        let mut x = vec![ZERO, entire(), ZERO];
+        assert_eq!(contract(&[&row], &[true, true, false], &mut x), Err(Empty));
+        let mut x = vec![entire(), entire(), ZERO];
+        contract(&[&row], &[true, true, false], &mut x).unwrap();
+        assert!(x[0].is_entire() && x[1].is_entire());
+    }
+}

@@ -1,0 +1,385 @@
+//! All figures of any problem, over all coordinates: for other constraints than distances, and where no plan serves.
+//!
+//! The equations are the kernel's ([`Homotopy`]) with t = 1: as many as unknowns, all quadratic. They are cut into blocks that
+//! need only blocks before ([`crate::blocks::Blocks`]); each block is searched by branch and prune ([`search`]) for
+//! each choice of zeros of those before, whose numbers are known up to small ranges: what is proved holds for all numbers in these. What
+//! comes of all blocks is proved to be a figure in all unknowns at once, by the test that runs along paths use, and told apart
+//! from the others as solutions of a path are.
+//!
+//! # Why nothing is missed
+//!
+//! A figure is what `solve` calls one: a zero of the equations with t = 1 at which lengths and radii are positive and no vector
+//! vanishes that must not. Let X be one. Some image of it under the symmetries of the problem has no negative pivot
+//! ([`symmetry`]); take that for X. Its numbers in the first block are a zero of the block's equations, so they are in a part of the
+//! search that is never given up: in the end in one that is undecided, or they are the zero proved there. In that case the numbers of
+//! the next block are a zero of its equations with the numbers before in their ranges; and so on. Where all blocks have come to zeros,
+//! the box of these holds X and no other zero, and lies where the figure proved is alone: X is that figure.
+
+mod bound;
+mod contract;
+mod newton;
+mod search;
+mod symmetry;
+mod system;
+
+use super::outcome::{Method, too_long};
+use super::pairs::Pairs;
+use super::search::Run as Watched;
+use super::targets::Targets;
+use super::{Complete, Options, Part, Status, Unserved, Why, emptiness};
+use crate::blocks::{Block as Cut, Blocks, fixed_direction};
+use crate::interval::{Interval, ZERO, hull, point};
+use crate::problem::Problem;
+use crate::system::Homotopy;
+use crate::track::certified::{Relation, prove_figure};
+use crate::track::{FigureBox, Solution};
+use contract::{contract, entire, upper_half};
+pub(super) use search::leave;
+use search::{Block, Found, Run, ranges};
+use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+use system::System;
+
+/// Bounds of the distances of all pairs are taken where there are no more points than this.
+const MOST_POINTS: usize = 60;
+/// Figures that are looked at, at most.
+const MOST_FIGURES: usize = 5000;
+/// A bound of a distance beyond this is none.
+const FAR: f64 = 1e30;
+
+/// Searches for all figures of a problem, up to its symmetries.
+pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
+    let begin = Instant::now();
+    if let Some(object) = fixed_direction(problem) {
+        // A path keeps its sign; the equations have both, of which one is no figure.
+        return Err(Unserved::Refused(format!(
+            "not served: `{object}` is fixed and has a direction of its own, of which one component is told by the length \
+             only (name two fixed points of it instead)"
+        )));
+    }
+    let homotopy = Homotopy::new(problem)
+        .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
+    let stop = AtomicBool::new(false);
+    let run = Watched {
+        stop: &stop,
+        boxes: AtomicU64::new(0),
+        most_boxes: options.most_boxes,
+        done: AtomicU64::new(0),
+        before: AtomicU64::new(0),
+        cover: false,
+    };
+    Ok(options.watched(&run, begin, || searched(problem, &homotopy, &run, begin)))
+}
+
+fn searched(problem: &Problem, homotopy: &Homotopy, run: &Watched, begin: Instant) -> Complete {
+    let mut system = System::new(homotopy);
+    let mut reason = None;
+    if !problem.distances.is_empty() && problem.points.len() <= MOST_POINTS {
+        let targets = Targets::new(problem);
+        reason = emptiness::too_long(&targets).map(|(edge, way)| too_long(problem, edge, &way));
+        bound_pairs(&mut system, homotopy, &targets);
+    }
+    let mut result = Complete::empty(problem, String::new(), begin);
+    result.reason = reason.clone();
+    result.method = Method::Coordinates;
+    result.driving = homotopy.equations;
+    result.symmetry = crate::constraint::symmetry(problem);
+    if reason.is_some() {
+        return result;
+    }
+    let m = system.unknowns;
+    let mut x = vec![entire(); m + 1];
+    x[m] = ZERO;
+    let pivots = symmetry::pivots(problem, homotopy, &system);
+    for i in pivots.into_iter().chain(homotopy.positive_unknowns()) {
+        x[i] = upper_half();
+    }
+    let mut is_free = vec![true; m + 1];
+    is_free[m] = false;
+    let rows: Vec<_> = system.rows.iter().collect();
+    let mut figures = Figures::new(homotopy, &system, run);
+    if contract(&rows, &is_free, &mut x).is_ok() {
+        figures.go(0, &mut Vec::new(), &x, 1.0);
+    }
+    let undecided = figures.undecided;
+    result.solutions = solutions(homotopy, &figures.found);
+    result.boxes = run.boxes.load(Ordering::Relaxed);
+    result.status = match undecided.is_empty() {
+        true => Status::Complete,
+        false if undecided.iter().any(|part| part.why == Why::Flexible) => Status::Flexible,
+        false => Status::Partial,
+    };
+    result.undecided = undecided;
+    for part in &mut result.undecided {
+        // A part of a block counts for all that could come of it, beside what did.
+        part.share = part.share.min(1.0);
+    }
+    result.undecided.sort_by_key(|part| part.why);
+    if result.status == Status::Complete && result.solutions.is_empty() {
+        result.reason = Some(
+            "no figure meets the constraints: every part of the space of coordinates is excluded"
+                .to_owned(),
+        );
+    }
+    result.count = Some(result.solutions.len() as u64);
+    result.seconds = begin.elapsed().as_secs_f64();
+    result
+}
+
+/// Adds the bounds of the distances of all pairs that follow from the distances given.
+fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
+    let pairs = Pairs::new(targets);
+    // Both units are powers of two.
+    let scale = targets.unit / homotopy.unit;
+    let scale = scale * scale;
+    let entry = |p: usize, axis: usize| {
+        let unknown = homotopy.coordinate(p, axis);
+        unknown.unwrap_or(system.unknowns)
+    };
+    let mut bounds = Vec::new();
+    for a in 0..targets.points {
+        for b in 0..a {
+            let [least, most] = pairs.squares(a, b).map(|x| x * scale);
+            if targets.edge(a, b).is_none() && most < FAR {
+                let ends = (0..homotopy.dimension).map(|axis| [entry(a, axis), entry(b, axis)]);
+                bounds.push((ends.collect::<Vec<_>>(), hull(least, most)));
+            }
+        }
+    }
+    for (ends, square) in bounds {
+        system.bound(&ends, square);
+    }
+}
+
+/// The figures, block by block.
+struct Figures<'a> {
+    homotopy: &'a Homotopy,
+    system: &'a System,
+    run: &'a Watched<'a>,
+    blocks: Vec<Cut>,
+    /// For each block those that it needs, directly or not.
+    ancestors: Vec<BTreeSet<usize>>,
+    /// What was found of a block, by the zeros of its ancestors.
+    known: HashMap<(usize, Vec<(usize, usize)>), Rc<Found>>,
+    found: Vec<FigureBox>,
+    undecided: Vec<Part>,
+}
+
+impl<'a> Figures<'a> {
+    fn new(homotopy: &'a Homotopy, system: &'a System, run: &'a Watched<'a>) -> Self {
+        let m = system.unknowns;
+        let equations: Vec<Vec<usize>> = system.rows[..m]
+            .iter()
+            .map(|row| row.entries.clone())
+            .collect();
+        let blocks = match Blocks::new(&equations, m) {
+            Some(blocks) => blocks.blocks,
+            // Singular whatever the numbers are: one block, of which nothing will be proved.
+            None => vec![Cut {
+                equations: (0..m).collect(),
+                unknowns: (0..m).collect(),
+                needs: Vec::new(),
+            }],
+        };
+        let mut ancestors: Vec<BTreeSet<usize>> = Vec::new();
+        for block in &blocks {
+            let mut all: BTreeSet<usize> = block.needs.iter().copied().collect();
+            for &need in &block.needs {
+                all.extend(&ancestors[need]);
+            }
+            ancestors.push(all);
+        }
+        Figures {
+            homotopy,
+            system,
+            run,
+            blocks,
+            ancestors,
+            known: HashMap::new(),
+            found: Vec::new(),
+            undecided: Vec::new(),
+        }
+    }
+
+    /// All figures of the blocks from this one on, with those before where they are. `share`: of what is searched.
+    fn go(&mut self, b: usize, chosen: &mut Vec<(usize, usize)>, x: &[Interval], share: f64) {
+        if self.found.len() >= MOST_FIGURES {
+            leave(&mut self.undecided, Why::Unfinished, 1, share);
+            return;
+        }
+        let Some(block) = self.blocks.get(b) else {
+            self.finish(x, share);
+            return;
+        };
+        let own = block.unknowns.clone();
+        let found = self.solve(b, chosen, x);
+        for part in &found.undecided {
+            leave(
+                &mut self.undecided,
+                part.why,
+                part.count,
+                share * part.share,
+            );
+        }
+        let each = share / found.zeros.len().max(1) as f64;
+        for (k, zero) in found.zeros.iter().enumerate() {
+            let mut x = x.to_vec();
+            for (&u, range) in own.iter().zip(ranges(zero)) {
+                x[u] = range;
+            }
+            chosen.push((b, k));
+            self.go(b + 1, chosen, &x, each);
+            chosen.pop();
+        }
+    }
+
+    /// The zeros of a block with those before chosen.
+    fn solve(&mut self, b: usize, chosen: &[(usize, usize)], x: &[Interval]) -> Rc<Found> {
+        let before = chosen.iter().copied();
+        let before = before.filter(|(c, _)| self.ancestors[b].contains(c));
+        let key = (b, before.collect());
+        if let Some(found) = self.known.get(&key) {
+            return Rc::clone(found);
+        }
+        let block = &self.blocks[b];
+        let mut is_known = vec![false; x.len()];
+        for &a in &self.ancestors[b] {
+            self.blocks[a]
+                .unknowns
+                .iter()
+                .for_each(|&u| is_known[u] = true);
+        }
+        let run = Run {
+            stop: self.run.stop,
+            boxes: &self.run.boxes,
+            most_boxes: self.run.most_boxes,
+        };
+        let searched = Block::new(self.system, &block.equations, &block.unknowns, |u| {
+            is_known[u] || u == self.system.unknowns
+        });
+        let found = Rc::new(searched.search(x.to_vec(), &run));
+        self.known.insert(key, Rc::clone(&found));
+        found
+    }
+
+    /// The box of one zero of all equations: what figure it is.
+    fn finish(&mut self, x: &[Interval], share: f64) {
+        let m = self.system.unknowns;
+        let near: Vec<f64> = x[..m].iter().map(|x| x.mid()).collect();
+        let Ok(figure) = prove_figure(self.homotopy, &near, false) else {
+            leave(&mut self.undecided, Why::Small, 1, share);
+            return;
+        };
+        let is_it = (0..m).all(|i| {
+            let middle = point(figure.figure.centre[i]) + point(figure.figure.low[i]);
+            (x[i] - middle).mag() < figure.alone_within
+        });
+        if !is_it {
+            leave(&mut self.undecided, Why::Small, 1, share);
+            return;
+        }
+        match self.is_proper(&figure) {
+            Some(true) => {}
+            Some(false) => return,
+            None => {
+                leave(&mut self.undecided, Why::Vanishing, 1, share);
+                return;
+            }
+        }
+        for known in &self.found {
+            match figure.relation(known, self.homotopy) {
+                Relation::Different => {}
+                Relation::Congruent => return,
+                Relation::Unknown => {
+                    leave(&mut self.undecided, Why::Apart, 1, share);
+                    return;
+                }
+            }
+        }
+        self.found.push(figure);
+    }
+
+    /// The unknowns of a figure, and the number 0, if numbers of few digits in its box meet all equations exactly, without any
+    /// rounding: then the figure, of which the box has one, is they.
+    fn exact(&self, figure: &FigureBox) -> Option<Vec<f64>> {
+        const PARTS: f64 = (1u64 << 20) as f64;
+        let m = self.system.unknowns;
+        let mut near: Vec<f64> = Vec::with_capacity(m + 1);
+        for i in 0..m {
+            let x = (figure.figure.centre[i] * PARTS).round() / PARTS;
+            near.push(entry(figure, i).contains(x).then_some(x)?);
+        }
+        near.push(0.0);
+        let at: Vec<Interval> = near.iter().map(|&x| point(x)).collect();
+        let mut rows = self.system.rows[..m].iter();
+        rows.all(|row| row.value(&at) == ZERO).then_some(near)
+    }
+
+    /// Whether lengths and radii are positive and no vector vanishes that must not, if that is certain.
+    fn is_proper(&self, figure: &FigureBox) -> Option<bool> {
+        let at = |i: usize| match i < self.system.unknowns {
+            true => entry(figure, i),
+            false => ZERO,
+        };
+        let mut is_certain = true;
+        for i in self.homotopy.positive_unknowns() {
+            if at(i).sup() <= 0.0 {
+                return Some(false);
+            }
+            is_certain &= at(i).inf() > 0.0;
+        }
+        if let Some(exact) = self.exact(figure) {
+            // All is known exactly.
+            let at = |i: usize| exact[i];
+            let positive = self.homotopy.positive_unknowns();
+            let vectors = self.homotopy.nonzero_vectors();
+            let is_there = |vector: &Vec<[usize; 2]>| {
+                let end = |i: usize| i.min(self.system.unknowns);
+                vector.iter().any(|&[i, j]| at(end(i)) != at(end(j)))
+            };
+            return Some(positive.iter().all(|&i| at(i) > 0.0) && vectors.iter().all(is_there));
+        }
+        for vector in self.homotopy.nonzero_vectors() {
+            let coordinates = || {
+                vector.iter().map(|&[i, j]| match i == j {
+                    true => ZERO,
+                    false => at(i) - at(j),
+                })
+            };
+            if coordinates().all(|x| x == ZERO) {
+                return Some(false);
+            }
+            is_certain &= coordinates().any(|x| !x.contains(0.0));
+        }
+        is_certain.then_some(true)
+    }
+}
+
+/// An unknown of a figure.
+fn entry(of: &FigureBox, i: usize) -> Interval {
+    let figure = &of.figure;
+    let around = hull(-figure.radius[i], figure.radius[i]);
+    point(figure.centre[i]) + point(figure.low[i]) + around
+}
+
+fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
+    let figures = found.iter().enumerate();
+    let figures = figures.map(|(class, figure)| {
+        let points = figure.points(homotopy);
+        let all = || points.iter().flatten();
+        let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
+        let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size.max(f64::MIN_POSITIVE);
+        Solution {
+            objects: homotopy.locate(&points, |i| entry(figure, i)),
+            points,
+            class,
+            width,
+            place: None,
+            mirror_of: None,
+            is_degenerate: false,
+        }
+    });
+    figures.collect()
+}

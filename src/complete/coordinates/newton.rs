@@ -1,0 +1,323 @@
+//! The equations of a block together: what their linear combinations leave of a box, and Krawczyk's test.
+
+use super::contract::Empty;
+use super::system::Row;
+use crate::complete::krawczyk::invert;
+use crate::interval::rounding::{largest, round_up};
+use crate::interval::{Interval, ZERO, hull, point};
+
+/// A block: as many equations as unknowns, all other entries being known.
+#[derive(Debug)]
+pub struct Square<'a> {
+    /// The equations.
+    pub rows: Vec<&'a Row>,
+    /// The unknowns, entries of the system.
+    pub own: Vec<usize>,
+    /// For each entry its place among the unknowns, or [`KNOWN`].
+    pub place: Vec<usize>,
+}
+
+/// An entry that is no unknown of the block.
+pub const KNOWN: usize = usize::MAX;
+
+/// A zero of a block.
+#[derive(Debug, Clone)]
+pub struct Zero {
+    /// The middle of its box, unknown by unknown.
+    pub centre: Vec<f64>,
+    /// How far the exact zero may be from it in each unknown.
+    pub radius: f64,
+    /// No other zero is within this of the middle in every unknown.
+    pub alone: f64,
+}
+
+/// What Newton's step says of a box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// ‖I − Y S‖, or infinity where there is no Y.
+    pub defect: f64,
+}
+
+impl Square<'_> {
+    fn size(&self) -> usize {
+        self.own.len()
+    }
+
+    /// The entries of the Jacobian at numbers, row by row.
+    fn jacobian(&self, at: &[f64]) -> Vec<f64> {
+        let n = self.size();
+        let mut out = vec![0.0; n * n];
+        for (e, row) in self.rows.iter().enumerate() {
+            row.slopes(at, |entry, slope| {
+                if self.place[entry] != KNOWN {
+                    out[e * n + self.place[entry]] += slope;
+                }
+            });
+        }
+        out
+    }
+
+    /// The same in intervals.
+    fn derivatives(&self, at: &[Interval]) -> Vec<Interval> {
+        let n = self.size();
+        let mut out = vec![ZERO; n * n];
+        for (e, row) in self.rows.iter().enumerate() {
+            row.derivatives(at, |entry, slope| {
+                if self.place[entry] != KNOWN {
+                    out[e * n + self.place[entry]] += slope;
+                }
+            });
+        }
+        out
+    }
+
+    /// The box with its unknowns replaced.
+    fn with(&self, x: &[Interval], own: impl Fn(usize) -> Interval) -> Vec<Interval> {
+        let mut at = x.to_vec();
+        for (k, &u) in self.own.iter().enumerate() {
+            at[u] = own(k);
+        }
+        at
+    }
+
+    /// The middles of the entries, those of the unknowns replaced.
+    fn floats(&self, x: &[Interval], own: &[f64]) -> Vec<f64> {
+        let mut at: Vec<f64> = x.iter().map(|x| x.mid()).collect();
+        for (&u, &value) in self.own.iter().zip(own) {
+            at[u] = value;
+        }
+        at
+    }
+
+    /// Newton's step in a bounded box: the equations are quadratic, so that F(x) = F(c) + J((x + c)/2)(x − c) exactly, and
+    /// with any matrix Y the sum Y F(x) is 0 at a zero: each of its lines is solved for one unknown.
+    pub fn step(&self, x: &mut [Interval]) -> Result<Step, Empty> {
+        let n = self.size();
+        let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
+        let near = self.floats(x, &middle);
+        let mut y = Vec::new();
+        if !invert(&self.jacobian(&near), n, &mut y) || y.iter().any(|y| !y.is_finite()) {
+            return Ok(Step {
+                defect: f64::INFINITY,
+            });
+        }
+        let at = self.with(x, |k| point(middle[k]));
+        let f: Vec<Interval> = self.rows.iter().map(|row| row.value(&at)).collect();
+        let half = point(0.5);
+        let between = self.with(x, |k| (x[self.own[k]] + point(middle[k])) * half);
+        let slopes = self.derivatives(&between);
+        let mut defect: f64 = 0.0;
+        let mut line = vec![ZERO; n];
+        for i in 0..n {
+            line.fill(ZERO);
+            let mut constant = ZERO;
+            for e in 0..n {
+                let by = y[i * n + e];
+                if by == 0.0 {
+                    continue;
+                }
+                let by = point(by);
+                constant += by * f[e];
+                for (sum, slope) in line.iter_mut().zip(&slopes[e * n..(e + 1) * n]) {
+                    if *slope != ZERO {
+                        *sum += by * *slope;
+                    }
+                }
+            }
+            let off: f64 = (0..n)
+                .map(|j| (point(if i == j { 1.0 } else { 0.0 }) - line[j]).mag())
+                .sum();
+            defect = largest(defect, off);
+            if line[i].contains(0.0) {
+                continue;
+            }
+            let rest = (0..n).filter(|&j| j != i).fold(constant, |sum, j| {
+                sum + line[j] * (x[self.own[j]] - point(middle[j]))
+            });
+            let u = self.own[i];
+            let new = x[u].intersection(point(middle[i]) - rest / line[i]);
+            if new.is_empty() {
+                return Err(Empty);
+            }
+            x[u] = new;
+        }
+        Ok(Step { defect })
+    }
+
+    /// Newton's method from the middle of a box, then Krawczyk's test with the norm max |w_i|, for all values that the known
+    /// entries may have in theirs: with Y ≈ J(c)⁻¹, ‖I − Y J(c + w)‖ ≤ q₀ + κ|w|, F being quadratic; so there is at most one
+    /// zero for |w| < (1 − q₀)/κ, and exactly one, at most ‖Y F(c)‖/(1 − q) away, where that is small enough. `None`: no
+    /// zero was proved.
+    pub fn prove(&self, x: &[Interval]) -> Option<Zero> {
+        let n = self.size();
+        let mut own: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
+        let mut y = Vec::new();
+        let mut last = f64::INFINITY;
+        for _ in 0..30 {
+            let at = self.floats(x, &own);
+            if !invert(&self.jacobian(&at), n, &mut y) || y.iter().any(|y| !y.is_finite()) {
+                return None;
+            }
+            let f: Vec<f64> = self.rows.iter().map(|row| row.nearly(&at)).collect();
+            let mut size: f64 = 0.0;
+            for i in 0..n {
+                let step: f64 = (0..n).map(|e| y[i * n + e] * f[e]).sum();
+                own[i] -= step;
+                size = largest(size, step.abs());
+            }
+            if !size.is_finite() || own.iter().any(|x| !(x.abs() < 1e15)) {
+                return None;
+            }
+            let done = size < 1e-15 || (size >= 0.5 * last && size < 1e-9);
+            last = size;
+            if done {
+                break;
+            }
+        }
+        let at = self.floats(x, &own);
+        if !(last < 1e-6)
+            || !invert(&self.jacobian(&at), n, &mut y)
+            || y.iter().any(|y| !y.is_finite())
+        {
+            return None;
+        }
+        self.test(x, own, &y)
+    }
+
+    fn test(&self, x: &[Interval], own: Vec<f64>, y: &[f64]) -> Option<Zero> {
+        let n = self.size();
+        let at = self.with(x, |k| point(own[k]));
+        let f: Vec<Interval> = self.rows.iter().map(|row| row.value(&at)).collect();
+        let jacobian = self.derivatives(&at);
+        // How much |w| = 1 changes the entries of each row of J, added up.
+        let changes: Vec<f64> = self
+            .rows
+            .iter()
+            .map(|row| {
+                let free = |form: super::system::Form| {
+                    let entries = form.entries();
+                    entries.filter(|(e, _)| self.place[*e] != KNOWN).count() as f64
+                };
+                let products = row.products.iter();
+                let change: f64 = products
+                    .map(|p| 2.0 * p.factor.abs() * free(p.left) * free(p.right))
+                    .sum();
+                round_up(change, row.products.len() + 4)
+            })
+            .collect();
+        let (mut q0, mut kappa, mut step): (f64, f64, f64) = (0.0, 0.0, 0.0);
+        for i in 0..n {
+            let (mut off, mut change, mut moved) = (ZERO, ZERO, ZERO);
+            for e in 0..n {
+                let by = point(y[i * n + e]);
+                change += point(by.mag()) * point(changes[e]);
+                moved += by * f[e];
+            }
+            for j in 0..n {
+                let start = point(if i == j { 1.0 } else { 0.0 });
+                let entry = (0..n).fold(start, |sum, e| {
+                    sum - point(y[i * n + e]) * jacobian[e * n + j]
+                });
+                off += entry.abs();
+            }
+            q0 = largest(q0, off.sup());
+            kappa = largest(kappa, change.sup());
+            step = largest(step, moved.mag());
+        }
+        if !(q0 < 0.5 && kappa < 1e30 && step.is_finite()) {
+            return None;
+        }
+        let alone = match kappa > 0.0 {
+            true => (0.9 * (0.9 - q0) / kappa).min(1e30),
+            false => 1e30,
+        };
+        let q = round_up(q0 + kappa * alone, 4);
+        let radius = round_up(step / (1.0 - q), 8);
+        (q < 1.0 && radius < 0.1 * alone).then_some(Zero {
+            centre: own,
+            radius,
+            alone,
+        })
+    }
+
+    /// Whether a zero is the only one that the box may hold: all of the box lies where it is alone.
+    pub fn is_alone(&self, zero: &Zero, x: &[Interval]) -> bool {
+        let pairs = self.own.iter().zip(&zero.centre);
+        pairs
+            .into_iter()
+            .all(|(&u, &c)| (x[u] - point(c)).mag() < zero.alone)
+    }
+
+    /// A direction in which a curve of zeros goes on from near the middle of a box, as floats see it: Newton's method with a
+    /// pseudoinverse comes to a zero where the Jacobian is singular, and from a place aside in the direction of
+    /// its kernel to another one, much nearer to that place than to the first zero. That is no proof of anything.
+    pub fn seems_flexible(&self, x: &[Interval]) -> bool {
+        let n = self.size();
+        let to_zero = |from: Vec<f64>| -> Option<(Vec<f64>, nalgebra::DMatrix<f64>)> {
+            let mut own = from;
+            for _ in 0..40 {
+                let at = self.floats(x, &own);
+                let jacobian = nalgebra::DMatrix::from_row_slice(n, n, &self.jacobian(&at));
+                let f = nalgebra::DVector::from_iterator(
+                    n,
+                    self.rows.iter().map(|row| row.nearly(&at)),
+                );
+                if !jacobian.iter().chain(f.iter()).all(|x| x.is_finite()) {
+                    return None;
+                }
+                let size = f.amax();
+                let inverse = jacobian.clone().pseudo_inverse(1e-7).ok()?;
+                let step = inverse * f;
+                own.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
+                if size < 1e-14 {
+                    return Some((own, jacobian));
+                }
+            }
+            None
+        };
+        let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
+        if !middle.iter().all(|x| x.abs() < 1e15) {
+            return false;
+        }
+        let Some((zero, jacobian)) = to_zero(middle) else {
+            return false;
+        };
+        let svd = jacobian.svd(false, true);
+        let Some(v) = svd.v_t else { return false };
+        let greatest = svd.singular_values.max();
+        let kernel = (0..n).filter(|&k| svd.singular_values[k] < 1e-7 * greatest);
+        let mut kernel = kernel.collect::<Vec<_>>().into_iter();
+        kernel.any(|k| {
+            const ASIDE: f64 = 1e-2;
+            let aside: Vec<f64> = (0..n).map(|i| zero[i] + ASIDE * v[(k, i)]).collect();
+            let Some((there, _)) = to_zero(aside.clone()) else {
+                return false;
+            };
+            let distance = |a: &[f64], b: &[f64]| {
+                let pairs = a.iter().zip(b);
+                pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+            };
+            distance(&there, &aside) < 0.1 * ASIDE && distance(&there, &zero) > 0.5 * ASIDE
+        })
+    }
+}
+
+impl Zero {
+    /// The range of an unknown.
+    pub fn range(&self, k: usize) -> Interval {
+        let (x, r) = (self.centre[k], self.radius);
+        hull((x - r).next_down(), (x + r).next_up())
+    }
+
+    /// The greatest difference of the middles.
+    fn distance(&self, other: &Zero) -> f64 {
+        let pairs = self.centre.iter().zip(&other.centre);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, largest)
+    }
+
+    /// Whether both are the same zero: the box of one lies where the other is alone.
+    pub fn is_same(&self, other: &Zero) -> bool {
+        let within = |radius: f64, alone: f64| round_up(self.distance(other) + radius, 4) < alone;
+        within(self.radius, other.alone) || within(other.radius, self.alone)
+    }
+}

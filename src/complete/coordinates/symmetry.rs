@@ -1,0 +1,77 @@
+//! Changes of sign that keep the equations: mirror images in the axes of the gauge, and directions reversed.
+//!
+//! They are a group of sums modulo 2. In its reduced echelon form each generator has an unknown, its pivot, whose sign it
+//! alone changes: for any zero the generators of those pivots that are negative lead to a zero at which none is. So all zeros are
+//! found, up to such changes, where no pivot is negative.
+
+use super::system::{Form, System};
+use crate::constraint::{Symmetry, symmetry};
+use crate::interval::ZERO;
+use crate::problem::Problem;
+use crate::system::Homotopy;
+
+/// The unknowns that may be taken as not negative.
+pub fn pivots(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<usize> {
+    let m = system.unknowns;
+    let d = homotopy.dimension;
+    let reversed = |axes: &[usize]| -> Vec<bool> {
+        (0..m)
+            .map(|i| axes.iter().filter(|&&axis| homotopy.flips(i, axis)).count() % 2 == 1)
+            .collect()
+    };
+    let mut generators: Vec<Vec<bool>> = match symmetry(problem) {
+        Symmetry::Identity => Vec::new(),
+        Symmetry::Motions => (1..d).map(|axis| reversed(&[axis - 1, axis])).collect(),
+        Symmetry::Isometries => (0..d).map(|axis| reversed(&[axis])).collect(),
+    };
+    let first = homotopy.gauge.place.len();
+    for twin in &homotopy.tail.twins {
+        generators.push((0..m).map(|i| i >= first && twin[i - first]).collect());
+    }
+    let positive = homotopy.positive_unknowns();
+    generators.retain(|g| keeps(system, g) && positive.iter().all(|&i| !g[i]));
+    let mut pivots: Vec<usize> = Vec::new();
+    for column in 0..m {
+        let rank = pivots.len();
+        let Some(k) = (rank..generators.len()).find(|&k| generators[k][column]) else {
+            continue;
+        };
+        generators.swap(rank, k);
+        let pivot = generators[rank].clone();
+        for (k, row) in generators.iter_mut().enumerate() {
+            if k != rank && row[column] {
+                row.iter_mut().zip(&pivot).for_each(|(x, y)| *x ^= y);
+            }
+        }
+        pivots.push(column);
+    }
+    pivots
+}
+
+/// Whether the equations hold with these signs changed wherever they hold without: every equation stays as it is, or
+/// changes its sign and has zero on the right.
+fn keeps(system: &System, changes: &[bool]) -> bool {
+    let zero = system.unknowns;
+    // Both ends of a difference change together.
+    let sign = |form: Form| match form {
+        Form::One => Some(false),
+        Form::Difference(a, b) if a == zero && b == zero => None,
+        Form::Difference(a, b) if b == zero => Some(changes[a]),
+        Form::Difference(a, b) if a == zero => Some(changes[b]),
+        Form::Difference(a, b) => (changes[a] == changes[b]).then_some(changes[a]),
+    };
+    // Zero whatever the signs are.
+    let vanishes = |form: Form| matches!(form, Form::Difference(a, b) if a == b);
+    system.rows[..system.unknowns].iter().all(|row| {
+        let products = row.products.iter();
+        let mut products = products.filter(|p| !vanishes(p.left) && !vanishes(p.right));
+        let Some(first) = products.next() else {
+            return true;
+        };
+        let both = |p: &super::system::Product| Some(sign(p.left)? ^ sign(p.right)?);
+        let Some(change) = both(first) else {
+            return false;
+        };
+        products.all(|p| both(p) == Some(change)) && (!change || row.right == ZERO)
+    })
+}

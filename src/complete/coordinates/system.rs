@@ -1,0 +1,218 @@
+//! The equations of a problem with its dimensions, as the search over coordinates sees them.
+
+use crate::interval::{Interval, ZERO, point};
+use crate::system::Homotopy;
+
+/// A factor of a product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// The number 1.
+    One,
+    /// The first of two entries minus the second.
+    Difference(usize, usize),
+}
+
+/// `factor · left · right`.
+#[derive(Debug, Clone, Copy)]
+pub struct Product {
+    /// A small whole number, or half of one: exact.
+    pub factor: f64,
+    /// The first factor.
+    pub left: Form,
+    /// The second factor.
+    pub right: Form,
+}
+
+/// `Σ products ∈ right`: an equation, of which `right` encloses the right-hand side, or bounds that follow from the equations.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The left-hand side.
+    pub products: Vec<Product>,
+    /// The right-hand side, or bounds of the left one.
+    pub right: Interval,
+    /// The entries in it, each once.
+    pub entries: Vec<usize>,
+}
+
+/// As many equations as unknowns, and bounds that follow from these.
+///
+/// Entries are numbered: the unknowns first, then the number 0.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// The number of unknowns, and of equations.
+    pub unknowns: usize,
+    /// The equations, in order, then what follows from them.
+    pub rows: Vec<Row>,
+}
+
+impl Form {
+    /// Its value, where entries have these.
+    pub fn value(self, at: &[Interval]) -> Interval {
+        match self {
+            Form::One => point(1.0),
+            // An entry less itself is zero, whatever it is.
+            Form::Difference(a, b) if a == b => ZERO,
+            Form::Difference(a, b) => at[a] - at[b],
+        }
+    }
+
+    /// Its value in floats.
+    pub fn nearly(self, at: &[f64]) -> f64 {
+        match self {
+            Form::One => 1.0,
+            Form::Difference(a, b) => at[a] - at[b],
+        }
+    }
+
+    /// The entries in it, with their signs.
+    pub fn entries(self) -> impl Iterator<Item = (usize, f64)> {
+        let both = match self {
+            Form::One => [None, None],
+            Form::Difference(a, b) => [Some((a, 1.0)), Some((b, -1.0))],
+        };
+        both.into_iter().flatten()
+    }
+}
+
+impl Row {
+    /// A row of some products. `zero`: the entry that is the number 0.
+    pub fn new(products: Vec<Product>, right: Interval, zero: usize) -> Self {
+        let mut entries: Vec<usize> = products
+            .iter()
+            .flat_map(|p| p.left.entries().chain(p.right.entries()))
+            .map(|(entry, _)| entry)
+            .filter(|&entry| entry != zero)
+            .collect();
+        entries.sort_unstable();
+        entries.dedup();
+        Row {
+            products,
+            right,
+            entries,
+        }
+    }
+
+    /// The left-hand side minus the right-hand one.
+    pub fn value(&self, at: &[Interval]) -> Interval {
+        self.products
+            .iter()
+            .fold(-self.right, |sum, p| sum + point(p.factor) * product(p, at))
+    }
+
+    /// The same in floats.
+    pub fn nearly(&self, at: &[f64]) -> f64 {
+        let products = self.products.iter();
+        let sum: f64 = products
+            .map(|p| p.factor * p.left.nearly(at) * p.right.nearly(at))
+            .sum();
+        sum - self.right.mid()
+    }
+
+    /// Its derivatives: told entry by entry, those of one entry to be added.
+    pub fn derivatives(&self, at: &[Interval], mut tell: impl FnMut(usize, Interval)) {
+        for p in &self.products {
+            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
+                let slope = point(p.factor) * other.value(at);
+                for (entry, sign) in this.entries() {
+                    tell(entry, if sign > 0.0 { slope } else { -slope });
+                }
+            }
+        }
+    }
+
+    /// The same in floats.
+    pub fn slopes(&self, at: &[f64], mut tell: impl FnMut(usize, f64)) {
+        for p in &self.products {
+            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
+                let slope = p.factor * other.nearly(at);
+                this.entries()
+                    .for_each(|(entry, sign)| tell(entry, sign * slope));
+            }
+        }
+    }
+}
+
+/// left · right, a square where both are the same.
+pub fn product(p: &Product, at: &[Interval]) -> Interval {
+    let left = p.left.value(at);
+    match p.left == p.right {
+        true => left.sqr(),
+        false => left * p.right.value(at),
+    }
+}
+
+impl System {
+    /// The equations of a homotopy with t = 1.
+    pub fn new(homotopy: &Homotopy) -> Self {
+        let m = homotopy.equations;
+        let form = |ends: Option<[usize; 2]>| match ends {
+            None => Form::One,
+            // The homotopy has the number 0 behind t.
+            Some(ends) => {
+                let [a, b] = ends.map(|end| end.min(m));
+                Form::Difference(a, b)
+            }
+        };
+        let row = |e: usize| {
+            let terms = homotopy.terms(e).into_iter();
+            let products = terms.map(|term| Product {
+                factor: 0.5 * f64::from(term.factor),
+                left: form(term.left),
+                right: form(term.right),
+            });
+            Row::new(products.collect(), homotopy.rights[e].at_target(), m)
+        };
+        let mut system = System {
+            unknowns: m,
+            rows: (0..m).map(row).collect(),
+        };
+        let follow = system.cross_products();
+        system.rows.extend(follow);
+        system
+    }
+
+    /// From v_i = k u_i and v_j = k u_j follows v_i u_j = v_j u_i, which says something where k is not known: vectors that
+    /// are parallel.
+    fn cross_products(&self) -> Vec<Row> {
+        let zero = self.unknowns;
+        let single = |form: Form| match form {
+            Form::Difference(k, z) if z == zero && k != zero => Some(k),
+            _ => None,
+        };
+        // (k, v, u): v − k u = 0.
+        let parallel = |row: &Row| -> Option<(usize, Form, Form)> {
+            let [one, other] = row.products.as_slice() else {
+                return None;
+            };
+            if row.right != ZERO || one.right != Form::One || other.factor != -one.factor {
+                return None;
+            }
+            Some((single(other.left)?, one.left, other.right))
+        };
+        let found: Vec<_> = self.rows.iter().filter_map(parallel).collect();
+        let mut out = Vec::new();
+        for (i, &(k, v, u)) in found.iter().enumerate() {
+            for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {
+                let product = |factor, left, right| Product {
+                    factor,
+                    left,
+                    right,
+                };
+                let products = vec![product(1.0, v, x), product(-1.0, w, u)];
+                out.push(Row::new(products, ZERO, zero));
+            }
+        }
+        out
+    }
+
+    /// Adds bounds of the squared distance of two points, given by the entries of their coordinates.
+    pub fn bound(&mut self, ends: &[[usize; 2]], square: Interval) {
+        let products = ends.iter().map(|&[a, b]| Product {
+            factor: 1.0,
+            left: Form::Difference(a, b),
+            right: Form::Difference(a, b),
+        });
+        self.rows
+            .push(Row::new(products.collect(), square, self.unknowns));
+    }
+}

@@ -1,0 +1,155 @@
+//! Problems of distances that fall apart: every part is searched by itself, and all figures of the whole are made of theirs.
+//!
+//! The parts share no more than a side (in space a triangle of sides) of given lengths ([`clusters`]). Where the set of a part
+//! is complete, every figure of the whole shows one of its figures there, or its mirror image; the other way round a figure of
+//! one part fits to one of the next by exactly one motion, as it is or mirrored in the side. The figures of parts are regular, hence not
+//! in one line (plane), so that mirroring a part at a side changes the whole: all combinations are different figures. How
+//! many there are is a product, however large.
+
+use super::outcome::{Method, are_apart};
+use super::{Complete, Options, Part, Status, Unserved, Why, all};
+use crate::blocks::{Combined, clusters};
+use crate::problem::Problem;
+use crate::track::Solution;
+use std::time::Instant;
+
+/// The figures of the whole that are listed at most.
+const LISTED: u64 = 1000;
+
+/// A part that was searched by itself.
+#[derive(Debug, Clone)]
+pub struct Searched {
+    /// The part.
+    pub problem: Problem,
+    /// All its figures, or what is known of them.
+    pub result: Complete,
+}
+
+/// Searches the parts of a problem one after the other. `None`: it does not fall apart, or not all parts are served.
+pub fn searched(problem: &Problem, options: &Options) -> Option<Complete> {
+    let begin = Instant::now();
+    let blocks = clusters(problem);
+    if blocks.is_empty() {
+        return None;
+    }
+    let mut parts: Vec<Searched> = Vec::with_capacity(blocks.len());
+    let mut boxes = 0;
+    for block in &blocks {
+        let own = Options {
+            time: options
+                .time
+                .map(|most| most.saturating_sub(begin.elapsed())),
+            most_boxes: options.most_boxes.saturating_sub(boxes),
+            cancel: options.cancel,
+            threads: options.threads,
+            ..Options::default()
+        };
+        let result: Result<Complete, Unserved> = all(block, &own);
+        let result = result.ok().filter(|result| {
+            // All that were proved have to be listed.
+            result.count == Some(result.solutions.len() as u64)
+        })?;
+        boxes += result.boxes;
+        parts.push(Searched {
+            problem: block.clone(),
+            result,
+        });
+    }
+    let mut whole = Complete::empty(problem, String::new(), begin);
+    (whole.method, whole.boxes) = (Method::Blocks, boxes);
+    whole.driving = parts.iter().map(|p| p.result.driving).max().unwrap_or(0);
+    whole.reason = None;
+    put_together(problem, &blocks, &parts, &mut whole)?;
+    whole.parts = parts;
+    whole.seconds = begin.elapsed().as_secs_f64();
+    Some(whole)
+}
+
+/// The figures of the whole. `None`: the parts do not hang together.
+fn put_together(
+    problem: &Problem,
+    blocks: &[Problem],
+    parts: &[Searched],
+    whole: &mut Complete,
+) -> Option<()> {
+    let mut undecided: Vec<Part> = Vec::new();
+    for part in parts.iter().flat_map(|part| &part.result.undecided) {
+        match undecided.iter_mut().find(|known| known.why == part.why) {
+            Some(known) => {
+                known.count += part.count;
+                known.share = known.share.max(part.share);
+            }
+            None => undecided.push(part.clone()),
+        }
+    }
+    undecided.sort_by_key(|part| part.why);
+    let worst = |status| parts.iter().any(|part| part.result.status == status);
+    whole.status = match () {
+        () if worst(Status::Flexible) => Status::Flexible,
+        () if worst(Status::Partial) => Status::Partial,
+        () => Status::Complete,
+    };
+    whole.undecided = undecided;
+    // A part without any figure is enough.
+    let none = |part: &&Searched| {
+        part.result.status == Status::Complete && part.result.solutions.is_empty()
+    };
+    if let Some(empty) = parts.iter().find(none) {
+        (whole.status, whole.count) = (Status::Complete, Some(0));
+        whole.undecided.clear();
+        whole.reason.clone_from(&empty.result.reason);
+        return Some(());
+    }
+    let solutions: Vec<&[Solution]> = parts
+        .iter()
+        .map(|part| part.result.solutions.as_slice())
+        .collect();
+    let combined = Combined::new(problem, blocks, solutions)?;
+    whole.count = combined.count();
+    if !combined.has_all_mirror_images() {
+        // Then combinations are not counted once each.
+        whole.count = Some(0);
+        leave(
+            whole,
+            "a part may be flat, so that it is its own mirror image",
+        );
+        return Some(());
+    }
+    for number in 0..whole.count.map_or(LISTED, |count| count.min(LISTED)) {
+        // Where boxes of the parts are too wide to put a figure together, or to tell it from one before, the list ends. What is
+        // proved of all figures does not rest on it.
+        let Some(points) = combined.figure(&combined.choices(number)) else {
+            break;
+        };
+        let all = || points.iter().flatten();
+        let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
+        let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size;
+        let solution = Solution {
+            points,
+            objects: Vec::new(),
+            class: number as usize,
+            width,
+            place: None,
+            mirror_of: None,
+            is_degenerate: false,
+        };
+        if !whole
+            .solutions
+            .iter()
+            .all(|other| are_apart(&solution, other))
+        {
+            break;
+        }
+        whole.solutions.push(solution);
+    }
+    Some(())
+}
+
+/// Takes the claim back.
+fn leave(whole: &mut Complete, reason: &str) {
+    if whole.status == Status::Complete {
+        whole.status = Status::Partial;
+    }
+    whole.reason.get_or_insert_with(|| reason.to_owned());
+    super::coordinates::leave(&mut whole.undecided, Why::Apart, 1, 0.0);
+}
