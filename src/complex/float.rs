@@ -231,7 +231,7 @@ impl FloatFollower {
             if change < SETTLED {
                 return true;
             }
-            if !(change <= CONTRACTION * before) {
+            if change > CONTRACTION * before || change.is_nan() {
                 return before < ROUNDING;
             }
             before = change;
@@ -316,8 +316,7 @@ impl Matrix {
                     best = (place, size);
                 }
             }
-            // Also where it is no number.
-            if !(best.1 > 0.0 && best.1.is_finite()) {
+            if best.1 <= 0.0 || !best.1.is_finite() {
                 return false;
             }
             self.order.swap(k, best.0);
