@@ -462,3 +462,50 @@ fn a_fixed_direction_is_not_served() {
     let refused = all(&problem, &Options::default()).unwrap_err();
     assert!(refused.to_string().contains("`l` is fixed"), "{refused}");
 }
+
+/// A line of its own whose direction is known up to its sign, and a circle that it touches on one side; and one whose reversal is
+/// another zero of equal angles that both are right. The equations have figures with both directions, the path has one.
+#[test]
+fn directions_that_the_equations_do_not_keep_are_not_served() {
+    let touches = r#"
+        name = "touches"
+        dimension = 2
+        [points]
+        m = [1, 2]
+        n = [5, 2.5]
+        c = [4, 4]
+        [lines]
+        l = { point = [0, 0.5], direction = [1, 0] }
+        [circles]
+        k = { center = "m", radius = 1.1 }
+        [constraints]
+        fixed = ["m", "n"]
+        horizontal = ["l"]
+        radii = [["k", 1]]
+        tangent = [["k", "l"]]
+        on = [["c", "l"]]
+        distances = [["c", "n", 3]]
+    "#;
+    let right = r#"
+        name = "right"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [4, 0]
+        c = [0.1, 3]
+        d = [4.1, 3]
+        [lines]
+        l = { point = [0, 0], direction = [0.03, 1] }
+        [constraints]
+        distances = [["a", "b", 4], ["a", "c", 3], ["b", "d", 3]]
+        on = [["a", "l"]]
+        perpendicular = [["l", "a", "b"]]
+        equal_angles = [["l", "a", "b", "a", "b", "b", "d"]]
+        angles = [["b", "a", "c", 80]]
+    "#;
+    for text in [touches, right] {
+        let refused = all(&parse(text), &Options::default()).unwrap_err();
+        let said = refused.to_string();
+        assert!(said.contains("the two directions of `l`"), "{said}");
+    }
+}

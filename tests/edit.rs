@@ -476,3 +476,37 @@ fn the_range_of_an_angle_stays_below_180_degrees() {
         );
     }
 }
+
+/// The right-hand side of an angle between two bars has degree 3 in t where both lengths and the angle are led at once, and
+/// less where some are not: a session takes both kinds in turn.
+#[test]
+fn two_lengths_and_the_angle_between_them_are_led_together() {
+    let text = r#"
+        name = "corner"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [3, 0]
+        c = [3, 4]
+        d = [5, 5]
+        [constraints]
+        horizontal = [["a", "b"]]
+        distances = [["a", "b", 3], ["b", "c", 4], ["c", "d", 2.2], ["a", "d", 7]]
+        angles = [["a", "b", "c", 90]]
+    "#;
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("corner.toml");
+    fs::write(&file, text).unwrap();
+    for settings in [&["b-c=4.2"][..], &["a-b=3.3", "b-c=4.5", "angles:a-b-c=80"]] {
+        let mut command = Command::cargo_bin("krawl").unwrap();
+        command
+            .arg("edit")
+            .arg(&file)
+            .args(["--json", "-", "--quiet"]);
+        for setting in settings {
+            command.args(["--set", setting]);
+        }
+        // Reached, proved.
+        command.assert().code(0);
+    }
+}

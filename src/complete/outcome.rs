@@ -61,7 +61,8 @@ pub struct Complete {
     pub count: Option<u64>,
     /// The parts of a problem that falls apart, each with what was found of it; otherwise none.
     pub parts: Vec<Searched>,
-    /// The solutions in the problem's gauge and units, each box holding exactly one, the boxes disjoint, no
+    /// The solutions in the problem's gauge and units (where `count` is more, only the first of them, whose boxes were not
+    /// compared with those not listed; otherwise each box holding exactly one), the boxes disjoint, no
     /// two solutions congruent.
     pub solutions: Vec<Solution>,
     /// The points that are the gauge: those of the problem, or of the plan where those may be in line.

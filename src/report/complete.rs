@@ -244,9 +244,12 @@ fn verdict(result: &Complete) -> String {
             result.reason.as_deref().unwrap_or("nothing is undecided")
         ),
         Status::Complete => {
-            format!(
-                "Complete, proved: {count}{up_to}, and there is no other. Each box holds exactly one; {different}."
-            )
+            // Boxes of figures that are not listed were not compared with these.
+            let each = match result.count == Some(result.solutions.len() as u64) {
+                true => "Each box holds exactly one",
+                false => "Each box listed holds one of them",
+            };
+            format!("Complete, proved: {count}{up_to}, and there is no other. {each}; {different}.")
         }
         Status::Partial | Status::Flexible => {
             let what = match result.status {

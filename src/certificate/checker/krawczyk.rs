@@ -275,7 +275,7 @@ impl<'a> Curve<'a> {
             let (norm, lost) = (moved.norm(), y.bound(&rests));
             moving += norm;
             square = match n < MANY {
-                true => moved.square_minus(&second).norm() + exact(gamma(n + 1)) * norm * norm,
+                true => moved.square_distance(&second),
                 false => {
                     let all = [&j1, &j2, &at.j0];
                     let image = |b: &Matrix| inverse.solve(b);

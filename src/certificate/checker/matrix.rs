@@ -95,16 +95,17 @@ impl Matrix {
         self
     }
 
-    /// The square of this minus a matrix, one rounding more than in the square, whose entries went through n.
-    pub fn square_minus(&self, other: &Matrix) -> Matrix {
-        let n = self.n;
+    /// At least |A² − B|: of n products and an entry of B, summed one after the other, each goes through n + 1
+    /// roundings at most.
+    pub fn square_distance(&self, other: &Matrix) -> Interval {
+        let (n, norm) = (self.n, self.norm());
         let mut entries: Vec<f64> = other.entries.iter().map(|x| -x).collect();
         for (sums, column) in entries.chunks_mut(n).zip(self.entries.chunks(n)) {
             for (factor, &x) in self.entries.chunks(n).zip(column) {
                 add(sums, factor, |y| y * x);
             }
         }
-        Matrix { n, entries }
+        Matrix { n, entries }.norm() + exact(gamma(n + 1)) * (norm * norm + other.norm())
     }
 
     /// At least the norm, the largest sum of a row's sizes, also where each entry lacks a rounding.
@@ -240,6 +241,26 @@ pub mod tests {
             let whole = sum(terms.iter().map(|&(x, y)| ratio(x) * ratio(y)));
             let enclosed = enclosed(value, lost(sizes, terms.len() + 1, 0.0));
             prop_assert!(ratio(enclosed.inf()) <= whole && whole <= ratio(enclosed.sup()));
+        }
+    }
+
+    /// n products that are each too small to change the 1 that their sum begins with.
+    #[test]
+    fn squares_beside_large_entries_hold_exact_ones() {
+        for n in [2, 7, 32, 95] {
+            let e = (0.4995 * f64::EPSILON).sqrt();
+            let mut a = vec![0.0; n * n];
+            for i in 0..n {
+                (a[i], a[i * n]) = (e, e);
+            }
+            let mut b = vec![0.0; n * n];
+            b[0] = -1.0;
+            let matrix = |entries| Matrix { n, entries };
+            let found = matrix(a).square_distance(&matrix(b)).sup();
+            // The first row of A² − B: n e² + 1, and e² in all other places.
+            let square = ratio(e) * ratio(e);
+            let whole = ratio(1.0) + square * ratio((2 * n - 1) as f64);
+            assert!(whole <= ratio(found), "{n}");
         }
     }
 

@@ -61,6 +61,13 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     }
     let homotopy = Homotopy::new(problem)
         .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
+    if let Some(object) = symmetry::directed(&homotopy, &System::new(&homotopy)) {
+        return Err(Unserved::Refused(format!(
+            "not served: constraints tell the two directions of `{}` apart, which has a direction of its own that a path \
+             keeps and the equations do not (name two points of it instead)",
+            problem.objects[object].name
+        )));
+    }
     let stop = AtomicBool::new(false);
     let run = Watched {
         stop: &stop,

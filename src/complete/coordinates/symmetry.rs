@@ -5,9 +5,9 @@
 //! found, up to such changes, where no pivot is negative.
 
 use super::system::{Form, System};
-use crate::constraint::{Symmetry, symmetry};
+use crate::constraint::{Entry, Symmetry, symmetry};
 use crate::interval::ZERO;
-use crate::problem::Problem;
+use crate::problem::{Problem, Shape};
 use crate::system::Homotopy;
 
 /// The unknowns that may be taken as not negative.
@@ -46,6 +46,41 @@ pub fn pivots(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<us
         pivots.push(column);
     }
     pivots
+}
+
+/// A line or plane of its own whose direction cannot be reversed alone with all equations kept: constraints tell its two
+/// directions apart, a path keeps one of them by continuity, and zeros of the equations may have either.
+pub fn directed(homotopy: &Homotopy, system: &System) -> Option<usize> {
+    let (m, d, first) = (
+        system.unknowns,
+        homotopy.dimension,
+        homotopy.gauge.place.len(),
+    );
+    let own = |object: usize| {
+        let entries = homotopy.tail.objects[object].as_slice();
+        match homotopy.shapes[object] {
+            Shape::FreeLine { .. } => &entries[d.min(entries.len())..],
+            Shape::FreePlane { .. } => entries,
+            _ => &[],
+        }
+    };
+    let reverses = |changes: &[bool], object: usize| {
+        own(object).iter().any(|entry| match *entry {
+            Entry::Unknown(u) => changes[first + u],
+            _ => false,
+        })
+    };
+    let objects: Vec<usize> = (0..homotopy.tail.objects.len())
+        .filter(|&object| !own(object).is_empty())
+        .collect();
+    let changes = homotopy.twins().unwrap_or_default();
+    let alone = |object: usize| {
+        changes.iter().any(|change| {
+            let reversed = objects.iter().filter(|&&other| reverses(change, other));
+            reversed.eq([&object]) && keeps(system, &change[..m])
+        })
+    };
+    objects.iter().copied().find(|&object| !alone(object))
 }
 
 /// Whether the equations hold with these signs changed wherever they hold without: every equation stays as it is, or

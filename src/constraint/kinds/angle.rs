@@ -168,7 +168,8 @@ fn between(
 
 /// Of a cosine and the opposite number the one that is nearer to the cosine of which `now` has the sign.
 fn nearer(low: &mut Lowering, now: &BigRational, target: Real) -> Real {
-    let opposite = now.is_negative() == (target.enclose().inf() > 0.0) && !now.is_zero();
+    // A right angle is nearer from below and from above alike: the sketch's own cosine counts as positive then too.
+    let opposite = now.is_negative() == (target.enclose().inf() >= 0.0) && !now.is_zero();
     match low.sense(opposite) {
         true => -&target,
         false => target,

@@ -57,6 +57,8 @@ impl<const D: usize> Equations<D> {
                 t1[l][k] = 2.0f64.mul_add(slope, e1[l][k]);
             }
         }
+        // Other right-hand sides may have another number of them: an edit of two lengths and of the angle between them.
+        out.bends.resize(self.bends.len(), [0.0; 5]);
         for (bend, out_of_bend) in self.bends.iter().zip(&mut out.bends) {
             let e = &bend.e;
             let e4t = e[4] * t;
