@@ -104,6 +104,23 @@ fn paths_in_floats_come_to_the_same_solutions() {
     }
 }
 
+/// Three lines in general directions, two of them 8° apart: boxes are proved in extended precision where 53 bits do not
+/// suffice. 960 solutions up to turns and 480 up to point inversion are what nine coordinates of points, the height of one
+/// line and two coordinates of another have.
+#[test]
+fn three_points_and_three_lines_in_general_directions() {
+    let (_, lowered) = shipped("constraints/3p3l");
+    let template = template("constraints/3p3l", &lowered);
+    let floats = Ways {
+        proved: false,
+        ..Ways::default()
+    };
+    let solutions = solve(&lowered, &template, &floats);
+    assert_eq!(counts(&solutions), [3840, 960, 480, 16]);
+    assert_eq!(solutions.status, Status::Found);
+    assert!(solutions.stopped.is_empty() && solutions.infinite.is_empty());
+}
+
 #[test]
 fn the_real_ones_are_the_complete_real_set() {
     for name in ["octahedron", "k33", "prism", "disulfide"] {
@@ -346,7 +363,11 @@ fn the_true_icosahedron() {
     let filling = Filling {
         enough: lowered.enough(),
         patience: 30,
-        ways,
+        // One solution in forty has unknowns beyond a thousand typical lengths, or comes by there.
+        ways: Ways {
+            radius: 1e8,
+            ..ways
+        },
         ..Filling::default()
     };
     let fibre = fill(&lowered.system, &filling).unwrap();

@@ -154,9 +154,16 @@ fn write_table(
     all: bool,
 ) -> std::fmt::Result {
     writeln!(out, "{}: {}", problem.name, verdict(lowered, result))?;
+    let different = match others(lowered).is_empty() {
+        true => "no two are congruent",
+        // A flat figure has normals on both sides.
+        false => {
+            "no two agree up to signs of axes in points and auxiliary unknowns together (in points alone they may)"
+        }
+    };
     writeln!(
         out,
-        "Each box holds exactly one solution; no two are congruent. {}",
+        "Each box holds exactly one solution; {different}. {}",
         natures(result)
     )?;
     if !result.infinite.is_empty() {
