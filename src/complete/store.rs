@@ -139,16 +139,18 @@ fn read(file: &mut File) -> std::io::Result<Option<(Head, BTreeMap<usize, Found>
             "its first line is damaged, or another version of krawl wrote it; name another folder",
         )
     };
-    let (bound, sum) = text.rsplit_once(' ').ok_or_else(damaged)?;
-    if checksum("", bound) != sum {
+    let (first_text, sum) = text.rsplit_once(' ').ok_or_else(damaged)?;
+    if checksum("", first_text) != sum {
         return Err(damaged());
     }
-    let head: Head = serde_json::from_str(bound).map_err(|_| damaged())?;
+    let head: Head = serde_json::from_str(first_text).map_err(|_| damaged())?;
     let (mut done, mut length) = (BTreeMap::new(), first.len());
+    // What lines were written behind, however the first one is spelled.
+    let bound = json(&head);
     let line_of = |line: &[u8]| -> Option<Line> {
         let text = whole(line)?;
         let (sum, rest) = text.split_once(' ')?;
-        let right = checksum(bound, rest) == sum;
+        let right = checksum(&bound, rest) == sum;
         right.then(|| serde_json::from_str(rest).ok()).flatten()
     };
     for line in lines {

@@ -60,8 +60,6 @@ pub struct FloatFollower {
     rights: Vec<[C; 3]>,
     /// Steps taken.
     pub steps: usize,
-    /// Steps tried in vain.
-    pub rejected: usize,
 }
 
 impl FloatFollower {
@@ -91,7 +89,6 @@ impl FloatFollower {
             right: vec![zero; n],
             rights: rights.chunks(2).map(coefficients).collect(),
             steps: 0,
-            rejected: 0,
         }
     }
 
@@ -118,7 +115,6 @@ impl FloatFollower {
                     t = to;
                     break;
                 }
-                self.rejected += 1;
                 step *= 0.5;
                 if step < LEAST_STEP {
                     return FloatEnd::Stopped(t);

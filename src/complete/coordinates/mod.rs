@@ -61,7 +61,8 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     }
     let homotopy = Homotopy::new(problem)
         .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
-    if let Some(object) = symmetry::directed(&homotopy, &System::new(&homotopy)) {
+    let system = System::new(&homotopy);
+    if let Some(object) = symmetry::directed(&homotopy, &system) {
         return Err(Unserved::Refused(format!(
             "not served: constraints tell the two directions of `{}` apart, which has a direction of its own that a path \
              keeps and the equations do not (name two points of it instead)",
@@ -77,11 +78,17 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         before: AtomicU64::new(0),
         cover: false,
     };
-    Ok(options.watched(&run, begin, || searched(problem, &homotopy, &run, begin)))
+    Ok(options.watched(&run, begin, || {
+        searched(problem, (&homotopy, system), &run, begin)
+    }))
 }
 
-fn searched(problem: &Problem, homotopy: &Homotopy, run: &Watched, begin: Instant) -> Complete {
-    let mut system = System::new(homotopy);
+fn searched(
+    problem: &Problem,
+    (homotopy, mut system): (&Homotopy, System),
+    run: &Watched,
+    begin: Instant,
+) -> Complete {
     let mut reason = None;
     if !problem.distances.is_empty() && problem.points.len() <= MOST_POINTS {
         let targets = Targets::new(problem);
