@@ -1,7 +1,7 @@
 //! `krawl complex`: all complex solutions of a problem.
 
 use super::output::{self, Destination};
-use super::template::{Search, read};
+use super::template::{Search, read, read_template};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
 use krawl::complex::{Status, Template, Ways, solve, to_certificate};
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
@@ -106,13 +106,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let result = arguments.search.in_pool(|| {
         let template = match &arguments.template {
-            Some(path) => {
-                let at = |error: String| format!("{}: {error}", path.display());
-                let text = std::fs::read_to_string(path).map_err(|e| at(e.to_string()))?;
-                Template::read(&text, &lowered.system).map_err(|e| at(e.to_string()))?
-            }
+            Some(path) => read_template(path, &lowered)?,
             None => {
-                let fibre = arguments.search.fill(&lowered, &line);
+                let fibre = arguments.search.fill(&lowered, None, &line);
                 Template::new(
                     &problem.name,
                     fibre.map_err(|error| format!("{file}: {error}"))?,

@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 /// Find the complex solutions of a random instance, to be used for all instances
 ///
 /// A random complex figure with the same constraints has dimensions of its own. Loops of complex dimensions make other
-/// figures with the same dimensions of it, every path proved (unless --float), until there are as many as a proved bound allows or no
-/// loop finds another one. `krawl complex FILE --template T` then takes them to any dimensions.
+/// figures with the same dimensions of it, every path proved (unless --float), until there are as many as a proved
+/// bound allows or no loop finds another one. `krawl complex FILE --template T` then takes them to any dimensions.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -27,6 +27,9 @@ pub struct Arguments {
     /// Write the template to this file
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+    /// Go on from a template of the same constraints that is not full yet
+    #[arg(long, value_name = "TEMPLATE")]
+    from: Option<PathBuf>,
     #[command(flatten)]
     search: Search,
     /// Print nothing but errors
@@ -72,7 +75,14 @@ impl Search {
     }
 
     /// Fills a fibre.
-    pub fn fill(&self, lowered: &Lowered, line: &Mutex<ProgressLine>) -> Result<Fibre, String> {
+    ///
+    /// `from` are solutions that are known already.
+    pub fn fill(
+        &self,
+        lowered: &Lowered,
+        from: Option<&Template>,
+        line: &Mutex<ProgressLine>,
+    ) -> Result<Fibre, String> {
         let tell = |found: usize, effort: &Effort| {
             if let Ok(mut line) = line.lock() {
                 let paths = effort.paths;
@@ -82,6 +92,7 @@ impl Search {
         let plain = Filling::default();
         let filling = Filling {
             seed: self.seed,
+            from,
             enough: self.enough.or(lowered.enough()),
             patience: self.patience,
             progress: Some(&tell),
@@ -112,6 +123,13 @@ pub(super) fn read(file: &Path) -> Result<(Problem, Lowered), String> {
     Ok((problem, lowered))
 }
 
+/// A template for these equations, its solutions proved again.
+pub(super) fn read_template(path: &Path, lowered: &Lowered) -> Result<Template, String> {
+    let at = |error: String| format!("{}: {error}", path.display());
+    let text = std::fs::read_to_string(path).map_err(|e| at(e.to_string()))?;
+    Template::read(&text, &lowered.system).map_err(|e| at(e.to_string()))
+}
+
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let (problem, lowered) = read(&arguments.file)?;
@@ -121,11 +139,15 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ));
     }
     let out = Destination::new(&arguments.out)?;
+    let from = match &arguments.from {
+        Some(path) => Some(read_template(path, &lowered)?),
+        None => None,
+    };
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let begin = Instant::now();
     let fibre = arguments
         .search
-        .in_pool(|| arguments.search.fill(&lowered, &line))?;
+        .in_pool(|| arguments.search.fill(&lowered, from.as_ref(), &line))?;
     if let Ok(line) = line.into_inner() {
         line.clear();
     }

@@ -4,12 +4,16 @@
 //! Along each of them the solutions of A are taken to those of B, one to one, as no two proved paths can meet. So a
 //! solution of A goes to B one way and comes back another, as a solution of A that may be new. In floats paths may
 //! jump; then some solutions may be missed along one way, and others be found twice.
+//!
+//! A random instance may have solutions that are nearly singular, which are hard to come to and hard to prove. So after
+//! the ways to B, B is the instance that is filled if more is known of it.
 
 use super::boxes::{Found, SolutionBox, SolutionSet};
 use super::exact::{Exact, Parameter, Random, zero};
 use super::follow::{Effort, Follower, PathEnd, Ways, follow_all};
-use super::start::{self, StartFigure};
+use super::start;
 use super::system::{Equation, Kind, System, segment};
+use super::template::Template;
 use crate::system::Right;
 
 /// The solutions of a generic instance that were found.
@@ -37,6 +41,8 @@ pub type Tell<'a> = dyn Fn(usize, &Effort) + Sync + 'a;
 pub struct Filling<'a> {
     /// The seed of the random numbers.
     pub seed: u64,
+    /// Go on from these solutions of a random instance, instead of from one of another.
+    pub from: Option<&'a Template>,
     /// So many solutions are all, if that is known.
     pub enough: Option<usize>,
     /// Stop after so many ways in a row without a new solution.
@@ -51,6 +57,7 @@ impl Default for Filling<'_> {
     fn default() -> Self {
         Filling {
             seed: 1,
+            from: None,
             enough: None,
             patience: 10,
             progress: None,
@@ -78,43 +85,49 @@ const WAYS: usize = 5;
 ///
 /// Fails where no start figure can be made.
 pub fn fill(system: &System, filling: &Filling) -> Result<Fibre, String> {
-    let mut random = Random::new(filling.seed);
-    let (begin, first) = seed(system, &mut random)?;
+    // Who goes on takes other ways than those that were gone.
+    let gone = filling.from.map_or(0, |template| template.ways as u64);
+    let mut random = Random::new(filling.seed.wrapping_add(gone << 32));
+    let (parameters, solutions) = match filling.from {
+        Some(template) => (template.parameters.clone(), template.solutions.clone()),
+        None => seed(system, &mut random)?,
+    };
     let mut fibre = Fibre {
-        parameters: begin.parameters,
-        solutions: SolutionSet::default(),
-        ways: 0,
+        parameters,
+        solutions,
+        ways: filling.from.map_or(0, |template| template.ways),
         idle: 0,
         effort: Effort::default(),
         failed: (0, None),
     };
-    fibre.solutions.push(first);
-    let is_full = |fibre: &Fibre| filling.enough.is_some_and(|n| fibre.solutions.len() >= n);
-    while !is_full(&fibre) && fibre.idle < filling.patience && !filling.ways.is_over() {
-        let (other, its) = seed(system, &mut random)?;
-        let mut there = SolutionSet::default();
-        there.push(its);
+    let is_full = |solutions: &SolutionSet| filling.enough.is_some_and(|n| solutions.len() >= n);
+    while !is_full(&fibre.solutions) && fibre.idle < filling.patience && !filling.ways.is_over() {
+        let (other, mut there) = seed(system, &mut random)?;
         let mut ways: Vec<Way> = Vec::new();
-        while ways.len() < WAYS && !is_full(&fibre) && fibre.idle < filling.patience {
+        let goes_on = |fibre: &Fibre, there: &SolutionSet| {
+            !is_full(&fibre.solutions) && !is_full(there) && !filling.ways.is_over()
+        };
+        while ways.len() < WAYS && goes_on(&fibre, &there) && fibre.idle < filling.patience {
             let bow = bow(system, &mut random);
             ways.push(Way {
                 rights: [
-                    segment(&fibre.parameters, &other.parameters, Some(&bow)),
-                    segment(&other.parameters, &fibre.parameters, Some(&bow)),
+                    segment(&fibre.parameters, &other, Some(&bow)),
+                    segment(&other, &fibre.parameters, Some(&bow)),
                 ],
                 known: [Vec::new(), Vec::new()],
             });
             fibre.ways += 1;
             let before = (fibre.solutions.len(), there.len());
             // Until no way has a solution at either end that has not gone along it.
-            let mut goes_on = true;
-            while goes_on && !is_full(&fibre) && !filling.ways.is_over() {
-                goes_on = false;
+            let mut open = true;
+            while open && goes_on(&fibre, &there) {
+                open = false;
                 for way in &mut ways {
                     for end in 0..2 {
-                        goes_on |= exhaust(system, filling, way, end, &mut fibre, &mut there);
+                        open |= exhaust(system, filling, way, end, &mut fibre, &mut there);
                         if let Some(progress) = filling.progress {
-                            progress(fibre.solutions.len(), &fibre.effort);
+                            let most = fibre.solutions.len().max(there.len());
+                            progress(most, &fibre.effort);
                         }
                     }
                 }
@@ -125,12 +138,15 @@ pub fn fill(system: &System, filling: &Filling) -> Result<Fibre, String> {
                 fibre.idle = if grown { 0 } else { fibre.idle + 1 };
             }
         }
+        if there.len() > fibre.solutions.len() {
+            (fibre.parameters, fibre.solutions) = (other, there);
+        }
     }
     Ok(fibre)
 }
 
-/// A random figure and a box around it in which it is alone.
-fn seed(system: &System, random: &mut Random) -> Result<(StartFigure, SolutionBox), String> {
+/// The parameters of a random figure, and a box around it in which it is alone.
+fn seed(system: &System, random: &mut Random) -> Result<(Vec<Parameter>, SolutionSet), String> {
     let mut why = "no figure can be drawn at random: an equation that defines an auxiliary unknown cannot be \
                    solved for it"
         .to_owned();
@@ -142,7 +158,11 @@ fn seed(system: &System, random: &mut Random) -> Result<(StartFigure, SolutionBo
         let values = figure.values.iter().flat_map(|value| value.parts());
         let near: Vec<f64> = values.map(|x| x.enclose().mid()).collect();
         match Follower::new(system.homotopy(), &rights, &Ways::default()).prove(&near) {
-            Ok(found) => return Ok((figure, found)),
+            Ok(found) => {
+                let mut alone = SolutionSet::default();
+                alone.push(found);
+                return Ok((figure.parameters, alone));
+            }
             Err(reason) => {
                 why = format!(
                     "random figures are singular: {reason}; the constraints depend on each other"
