@@ -34,7 +34,8 @@ pub struct Arguments {
     /// Write the solutions as a certificate, for `krawl verify`: problems of distances only
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
-    /// A path is taken to go to infinity where an unknown is so many typical lengths
+    /// A path is taken to go to infinity where an unknown is so many typical lengths (with --float: and the path cannot be
+    /// followed to its end)
     #[arg(long, value_name = "R", default_value_t = 1000.0, value_parser = super::all::seconds)]
     radius: f64,
     /// A bound on the number of solutions up to rotation that you know from elsewhere: the result then says that it is

@@ -61,9 +61,6 @@ pub struct Search {
     threads: Option<u16>,
 }
 
-/// In floats a path is given up beyond this size of an unknown, in units of the typical length.
-const FAR: f64 = 1e8;
-
 impl Search {
     /// Runs what follows with the number of threads asked for.
     pub fn in_pool<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, String> {
@@ -98,8 +95,6 @@ impl Search {
             progress: Some(&tell),
             ways: Ways {
                 proved: !self.float,
-                // In floats a path may go far and come back.
-                radius: if self.float { FAR } else { plain.ways.radius },
                 cancel: Some(interrupt::flag()),
                 deadline: self
                     .time

@@ -22,6 +22,9 @@ const CONTRACTION: f64 = 0.05;
 const SETTLED: f64 = 1e-12;
 /// A correction smaller than this that is followed by no smaller one is taken for rounding.
 const ROUNDING: f64 = 1e-8;
+/// Beyond this size of an unknown, in units of the typical length, or the radius allowed if that is larger, a path is
+/// not followed: rounding has the say there. Up to it paths may go far and come back.
+const FAR: f64 = 1e8;
 /// Shorter steps of t end the path.
 const LEAST_STEP: f64 = 1e-9;
 
@@ -30,10 +33,10 @@ const LEAST_STEP: f64 = 1e-9;
 pub enum FloatEnd {
     /// Near this point at t = 1: real and imaginary part of every unknown in turn.
     Reached(Vec<f64>),
-    /// At this t < 1 an unknown is larger than the radius allowed.
+    /// It could not be followed beyond this t < 1, where an unknown is larger than the radius allowed.
     Beyond(f64),
-    /// It could not be followed beyond this t.
-    Stopped(f64),
+    /// It could not be followed beyond this t, where the largest unknown is of this size.
+    Stopped(f64, f64),
 }
 
 /// One term of an equation: a factor times two linear forms, each the difference of two unknowns, or the number 1.
@@ -99,34 +102,43 @@ impl FloatFollower {
         }
         let mut t = 0.0;
         if !self.correct(0.0) {
-            return FloatEnd::Stopped(0.0);
+            return FloatEnd::Stopped(0.0, self.size());
         }
+        // The size where the path is known to be.
+        let mut size = self.size();
         for _ in 0..most_steps {
-            self.expand(t);
-            let size = self.size();
-            if size > radius {
-                return FloatEnd::Beyond(t);
+            if size > radius.max(FAR) || !self.step(&mut t, size) {
+                break;
             }
-            let mut step = self.reach(size).min(1.0 - t);
-            loop {
-                self.predict(step);
-                let to = if t + step >= 1.0 { 1.0 } else { t + step };
-                if self.correct(to) {
-                    t = to;
-                    break;
-                }
-                step *= 0.5;
-                if step < LEAST_STEP {
-                    return FloatEnd::Stopped(t);
-                }
-            }
+            size = self.size();
             self.steps += 1;
             if t == 1.0 {
                 let arrived = self.there[..self.n].iter();
                 return FloatEnd::Reached(arrived.flat_map(|z| [z.re, z.im]).collect());
             }
         }
-        FloatEnd::Stopped(t)
+        match size > radius {
+            true => FloatEnd::Beyond(t),
+            false => FloatEnd::Stopped(t, size),
+        }
+    }
+
+    /// One step from t on, to be tried at shorter lengths until Newton's method settles. False where none does.
+    fn step(&mut self, t: &mut f64, size: f64) -> bool {
+        self.expand(*t);
+        let mut step = self.reach(size).min(1.0 - *t);
+        loop {
+            self.predict(step);
+            let to = if *t + step >= 1.0 { 1.0 } else { *t + step };
+            if self.correct(to) {
+                *t = to;
+                return true;
+            }
+            step *= 0.5;
+            if step < LEAST_STEP {
+                return false;
+            }
+        }
     }
 
     /// The greatest size of an unknown, at least 1.

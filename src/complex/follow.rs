@@ -51,7 +51,8 @@ pub struct Ways<'a> {
     /// Whether every step of a path is proved. Otherwise paths are followed in floats, and may jump from one to another;
     /// what they come to is proved all the same.
     pub proved: bool,
-    /// Beyond this size of an unknown, in units of the typical length, a path is given up as one to infinity.
+    /// Beyond this size of an unknown, in units of the typical length, a path is given up as one to infinity. In floats
+    /// only if it cannot be followed to its end, as it may come back.
     pub radius: f64,
     /// A path that takes more tubes is given up.
     pub most_tubes: usize,
@@ -169,8 +170,10 @@ impl Follower {
                 .prove(&near)
                 .map_or_else(PathEnd::Stopped, PathEnd::Reached),
             FloatEnd::Beyond(t) => PathEnd::Beyond(t),
-            FloatEnd::Stopped(t) => PathEnd::Stopped(format!(
-                "in floats the path cannot be followed beyond t = {t:.6}"
+            FloatEnd::Stopped(t, size) => PathEnd::Stopped(format!(
+                "in floats the path cannot be followed beyond t = 1 - {:.1e}, where the largest unknown is {size:.1e} \
+                 typical lengths",
+                1.0 - t
             )),
         }
     }
@@ -190,7 +193,7 @@ pub fn follow_all(
     ways: &Ways,
 ) -> (Vec<PathEnd>, Effort) {
     let homotopy = system.homotopy();
-    let done = AtomicUsize::new(0);
+    let (done, all) = (AtomicUsize::new(0), starts.len());
     // One follower for each piece of work: setting it up costs as much as a few tubes.
     let piece = starts
         .len()
@@ -212,7 +215,7 @@ pub fn follow_all(
                 };
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 if let Some(progress) = ways.progress {
-                    progress(count, starts.len());
+                    progress(count, all);
                 }
                 end
             });

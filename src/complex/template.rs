@@ -12,8 +12,11 @@ use serde::{Deserialize, Serialize};
 /// What [`Template::read`] takes and [`Template::write`] makes.
 pub const VERSION: u32 = 1;
 
-/// Solutions that are alone within less are written with all digits, others with ten.
-const NEAR: f64 = 1e-4;
+/// Solutions are rounded by at most this part of the distance within which they are alone: Newton's method has the rest
+/// again, and who reads a template proves it.
+const ROUNDED: f64 = 1e-4;
+/// Digits behind the point of which floats of the size of a solution have no more.
+const MOST_DIGITS: i32 = 15;
 /// No parameter takes more characters.
 const LONGEST: usize = 1000;
 /// No parameter or coordinate, in typical lengths, is larger: far from overflow.
@@ -90,12 +93,10 @@ impl Template {
     pub fn write(&self, system: &System) -> String {
         let text = |x: &crate::interval::Real| x.as_rational().expect("a ratio").to_string();
         let near = |solution: &super::boxes::SolutionBox| {
+            let digits = -(ROUNDED * solution.alone_within).log10().floor();
+            let whole = (digits < f64::from(MOST_DIGITS)).then(|| 10f64.powi(digits as i32));
             let middles = solution.figure.centre.iter();
-            // Newton's method has the rest again, unless another solution is near.
-            let rounded = |x: &f64| match solution.alone_within < NEAR {
-                true => *x,
-                false => format!("{x:.9e}").parse().expect("a number"),
-            };
+            let rounded = |&x: &f64| whole.map_or(x, |whole| (x * whole).round() / whole);
             middles.map(rounded).collect()
         };
         let file = File {
