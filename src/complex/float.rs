@@ -2,11 +2,13 @@
 //!
 //! A path x(t) of quadratic equations has Taylor coefficients that cost a linear solution each, all with the same matrix.
 //! A step predicts by them, as far as they say that it may, and corrects by Newton's method with the Jacobian where it
-//! arrived, whose elimination serves the next step's coefficients too: one elimination a step. The path may jump to
-//! another one. So what comes of it is a guess, to be proved at its end, and a claim about all solutions rests on their number
+//! arrived, whose elimination serves the next step's coefficients too: one elimination a step. Where unknowns are large,
+//! squares cancel, and 53 bits leave Newton's method short of a zero; then the residual, and it alone, is taken in
+//! double-doubles. The path may jump to another one. So what comes of it is a guess, to be proved at its end, and a claim about all solutions rests on their number
 //! alone.
 
 use super::system::System;
+use crate::interval::DoubleDouble;
 use crate::system::Right;
 use nalgebra::Complex;
 
@@ -22,6 +24,10 @@ const CONTRACTION: f64 = 0.05;
 const SETTLED: f64 = 1e-12;
 /// A correction smaller than this that is followed by no smaller one is taken for rounding.
 const ROUNDING: f64 = 1e-8;
+/// Where corrections smaller than this stop shrinking it is taken for rounding's doing, not for that of too long a step.
+const NEAR: f64 = 1e-5;
+/// Corrections for one step.
+const MOST_CORRECTIONS: usize = 12;
 /// Beyond this size of an unknown, in units of the typical length, or the radius allowed if that is larger, a path is
 /// not followed: rounding has the say there. Up to it paths may go far and come back.
 const FAR: f64 = 1e8;
@@ -55,8 +61,9 @@ pub struct FloatFollower {
     /// Taylor coefficients of the unknowns, then of every term's two forms. Unknowns n and n + 1 are zero.
     x: Vec<[C; ORDER + 1]>,
     forms: Vec<[[C; ORDER + 1]; 2]>,
-    /// Where a step arrives.
+    /// Where a step arrives, rounded, and what that leaves, real and imaginary part.
     there: Vec<C>,
+    low: Vec<C>,
     matrix: Matrix,
     right: Vec<C>,
     /// For every equation the coefficients of its right-hand side, a polynomial in t.
@@ -88,6 +95,7 @@ impl FloatFollower {
             terms,
             first,
             there: vec![zero; n + 1],
+            low: vec![zero; n + 1],
             matrix: Matrix::new(n),
             right: vec![zero; n],
             rights: rights.chunks(2).map(coefficients).collect(),
@@ -218,33 +226,88 @@ impl FloatFollower {
         if !self.matrix.eliminate() {
             return false;
         }
+        self.low.fill(C::new(0.0, 0.0));
         let size = self.size();
-        let mut before = f64::INFINITY;
-        for _ in 0..8 {
+        let (mut before, mut precisely) = (f64::INFINITY, false);
+        for _ in 0..MOST_CORRECTIONS {
             for e in 0..self.n {
-                let mut value = -self.wanted(e, t);
-                for term in &self.terms[self.first[e]..self.first[e + 1]] {
-                    let [left, right] = term.forms.map(|form| self.form(form));
-                    value += left * right * term.factor;
-                }
-                self.right[e] = value;
+                self.right[e] = match precisely {
+                    false => self.residual(e, t),
+                    true => self.precise_residual(e, t),
+                };
             }
             self.matrix.solve(&mut self.right);
             let mut largest = 0.0f64;
-            for (x, &change) in self.there.iter_mut().zip(&self.right) {
-                *x -= change;
+            for k in 0..self.n {
+                let change = self.right[k];
                 largest = largest.max(change.norm_sqr());
+                let moved = |x: f64, low: f64, change: f64| {
+                    DoubleDouble::sum(x, low) - DoubleDouble::from(change)
+                };
+                let (re, im) = match precisely {
+                    false => {
+                        self.there[k] -= change;
+                        continue;
+                    }
+                    true => (
+                        moved(self.there[k].re, self.low[k].re, change.re),
+                        moved(self.there[k].im, self.low[k].im, change.im),
+                    ),
+                };
+                self.there[k] = C::new(re.hi, im.hi);
+                self.low[k] = C::new(re.lo, im.lo);
             }
             let change = largest.sqrt() / size;
             if change < SETTLED {
                 return true;
             }
             if change > CONTRACTION * before || change.is_nan() {
-                return before < ROUNDING;
+                if before < ROUNDING {
+                    return true;
+                }
+                let is_rounding = before.max(change) < NEAR;
+                if precisely || !is_rounding {
+                    return false;
+                }
+                precisely = true;
             }
             before = change;
         }
         false
+    }
+
+    /// What an equation lacks.
+    fn residual(&self, e: usize, t: f64) -> C {
+        let mut value = -self.wanted(e, t);
+        for term in &self.terms[self.first[e]..self.first[e + 1]] {
+            let [left, right] = term.forms.map(|form| self.form(form));
+            value += left * right * term.factor;
+        }
+        value
+    }
+
+    /// The same in double-doubles.
+    fn precise_residual(&self, e: usize, t: f64) -> C {
+        let wanted = self.wanted(e, t);
+        let mut sum = [-wanted.re, -wanted.im].map(DoubleDouble::from);
+        let form = |ends: Option<[usize; 2]>| match ends {
+            None => [DoubleDouble::from(1.0), DoubleDouble::default()],
+            Some([a, b]) => {
+                let (x, y) = (self.there[a], self.there[b]);
+                let (p, q) = (self.low[a], self.low[b]);
+                [
+                    DoubleDouble::sum(x.re, p.re) - DoubleDouble::sum(y.re, q.re),
+                    DoubleDouble::sum(x.im, p.im) - DoubleDouble::sum(y.im, q.im),
+                ]
+            }
+        };
+        for term in &self.terms[self.first[e]..self.first[e + 1]] {
+            let ([a, b], [c, d]) = (form(term.forms[0]), form(term.forms[1]));
+            let factor = DoubleDouble::from(term.factor);
+            sum[0] = sum[0] + factor * (a * c - b * d);
+            sum[1] = sum[1] + factor * (a * d + b * c);
+        }
+        C::new(sum[0].hi, sum[1].hi)
     }
 
     fn form(&self, ends: Option<[usize; 2]>) -> C {

@@ -3,10 +3,10 @@
 use super::boxes::{Found, Same, SolutionBox, SolutionSet};
 use super::count::{Counts, count};
 use super::exact::Random;
-use super::follow::{Effort, PathEnd, Ways, follow_all};
+use super::follow::{Effort, PathEnd, Ways, follow_all, prove_all};
 use super::lower::Lowered;
 use super::monodromy::bow;
-use super::system::{Signs, segment};
+use super::system::{Signs, System, segment};
 use super::template::Template;
 use crate::problem::counted;
 use std::time::Instant;
@@ -55,6 +55,8 @@ pub struct Solutions {
     pub stopped: Vec<String>,
     /// Paths that came to a solution to which another path had come.
     pub repeated: usize,
+    /// Solutions that no path came to: conjugates of others, which are solutions too, as dimensions are real.
+    pub conjugates: usize,
     /// Whether every path was proved, step by step.
     pub paths_proved: bool,
     /// What it took.
@@ -74,7 +76,7 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
     let mut effort = Effort::default();
     let mut set = SolutionSet::default();
     let (mut infinite, mut stopped) = (Vec::new(), Vec::new());
-    let mut repeated = 0;
+    let (mut repeated, mut conjugates) = (0, 0);
     let starts: Vec<&SolutionBox> = template.solutions.boxes().iter().collect();
     let mut random = Random::new(0x5eed);
     for attempt in 0..=DETOURS {
@@ -85,14 +87,20 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
         infinite.clear();
         stopped.clear();
         repeated = 0;
+        let known = set.len();
+        // Solutions that this way has come to.
+        let mut came = vec![false; known];
         for end in ends {
             match end {
                 PathEnd::Reached(found) => {
                     match set.find(&found, &system.group_of_instance, false) {
                         Found::New => {
                             set.push(found);
+                            came.push(true);
                         }
-                        Found::Old(_) => repeated += 1,
+                        Found::Old(index) => {
+                            repeated += usize::from(std::mem::replace(&mut came[index], true));
+                        }
                         Found::Unknown => stopped.push(
                             "two solutions are so near each other that their boxes cannot be told apart"
                                 .to_owned(),
@@ -103,10 +111,12 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
                 PathEnd::Stopped(reason) => stopped.push(reason),
             }
         }
-        // What was found on one way stays proved; another way may come to what this one did not.
-        // In floats a path may have jumped to another one's end.
-        let all_came = stopped.is_empty() && (ways.proved || repeated == 0);
-        if all_came || ways.is_over() || is_complete(lowered, &set) {
+        // What was found on one way stays proved; another way may come to what this one did not. In floats a path may have
+        // jumped to another one's end, or not come back from afar.
+        let all_came = stopped.is_empty() && (ways.proved || repeated == 0 && infinite.is_empty());
+        conjugates += add_conjugates(system, &mut set);
+        let nothing_new = stopped.is_empty() && set.len() == known;
+        if all_came || nothing_new || ways.is_over() || is_complete(lowered, &set) {
             break;
         }
     }
@@ -128,10 +138,37 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
         infinite,
         stopped,
         repeated,
+        conjugates,
         paths_proved: ways.proved,
         effort,
         seconds: clock.elapsed().as_secs_f64(),
     }
+}
+
+/// Adds the conjugates of solutions that are not in the set, each proved by itself. Tells how many.
+fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
+    let group = &system.group_of_instance;
+    let is_alone = |one: &&SolutionBox| set.find(one, group, true) == Found::New;
+    let alone: Vec<Vec<f64>> = set
+        .boxes()
+        .iter()
+        .filter(is_alone)
+        .map(|one| {
+            let parts = one.figure.centre.iter().enumerate();
+            parts
+                .map(|(k, &x)| if k % 2 == 0 { x } else { -x })
+                .collect()
+        })
+        .collect();
+    let target = system.target();
+    let proved = prove_all(system, &segment(&target, &target, None), &alone);
+    let before = set.len();
+    for one in proved.into_iter().flatten() {
+        if set.find(&one, group, false) == Found::New {
+            set.push(one);
+        }
+    }
+    set.len() - before
 }
 
 /// Whether there are as many solutions, up to rotation, as a proved bound allows.

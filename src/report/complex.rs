@@ -120,6 +120,7 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
         "infinite": result.infinite.len(),
         "stopped": result.stopped,
         "repeated": result.repeated,
+        "conjugates": result.conjugates,
         "paths": result.effort.paths,
         "tubes": result.effort.tubes,
         "paths_proved": result.paths_proved,
@@ -184,6 +185,14 @@ fn write_table(
         writeln!(
             out,
             "{paths} came to a solution or a mirror image of one to which another had come: {why}."
+        )?;
+    }
+    if result.conjugates > 0 {
+        let solutions = counted(result.conjugates, "solution");
+        writeln!(
+            out,
+            "{solutions}, to which no path came, are conjugates of others: dimensions are real, so these are solutions too; \
+             proved as all are."
         )?;
     }
     if let Some(reason) = result.stopped.first() {
