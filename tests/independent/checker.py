@@ -38,6 +38,11 @@ def up(x): return -((-x) >> B)
 
 
 def mul(a, b):
+    if b[0] == b[1]:
+        a, b = b, a
+    x = a[0]
+    if x == a[1]:
+        return (x * b[0] >> B, up(x * b[1])) if x >= 0 else (x * b[1] >> B, up(x * b[0]))
     p = (a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1])
     return (min(p) >> B, up(max(p)))
 
@@ -693,8 +698,8 @@ class Tube:
     def cut(self, a, b, depth):
         try:
             need(depth > 0, "two pieces at least")
-            # Better short pieces and good bounds, if that can be had with a few.
-            self.pieces.append(Piece(self, a, b, ONE // 2 if depth < 4 else ONE))
+            # Better short pieces and good bounds.
+            self.pieces.append(Piece(self, a, b, ONE * 7 // 8))
         except NotProved:
             if depth == 9:
                 raise
