@@ -194,6 +194,33 @@ fn a_solution_is_listed_where_it_is_met() {
     }
 }
 
+/// A missing solution is named: in the first tube that meets it, between two parameters beside it.
+#[test]
+fn a_missing_solution_is_named_where_it_is() {
+    for name in ["k33", "prism", "octahedron", "dodecagon", "disulfide"] {
+        let good = Certificate::read(&shipped(name));
+        for k in 0..good.solutions() {
+            let mut without = good.clone();
+            let at = without.solution_at(k);
+            let Record::Solution(solution) = without.records.remove(at) else {
+                unreachable!()
+            };
+            without.classes_mut().remove(k);
+            let Outcome::Refuted(Flaw::Unlisted(number, low, high)) = outcome(&without) else {
+                panic!("{name}, solution {}: {:?}", k + 1, outcome(&without));
+            };
+            let tube = without.tube_mut(number as usize - 1);
+            let there = parameter(tube, &solution.centre) / tube.h;
+            let near = 1e-3 * (high - low) + 1e-6;
+            assert!(
+                low - near < there && there < high + near && high - low < 0.1,
+                "{name}, solution {}: {there} is not between {low} and {high}",
+                k + 1
+            );
+        }
+    }
+}
+
 /// Numbers within the format's range in which products overflow, vanish, or lose all digits.
 #[test]
 fn extreme_numbers_are_refused_without_a_panic() {

@@ -2,13 +2,13 @@
 
 use super::equations::{Equations, ZERO};
 use super::guess;
-use super::matrix::exact;
+use super::matrix::{exact, size};
 use super::place::{HALF, Place, Spot, component};
 use super::tube::{Tube, everywhere};
 use crate::certificate::format::{ArcClaim, FoldClaim, TubeClaim};
 use crate::certificate::verdict::{Fault, Flaw};
 use crate::constraint::{Record, try_lower_editable};
-use crate::interval::{Interval, hull, point};
+use crate::interval::{Interval, point};
 use crate::problem::{Problem, Target};
 use crate::system::{Homotopy, is_met};
 
@@ -84,16 +84,8 @@ impl Fold {
         for (c, &along) in c[m..].iter_mut().zip(&tube.normal[..m]) {
             *c = along.into();
         }
-        let box_of = |x: f64, r: f32| point(x) + hull(-f64::from(r), r.into());
-        let of_figure = |i: usize| box_of(claim.figure.centre[i], claim.figure.radius);
-        let mut claimed: Vec<Interval> = (0..m).map(of_figure).collect();
-        claimed.push(box_of(claim.t, claim.t_radius));
-        let place = Place::prove(
-            &folds,
-            (&near, false),
-            (&c, &vec![HALF; 2 * m + 1]),
-            claimed,
-        )?;
+        let of = (&c[..], &vec![HALF; 2 * m + 1][..]);
+        let place = Place::prove(&folds, (&near, false), of, Vec::new())?;
         let entries = || (0..m).chain([2 * m]);
         let spot = Spot {
             near: entries().map(|i| place.spot.near[i]).collect(),
@@ -101,7 +93,9 @@ impl Fold {
         };
         let v: Vec<Interval> = place.spot.near.iter().map(|&x| exact(x)).collect();
         let along = component(&v, &c);
-        let inside = (0..=m).all(|i| spot.at(i).interior(place.claimed[i]));
+        let figure = spot.is_within(&claim.figure.centre, claim.figure.radius);
+        let off = size(spot.at(m) - point(claim.t));
+        let inside = figure && off.sup() <= claim.t_radius.into();
         match inside && !along.contains(0.0) {
             true => Ok(Fold { place, along, spot }),
             false => Err(Fault::because("the box is too narrow for the one near it")),

@@ -93,12 +93,11 @@ impl Chain {
         if let (None, Some((claim, _))) = (&self.last, claims.first()) {
             let start = direction(eq, claim, &self.from).unwrap_or_default();
             if self.turned {
-                let along = component(
-                    &self.start,
-                    &tubes[0].as_ref().map_err(Outcome::clone)?.normal,
-                );
+                let tube = tubes[0].as_ref().map_err(Outcome::clone)?;
+                let along = component(&self.start, &tube.normal);
                 if !(along.sup() < 0.0) {
-                    return Err(flaw(along.inf() > 0.0, Flaw::Turn(first)));
+                    let is_there = tube.locate(&self.from).is_some();
+                    return Err(flaw(is_there && along.inf() > 0.0, Flaw::Turn(first)));
                 }
             } else {
                 self.start = start;
@@ -208,6 +207,9 @@ impl Chain {
         goal: &Goal,
         listed: &[Place],
     ) -> Result<Stretch, Outcome> {
+        // What is claimed of tubes that were not proved to their ends may be true of what is beyond.
+        let is_whole = tube.is_whole && before.is_none_or(|before| before.is_whole);
+        let flaw = |is_false: bool, claim: Flaw| flaw(is_false && is_whole, claim);
         let find = |spot: &Spot, claim: Flaw| {
             let place = tube.locate(spot);
             place.ok_or_else(|| flaw(refute::elsewhere(tube, spot), claim))
@@ -230,14 +232,14 @@ impl Chain {
             }
         };
         let (exit, claim) = match goal {
-            Goal::On => (point(tube.exit_at), Flaw::Backwards(number)),
+            Goal::On => (tube.exit_at, Flaw::Backwards(number)),
             Goal::Sketch => (find(&self.from, Flaw::Open(number))?, Flaw::Open(number)),
             Goal::Figure(Place { spot, .. }) | Goal::Fold(Fold { spot, .. }) => {
                 (find(spot, Flaw::Elsewhere(arc))?, Flaw::Elsewhere(arc))
             }
         };
         if before.is_none() && matches!(goal, Goal::Sketch) {
-            return Err(flaw(true, claim));
+            return Err(Outcome::Refuted(claim));
         }
         order(entry, exit, claim.clone())?;
         if let Goal::Sketch = goal {
@@ -246,13 +248,20 @@ impl Chain {
         let range = hull(entry.inf(), exit.sup());
         let stands = tube.stands(&self.eq, range);
         stands.map_err(|fault| flaw(false, Flaw::Tube(number, fault)))?;
+        // Certainly between entry and exit.
+        let inner = between(entry.sup(), exit.inf());
         let Some(edit) = &self.arc else {
             let stretch = tube.account([entry, exit], listed);
-            return stretch.map_err(|part| {
-                let claim = Flaw::Unlisted(number, part.inf(), part.sup());
-                let inner = between(entry.sup(), exit.inf());
-                flaw(refute::missing(tube, inner, listed), claim)
-            });
+            let mut stretch = stretch.map_err(|part| {
+                let missing = refute::missing(tube, inner, listed);
+                let at = missing.unwrap_or(part);
+                let claim = Flaw::Unlisted(number, at.inf(), at.sup());
+                flaw(missing.is_some(), claim)
+            })?;
+            let least = if is_whole { Met::No } else { Met::Unknown };
+            let met = stretch.met.iter_mut();
+            met.for_each(|met| *met = least.max(*met));
+            return Ok(stretch);
         };
         // It begins to rise in the first tube, and goes on in the others.
         if before.is_none() && !self.start.last().is_some_and(|t| t.inf() > 0.0) {
@@ -264,7 +273,10 @@ impl Chain {
             _ => None,
         };
         let fault = |claim: fn(u64, f64, f64) -> Flaw| {
-            move |(s, is_false): (Interval, bool)| flaw(is_false, claim(number, s.inf(), s.sup()))
+            move |(s, is_false): (Interval, bool)| {
+                let is_false = is_false && !s.disjoint(inner);
+                flaw(is_false, claim(number, s.inf(), s.sup()))
+            }
         };
         rises(tube, range, fold).map_err(fault(Flaw::Rise))?;
         keeps(&self.eq, tube, range, &edit.kept).map_err(fault(Flaw::Kept))?;
@@ -290,7 +302,8 @@ impl Chain {
             let mut class = verdict.classes.iter().max().map_or(0, |c| c + 1);
             for (j, other) in self.solutions[..k].iter().enumerate() {
                 if !solution.is_apart(other) {
-                    return Err(flaw(true, Flaw::Overlap(j + 1, k + 1)));
+                    let overlap = refute::overlap(solution, other);
+                    return Err(flaw(overlap, Flaw::Overlap(j + 1, k + 1)));
                 }
                 let congruent = solution.is_congruent(other, &self.eq);
                 if congruent.ok_or(flaw(false, Flaw::Congruence(j + 1, k + 1)))? {

@@ -30,6 +30,13 @@ impl Spot {
         (exact(self.near[i]) - exact(other[i])) + self.rest[i]
     }
 
+    /// Whether its first entries are certainly no further from a claimed figure than this. Boxes as intervals would not tell: their
+    /// ends are rounded outwards.
+    pub fn is_within(&self, centre: &[f64], radius: f32) -> bool {
+        let off = |i: usize| size(self.minus(centre, i)).sup();
+        (0..centre.len()).all(|i| off(i) <= radius.into())
+    }
+
     /// [J; c] v − e_n at this point.
     pub fn off_direction(&self, eq: &Equations, at: &Section, v: &[f64]) -> Vec<Interval> {
         let t = self.at(eq.m);
@@ -65,7 +72,7 @@ pub struct Place {
     pub spot: Spot,
     /// Where the test was made.
     middle: Vec<Interval>,
-    /// The box that was claimed, in m entries.
+    /// The box that was claimed, in m entries, rounded outwards; of a fold none.
     pub claimed: Vec<Interval>,
     /// At most so far from `middle`, entry by entry, there is no other one.
     alone_within: Vec<f64>,
@@ -103,8 +110,8 @@ impl Place {
             return Err(Fault::proof("there is none in it"));
         }
         let place = place?;
-        let inside = |i: usize| place.spot.at(i).interior(claimed[i]);
-        match (0..eq.m).all(inside) && place.covers(&claimed) {
+        let inside = place.spot.is_within(&claim.centre, claim.radius);
+        match inside && place.covers(&claimed) {
             true => Ok(place),
             false => Err(Fault::because(
                 "it is too narrow to hold the one near it, or so wide that it may hold another one",
@@ -204,5 +211,69 @@ impl Place {
             }
         }
         Some(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::hull;
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
+
+    /// With b at (1.00000000000000003, 0) and c at (0.5, 0.5).
+    fn triangle() -> Equations {
+        let problem = Problem::parse(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [1, 0]\nc = [0.5, 0.6]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 1.00000000000000003]]\n\
+             squared_distances = [[\"a\", \"c\", 0.5], [\"b\", \"c\", 0.5000000000000000300000000000000009]]\n\
+             [homotopy]\nreference = [\"a\", \"b\"]\n",
+            "test.toml",
+        );
+        Equations::new(Homotopy::with_unit(&problem.unwrap(), 1.0).unwrap())
+    }
+
+    fn solution(eq: &Equations, radius: f32) -> Result<Place, Fault> {
+        let tube = TubeClaim {
+            centre: vec![0.0; eq.m + 1],
+            low: vec![0.0; eq.m + 1],
+            normal: vec![1.0; eq.m + 1],
+            weights: vec![1; eq.m + 1],
+            h: 1.0,
+            r: 1.0,
+            exit: 0.0,
+        };
+        let centre = vec![1.0, 0.5, 0.5];
+        Place::solution(eq, &SolutionClaim { centre, radius }, &tube)
+    }
+
+    /// 1 + radius is below b's coordinate, but not when it is rounded upwards to a float.
+    #[test]
+    fn rounding_does_not_make_a_box_wider() {
+        let eq = triangle();
+        for radius in [1e-18, 1e-17, 2.9e-17] {
+            assert!(point(1.0) + around(exact(radius.into())) != point(1.0));
+            assert!(solution(&eq, radius).is_err(), "{radius:e}");
+        }
+        for radius in [3.1e-17, 1e-16, 1e-10] {
+            assert!(solution(&eq, radius).is_ok(), "{radius:e}");
+        }
+    }
+
+    /// Boxes that touch after rounding may be apart.
+    #[test]
+    fn boxes_overlap_where_they_do_before_rounding() {
+        let eq = triangle();
+        let mut pair = [1e-10; 2].map(|radius| solution(&eq, radius).unwrap());
+        let mut found = |from: f64| {
+            pair[0].claimed.fill(hull(0.0, 1.0));
+            pair[1].claimed.fill(hull(from, 2.0));
+            let [a, b] = &pair;
+            (a.is_apart(b), refute::overlap(a, b))
+        };
+        assert_eq!(found(0.5), (false, true));
+        assert_eq!(found(1.0), (false, false));
+        assert_eq!(found(1.0f64.next_down()), (false, false));
+        assert_eq!(found(1.5), (true, false));
     }
 }

@@ -23,9 +23,11 @@ pub struct Tube {
     pub proof: Proof,
     /// c·ẑ'(σ), positive.
     pub advance: Interval,
-    /// The parameter at which the path leaves.
-    pub exit_at: f64,
-    /// Where that is.
+    /// Whether this tube certainly reaches to both ends of the claimed one: then what is not in it is not in that one.
+    pub is_whole: bool,
+    /// Parameters among which is the one at which the path leaves; for a tube that is whole, the one that is claimed.
+    pub exit_at: Interval,
+    /// Where all of them are.
     pub exit: Spot,
     /// The path's direction there.
     pub exit_direction: Vec<Interval>,
@@ -53,6 +55,8 @@ pub struct Stretch {
 const PIECES: usize = 10_000;
 /// How near the path its points are guessed, in radii.
 const ENOUGH: f64 = 1e-6;
+/// ẑ is guessed so much longer than the claimed tube, as its ends are only as good as rounding.
+const LONGER: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 
 /// What a tube's proof is made of.
 struct Work<'a> {
@@ -65,7 +69,8 @@ struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    fn new(eq: &'a Equations, claim: &TubeClaim) -> Result<Work<'a>, Fault> {
+    /// `advance`: about c·ẑ'.
+    fn new(eq: &'a Equations, claim: &TubeClaim, advance: f64) -> Result<Work<'a>, Fault> {
         let c: Vec<f64> = claim.normal.iter().map(|&c| c.into()).collect();
         let r = point(claim.r.into());
         let mut curve = match claim.low.is_empty() {
@@ -74,7 +79,7 @@ impl<'a> Work<'a> {
         };
         let at = curve.section(&c, &weights(&claim.weights));
         let inverse = Inverse::new(&at)?;
-        expand(&mut curve, &inverse, claim.h)?;
+        expand(&mut curve, &inverse, advance)?;
         let test = curve.test(&inverse, &at, r);
         let proof = test.within(r).map_err(|fault| Fault {
             is_false: refute::tube(claim, &curve, &inverse, &at),
@@ -131,26 +136,38 @@ impl<'a> Work<'a> {
 
 /// The path's direction at a point that lies in a tube for certain: with c·T = 1 for the tube's normal c.
 pub fn direction(eq: &Equations, claim: &TubeClaim, spot: &Spot) -> Result<Vec<Interval>, Fault> {
-    let work = Work::new(eq, claim)?;
+    let work = Work::new(eq, claim, LONGER * claim.h)?;
     Ok(work.direction(spot, 0.0, &work.moving()))
 }
 
 impl Tube {
     pub fn prove(eq: &Equations, claim: &TubeClaim) -> Result<Tube, Fault> {
-        let work = Work::new(eq, claim)?;
+        Tube::with(eq, claim, LONGER * claim.h)
+    }
+
+    fn with(eq: &Equations, claim: &TubeClaim, guess: f64) -> Result<Tube, Fault> {
+        let work = Work::new(eq, claim, guess)?;
         let along = |k: usize| along(&work.curve.z[k], &work.at.c);
         let beyond = |k: usize| around(point(k as f64)) * along(k);
         let advance = (2..=ORDER).fold(along(1), |sum, k| sum + beyond(k));
         if !(advance.inf() > 0.0) {
             return Err(Fault::because("its cross-sections may turn back"));
         }
-        // A parameter in [−1, 1], whatever is rounded.
-        let exit_at = (claim.exit / claim.h).clamp(-1.0, 1.0);
+        // A parameter in [−1, 1], whatever is rounded, and some beside it.
+        let near = (claim.exit / guess).clamp(-1.0, 1.0);
+        let claimed = refute::exit(claim, &work.curve, &work.at.c, (near, advance));
+        let exit_at = point(near).convex_hull(claimed.unwrap_or(point(near)));
+        let exit_at = exit_at.intersection(between(-1.0, 1.0));
         let moving = work.moving();
-        let exit = work.spot(exit_at, &moving);
-        let exit = exit.ok_or(Fault::because("its exit cannot be enclosed"))?;
+        let exit = work.spot(near, &moving);
+        let mut exit = exit.ok_or(Fault::because("its exit cannot be enclosed"))?;
+        for (i, rest) in exit.rest.iter_mut().enumerate() {
+            let off = around(work.proof.slope_distance * point(work.at.u[i]));
+            *rest += (exit_at - point(near)) * (derivative(&work.curve.z, i, exit_at) + off);
+        }
         Ok(Tube {
-            exit_direction: work.direction(&exit, exit_at, &moving),
+            exit_direction: work.direction(&exit, near, &moving),
+            is_whole: claimed.is_some(),
             exit_at,
             exit,
             low: (0..=eq.m).map(|i| work.curve.low_of(i)).collect(),
@@ -322,7 +339,7 @@ mod tests {
                         ..claim.clone()
                     };
                     let tube = Tube::prove(&eq, &claim).unwrap();
-                    let (n, s) = (eq.m + 1, point(tube.exit_at));
+                    let (n, s) = (eq.m + 1, tube.exit_at);
                     let z: Vec<Interval> = (0..n)
                         .map(|i| point(tube.z[0][i]) + way(&tube.z, i, s))
                         .collect();
@@ -368,6 +385,38 @@ mod tests {
                 }
             }
             assert!(nearest < 100.0, "{name}: {nearest}");
+        }
+    }
+
+    /// Where the path leaves is told by the certificate, whatever the polynomial is; and one that ends before the claimed
+    /// tube refutes nothing of what is beyond.
+    #[test]
+    fn a_polynomial_that_is_too_short_refutes_nothing() {
+        let file = std::fs::File::open("certs/dodecagon.krawl").unwrap();
+        let mut reader = Reader::new(std::io::BufReader::new(file)).unwrap();
+        let unit = 2f64.powi(reader.header().unit_exponent.into());
+        let homotopy = Homotopy::with_unit(&reader.header().problem, unit).unwrap();
+        let eq = Equations::new(homotopy);
+        while let Some(record) = reader.next_record().unwrap() {
+            let Record::Tube(mut claim) = record else {
+                continue;
+            };
+            for share in [-1.0, -0.75, 0.3, 0.75, 1.0] {
+                claim.exit = share * claim.h;
+                let tube = Tube::prove(&eq, &claim).unwrap();
+                assert!(tube.is_whole && tube.exit_at.wid() < 1e-12);
+                let off: Vec<Interval> = (0..=eq.m)
+                    .map(|i| tube.exit.minus(&claim.centre, i))
+                    .collect();
+                assert!(component(&off, &tube.normal).contains(claim.exit));
+                assert!(tube.locate(&tube.exit).is_some() || share.abs() == 1.0);
+                assert!(!refute::elsewhere(&tube, &tube.exit));
+
+                let short = Tube::with(&eq, &claim, 0.5 * claim.h).unwrap();
+                let within = short.parameter(&tube.exit).intersection(between(-1.0, 1.0));
+                assert!(!short.is_whole && within.is_empty() == (share.abs() > 0.5));
+                assert!(!refute::elsewhere(&short, &tube.exit));
+            }
         }
     }
 }
