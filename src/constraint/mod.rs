@@ -38,6 +38,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod twins;
+mod zeros;
 
 pub use heights::{Divided, Origin, divide};
 pub use kind::{Fixes, Kind, Measure};

@@ -147,6 +147,7 @@ impl Parts {
             unit,
             owners,
             has_twins: _,
+            own: _,
         } = Cut::new(problem)?;
         let values = system.unknowns.iter().zip(&system.values);
         let scaled = values.map(|(unknown, value)| {
