@@ -4,10 +4,11 @@
 mod common;
 
 use common::{certificate, solve, ways};
+use krawl::blocks::Figures;
 use krawl::certificate::{self as certificates, Settings};
 use krawl::problem::Problem;
 use krawl::system::Located;
-use krawl::track::{Options, Solution, Space, Status};
+use krawl::track::{Control, Options, Solution, Space, Status};
 
 /// l turns about p until it is as far from q as r is from the line a-b. What says where r is comes with the case.
 fn turning(points: &str, ab: &str, constraints: &str) -> Problem {
@@ -115,15 +116,19 @@ fn certificates_know_that_both_directions_are_one_figure() {
 }
 
 /// r is where two circles meet, in two places of which one happens to be on the line: no equation says so, and no box tells.
-/// Then nothing is claimed of the two directions there; in floats they are seen to be one.
-#[test]
-fn what_may_be_one_figure_is_not_counted_as_two() {
-    let problem = turning(
+fn meeting() -> Problem {
+    turning(
         "r = [0.9, 0.6]\nc = [1, 2]\nd = [4, 0]",
         r#""p", "d""#,
         "fixed = [\"p\", \"q\", \"a\", \"b\", \"c\", \"d\"]\non = [[\"p\", \"l\"]]\n\
          distances = [[\"p\", \"r\", 1], [\"c\", \"r\", 2]]",
-    );
+    )
+}
+
+/// Then nothing is claimed of the two directions there; in floats they are seen to be one.
+#[test]
+fn what_may_be_one_figure_is_not_counted_as_two() {
+    let problem = meeting();
     let outcome = solve(&problem, &Options::certified());
     let Status::Stopped(reason) = &outcome.status else {
         panic!("{:?}", outcome.status);
@@ -139,4 +144,14 @@ fn what_may_be_one_figure_is_not_counted_as_two() {
         }
     }
     assert_eq!(alike, 1);
+}
+
+/// Nor are they when figures are counted block by block.
+#[test]
+fn blocks_do_not_count_one_figure_twice() {
+    for problem in [sliding(), placed(), meeting()] {
+        let found = Figures::find(&problem, &Options::certified(), &mut Control::default());
+        let refused = found.map(|figures| figures.count()).unwrap_err();
+        assert!(refused.contains("direction"), "{refused}");
+    }
 }

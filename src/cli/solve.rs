@@ -706,7 +706,7 @@ fn follow(
         && let Status::Stopped(reason) = &mut outcome.status
         && !cancel.load(Ordering::Relaxed)
     {
-        *reason += "; the full space has extended precision (`--space full`)";
+        reason.text += "; the full space has extended precision (`--space full`)";
     }
     let (mut written, mut verdict) = (true, None);
     if let (Some(beside), Some(writer)) = (cert, witness) {

@@ -5,11 +5,11 @@ use crate::interval::Interval;
 use crate::interval::rounding::round_up;
 use crate::system::Homotopy;
 use crate::track::certified::solution::{Same, SolutionBox};
-use crate::track::Solution;
+use crate::track::{Solution, Stop, StopKind};
 
 impl<const D: usize> Ledger<D> {
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
-    pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
+    pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (Stop, Vec<Solution>)> {
         let mut reason = None;
         let mut classes: Vec<usize> = Vec::new();
         let mut mirrors: Vec<Option<usize>> = Vec::new();
@@ -65,7 +65,7 @@ impl<const D: usize> Ledger<D> {
             .collect();
         match reason {
             None => Ok(solutions),
-            Some(reason) => Err((reason, solutions)),
+            Some(reason) => Err((Stop::new(StopKind::Undecided, reason), solutions)),
         }
     }
 }
