@@ -76,7 +76,7 @@ fn main() {
             let outcome = match &o.status {
                 Status::Open(_) => "open",
                 Status::Closed => "closed",
-                Status::Stopped(reason) => reason,
+                Status::Stopped(stop) => &stop.text,
             };
             println!(
                 "{name:<15} {:<15} {:>7} {:>8} {:>9} {:>10.3} {:>8.2} {:>7.2}  {outcome}",

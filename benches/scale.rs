@@ -287,7 +287,7 @@ fn report(mode: &Mode, m: usize, measured: &Measured) {
         ),
         Status::Open(_) => "open".to_owned(),
         Status::Stopped(reason) if reason.contains("limit") => "so far".to_owned(),
-        Status::Stopped(reason) => reason.clone(),
+        Status::Stopped(reason) => reason.text.clone(),
     };
     println!(
         "{:>6} {:>8} {:>9.1} {:>11.4} {:>10.2} {:>7}  {outcome}",

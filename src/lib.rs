@@ -114,6 +114,7 @@ pub mod constraint;
 pub mod edit;
 pub mod explore;
 pub mod generate;
+mod hexadecimal;
 pub mod import;
 pub mod interval;
 #[doc(hidden)]

@@ -5,7 +5,7 @@ mod common;
 use common::certificate::{Certificate, SHIPPED, shipped};
 use krawl::certificate::{Flaw, FormatError, Outcome, Record, Settings, Verdict, Writer, verify};
 use krawl::problem::Problem;
-use krawl::track::{Options, Status, Witness};
+use krawl::track::{Options, Status, Stop, StopKind, Witness};
 
 fn check(bytes: &[u8]) -> Result<Verdict, FormatError> {
     verify(bytes, &Settings::default(), &mut |_| ())
@@ -119,7 +119,10 @@ fn certificates_have_a_limit_on_memory() {
     let problem = problem.unwrap();
     let mut writer = Writer::new(Vec::new(), &problem);
     writer.begin(1.0);
-    writer.end(&Status::Stopped("no tube was proved".to_owned()), &[]);
+    writer.end(
+        &Status::Stopped(Stop::new(StopKind::NoStep, "no tube was proved")),
+        &[],
+    );
     let bytes = writer.finish().unwrap();
     let refused = check(&bytes).unwrap_err().to_string();
     let free = problem.free_coordinates();

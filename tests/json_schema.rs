@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use jsonschema::Validator;
+use krawl::track::StopKind;
 use serde_json::Value;
 use std::fs;
 
@@ -424,4 +425,33 @@ fn a_whole_that_stops_is_answered_by_its_blocks() {
         figures["figures"][0]["points"]["d"][1],
         serde_json::json!([3.0, 3.0])
     );
+}
+
+/// What made a run stop has a name, and the schemas and the documentation know all of them.
+#[test]
+fn reasons_to_stop_have_names() {
+    let names: Vec<&str> = StopKind::ALL.map(StopKind::name).to_vec();
+    let doc = fs::read_to_string("docs/json.md").unwrap();
+    for (k, name) in names.iter().enumerate() {
+        assert!(!names[..k].contains(name), "{name}");
+        assert!(doc.contains(&format!("| `{name}` |")), "{name}");
+    }
+    let lists = [
+        ("result", "/properties/stopped_kind/enum"),
+        ("edit", "/properties/stopped_kind/enum"),
+        ("comparison", "/$defs/row/properties/stopped_kind/enum"),
+    ];
+    for (kind, place) in lists {
+        let text = fs::read_to_string(format!("docs/schema/{kind}.schema.json")).unwrap();
+        let schema: Value = serde_json::from_str(&text).unwrap();
+        let list = schema.pointer(place).unwrap_or_else(|| panic!("{kind}"));
+        let all = names.iter().map(|&name| Value::from(name));
+        let all: Vec<Value> = all.chain([Value::Null]).collect();
+        assert_eq!(list, &Value::from(all), "{kind}");
+    }
+    let closed = &solve(&["problems/octahedron.toml"])[0];
+    assert!(closed["reason"].is_null() && closed["stopped_kind"].is_null());
+    let first = &solve(&["problems/octahedron.toml", "--first"])[0];
+    assert!(first["reason"].is_string());
+    assert!(["enough", "turns_back"].contains(&first["stopped_kind"].as_str().unwrap()));
 }

@@ -145,7 +145,7 @@ fn try_one(random: &mut Random, tally: &mut Tally) -> Result<(), String> {
         } else if is_singular(reason) {
             tally.singular += 1;
         } else {
-            return Err(reason.clone());
+            return Err(reason.text.clone());
         }
         return Ok(());
     }

@@ -90,7 +90,7 @@ fn same_verdict(outcome: &Outcome, certificate: &[u8]) -> Result<(), String> {
     let expected = match &outcome.status {
         Status::Closed => certificate::Outcome::Verified,
         Status::Open(_) => return Err("distances alone have no open paths".to_owned()),
-        Status::Stopped(reason) => certificate::Outcome::Partial(reason.clone()),
+        Status::Stopped(reason) => certificate::Outcome::Partial(reason.text.clone()),
     };
     let classes: Vec<u32> = outcome.solutions.iter().map(|s| s.class as u32).collect();
     // What stops a run last may be a claim of the classes or lengths, which a checker finds first.

@@ -444,6 +444,28 @@ fn equal_angles_and_planes_are_read_where_they_are_certain() {
     assert!(sketch.unsupported.contains_key("PROJ_PT_DISTANCE"));
 }
 
+/// A constraint further down the file names a point of another group that is far away: coordinates that are made equal
+/// may move as much farther, and the figure tells of no angle any more which one is meant.
+#[test]
+fn points_that_are_read_late_count_for_what_is_certain() {
+    let angles = "type=54 entityA.v=00060000 entityB.v=00090000 entityC.v=00040000 entityD.v=00070000 other=1";
+    let text = bracket_with(&[
+        ("11", angles),
+        ("12", "type=20 ptA.v=00040001 ptB.v=00990001"),
+    ]);
+    let read = |x: &str| {
+        let far = format!(
+            "Entity.h.v=00990001\nEntity.type=2000\nEntity.construction=0\nEntity.actPoint.x={x}\nAddEntity\n"
+        );
+        let text = format!("{text}\n{far}");
+        let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
+        assert!(!sketch.unsupported.contains_key("POINTS_COINCIDENT"));
+        sketch.unsupported.contains_key("EQUAL_ANGLE")
+    };
+    assert!(!read("60.0"));
+    assert!(read("1000000.0"));
+}
+
 const WATER: &str =
     "3\nwater\nO 0.0000 0.0000 0.1173\nH 0.0000 0.7572 -0.4692\nH 0.0000 -0.7572 -0.4692\n";
 const CHIRAL: &str = "5\nbromochlorofluoromethane\nC 0 0 0\nH 0.63 0.63 0.63\nF -0.78 -0.78 0.78\n\

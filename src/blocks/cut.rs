@@ -41,6 +41,8 @@ pub(crate) struct Cut {
     pub powers: Vec<i32>,
     /// For each object its radius, if it is a circle.
     pub radii: Vec<Option<usize>>,
+    /// Of each line and plane of its own the unknowns that stay where it is reversed, and those that change their signs.
+    pub own: Vec<[Vec<usize>; 2]>,
     /// What edits of it begin with.
     pub record: Record,
     /// A power of two near the mean length.
@@ -129,6 +131,25 @@ impl Cut {
                 _ => None,
             });
         let radii = radii.collect();
+        let own = problem.objects.iter().zip(&tail.objects);
+        let own = own.filter_map(|(object, of)| {
+            let stay = match object.shape {
+                Shape::FreeLine { .. } => problem.dimension,
+                Shape::FreePlane { .. } => 0,
+                _ => return None,
+            };
+            let unknowns = |of: &[Entry]| -> Vec<usize> {
+                of.iter()
+                    .filter_map(|entry| match *entry {
+                        Entry::Unknown(k) => Some(system.auxiliary[k]),
+                        _ => None,
+                    })
+                    .collect()
+            };
+            let (stay, turn) = of.split_at(stay);
+            Some([unknowns(stay), unknowns(turn)])
+        });
+        let own = own.collect();
         let powers = tail.equations.iter().map(|e| e.power).collect();
         let rights = tail.equations.into_iter().map(|e| e.right).collect();
         let mut cut = Cut {
@@ -142,6 +163,7 @@ impl Cut {
             rights,
             powers,
             radii,
+            own,
             record,
             unit,
             owners,

@@ -83,7 +83,7 @@ pub fn follow(
         _ => track::<3>(&bent, &options, &mut watched),
     };
     let mut doubt = match outcome.status {
-        Status::Stopped(reason) => Some(reason),
+        Status::Stopped(stop) => Some(stop.text),
         Status::Closed | Status::Open(_) => None,
     };
     if outcome.solutions.len() != seen.solutions.len()

@@ -294,7 +294,7 @@ impl<W: Write> Witness for Writer<'_, W> {
                 Ok(())
             }
             ArcEnd::Passes(reason) => Err(format!("branches seem to meet: {reason}")),
-            ArcEnd::Stopped(reason) => Err(reason.clone()),
+            ArcEnd::Stopped(reason) => Err(reason.text.clone()),
         });
     }
 

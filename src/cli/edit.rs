@@ -207,7 +207,7 @@ pub(super) fn certified(
 /// Why an edit stopped, if it did.
 pub(super) fn reason(edited: &Edited) -> Option<&str> {
     match &edited.ending {
-        Ending::Stopped(reason) => Some(reason),
+        Ending::Stopped(stop) => Some(&stop.text),
         _ => None,
     }
 }

@@ -502,10 +502,16 @@ fn follow_blocks(
 /// Where a run stopped: what makes the sketch or the target singular, which may be why.
 fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
     const MOST: usize = 3;
-    if !matches!(outcome.status, Status::Stopped(_)) || !problem.is_distances_only() {
-        return String::new();
-    }
-    let all = remarks(problem);
+    let all = match (problem.is_distances_only(), &outcome.status) {
+        (true, Status::Stopped(_)) => remarks(problem),
+        // A flat sketch may lead nowhere else than to places where the path ends.
+        (false, Status::Stopped(_) | Status::Open(_)) => {
+            let mut all = remarks(problem);
+            all.retain(|remark| matches!(remark, Remark::FlatSketch { .. }));
+            all
+        }
+        _ => return String::new(),
+    };
     let mut warnings: Vec<_> = all.iter().filter(|remark| remark.is_warning()).collect();
     if outcome.steps == 0 {
         // It is the sketch that no run can leave.
@@ -706,7 +712,7 @@ fn follow(
         && let Status::Stopped(reason) = &mut outcome.status
         && !cancel.load(Ordering::Relaxed)
     {
-        *reason += "; the full space has extended precision (`--space full`)";
+        reason.text += "; the full space has extended precision (`--space full`)";
     }
     let (mut written, mut verdict) = (true, None);
     if let (Some(beside), Some(writer)) = (cert, witness) {

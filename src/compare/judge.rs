@@ -204,7 +204,7 @@ mod tests {
     use super::super::{Row, Way};
     use super::*;
     use crate::interval::{hull, point};
-    use crate::track::{Driving, Space, Status};
+    use crate::track::{Driving, Space, Status, Stop, StopKind};
 
     /// A run that met figures of one moving point, and how far it went.
     fn measured(mode: Mode, met: &[f64], length: f64, closed: bool, residual: f64) -> Measured {
@@ -227,7 +227,7 @@ mod tests {
                 space: Space::Full,
                 status: match closed {
                     true => Status::Closed,
-                    false => Status::Stopped("somewhere".into()),
+                    false => Status::Stopped(Stop::new(StopKind::NoStep, "somewhere")),
                 },
                 solutions: met.iter().map(solution).collect(),
                 steps: 1,

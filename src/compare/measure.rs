@@ -2,7 +2,7 @@
 
 use super::{Row, Setting, Verdict, Way, residual_bound};
 use crate::problem::Problem;
-use crate::track::{Control, Limit, Options, Outcome, Progress, Status, solve};
+use crate::track::{Control, Limit, Options, Outcome, Progress, Status, Stop, StopKind, solve};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -176,15 +176,17 @@ impl<'a> Session<'a> {
                 return None;
             }
             if outcome.length > self.length {
-                *reason = format!(
+                let words = format!(
                     "given up after {} steps: it went {TOO_FAR} times as far as the path is long",
                     outcome.steps
                 );
+                *reason = Stop::new(StopKind::Limit, words);
             } else if started.elapsed().as_secs_f64() > self.effort.limit {
-                *reason = format!(
+                let words = format!(
                     "given up after {} seconds and {} steps",
                     self.effort.limit, outcome.steps
                 );
+                *reason = Stop::new(StopKind::Limit, words);
             }
         }
         Some(Ok(outcome))

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Marks {
     /// The bytes, if they are wanted.
-    #[serde(with = "hexadecimal")]
+    #[serde(with = "digits")]
     pub bytes: Option<Vec<u8>>,
 }
 
@@ -25,18 +25,12 @@ impl Marks {
 }
 
 /// Bytes as a text of hexadecimal digits.
-mod hexadecimal {
+mod digits {
+    use crate::hexadecimal::hexadecimal;
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
-    use std::fmt::Write;
 
     pub fn serialize<S: Serializer>(bytes: &Option<Vec<u8>>, to: S) -> Result<S::Ok, S::Error> {
-        let text = bytes.as_ref().map(|bytes| {
-            bytes.iter().fold(String::new(), |mut text, byte| {
-                // Writing to a string cannot fail.
-                let _ = write!(text, "{byte:02x}");
-                text
-            })
-        });
+        let text = bytes.as_deref().map(hexadecimal);
         text.serialize(to)
     }
 

@@ -5,8 +5,9 @@
 
 use super::node::Node;
 use super::search::{Run, Search};
-use super::store::{Keep, Store, hexadecimal};
+use super::store::{Keep, Store};
 use super::visit::{Found, Why};
+use crate::hexadecimal::hexadecimal;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::collections::VecDeque;
@@ -74,7 +75,7 @@ impl Outline {
             });
         }
         digest.update(format!("{} {:?}", self.roots, self.pieces));
-        hexadecimal(digest)
+        hexadecimal(&digest.finalize())
     }
 
     /// All that was found, in the order of the search; with marks, if a cover is wanted.

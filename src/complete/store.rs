@@ -7,6 +7,7 @@
 
 use super::plan::Plan;
 use super::visit::Found;
+use crate::hexadecimal::hexadecimal;
 use crate::problem::Problem;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -101,13 +102,8 @@ fn json<T: Serialize>(what: &T) -> String {
 
 /// The checksum of a line: of its text and of the first line's, so that no line passes into another search's file.
 fn checksum(head: &str, text: &str) -> String {
-    hexadecimal(Sha256::new().chain_update(head).chain_update(text))
-}
-
-/// A digest in hexadecimal digits.
-pub(super) fn hexadecimal(digest: Sha256) -> String {
-    let bytes = digest.finalize();
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    let digest = Sha256::new().chain_update(head).chain_update(text);
+    hexadecimal(&digest.finalize())
 }
 
 /// Reads what is whole: the first line, the pieces, and how long all that is.

@@ -146,7 +146,7 @@ impl Follower {
             ArcEnd::Reached(figure) => PathEnd::Reached(SolutionBox::new(figure, run.alone_within)),
             _ if size > ways.radius => PathEnd::Beyond(run.t.0),
             ArcEnd::Limit(_) => PathEnd::Stopped("the path turns back in t".to_owned()),
-            ArcEnd::Passes(reason) | ArcEnd::Stopped(reason) => PathEnd::Stopped(reason),
+            ArcEnd::Passes(stop) | ArcEnd::Stopped(stop) => PathEnd::Stopped(stop.text),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::exact::{Exact, Parameter, zero};
 use crate::constraint::{self, Entry, Form, Role, Tail};
+use crate::hexadecimal::hexadecimal;
 use crate::interval::point;
 use crate::system::{Homotopy, Right, Term};
 use sha2::{Digest, Sha256};
@@ -223,8 +224,7 @@ impl System {
                 Kind::Fixed(value) => text += &format!(" {} {}\n", value.re, value.im),
             }
         }
-        let hash = Sha256::digest(text.as_bytes());
-        hash.iter().map(|byte| format!("{byte:02x}")).collect()
+        hexadecimal(&Sha256::digest(text.as_bytes()))
     }
 }
 

@@ -44,6 +44,23 @@ enum Odd {
     Auxiliary(usize),
 }
 
+/// How many equations of a tail change their sign with the heights, and how many unknowns do; and whether all of those
+/// equations have zero on the right for every t, so that they hold in every flat figure. `heights`: as in [`divide`]. The
+/// error says which equation does neither.
+pub fn odd_ones(tail: &Tail, heights: &[Option<Interval>]) -> Result<([usize; 2], bool), String> {
+    let parity = Parity { tail, heights };
+    let (mut equations, mut hold) = (0, true);
+    for equation in &tail.equations {
+        if parity.of_equation(equation)? {
+            equations += 1;
+            hold &= equation.right.iter().all(Real::is_zero);
+        }
+    }
+    let auxiliary = tail.unknowns.iter().filter(|unknown| unknown.flips[2]);
+    let unknowns = heights.iter().flatten().count() + auxiliary.count();
+    Ok(([equations, unknowns], hold))
+}
+
 /// Divides the odd equations of a tail by 1 − t.
 ///
 /// `heights`: for every point an enclosure of its height in the sketch, in the problem's unit, where that is an

@@ -38,8 +38,9 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod twins;
+mod zeros;
 
-pub use heights::{Divided, Origin, divide};
+pub use heights::{Divided, Origin, divide, odd_ones};
 pub use kind::{Fixes, Kind, Measure};
 pub use kinds::KINDS;
 pub use quadratic::{

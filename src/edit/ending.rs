@@ -1,6 +1,7 @@
 //! What comes of an edit.
 
 use crate::interval::Interval;
+use crate::track::Stop;
 use crate::track::arc::Orientation;
 
 /// How an edit ended.
@@ -11,11 +12,10 @@ pub enum Ending {
     Reached,
     /// The path turns back before: there is no continuation beyond.
     Limit(Limit),
-    /// Near a figure where branches seem to meet: seen in floats, not proved. The text says what the proof
-    /// met there.
-    Passes(String),
+    /// Near a figure where branches seem to meet: seen in floats, not proved. What the proof met there.
+    Passes(Stop),
     /// The proof ended before, and why.
-    Stopped(String),
+    Stopped(Stop),
 }
 
 /// The figure at which a path turns back.

@@ -130,7 +130,7 @@ impl Session {
                 value,
                 format!("branches of figures seem to meet there ({reason})"),
             ),
-            Ending::Stopped(reason) => End::Unknown(value, reason),
+            Ending::Stopped(reason) => End::Unknown(value, reason.text),
         };
         (end, points)
     }

@@ -6,7 +6,7 @@ use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy, is_met};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::FollowArcs;
-use crate::track::{Control, StartError};
+use crate::track::{Control, StartError, Stop, StopKind};
 
 /// Why a file holds no figure to edit.
 #[derive(Debug, thiserror::Error)]
@@ -84,13 +84,17 @@ pub(super) fn correct(
                 "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
                 run.t.0
             );
-            return refuse(Ending::Stopped(what.clone()), what);
+            let stop = Stop::new(StopKind::TurnsBack, &*what);
+            return refuse(Ending::Stopped(stop), what);
         }
         ArcEnd::Passes(reason) => {
             let what = format!("on the way there branches seem to meet ({reason})");
             return refuse(Ending::Passes(reason), what);
         }
-        ArcEnd::Stopped(reason) => return refuse(Ending::Stopped(reason.clone()), reason),
+        ArcEnd::Stopped(reason) => {
+            let what = reason.text.clone();
+            return refuse(Ending::Stopped(reason), what);
+        }
     };
     let homotopy = arcs.homotopy_mut();
     for (index, distance) in problem.distances.iter().enumerate() {

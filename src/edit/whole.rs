@@ -12,7 +12,7 @@ use crate::problem::{Decimal, Object, Problem, Shape, Target};
 use crate::system::{Homotopy, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
-use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError};
+use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError, Stop, StopKind};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -187,7 +187,7 @@ impl Whole {
         }
         let record = self.lead_constraints(settings);
         let run = match &record {
-            Err(fault) => ArcRun::stopped(fault.clone()),
+            Err(fault) => ArcRun::stopped(Stop::new(StopKind::Refused, &**fault)),
             Ok(_) => {
                 if let Some(witness) = &mut control.witness {
                     let led = settings.iter().map(|s| (s.index, &s.target));

@@ -152,7 +152,7 @@ impl Job {
             }
             // It was broken off, and will be followed anew.
             Status::Stopped(_) if limits.is_over() => return None,
-            Status::Stopped(reason) => (End::Stopped, Some(reason)),
+            Status::Stopped(stop) => (End::Stopped, Some(stop.text)),
         };
         let mut classes = Vec::new();
         let pairs = outcome.solutions.iter().zip(&seen.solutions);

@@ -6,6 +6,7 @@
 use super::follow::{Job, Limits};
 use super::record::{PathRecord, Sketch};
 use super::{ExploreError, Share};
+use crate::hexadecimal::hexadecimal;
 use crate::problem::{Decimal, Problem};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -40,8 +41,7 @@ struct Line {
 }
 
 fn hash(text: &str) -> String {
-    let digest = Sha256::digest(text.as_bytes());
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(text.as_bytes()))
 }
 
 const UNIT: &str = "work unit";

@@ -336,9 +336,58 @@ struct Reader<'a> {
     objects: HashMap<Handle, usize>,
     places: Vec<Option<([Handle; 2], Handle)>>,
     radii: HashMap<usize, (Handle, Handle)>,
+    /// The drawing's size once all is read, if that is known.
+    size: Option<f64>,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// A sketch with all its constraints, of which the points are all read only in the end: those of other groups are where
+    /// constraints name them. `size`: see there.
+    fn filled(
+        contents: &'a Contents<'a>,
+        (group, workplane): (Handle, Handle),
+        plane: Plane,
+        size: Option<f64>,
+    ) -> Self {
+        let mut reader = Reader {
+            contents,
+            group,
+            workplane,
+            plane,
+            drawing: Drawing::default(),
+            points: HashMap::new(),
+            objects: HashMap::new(),
+            places: Vec::new(),
+            radii: HashMap::new(),
+            size,
+        };
+        // In the order of the file.
+        for record in &contents.records {
+            let handle = record.handle();
+            if record.kind != "Entity" || contents.request(handle, group).is_none() {
+                continue;
+            }
+            match record.whole("type") {
+                POINT_IN_2D => drop(reader.point(handle)),
+                LINE | CIRCLE | ARC => drop(reader.object(handle)),
+                _ => {}
+            }
+        }
+        for (index, record) in contents.records.iter().enumerate() {
+            let is_driving = record.whole("reference") == 0 && record.whole("type") != COMMENT;
+            if record.kind != "Constraint" || record.hex("group.v") != group || !is_driving {
+                continue;
+            }
+            reader
+                .drawing
+                .name(index, format!("c{:03x}", record.handle()));
+            if reader.constraint(index).is_none() {
+                reader.drawing.refuse(&kind_name(record.whole("type")));
+            }
+        }
+        reader
+    }
+
     /// The point that an entity is, in this sketch or outside.
     fn point(&mut self, handle: Handle) -> Option<usize> {
         if let Some(&point) = self.points.get(&handle) {
@@ -514,7 +563,8 @@ impl Reader<'_> {
         let cosine = (a * c + b * d) / (long * short);
         // An end moves by no more than twice SNAP of the largest coordinate, along each axis; `size` is no less than that
         // divided by the root of 2.
-        let moved = 4.0 * self.drawing.size() * SNAP;
+        let size = self.size.unwrap_or_else(|| self.drawing.size());
+        let moved = 4.0 * size * SNAP;
         (cosine.abs() > 4.0 * moved * (1.0 / long + 1.0 / short)).then_some(cosine)
     }
 
@@ -793,41 +843,11 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     let workplane = group.hex("activeWorkplane.v");
     let plane = Plane::new(&contents, workplane)
         .ok_or_else(|| format!("the work plane of {name} is missing"))?;
-    let mut reader = Reader {
-        contents: &contents,
-        group: group.handle(),
-        workplane,
-        plane,
-        drawing: Drawing::default(),
-        points: HashMap::new(),
-        objects: HashMap::new(),
-        places: Vec::new(),
-        radii: HashMap::new(),
-    };
-    // In the order of the file.
-    for record in &contents.records {
-        let handle = record.handle();
-        if record.kind != "Entity" || contents.request(handle, group.handle()).is_none() {
-            continue;
-        }
-        match record.whole("type") {
-            POINT_IN_2D => drop(reader.point(handle)),
-            LINE | CIRCLE | ARC => drop(reader.object(handle)),
-            _ => {}
-        }
-    }
-    for (index, record) in contents.records.iter().enumerate() {
-        let is_driving = record.whole("reference") == 0 && record.whole("type") != COMMENT;
-        if record.kind != "Constraint" || record.hex("group.v") != group.handle() || !is_driving {
-            continue;
-        }
-        reader
-            .drawing
-            .name(index, format!("c{:03x}", record.handle()));
-        if reader.constraint(index).is_none() {
-            reader.drawing.refuse(&kind_name(record.whole("type")));
-        }
-    }
+    let filled = |size| Reader::filled(&contents, (group.handle(), workplane), plane, size);
+    // How far coordinates move depends on the largest of all, and with it which signs are certain: what the first
+    // reading finds of that is there for the second.
+    let size = filled(None).drawing.size();
+    let reader = filled(Some(size));
     let Reader {
         drawing,
         places,

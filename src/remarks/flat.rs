@@ -1,7 +1,8 @@
 //! Where the sketch is singular because points are on one line or in one plane, exactly.
 
 use super::{Remark, joined, tetrahedra, triangles};
-use crate::problem::Problem;
+use crate::problem::{Object, Problem, Shape};
+use crate::system::Homotopy;
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -37,6 +38,33 @@ fn are_flat(dimension: usize, vectors: &[Vector]) -> bool {
         (2, Some(_)) => false,
         (_, Some(normal)) => vectors.iter().all(|v| dot(&normal, v).is_zero()),
     }
+}
+
+/// A sketch in space of which all points are in one plane, where the path does not leave it as it does with one height
+/// more than conditions on heights.
+///
+/// In a flat figure the derivatives of conditions that change their sign with the heights are zero but for those by the
+/// heights, and those of all other equations are zero by the heights. So the Jacobian has two blocks, and the path's
+/// direction, which it takes to zero, is in the plane where there are as many conditions as heights, and so are all points of the
+/// path, as the flat figures fill a curve of their own there. Where there are more conditions than heights,
+/// or fewer by more than one, one of the blocks has too few independent rows.
+pub(super) fn sketch(problem: &Problem) -> Vec<Remark> {
+    let vectors: Vec<Vector> = (1..problem.points.len())
+        .map(|p| from(problem, 0, p))
+        .collect();
+    // Those are not where points are.
+    let is_own = |o: &Object| matches!(o.shape, Shape::FreeLine { .. } | Shape::FreePlane { .. });
+    if problem.dimension != 3 || !are_flat(3, &vectors) || problem.objects.iter().any(is_own) {
+        return Vec::new();
+    }
+    let homotopy = Homotopy::new(problem).ok();
+    let counts = homotopy.and_then(|homotopy| homotopy.odd_in_heights());
+    let found = counts.filter(|&[conditions, heights]| heights != conditions + 1);
+    let remark = found.map(|[conditions, heights]| Remark::FlatSketch {
+        conditions,
+        heights,
+    });
+    remark.into_iter().collect()
 }
 
 /// Parts of a figure this near to a line or plane, in parts of its size, are looked at exactly.
@@ -239,5 +267,32 @@ mod tests {
         let found = remarks(&problem);
         let is_part = |r: &Remark| matches!(r, Remark::FlatPart { points, .. } if points.len() > 5);
         assert!(!found.iter().any(is_part), "{found:?}");
+    }
+
+    /// Of one shipped problem the sketch is singular once it is drawn flat, of another one the path stays in the plane, and of
+    /// a pyramid with a quadrangle for a base it leaves it.
+    #[test]
+    fn a_sketch_drawn_flat_is_named() {
+        let flat = |mut problem: Problem| {
+            assert!(sketch(&problem).is_empty());
+            for point in &mut problem.points {
+                point.sketch[2] = 0.into();
+            }
+            let found = sketch(&problem);
+            found.first().map(|remark| in_words(&problem, remark))
+        };
+        let shipped = |name: &str| {
+            let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/problems/constraints");
+            Problem::read(format!("{folder}/{name}.toml")).unwrap()
+        };
+        let words = flat(shipped("hexahedron")).unwrap();
+        assert!(words.contains("the sketch is singular"), "{words}");
+        let words = flat(shipped("pentahedron")).unwrap();
+        assert!(words.contains("all figures on it are flat"), "{words}");
+        let pyramid = "name = \"pyramid\"\ndimension = 3\n[points]\na = [0, 0, 0]\nb = [2, 0, 0]\nc = [2.1, 1.8, 0]\n\
+                       d = [0.1, 1.7, 0]\ne = [1, 0.9, 1.6]\n[constraints]\ncoplanar = [[\"a\", \"b\", \"c\", \"d\"]]\n\
+                       distances = [[\"a\", \"b\", 2], [\"b\", \"c\", 2], [\"c\", \"d\", 2.1], [\"d\", \"a\", 1.9], \
+                       [\"a\", \"e\", 2], [\"b\", \"e\", 2.1], [\"c\", \"e\", 1.9], [\"a\", \"c\", 2.9]]\n";
+        assert_eq!(flat(Problem::parse(pyramid, "pyramid.toml").unwrap()), None);
     }
 }

@@ -67,6 +67,15 @@ pub enum Remark {
         /// The number of distances among them.
         distances: usize,
     },
+    /// In the sketch all points are in one plane, and so many conditions hold in every figure in that plane as tell above
+    /// from below (coplanarities, most of them), for so many heights over it: but for one condition less than heights,
+    /// the sketch is singular, or the path stays in the plane.
+    FlatSketch {
+        /// The conditions.
+        conditions: usize,
+        /// The heights, and what else changes its sign with them.
+        heights: usize,
+    },
     /// Two triangles on a common side have the same sides at every t: where the path brings one onto a line
     /// it does so with the other, and branches meet.
     Twins {
@@ -115,11 +124,16 @@ fn points_of(shape: &Shape) -> Vec<usize> {
 /// Most points of problems that are looked at for what takes long.
 const MANY: usize = 200;
 
-/// Everything that is found, the gravest first. Of problems with other constraints than distances only which of
-/// them follow from each other.
+/// Everything that is found, the gravest first. Of problems with other constraints than distances only whether the sketch is
+/// flat, and which of them follow from each other.
 pub fn remarks(problem: &Problem) -> Vec<Remark> {
     if !problem.is_distances_only() {
-        return redundant::redundant(problem);
+        // From a flat sketch one comes to flat figures, at which conditions depend on each other that do not elsewhere.
+        let flat = flat::sketch(problem);
+        return match flat.is_empty() {
+            true => redundant::redundant(problem),
+            false => flat,
+        };
     }
     let mut all = target::too_long(problem);
     all.extend(target::flat(problem));

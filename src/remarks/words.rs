@@ -81,6 +81,24 @@ pub fn in_words(problem: &Problem, remark: &Remark) -> String {
                  independent {flat}: the sketch is singular, and a run may not set out from it; {advice}"
             )
         }
+        Remark::FlatSketch {
+            conditions,
+            heights,
+        } => {
+            let comes = match conditions == heights {
+                true => {
+                    "so the path stays in that plane, and all figures on it are flat; if figures in space are wanted, move \
+                     points of the sketch out of the plane"
+                }
+                false => {
+                    "the sketch is singular, and a run may not set out from it; move points of it out of the plane"
+                }
+            };
+            format!(
+                "in the sketch all points are in one plane, where the conditions that tell its two sides apart, such as \
+                 coplanarities, hold whatever the figure is: {comes}"
+            )
+        }
         Remark::Twins { side, corners } => {
             let [a, b] = side.map(name);
             let [c, d] = corners.map(name);

@@ -252,7 +252,7 @@ pub(super) fn write_points(
 /// An edit as one line of JSON (docs/edit.md):
 ///
 /// ```json
-/// {"problem": "...", "status": "reached", "words": "...", "reason": null, "t": [1.0, 1.0],
+/// {"problem": "...", "status": "reached", "words": "...", "reason": null, "stopped_kind": null, "t": [1.0, 1.0],
 ///  "dimensions": {"a-b": [5.2, 5.2]}, "points": {"a": [[0.0, 0.0], [0.0, 0.0]]},
 ///  "kept": [["a", "b", "c"]], "lost": [{"points": ["a", "b", "d"], "t": [0.31, 0.32]}],
 ///  "flat": [], "limit": null, "moved": 0.0, "tubes": 3, "rejected": 0, "length": 1.0,
@@ -271,8 +271,8 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         let name = problem.dimension_name(d.index);
         (name, bounds(d.value))
     });
-    let reason = match &edited.ending {
-        Ending::Passes(reason) | Ending::Stopped(reason) => Some(reason),
+    let stop = match &edited.ending {
+        Ending::Passes(stop) | Ending::Stopped(stop) => Some(stop),
         Ending::Reached | Ending::Limit(_) => None,
     };
     let limit = match &edited.ending {
@@ -301,7 +301,8 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         "problem": problem.name,
         "status": edited.ending.name(),
         "words": edit_in_words(problem, edited),
-        "reason": reason,
+        "reason": stop.map(|stop| &stop.text),
+        "stopped_kind": stop.map(|stop| stop.kind.name()),
         "t": [edited.t.0, edited.t.1],
         "dimensions": dimensions.collect::<Map<_, _>>(),
         "points": points_to_value(problem, &edited.points),

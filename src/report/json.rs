@@ -73,6 +73,7 @@ struct Document<'a> {
     options: WrittenOptions<'a>,
     status: &'static str,
     reason: Option<&'a str>,
+    stopped_kind: Option<&'static str>,
     verdict: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<End<'a>>>,
@@ -167,10 +168,10 @@ impl<'a> Document<'a> {
             trace,
             samples,
         } = *run;
-        let (status, reason) = match &outcome.status {
+        let (status, stop) = match &outcome.status {
             Status::Closed => ("closed", None),
             Status::Open(_) => ("open", None),
-            Status::Stopped(reason) => ("stopped", Some(reason.as_str())),
+            Status::Stopped(stop) => ("stopped", Some(stop)),
         };
         let trace = trace.filter(|_| outcome.mode == Mode::Certified);
         let marks = Marks::new(problem);
@@ -187,7 +188,8 @@ impl<'a> Document<'a> {
             space: outcome.space.name(),
             options: WrittenOptions::new(problem, options),
             status,
-            reason,
+            reason: stop.map(|stop| stop.text.as_str()),
+            stopped_kind: stop.map(|stop| stop.kind.name()),
             verdict: verdict(problem, outcome),
             ends: ends(problem, &outcome.status),
             solutions: outcome

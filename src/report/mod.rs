@@ -55,7 +55,7 @@ mod tests {
     use super::*;
     use crate::interval::{Interval, hull, point};
     use crate::problem::Problem;
-    use crate::track::{Driving, Mode, Options, Outcome, Solution, Space, Status};
+    use crate::track::{Driving, Mode, Options, Outcome, Solution, Space, Status, Stop, StopKind};
     use serde_json::Value;
 
     fn triangle() -> Problem {
@@ -115,7 +115,10 @@ mod tests {
 
     #[test]
     fn numbers_in_json_round_trip() {
-        let outcome = outcome(Mode::Certified, Status::Stopped("too hard".into()));
+        let outcome = outcome(
+            Mode::Certified,
+            Status::Stopped(Stop::new(StopKind::NoStep, "too hard")),
+        );
         let json: Value = serde_json::from_str(&to_json(&triangle(), &outcome)).unwrap();
         assert_eq!(json["version"], JSON_VERSION);
         assert_eq!(json["constraints"][1]["value"], "1.12");
@@ -131,6 +134,7 @@ mod tests {
             (&json["status"], &json["reason"]),
             (&"stopped".into(), &"too hard".into())
         );
+        assert_eq!(json["stopped_kind"], "no_step");
         assert_eq!(json["t_range"][1].as_f64(), Some(1.0 + f64::EPSILON));
         let apex = &json["solutions"][0]["points"]["apex"];
         assert_eq!(apex.as_array().unwrap().len(), 2);
@@ -149,7 +153,10 @@ mod tests {
         let at = |name: &str| solutions.find(name).unwrap();
         assert!(at("\"a\"") < at("\"b\"") && at("\"b\"") < at("\"apex\""));
         assert!(!text.to_ascii_lowercase().contains("inf") && text.contains("\"length\":null"));
-        assert!(text.contains("\"reason\":null") && text.contains("\"mode\":\"float\""));
+        assert!(
+            text.contains("\"reason\":null,\"stopped_kind\":null")
+                && text.contains("\"mode\":\"float\"")
+        );
     }
 
     #[test]
@@ -170,7 +177,10 @@ mod tests {
         for mode in [Mode::Certified, Mode::Float] {
             let stopped = to_table(
                 &triangle(),
-                &outcome(mode, Status::Stopped("too hard.".into())),
+                &outcome(
+                    mode,
+                    Status::Stopped(Stop::new(StopKind::NoStep, "too hard.")),
+                ),
             );
             assert!(stopped.contains("Stopped: too hard. "), "{stopped}");
             assert!(stopped.contains("there may be more"));

@@ -2,7 +2,7 @@
 //! [`crate::constraint::divide`].
 
 use super::Homotopy;
-use crate::constraint::{Origin, divide};
+use crate::constraint::{Origin, divide, odd_ones};
 use crate::interval::{Interval, point};
 
 /// The divided equations of a problem, and how points go from the given unknowns to theirs and back.
@@ -26,19 +26,35 @@ impl Homotopy {
                 "flat figures are sought in the plane of three reference points only".to_owned(),
             );
         }
-        let height = |p: usize| {
-            // Its enclosure as the tail counts lengths.
-            self.coordinate(p, 2)
-                .map(|_| self.sketch_box[3 * p + 2] * point(self.unit))
-        };
-        let heights: Vec<Option<Interval>> = (0..self.points).map(height).collect();
-        let divided = divide(&self.tail, &heights)?;
+        let divided = divide(&self.tail, &self.heights())?;
         Ok(Heights {
             homotopy: self.with_other_tail(divided.tail),
             origins: divided.origins,
             places: self.gauge.place.len(),
             given: self.equations,
         })
+    }
+}
+
+impl Homotopy {
+    /// For every point its height over the reference plane in the sketch, as the tail counts lengths, where that is an
+    /// unknown.
+    fn heights(&self) -> Vec<Option<Interval>> {
+        let height = |p: usize| {
+            self.coordinate(p, 2)
+                .map(|_| self.sketch_box[3 * p + 2] * point(self.unit))
+        };
+        (0..self.points).map(height).collect()
+    }
+
+    /// How many equations change their sign with the heights over the reference plane, and how many unknowns do, where
+    /// all of these equations hold in every flat figure at every t, and the others stay as they are.
+    pub fn odd_in_heights(&self) -> Option<[usize; 2]> {
+        if self.dimension != 3 || self.gauge.reference.is_empty() {
+            return None;
+        }
+        let (counts, hold) = odd_ones(&self.tail, &self.heights()).ok()?;
+        hold.then_some(counts)
     }
 }
 

@@ -12,6 +12,7 @@ mod homotopy;
 mod interpolation;
 mod located;
 mod part;
+mod reversed;
 mod right;
 mod simplices;
 

@@ -2,6 +2,7 @@
 
 use crate::interval::{Interval, hull, point};
 use crate::system::Homotopy;
+use crate::track::Stop;
 
 /// A figure that is known up to a box, in which it is the only one that meets its equations.
 ///
@@ -74,9 +75,9 @@ pub enum ArcEnd {
     /// Near a point where the figure's equations lose rank by more than a fold takes away, so that
     /// branches meet there and none continues the figure more than another: seen in floats, not proved.
     /// Why the proof ended there.
-    Passes(String),
+    Passes(Stop),
     /// Why the proof ended before.
-    Stopped(String),
+    Stopped(Stop),
 }
 
 /// A triangle of joined points in the plane, or a tetrahedron in space, and what became of its sign.
@@ -117,7 +118,7 @@ pub struct ArcRun {
 
 impl ArcRun {
     /// One that could not even set out.
-    pub fn stopped(reason: String) -> Self {
+    pub fn stopped(reason: Stop) -> Self {
         ArcRun {
             end: ArcEnd::Stopped(reason),
             t: (0.0, 0.0),

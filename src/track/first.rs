@@ -4,7 +4,7 @@ use super::arc::{ArcEnd, ArcRun, Figure};
 use super::certified::arcs;
 use super::{
     Control, Driving, LARGEST_SQUARE, Mode, Options, Outcome, Place, Solution, Space, StartError,
-    Status,
+    Status, Stop, StopKind,
 };
 use crate::interval::{Interval, hull, point};
 use crate::problem::Problem;
@@ -87,17 +87,24 @@ fn account(homotopy: &Homotopy, space: Space, run: ArcRun, clock: Instant) -> Fi
     let reason = match &run.end {
         ArcEnd::Reached(figure) => {
             solutions.push(solution(homotopy, figure, run.length));
-            "only the first solution was asked for, and the run ended there".to_owned()
+            Stop::new(
+                StopKind::Enough,
+                "only the first solution was asked for, and the run ended there",
+            )
         }
         ArcEnd::Limit(_) => {
             turns_at = Some(run.t);
-            format!(
-                "the path turns back at t = {:.9}, before t = 1, and no more than its first arc was asked for",
-                0.5 * (run.t.0 + run.t.1)
+            Stop::new(
+                StopKind::TurnsBack,
+                format!(
+                    "the path turns back at t = {:.9}, before t = 1, and no more than its first arc was asked for",
+                    0.5 * (run.t.0 + run.t.1)
+                ),
             )
         }
         ArcEnd::Passes(reason) => {
-            format!("branches of figures seem to meet there ({reason})")
+            let words = format!("branches of figures seem to meet there ({reason})");
+            Stop::new(reason.kind, words)
         }
         ArcEnd::Stopped(reason) => reason.clone(),
     };

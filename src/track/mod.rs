@@ -13,6 +13,7 @@ pub(crate) mod full;
 mod options;
 mod outcome;
 pub(crate) mod reduced;
+mod stop;
 mod turns;
 mod witness;
 
@@ -25,6 +26,7 @@ pub use ends::{Away, EndKind, PathEnd};
 pub use first::{First, first};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
+pub use stop::{Stop, StopKind};
 pub use witness::{TubeSeen, Witness};
 
 use crate::problem::Problem;
@@ -105,12 +107,12 @@ pub fn solve(
                         Space::Reduced => reduced::float::LARGEST_STEP_OF_PAPER,
                     },
             );
-            *reason += &format!(
+            reason.text += &format!(
                 " (the paper's preset takes steps of up to {longest:e} in the lengths of the file)"
             );
         }
         if let Some(wish) = wish {
-            *reason += &format!(" ({wish} were asked for)");
+            reason.text += &format!(" ({wish} were asked for)");
         }
     }
     if let Status::Open(ends) = &mut outcome.status {

@@ -1,6 +1,6 @@
 //! What a run reports.
 
-use super::PathEnd;
+use super::{PathEnd, Stop};
 use crate::interval::Interval;
 use crate::problem::Problem;
 use crate::system::Located;
@@ -63,8 +63,8 @@ pub enum Status {
     /// the direction of travel, first. In certified mode the arc between is proved, and the solutions are
     /// exactly those on it.
     Open(Box<[PathEnd; 2]>),
-    /// The run ended before; the text says where and why.
-    Stopped(String),
+    /// The run ended before: where and why.
+    Stopped(Stop),
 }
 
 /// A figure on the path that meets the dimensions.

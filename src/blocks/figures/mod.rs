@@ -25,7 +25,7 @@ use super::number::Number;
 use crate::interval::{Interval, point};
 use crate::problem::{Item, Problem, Shape};
 use crate::track::{Control, Options};
-use parts::{is_met, parts_of, vanishes};
+use parts::{is_met, may_be_reversed, parts_of, vanishes};
 use search::Search;
 
 pub use first::{First, WithSenses};
@@ -217,6 +217,14 @@ impl Figures {
                     .iter()
                     .all(|&k| is_met(&cut, k, &values, &mut left_out[k]))
             });
+            let numbers: Vec<_> = figures.iter().map(|figure| &figure.numbers[..]).collect();
+            if may_be_reversed(&cut, &fixed, &numbers) {
+                return Err(
+                    "two figures may differ in nothing but the direction of a line or plane of its own, and be one; \
+                     such figures are not counted block by block (name two points of the line instead)"
+                        .to_owned(),
+                );
+            }
             parts.push(figures);
         }
         let (mut accounts, truncated) = (search.accounts, search.truncated);

@@ -4,6 +4,8 @@ use super::LeftOut;
 use crate::blocks::cut::Cut;
 use crate::blocks::number::Number;
 use crate::constraint::{Entry, Form};
+use crate::interval::Interval;
+use std::collections::HashMap;
 
 /// Constraints that seem to follow from others may be missed by so much, relative to the sketch's unit: sketches that say
 /// a thing twice do so to the digits that they store.
@@ -142,4 +144,54 @@ pub(super) fn is_met(
         false => account.refused += 1,
     }
     is_met
+}
+
+/// Whether two of these figures of a part may be one in which lines or planes of their own run the other way: all that
+/// people see of a figure, points, radii, lines and planes, may be the same. `fixed`: the numbers of all other parts that
+/// have one figure only.
+pub(super) fn may_be_reversed(
+    cut: &Cut,
+    fixed: &[Option<Number>],
+    figures: &[&[(usize, Number)]],
+) -> bool {
+    if cut.own.is_empty() {
+        return false;
+    }
+    let enclosed = |figure: &&[(usize, Number)]| -> HashMap<usize, Interval> {
+        let numbers = figure.iter();
+        numbers
+            .map(|(u, number)| (*u, number.enclosure()))
+            .collect()
+    };
+    let figures: Vec<HashMap<usize, Interval>> = figures.iter().map(enclosed).collect();
+    let seen: Vec<usize> = cut
+        .system
+        .coordinates
+        .iter()
+        .copied()
+        .chain(cut.radii.iter().flatten().copied())
+        .chain(cut.own.iter().flat_map(|[stay, _]| stay.iter().copied()))
+        .collect();
+    let pairs = figures
+        .iter()
+        .enumerate()
+        .flat_map(|(k, one)| figures[..k].iter().map(move |other| (one, other)));
+    let mut alike = pairs.filter(|(one, other)| {
+        let apart = |u: usize, reversed: bool| {
+            let both = match (one.get(&u), other.get(&u)) {
+                (Some(&x), Some(&y)) => Some((x, y)),
+                // What is in another part stays.
+                _ => fixed[u].as_ref().map(|x| (x.enclosure(), x.enclosure())),
+            };
+            both.is_some_and(|(x, y)| [x, -x][usize::from(reversed)].disjoint(y))
+        };
+        let same = |unknowns: &[usize], reversed| !unknowns.iter().any(|&u| apart(u, reversed));
+        let mut objects = cut.own.iter().map(|[_, turn]| turn);
+        same(&seen, false)
+            && objects
+                .clone()
+                .all(|turn| same(turn, false) || same(turn, true))
+            && objects.any(|turn| same(turn, true))
+    });
+    alike.next().is_some()
 }

@@ -186,28 +186,28 @@ impl Place {
             if axes.len() % 2 == 1 && !eq.homotopy.tail.mirrors {
                 continue;
             }
+            let image = |i: usize, twin: bool| {
+                let flips = axes.iter().filter(|&&axis| eq.homotopy.flips(i, axis));
+                let x = self.spot.at(i);
+                [x, -x][usize::from((flips.count() % 2 == 1) ^ twin)]
+            };
+            let apart = |i: usize, twin: bool| image(i, twin).disjoint(other.spot.at(i));
             for twin in &twins {
                 // Without any change of sign they differ: their boxes are disjoint.
                 if axes.is_empty() && !twin.contains(&true) {
                     continue;
                 }
-                let image = (0..eq.m).map(|i| {
-                    let flips = axes.iter().filter(|&&axis| eq.homotopy.flips(i, axis));
-                    let x = self.spot.at(i);
-                    if (flips.count() % 2 == 1) ^ twin[i] {
-                        -x
-                    } else {
-                        x
-                    }
-                });
-                let image: Vec<Interval> = image.collect();
+                let image: Vec<Interval> = (0..eq.m).map(|i| image(i, twin[i])).collect();
                 // The image is a solution too.
                 if other.covers(&image) {
                     return Some(true);
                 }
-                if !(0..eq.m).any(|i| image[i].disjoint(other.spot.at(i))) {
+                if !(0..eq.m).any(|i| apart(i, twin[i])) {
                     return None;
                 }
+            }
+            if eq.homotopy.may_be_reversed(&twins, apart) {
+                return None;
             }
         }
         Some(false)

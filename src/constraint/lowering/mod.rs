@@ -130,7 +130,7 @@ impl<'a> Lowering<'a> {
 
     /// The result.
     pub fn finish(mut self) -> Lowered {
-        self.tail.twins = super::twins::twins(&self.tail, &self.vanishing, &self.same_sign());
+        self.tail.twins = self.twins();
         self.tail.mirrors = !self.problem.is_absolute()
             && (0..self.problem.dimension).all(|axis| self.is_symmetric(axis));
         self.tail.objects = (0..self.problem.objects.len())

@@ -1,10 +1,44 @@
 //! Which changes of sign leave what the equations say as it is.
 
 use super::super::quadratic::{Entry, Form};
+use super::super::twins::twins;
+use super::super::zeros::zeros;
 use super::Lowering;
 use crate::problem::Shape;
 
 impl Lowering<'_> {
+    /// The changes of sign that leave a figure as it is, see [`twins`].
+    pub(super) fn twins(&self) -> Vec<Vec<bool>> {
+        let same_sign = self.same_sign();
+        let none = vec![false; self.tail.unknowns.len()];
+        let plain = twins(&self.tail, &self.vanishing, &same_sign, &none);
+        // A change for each line and plane of its own is as many as there are.
+        let shown: Vec<usize> = self.directions().collect();
+        if rank(&plain, &shown) == shown.len() {
+            return plain;
+        }
+        let zeros = zeros(&self.tail);
+        match zeros.contains(&true) {
+            true => twins(&self.tail, &self.vanishing, &same_sign, &zeros),
+            false => plain,
+        }
+    }
+
+    /// Of each line and plane of its own an unknown that changes its sign where the direction is reversed.
+    fn directions(&self) -> impl Iterator<Item = usize> + '_ {
+        self.objects.iter().filter_map(|(&object, entries)| {
+            let at = match &self.problem.objects[object].shape {
+                Shape::FreeLine { .. } => self.dimension(),
+                Shape::FreePlane { .. } => 0,
+                _ => return None,
+            };
+            match entries[at] {
+                Entry::Unknown(u) => Some(u),
+                _ => None,
+            }
+        })
+    }
+
     /// Unknowns of lines and planes of their own that must change their signs together, if the object is to be the
     /// same with them: the direction; the normal and the level; and by itself, as it must not change, the
     /// base (with `Entry::Zero`).
@@ -46,4 +80,22 @@ impl Lowering<'_> {
             changes.all(|change| change == first) && (!first || *vanishing)
         })
     }
+}
+
+/// In how many ways the changes, and sums of them, change the signs of these unknowns: the rank modulo 2.
+fn rank(changes: &[Vec<bool>], unknowns: &[usize]) -> usize {
+    let mut basis: Vec<Vec<bool>> = Vec::new();
+    for change in changes {
+        let mut row: Vec<bool> = unknowns.iter().map(|&u| change[u]).collect();
+        for other in &basis {
+            let pivot = other.iter().position(|&x| x);
+            if pivot.is_some_and(|k| row[k]) {
+                row.iter_mut().zip(other).for_each(|(x, y)| *x ^= y);
+            }
+        }
+        if row.contains(&true) {
+            basis.push(row);
+        }
+    }
+    basis.len()
 }

@@ -5,6 +5,7 @@ use crate::constraint::{Entry, Form, Nonzero};
 use crate::interval::{Interval, Real, hull, point};
 use crate::system::orientation;
 use crate::track::arc::Orientation;
+use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
 
 impl Parts {
@@ -99,16 +100,17 @@ impl Parts {
     }
 
     /// A vector that must not vanish and may do so in the figure.
-    pub(super) fn vanished(&self, figure: &[Known]) -> Option<String> {
+    pub(super) fn vanished(&self, figure: &[Known]) -> Option<Stop> {
         let mut vectors = self.system.nonzero.iter();
         let vector = vectors.find(|vector| {
             let place = self.coordinates_of(vector, |u| figure[u].enclosure());
             place.iter().all(|x| x.contains(0.0))
         })?;
-        Some(format!(
+        let words = format!(
             "{} has no length in this figure, and so no direction that a constraint could be about",
             vector.name
-        ))
+        );
+        Some(Stop::new(StopKind::Undefined, words))
     }
 
     /// A vector that must not vanish, of numbers that are known exactly, and may do so for some t between 0 and 1.

@@ -7,7 +7,7 @@ use crate::interval::{Interval, Real, hull, point};
 use crate::system::{Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
-use crate::track::{Control, LARGEST_SQUARE};
+use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::atomic::Ordering;
 
@@ -155,7 +155,7 @@ impl Parts {
                 "a part has {} unknowns, more than the {LARGEST_SQUARE} of which proofs keep square matrices",
                 unknowns.len()
             );
-            let run = ArcRun::stopped(reason);
+            let run = ArcRun::stopped(Stop::new(StopKind::Refused, reason));
             return PartRun { unknowns, run };
         }
         let polynomials: Vec<Vec<Real>> = used
@@ -271,7 +271,7 @@ impl Parts {
     ) -> Run {
         let upto = hull(t.0.min(0.0), t.1.min(1.0));
         let mut out = Run {
-            end: End::Stopped(String::new()),
+            end: End::Stopped(Stop::new(StopKind::Bug, "")),
             t,
             orientations: self.exact_orientations(exact, upto),
             tubes: runs.iter().map(|run| run.run.steps).sum(),
@@ -295,15 +295,17 @@ impl Parts {
         for (&u, polynomial) in exact {
             if self.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
                 let name = &self.system.unknowns[u].name;
-                out.end = End::Stopped(format!("{name} does not stay positive"));
+                let words = format!("{name} does not stay positive");
+                out.end = End::Stopped(Stop::new(StopKind::Undefined, words));
                 out.t = (0.0, 0.0);
                 return out;
             }
         }
         if let Some(name) = self.vanishes_exactly(exact) {
-            out.end = End::Stopped(format!(
+            let words = format!(
                 "{name} may vanish on the way, and what is said of its direction would say nothing there"
-            ));
+            );
+            out.end = End::Stopped(Stop::new(StopKind::Undefined, words));
             out.t = (0.0, 0.0);
             return out;
         }

@@ -5,6 +5,7 @@ use crate::blocks::{Given, Row, combination};
 use crate::constraint::{Entry, Form};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
+use crate::track::{Stop, StopKind};
 
 /// What a right-hand side is at t = 1, for all t.
 fn at_rest(right: &[Real]) -> Vec<Real> {
@@ -74,7 +75,7 @@ impl Parts {
         figure: &[Known],
         rights: &[Vec<Real>],
         end: Option<Interval>,
-    ) -> Option<String> {
+    ) -> Option<Stop> {
         let side = |form: Form| match form {
             Form::One => point(1.0),
             Form::Difference(a, b) => {
@@ -102,10 +103,11 @@ impl Parts {
             };
             let off = (left - right).mig();
             if off > 1e-7 {
-                return Some(format!(
+                let words = format!(
                     "{} seemed to follow from the other constraints, but contradicts them",
                     self.name(*index)
-                ));
+                );
+                return Some(Stop::new(StopKind::Contradiction, words));
             }
         }
         None

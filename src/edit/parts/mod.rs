@@ -22,7 +22,7 @@ use crate::interval::{Interval, Real, hull, point};
 use crate::problem::Problem;
 use crate::track::arc::Orientation;
 use crate::track::certified::FollowArcs;
-use crate::track::{Control, Options, StartError};
+use crate::track::{Control, Options, StartError, Stop, StopKind};
 use left_out::at_rest_all;
 use std::collections::{BTreeSet, HashMap};
 use std::time::Instant;
@@ -106,8 +106,8 @@ enum End {
     Reached(Vec<Known>),
     /// The figure there and the velocity of each unknown.
     Limit(Vec<Known>, Vec<f64>),
-    Passes(String),
-    Stopped(String),
+    Passes(Stop),
+    Stopped(Stop),
 }
 
 fn refuse(what: String) -> OpenError {
@@ -147,6 +147,7 @@ impl Parts {
             unit,
             owners,
             has_twins: _,
+            own: _,
         } = Cut::new(problem)?;
         let values = system.unknowns.iter().zip(&system.values);
         let scaled = values.map(|(unknown, value)| {
@@ -203,14 +204,16 @@ impl Parts {
                     "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
                     run.t.0
                 );
-                return Err(failed(Ending::Stopped(what.clone()), what));
+                let stop = Stop::new(StopKind::TurnsBack, &*what);
+                return Err(failed(Ending::Stopped(stop), what));
             }
             End::Passes(reason) => {
                 let what = format!("on the way there branches seem to meet ({reason})");
                 return Err(failed(Ending::Passes(reason), what));
             }
             End::Stopped(reason) => {
-                return Err(failed(Ending::Stopped(reason.clone()), reason));
+                let what = reason.text.clone();
+                return Err(failed(Ending::Stopped(reason), what));
             }
         };
         let distance = self.distance(&figure);
@@ -223,7 +226,10 @@ impl Parts {
             .broken(&self.figure, &at_rest_all(rights), None)
             .or_else(|| self.vanished(&self.figure))
         {
-            Some(what) => Err(failed(Ending::Stopped(what.clone()), what)),
+            Some(stop) => {
+                let what = stop.text.clone();
+                Err(failed(Ending::Stopped(stop), what))
+            }
             None => Ok(()),
         }
     }
@@ -311,7 +317,10 @@ impl Parts {
         let (edited, figure) = match lowered(&problem, |problem| {
             try_lower_all(problem, Some(&self.record))
         }) {
-            Err(fault) => (self.account(settings, stopped(fault)), None),
+            Err(fault) => {
+                let stop = Stop::new(StopKind::Refused, fault);
+                (self.account(settings, stopped(stop)), None)
+            }
             Ok(lowered) => {
                 let rights: Vec<Vec<Real>> = lowered
                     .tail
@@ -320,7 +329,7 @@ impl Parts {
                     .map(|e| e.right)
                     .collect();
                 let mut run = match self.unmovable(&rights) {
-                    Some(what) => stopped(what),
+                    Some(what) => stopped(Stop::new(StopKind::Contradiction, what)),
                     None => self.follow(&rights, control),
                 };
                 let mut figure = None;
@@ -415,7 +424,7 @@ impl Parts {
     }
 }
 
-fn stopped(reason: String) -> Run {
+fn stopped(reason: Stop) -> Run {
     Run {
         end: End::Stopped(reason),
         t: (0.0, 0.0),

@@ -64,6 +64,11 @@ class Run:
         return self.data.get("reason")
 
     @property
+    def stopped_kind(self) -> Optional[str]:
+        """What made the run stop, in a word (docs/json.md)."""
+        return self.data.get("stopped_kind")
+
+    @property
     def frame(self) -> Optional[tuple]:
         """Origin and axes (rows) of the coordinates of the solutions, in those of the sketch."""
         frame = self.data.get("frame")
@@ -117,6 +122,11 @@ class Edited:
     def reason(self) -> Optional[str]:
         """Why the edit was not reached, in words."""
         return self.data.get("reason")
+
+    @property
+    def stopped_kind(self) -> Optional[str]:
+        """What made the edit stop, in a word (docs/json.md)."""
+        return self.data.get("stopped_kind")
 
 
 @dataclass(frozen=True)

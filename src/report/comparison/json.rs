@@ -4,6 +4,7 @@ use super::{Compared, status, switched_on, verdict};
 use crate::compare::{Fault, Row, Verdict};
 use crate::problem::Published;
 use crate::report::JSON_VERSION;
+use crate::track::StopKind;
 use serde::Serialize;
 
 /// Comparisons as one line of JSON:
@@ -63,6 +64,7 @@ struct RowEntry<'a> {
     relative: Option<f64>,
     status: &'static str,
     reason: Option<&'a str>,
+    stopped_kind: Option<&'static str>,
     steps: Option<usize>,
     rejected: Option<usize>,
     runs: &'a [f64],
@@ -117,7 +119,7 @@ fn problem(compared: &Compared) -> ProblemEntry<'_> {
 fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
     let measured = row.measured();
     let outcome = measured.map(|m| &m.outcome);
-    let (status, reason) = status(row);
+    let (status, reason, kind) = status(row);
     let widths = measured.and_then(|m| m.widths());
     RowEntry {
         mode: row.way.method.name(),
@@ -127,6 +129,7 @@ fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
         relative: row.setting.map(|s| s.relative),
         status,
         reason,
+        stopped_kind: kind.map(StopKind::name),
         steps: outcome.map(|o| o.steps),
         rejected: outcome.map(|o| o.rejected),
         runs: measured.map_or(&[], |m| &m.seconds),

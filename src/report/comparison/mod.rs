@@ -12,7 +12,7 @@ pub use table::comparison_to_table;
 
 use crate::compare::{Comparison, Fault, Measured, Method, Row, Verdict};
 use crate::problem::Published;
-use crate::track::Status;
+use crate::track::{Status, StopKind};
 
 /// A comparison and what was published about its problem.
 #[derive(Debug, Clone)]
@@ -43,14 +43,14 @@ impl Compared {
     }
 }
 
-/// `closed`, `stopped` or `unsupported`, and the reason.
-fn status(row: &Row) -> (&'static str, Option<&str>) {
+/// `closed`, `stopped` or `unsupported`, the reason, and what it is for programs.
+fn status(row: &Row) -> (&'static str, Option<&str>, Option<StopKind>) {
     match &row.result {
-        Err(reason) => ("unsupported", Some(reason)),
+        Err(reason) => ("unsupported", Some(reason), None),
         Ok(measured) => match &measured.outcome.status {
-            Status::Closed => ("closed", None),
-            Status::Open(_) => ("open", None),
-            Status::Stopped(reason) => ("stopped", Some(reason)),
+            Status::Closed => ("closed", None, None),
+            Status::Open(_) => ("open", None, None),
+            Status::Stopped(stop) => ("stopped", Some(&stop.text), Some(stop.kind)),
         },
     }
 }

@@ -28,7 +28,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
     let mut remarks = Vec::new();
     for row in &comparison.rows {
         let mut cells = vec![row.way.method.name().into(), row.way.space.name().into()];
-        let (word, reason) = status(row);
+        let (word, reason, _) = status(row);
         match row.measured() {
             Some(measured) => cells.extend([
                 measured.outcome.steps.to_string(),
@@ -132,7 +132,7 @@ fn sweep(compared: &Compared) -> String {
             None => cells.extend(std::iter::repeat_n("-".into(), 4)),
         }
         cells.push(widths(row));
-        let (word, _) = status(row);
+        let (word, ..) = status(row);
         cells.push(match &row.verdict {
             Verdict::Right => "right".into(),
             Verdict::Wrong(_) => format!("WRONG: {}", faults(&row.verdict)),

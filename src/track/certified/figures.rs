@@ -1,6 +1,6 @@
 //! Figures that are proved, for those who compare those of several paths.
 
-use super::ledger::is_congruent;
+use super::ledger::{Congruence, is_congruent};
 use super::reasons::undecided;
 use super::solution::{Same, SolutionBox, SolutionProver};
 use crate::interval::Interval;
@@ -87,14 +87,14 @@ impl FigureBox {
             return Relation::Unknown;
         }
         let (one, other) = (self.to_solution(), other.to_solution());
-        let congruent = match one.is_same(&other, |_| false) {
-            Same::No => is_congruent(homotopy, &one, &other).0,
-            decided => decided,
-        };
-        match congruent {
+        match one.is_same(&other, |_| false) {
             Same::Yes => Relation::Congruent,
-            Same::No => Relation::Different,
             Same::Unknown => Relation::Unknown,
+            Same::No => match is_congruent(homotopy, &one, &other) {
+                Congruence::Yes { .. } => Relation::Congruent,
+                Congruence::No => Relation::Different,
+                Congruence::Unknown | Congruence::Reversed => Relation::Unknown,
+            },
         }
     }
 }

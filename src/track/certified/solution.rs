@@ -311,14 +311,17 @@ impl SolutionBox {
         mirror: impl Fn(usize) -> bool,
         first: usize,
     ) -> bool {
-        (0..first).all(|i| {
-            let sign = if mirror(i) { -1.0 } else { 1.0 };
-            let distance = (sign * self.centre[i] - other.centre[i]).abs();
-            let low = self.low[i].abs() + other.low[i].abs();
-            // As in [`SolutionBox::is_same`].
-            let slack = 4.0 * f64::EPSILON * (distance + low);
-            distance <= round_up(self.reach(i) + other.reach(i) + low + slack, 8)
-        })
+        !(0..first).any(|i| self.differs(other, i, mirror(i)))
+    }
+
+    /// Whether an unknown, with its sign changed here if `mirror`, is known to differ.
+    pub fn differs(&self, other: &SolutionBox, i: usize, mirror: bool) -> bool {
+        let sign = if mirror { -1.0 } else { 1.0 };
+        let distance = (sign * self.centre[i] - other.centre[i]).abs();
+        let low = self.low[i].abs() + other.low[i].abs();
+        // As in [`SolutionBox::is_same`].
+        let slack = 4.0 * f64::EPSILON * (distance + low);
+        distance > round_up(self.reach(i) + other.reach(i) + low + slack, 8)
     }
 
     /// How far the exact solution may be from the upper words of the middle alone.

@@ -24,7 +24,9 @@ use crate::system::Homotopy;
 use crate::track::arc::Figure;
 use crate::track::ends::{Away, EndKind, PathEnd};
 use crate::track::full::{Equations, InverseMaker};
-use crate::track::{Control, Mode, Options, Outcome, Progress, Space, Status, TubeSeen};
+use crate::track::{
+    Control, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind, TubeSeen,
+};
 use arc::Arc;
 use crossing::{Beyond, Crossing};
 use extension::Extension;
@@ -70,7 +72,7 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
         Ok(()) => Status::Closed,
         Err(reason) => match tracker.path_end(reason) {
             Ok(end) => tracker.other_way(end, options, control),
-            Err(reason) => Status::Stopped(tracker.with_flexibility(reason)),
+            Err(stop) => Status::Stopped(tracker.with_flexibility(stop)),
         },
     };
     let checked = match status {
@@ -78,15 +80,18 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
         Status::Open(_) => tracker.ledger.check_open(homotopy),
         Status::Stopped(_) => Ok(()),
     };
-    if let Err(reason) = checked {
-        status = Status::Stopped(format!("{reason} (on a path of {} tubes)", tracker.steps));
+    let of_all = |stop: Stop| {
+        let words = format!("{stop} (on a path of {} tubes)", tracker.steps);
+        Status::Stopped(stop.in_words(words))
+    };
+    if let Err(stop) = checked {
+        status = of_all(stop);
     }
     let solutions = match tracker.ledger.solutions(homotopy) {
         Ok(solutions) => solutions,
-        Err((reason, solutions)) => {
+        Err((stop, solutions)) => {
             if !matches!(status, Status::Stopped(_)) {
-                status =
-                    Status::Stopped(format!("{reason} (on a path of {} tubes)", tracker.steps));
+                status = of_all(stop);
             }
             solutions
         }
@@ -227,7 +232,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         }
     }
 
-    fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), String> {
+    fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), Stop> {
         let max_h = self.longest(options);
         let is_done = self.start(options, max_h)?;
         self.show_tube(control, 0, false);
@@ -250,12 +255,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     }
 
     /// Adds tubes to the last one until the path ends.
-    fn go_on(
-        &mut self,
-        options: &Options,
-        max_h: f64,
-        control: &mut Control,
-    ) -> Result<(), String> {
+    fn go_on(&mut self, options: &Options, max_h: f64, control: &mut Control) -> Result<(), Stop> {
         let mut steps_ahead = StepControl::new(&self.equations);
         // What could not be told of this tube when it was longer.
         let mut doubt = None;
@@ -318,27 +318,30 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     Some(_) => "the figure seems to grow without end: ",
                     None => "",
                 };
-                return Err(format!(
+                let words = format!(
                     "{what}{} is {:.4} away and moves away, ever farther as far as one can see, {}",
                     name.map_or("a point", String::as_str),
                     distance.0,
                     self.place()
-                ));
+                );
+                return Err(Stop::new(StopKind::Infinite, words));
             }
             if let Some(what) = self.loses_leg() {
                 self.loses = true;
-                return Err(format!("{what}, {}", self.place()));
+                let words = format!("{what}, {}", self.place());
+                return Err(Stop::new(StopKind::Undefined, words));
             }
             if self.way.as_ref().is_some_and(Way::is_over) {
-                return Err(two_ways::OVER.to_owned());
+                return Err(Stop::new(StopKind::Interrupted, two_ways::OVER));
             }
             if self.steps >= options.max_steps {
-                return Err(format!(
+                let words = format!(
                     "the limit of {} tubes was reached, the last of which is {:.1e} long, {}",
                     options.max_steps,
                     2.0 * self.now.proof.h * self.homotopy.unit,
                     self.place()
-                ));
+                );
+                return Err(Stop::new(StopKind::Limit, words));
             }
             let progress = Progress {
                 t: self.now.local.z[0][self.equations.m],
@@ -347,7 +350,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 length: self.ledger.length,
             };
             if control.is_cancelled(progress) {
-                return Err(format!("interrupted {}", self.place()));
+                let words = format!("interrupted {}", self.place());
+                return Err(Stop::new(StopKind::Interrupted, words));
             }
         }
     }

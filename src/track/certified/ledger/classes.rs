@@ -4,12 +4,12 @@ use super::Ledger;
 use crate::interval::Interval;
 use crate::interval::rounding::round_up;
 use crate::system::Homotopy;
-use crate::track::Solution;
 use crate::track::certified::solution::{Same, SolutionBox};
+use crate::track::{Solution, Stop, StopKind};
 
 impl<const D: usize> Ledger<D> {
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
-    pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (String, Vec<Solution>)> {
+    pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (Stop, Vec<Solution>)> {
         let mut reason = None;
         let mut classes: Vec<usize> = Vec::new();
         let mut mirrors: Vec<Option<usize>> = Vec::new();
@@ -17,15 +17,22 @@ impl<const D: usize> Ledger<D> {
             let (mut class, mut mirror) = (None, None);
             for (j, other) in self.found[..k].iter().enumerate() {
                 match is_congruent(homotopy, found, other) {
-                    (Same::Yes, mirrored) => {
+                    Congruence::Yes { mirrored } => {
                         class = Some(classes[j]);
                         mirror = mirror.or(mirrored.then_some(j));
                     }
-                    (Same::No, _) => {}
-                    (Same::Unknown, _) => {
+                    Congruence::No => {}
+                    undecided => {
+                        let help = match undecided {
+                            Congruence::Reversed => {
+                                "they may differ in nothing but the direction of a line or plane of its own, \
+                                 which are one figure; name points of it instead"
+                            }
+                            _ => "another reference may help",
+                        };
                         reason.get_or_insert(format!(
                             "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
-                             are congruent; another reference may help",
+                             are congruent; {help}",
                             j + 1,
                             k + 1,
                             found.greatest_radius().max(other.greatest_radius())
@@ -58,20 +65,33 @@ impl<const D: usize> Ledger<D> {
             .collect();
         match reason {
             None => Ok(solutions),
-            Some(reason) => Err((reason, solutions)),
+            Some(reason) => Err((Stop::new(StopKind::Undecided, reason), solutions)),
         }
     }
 }
 
-/// Whether two different solutions are congruent up to reflection, and if so, whether one is the
-/// mirror image of the other (otherwise it is the other one moved).
+/// What is proved of two different solutions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Congruence {
+    /// They are congruent up to reflection: one is the mirror image of the other, or otherwise the other one moved.
+    Yes { mirrored: bool },
+    /// They are not.
+    No,
+    /// Neither could be proved.
+    Unknown,
+    /// Neither could be proved, as they may be one figure in which lines or planes of their own run the other way.
+    Reversed,
+}
+
+/// Whether two different solutions are congruent up to reflection.
 ///
 /// The isometries that keep the gauge change the signs of coordinates. The second reference
 /// point's first coordinate and the third's second one tell which signs they must change;
 /// that of the last coordinate is free, unless a constraint says which way round the figure is. Where
 /// constraints fix the figure in its frame no isometry is left. Each of them goes with the changes of
-/// sign that leave a figure as it is, of the directions of lines of their own.
-pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> (Same, bool) {
+/// sign that leave a figure as it is, of the directions of lines of their own. Figures that differ in such directions
+/// alone are one to people, whether or not the change of sign is known as one: then nothing is said.
+pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> Congruence {
     let gauge = &homotopy.gauge;
     let mut turned = [false; 3];
     for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
@@ -82,7 +102,7 @@ pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox)
         };
         match (side(one), side(other)) {
             (Some(a), Some(b)) => turned[axis] = a != b,
-            _ => return (Same::Unknown, false),
+            _ => return Congruence::Unknown,
         }
     }
     let twins = homotopy.twins();
@@ -106,7 +126,7 @@ pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox)
         let Some(twins) = &twins else {
             // They are too many to try all: figures differ where points do.
             if one.may_be(other, flips, gauge.place.len()) {
-                return (Same::Unknown, false);
+                return Congruence::Unknown;
             }
             continue;
         };
@@ -117,11 +137,20 @@ pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox)
             }
             match one.is_same(other, |i| flips(i) ^ twin[i]) {
                 Same::No => {}
-                decided => return (decided, reversed % 2 == 1),
+                Same::Unknown => return Congruence::Unknown,
+                Same::Yes => {
+                    return Congruence::Yes {
+                        mirrored: reversed % 2 == 1,
+                    };
+                }
             }
         }
+        let apart = |i: usize, reversed: bool| one.differs(other, i, flips(i) ^ reversed);
+        if homotopy.may_be_reversed(twins, apart) {
+            return Congruence::Reversed;
+        }
     }
-    (Same::No, false)
+    Congruence::No
 }
 
 /// The widest coordinate's width over the largest coordinate.

@@ -3,29 +3,31 @@
 use super::Ledger;
 use crate::interval::{Interval, hull, point};
 use crate::system::Homotopy;
+use crate::track::{Stop, StopKind};
 
 impl<const D: usize> Ledger<D> {
     /// What remains to be proved of a closed loop.
-    pub fn check_closed(&self, homotopy: &Homotopy) -> Result<(), String> {
+    pub fn check_closed(&self, homotopy: &Homotopy) -> Result<(), Stop> {
         // Not needed for the proof: a loop crosses t = 1 as often upwards as downwards.
         let rising = self.found.iter().filter(|s| s.rising).count();
         if 2 * rising != self.found.len() {
-            return Err(format!(
+            let words = format!(
                 "of {} crossings of t = 1 along a closed path, {rising} go upwards: this is a bug in krawl, \
                  please report it",
                 self.found.len()
-            ));
+            );
+            return Err(Stop::new(StopKind::Bug, words));
         }
         self.lengths_are_positive(homotopy)
     }
 
     /// What remains to be proved of an arc.
-    pub fn check_open(&self, homotopy: &Homotopy) -> Result<(), String> {
+    pub fn check_open(&self, homotopy: &Homotopy) -> Result<(), Stop> {
         self.lengths_are_positive(homotopy)
     }
 
     /// Claim 3: a_i(t) > 0 on the whole range of t.
-    fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), String> {
+    fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), Stop> {
         let range = hull(self.t_range.0, self.t_range.1);
         for (index, length) in homotopy.lengths.iter().enumerate() {
             if length.enclose(range).inf() > 0.0 {
@@ -34,14 +36,15 @@ impl<const D: usize> Ledger<D> {
             let bounds = lower_bounds(|t| length.enclose(t), range);
             if !bounds.iter().all(|&bound| bound > 0.0) {
                 let least = bounds.into_iter().fold(f64::INFINITY, f64::min);
-                return Err(format!(
+                let words = format!(
                     "the length of {} could not be proved positive for t from {:.6} to {:.6}: no more than \
                      that it is above {:.1e}",
                     homotopy.names[index],
                     self.t_range.0,
                     self.t_range.1,
                     least * homotopy.unit
-                ));
+                );
+                return Err(Stop::new(StopKind::Undefined, words));
             }
         }
         Ok(())

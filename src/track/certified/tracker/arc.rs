@@ -11,7 +11,7 @@ use crate::track::certified::reasons::{Doubt, Rejection, undecided};
 use crate::track::certified::solution::SolutionBox;
 use crate::track::events::Rise;
 use crate::track::full::{Equations, InverseMaker};
-use crate::track::{Control, Options};
+use crate::track::{Control, Options, Stop, StopKind};
 use std::borrow::Cow;
 
 /// No tube of an arc reaches further to either side, in the homotopy's unit: t goes from 0 to 1, and
@@ -282,7 +282,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
         let arc = tracker.arc.as_mut().expect("a run to t = 1");
         let end = match (result, arc.end.take()) {
             (Ok(()), Some(end)) => end,
-            (Ok(()), None) => ArcEnd::Stopped("it ended nowhere: a bug in krawl".to_owned()),
+            (Ok(()), None) => {
+                ArcEnd::Stopped(Stop::new(StopKind::Bug, "it ended nowhere: a bug in krawl"))
+            }
             (Err(reason), _) if tracker.is_singular => ArcEnd::Passes(reason),
             (Err(reason), _) => ArcEnd::Stopped(reason),
         };

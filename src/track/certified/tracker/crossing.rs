@@ -237,14 +237,16 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         };
         let words = |why: String| format!("with heights divided by 1 − t, {why}");
         let max_h = piece.longest(&options);
-        let mut is_there = piece.start(&options, max_h).map_err(words)?;
+        let started = piece.start(&options, max_h);
+        let mut is_there = started.map_err(|stop| words(stop.text))?;
         if direction(&piece.now, piece.now.entry) != Some(rising) {
             return Err(words("it is not certain whether t rises".to_owned()));
         }
         piece.show_tube(&mut quiet, 0, false);
         loop {
             if !is_there {
-                piece.go_on(&options, max_h, &mut quiet).map_err(words)?;
+                let gone = piece.go_on(&options, max_h, &mut quiet);
+                gone.map_err(|stop| words(stop.text))?;
             }
             if !piece.ledger.is_steady(rising) {
                 return Err(words(
@@ -355,12 +357,12 @@ mod tests {
     use crate::interval::Real;
     use crate::problem::Problem;
     use crate::system::Right;
-    use crate::track::EndKind;
     use crate::track::full::ORDER;
     use crate::track::full::certified::KrawczykTest;
+    use crate::track::{EndKind, Stop};
 
     /// The hexahedron's run, and the end it came to.
-    fn run(change: impl Fn(&mut Homotopy)) -> (Result<(), String>, usize, String) {
+    fn run(change: impl Fn(&mut Homotopy)) -> (Result<(), Stop>, usize, String) {
         let path = format!(
             "{}/problems/constraints/hexahedron.toml",
             env!("CARGO_MANIFEST_DIR")

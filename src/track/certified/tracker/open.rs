@@ -7,7 +7,7 @@ use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
 use crate::system::Homotopy;
 use crate::track::ends::{Away, FAR, SETTLED, SMALL, vanishing, vanishing_vector};
-use crate::track::{Control, Options, Status};
+use crate::track::{Control, Options, Status, Stop, StopKind};
 
 /// The point with the largest coordinate, and that.
 pub(super) fn farthest(homotopy: &Homotopy, z: &[f64]) -> Option<(usize, f64)> {
@@ -114,7 +114,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     }
 
     /// The end of the path, if that is where the run ended; otherwise the reason again.
-    pub(super) fn path_end(&self, reason: String) -> Result<PathEnd, String> {
+    pub(super) fn path_end(&self, reason: Stop) -> Result<PathEnd, Stop> {
         if self.homotopy.tail.is_empty() || !self.has_set_out {
             return Err(reason);
         }
@@ -123,9 +123,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let (values, before) = (&z[first..], &self.sketch.centre[first..]);
         let leg = self.homotopy.remark_on_lengths(t.0);
         let (kind, reason) = if self.away.is_some() {
-            (EndKind::Infinite, reason)
+            (EndKind::Infinite, reason.text)
         } else if self.loses {
-            (EndKind::Undefined, reason)
+            (EndKind::Undefined, reason.text)
         } else if !self.is_stuck {
             // Interrupted, or at the limit of steps.
             return Err(reason);
@@ -142,8 +142,9 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             (EndKind::Degenerate, format!("{what}: {why}; {reason}"))
         } else if self.is_singular {
             let what = "the figure becomes degenerate, its constraints dependent on each other";
-            let reason = self.with_flexibility(format!("{what}: {reason}"));
-            (EndKind::Degenerate, reason)
+            let words = format!("{what}: {reason}");
+            let reason = self.with_flexibility(reason.in_words(words));
+            (EndKind::Degenerate, reason.text)
         } else {
             return Err(reason);
         };
@@ -191,7 +192,8 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             Ok(()) if control.witness.is_some() => {
                 let what =
                     "the path closes if it is followed the other way (`--reverse`): this way, ";
-                return Status::Stopped(format!("{what}{}", end.reason));
+                let words = format!("{what}{}", end.reason);
+                return Status::Stopped(Stop::new(StopKind::OtherWay, words));
             }
             Ok(()) => {
                 if let Some(trace) = &mut control.trace {
@@ -212,14 +214,17 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             all.add(back);
         }
         if let Err(reason) = self.ledger.go_on_from(back.ledger) {
-            return Status::Stopped(reason);
+            return Status::Stopped(Stop::new(StopKind::Undecided, reason));
         }
         match other {
             Ok(other) => Status::Open(Box::new([other, end])),
-            Err(reason) => Status::Stopped(format!(
-                "one way from the sketch the path has an end ({}); the other way {reason}",
-                end.reason
-            )),
+            Err(stop) => {
+                let words = format!(
+                    "one way from the sketch the path has an end ({}); the other way {stop}",
+                    end.reason
+                );
+                Status::Stopped(stop.in_words(words))
+            }
         }
     }
 }

@@ -1,13 +1,13 @@
 //! The first tube of a run, around the sketch.
 
 use super::{EXIT, POINT_TOLERANCE, Test, Tracker};
-use crate::track::Options;
 use crate::track::certified::reasons::{Rejection, no_direction};
 use crate::track::full::{Local, first_normal};
+use crate::track::{Options, Stop, StopKind};
 
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// Proves the tube around the sketch. Tells whether the path ends in it.
-    pub(super) fn start(&mut self, options: &Options, max_h: f64) -> Result<bool, String> {
+    pub(super) fn start(&mut self, options: &Options, max_h: f64) -> Result<bool, Stop> {
         let equations = &self.equations;
         let mut at_sketch = Local::<D>::new(equations);
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
@@ -15,7 +15,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         if first_normal(equations, &mut self.inverter, &mut at_sketch, reverse).is_err() {
             self.is_singular = true;
             let pivots = at_sketch.pivot_ratio_of_jacobian(equations);
-            return Err(no_direction(pivots));
+            return Err(Stop::new(StopKind::Sketch, no_direction(pivots)));
         }
         self.first_normal.copy_from_slice(&at_sketch.normal);
         loop {

@@ -19,7 +19,7 @@ use super::super::link::{Ball, Frame, Tube};
 use super::{Test, Tracker};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::{Control, Options};
+use crate::track::{Control, Options, Stop};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -149,7 +149,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         &mut self,
         options: &Options,
         control: &mut Control,
-    ) -> Result<(), String> {
+    ) -> Result<(), Stop> {
         let ways = Arc::new(Ways::default());
         let way = |number| {
             let ways = Arc::clone(&ways);

@@ -3,10 +3,11 @@
 use super::crossing::Crossing;
 use super::{POINT_TOLERANCE, SINGULAR, Test, Tracker};
 use crate::track::certified::reasons::{
-    Rejection, precision, undecided, unlinked, unproved, unrefined,
+    Doubt, Rejection, precision, undecided, unlinked, unproved, unrefined,
 };
 use crate::track::flexible;
 use crate::track::full::condition;
+use crate::track::{Stop, StopKind};
 
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     pub(super) fn place(&self) -> String {
@@ -30,43 +31,51 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     }
 
     /// Why the run ends here, a tube of about the half length `reach` being the last that was tried.
-    pub(super) fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> String {
+    pub(super) fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> Stop {
         let now = &self.now.local;
         let condition = condition(&self.equations, &now.z[0], &now.normal);
         self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
         self.is_stuck = true;
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
-        format!(
+        let kind = match rejection {
+            _ if self.is_singular => StopKind::Singular,
+            Rejection::Undecided(Doubt::Sign(_) | Doubt::Vanishes(_)) => StopKind::Undefined,
+            Rejection::Undecided(_) => StopKind::Undecided,
+            _ => StopKind::NoStep,
+        };
+        let words = format!(
             "{}, at the smallest step, {:.1e}{}, {}{remark}",
             self.why(rejection, false, limit),
             reach * self.homotopy.unit,
             precision(self.extension.is_on()),
             self.place()
-        )
+        );
+        Stop::new(kind, words)
     }
 
     /// The reason why a run ends where no step can be proved, after the words for a figure that is not rigid at t = 1,
     /// if that is what the path comes to.
-    pub(super) fn with_flexibility(&self, reason: String) -> String {
+    pub(super) fn with_flexibility(&self, stop: Stop) -> Stop {
         if !self.is_stuck || self.arc.is_some() {
-            return reason;
+            return stop;
         }
         let (z, m) = (&self.now.local.z[0], self.equations.m);
         match flexible::in_words(&self.homotopy, z, z[m]) {
-            Some(words) => format!("{words}; {reason}"),
-            None => reason,
+            Some(words) => Stop::new(StopKind::Flexible, format!("{words}; {stop}")),
+            None => stop,
         }
     }
 
     /// Why it ends at the sketch.
-    pub(super) fn stuck_at_sketch(&mut self, rejection: Rejection, limit: f64) -> String {
-        format!(
+    pub(super) fn stuck_at_sketch(&mut self, rejection: Rejection, limit: f64) -> Stop {
+        let words = format!(
             "at the sketch{}, {}{}",
             precision(self.extension.is_on()),
             self.why(rejection, true, limit),
             self.condition()
-        )
+        );
+        Stop::new(StopKind::Sketch, words)
     }
 
     /// In words, with numbers of what was tried last: `first`, the tube around the sketch.

@@ -4,7 +4,7 @@ use super::Record;
 use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, InverseMaker, dot};
-use crate::track::{Control, Options, Outcome, Progress, Status};
+use crate::track::{Control, Options, Outcome, Progress, Status, Stop, StopKind};
 use std::time::Instant;
 
 /// δmax of RR 8705, section 7.3.1, without a construction plan.
@@ -111,7 +111,7 @@ impl<'a, const D: usize> Paper<'a, D> {
         options: &Options,
         control: &mut Control,
         record: &mut Record<D>,
-    ) -> Result<(), String> {
+    ) -> Result<(), Stop> {
         let (m, n) = (self.equations.m, self.equations.n());
         for (x, &place) in self.z.iter_mut().zip(&self.homotopy.gauge.place) {
             *x = self.homotopy.sketch[place];
@@ -120,8 +120,10 @@ impl<'a, const D: usize> Paper<'a, D> {
         // The orientation is arbitrary; ours is that of rising t.
         self.tangent[m] = if options.reverse { -1.0 } else { 1.0 };
         self.next.copy_from_slice(&self.z);
-        self.differentiate()
-            .ok_or("the sketch is a singular point of its path")?;
+        self.differentiate().ok_or_else(|| {
+            let words = "the sketch is a singular point of its path";
+            Stop::new(StopKind::Sketch, words)
+        })?;
         self.set_tangent();
         std::mem::swap(&mut self.tangent, &mut self.next_tangent);
         let direction = self.tangent.clone();
@@ -136,12 +138,13 @@ impl<'a, const D: usize> Paper<'a, D> {
             if !self.correct(tolerance) {
                 record.rejected += 1;
                 if step < 2.0 * SMALLEST_STEP {
-                    return Err(format!(
+                    let words = format!(
                         "the correction fails at the smallest step, {:.1e}, at t = {:.9} after {} steps",
                         step * unit,
                         self.z[m],
                         record.steps
-                    ));
+                    );
+                    return Err(Stop::new(StopKind::NoStep, words));
                 }
                 step *= 0.5;
                 continue;
@@ -163,10 +166,11 @@ impl<'a, const D: usize> Paper<'a, D> {
                 step *= 2.0;
             }
             if record.steps >= options.max_steps {
-                return Err(format!(
+                let words = format!(
                     "the limit of {} steps was reached at t = {:.9}",
                     options.max_steps, self.z[m]
-                ));
+                );
+                return Err(Stop::new(StopKind::Limit, words));
             }
             let progress = Progress {
                 t: self.z[m],
@@ -175,10 +179,11 @@ impl<'a, const D: usize> Paper<'a, D> {
                 length: record.length,
             };
             if control.is_cancelled(progress) {
-                return Err(format!(
+                let words = format!(
                     "interrupted at t = {:.9} after {} steps",
                     self.z[m], record.steps
-                ));
+                );
+                return Err(Stop::new(StopKind::Interrupted, words));
             }
         }
     }

@@ -153,22 +153,28 @@ fn classes(homotopy: &Homotopy, found: &[Vector]) -> Vec<usize> {
         .collect();
     let none = || vec![vec![false; m]];
     let twins = homotopy.twins().unwrap_or_else(none);
+    let size = |x: &Vector| x[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+    let differs = |one: &Vector, other: &Vector, turn: usize, i: usize, changed: bool| {
+        let flips = (0..d).filter(|&axis| turn >> axis & 1 == 1 && homotopy.flips(i, axis));
+        let sign = if (flips.count() % 2 == 1) ^ changed {
+            -1.0
+        } else {
+            1.0
+        };
+        (sign * one[i] - other[i]).abs() > SAME_FIGURE * size(one)
+    };
     let is_image = |one: &Vector, other: &Vector, turn: usize, twin: &[bool]| {
-        let size = one[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-        (0..m).all(|i| {
-            let flips = (0..d).filter(|&axis| turn >> axis & 1 == 1 && homotopy.flips(i, axis));
-            let sign = if (flips.count() % 2 == 1) ^ twin[i] {
-                -1.0
-            } else {
-                1.0
-            };
-            (sign * one[i] - other[i]).abs() <= SAME_FIGURE * size
-        })
+        !(0..m).any(|i| differs(one, other, turn, i, twin[i]))
     };
     let mut classes: Vec<usize> = Vec::new();
     for (k, x) in found.iter().enumerate() {
         let mut before = found[..k].iter();
-        let is_same = |y: &Vector, turn: usize| twins.iter().any(|twin| is_image(x, y, turn, twin));
+        let is_same = |y: &Vector, turn: usize| {
+            let apart = |i: usize, reversed: bool| differs(x, y, turn, i, reversed);
+            twins.iter().any(|twin| is_image(x, y, turn, twin))
+                // Or the same but for directions of lines and planes of their own.
+                || homotopy.may_be_reversed(&[], apart)
+        };
         let same = before.position(|y| turns.iter().any(|&turn| is_same(y, turn)));
         let next = classes.iter().max().map_or(0, |c| c + 1);
         classes.push(same.map_or(next, |j| classes[j]));

@@ -8,7 +8,7 @@ use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{
     CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
 };
-use crate::track::{Control, Options, Outcome, Progress, Status};
+use crate::track::{Control, Options, Outcome, Progress, Status, Stop, StopKind};
 use std::time::Instant;
 
 /// Points of the path are corrected until the last correction is below this, in the homotopy's
@@ -60,7 +60,7 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
     options: &Options,
     control: &mut Control,
     record: &mut Record<D, Y>,
-) -> Result<(), String> {
+) -> Result<(), Stop> {
     let (m, n) = (equations.m, equations.n());
     let tolerance = options
         .tolerance_in(homotopy.unit)
@@ -73,11 +73,13 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
     now.z[0].copy_from_slice(&sketch);
     first_normal(equations, inverter, &mut now, options.reverse).map_err(|_| {
         let singular = || "the sketch is a singular point of its path".to_owned();
-        now.y.obstacle().unwrap_or_else(singular)
+        Stop::new(StopKind::Sketch, now.y.obstacle().unwrap_or_else(singular))
     })?;
     now.z[0].copy_from_slice(&sketch);
-    now.refine(equations, inverter, tolerance, 8)
-        .map_err(|_| "the sketch could not be corrected onto its path".to_owned())?;
+    now.refine(equations, inverter, tolerance, 8).map_err(|_| {
+        let words = "the sketch could not be corrected onto its path";
+        Stop::new(StopKind::Sketch, words)
+    })?;
     now.expand(equations);
     let direction = now.normal.clone();
 
@@ -93,12 +95,13 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
-            return Err(format!(
+            let words = format!(
                 "{failure} at the smallest step, {:.1e}, {}{}",
                 step * homotopy.unit,
                 place(record, &now),
                 homotopy.remark_on_lengths(now.z[0][m])
-            ));
+            );
+            return Err(Stop::new(StopKind::NoStep, words));
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
         let refined = next.refine(equations, inverter, tolerance, 6).is_ok()
@@ -116,7 +119,8 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
         // Beyond zero there is no figure.
         if let (Ok(()), Some(&i)) = (seen, positive.iter().find(|&&i| next.z[0][i] <= 0.0)) {
             let name = &homotopy.tail.unknowns[i - homotopy.gauge.place.len()].name;
-            return Err(format!("{name} goes to zero {}", place(record, &now)));
+            let words = format!("{name} goes to zero {}", place(record, &now));
+            return Err(Stop::new(StopKind::Undefined, words));
         }
         if let Err(reason) = seen {
             failure = reason;
@@ -156,11 +160,12 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             std::mem::swap(&mut now, &mut next);
         }
         if record.steps >= options.max_steps {
-            return Err(format!(
+            let words = format!(
                 "the limit of {} steps was reached {}",
                 options.max_steps,
                 place(record, &now)
-            ));
+            );
+            return Err(Stop::new(StopKind::Limit, words));
         }
         let progress = Progress {
             t: now.z[0][m],
@@ -169,7 +174,8 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             length: record.length,
         };
         if control.is_cancelled(progress) {
-            return Err(format!("interrupted {}", place(record, &now)));
+            let words = format!("interrupted {}", place(record, &now));
+            return Err(Stop::new(StopKind::Interrupted, words));
         }
     }
 }

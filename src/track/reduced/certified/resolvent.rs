@@ -348,9 +348,21 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
         }
+        self.close((start, size), bounds, (&rest, &mut near), (y, v));
+    }
+
+    /// y and v in a block: y from what is left of its rows, and v from that and from what is near of its columns.
+    #[inline(always)]
+    fn close<const K: usize>(
+        &self,
+        (start, size): (usize, usize),
+        bounds: &[[f64; K]; K],
+        (rest, near): (&[Lane; K], &mut [Lane; K]),
+        (y, v): (&mut [Lane], &mut [Lane]),
+    ) {
         for r in 0..size {
             let mut sum = [0.0; LANE];
-            for (bound, rest) in bounds[r][..size].iter().zip(&rest) {
+            for (bound, rest) in bounds[r][..size].iter().zip(rest) {
                 for i in 0..LANE {
                     sum[i] = rest[i].mul_add(*bound, sum[i]);
                 }
@@ -452,26 +464,7 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
             }
-            for r in 0..size {
-                let mut sum = [0.0; LANE];
-                for (bound, rest) in bounds[r][..size].iter().zip(&rest) {
-                    for i in 0..LANE {
-                        sum[i] = rest[i].mul_add(*bound, sum[i]);
-                    }
-                }
-                y[start + r] = sum;
-            }
-            for c in 0..size {
-                let (at, end) = self.rows[start + c];
-                let x = &self.x[at..end].as_flattened()[start..];
-                for r in 0..size {
-                    let x = x[r].abs();
-                    for i in 0..LANE {
-                        near[c][i] = y[start + r][i].mul_add(x, near[c][i]);
-                    }
-                }
-                v[start + c] = near[c];
-            }
+            self.close((start, size), bounds, (&rest, &mut near), (y, v));
         }
     }
 }

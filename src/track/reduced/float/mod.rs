@@ -20,7 +20,8 @@ mod tests;
 use crate::plan::{Evaluation, Lanes, Plan, Situation};
 use crate::system::Homotopy;
 use crate::track::{
-    Control, Driving, Mode, Options, Outcome, Preset, Progress, Space, Status, observed_solutions,
+    Control, Driving, Mode, Options, Outcome, Preset, Progress, Space, Status, Stop, StopKind,
+    observed_solutions,
 };
 use corrector::Corrector;
 pub use paper::LONGEST_STEP as LARGEST_STEP_OF_PAPER;
@@ -182,7 +183,10 @@ impl<'a, const D: usize> Tracker<'a, D> {
         {
             Ok(())
         } else {
-            Err(self.stopped("the construction plan has no figure or no tangent"))
+            Err({
+                let why = "the construction plan has no figure or no tangent";
+                self.stopped(StopKind::NoStep, why)
+            })
         }
     }
 
@@ -233,16 +237,18 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     fn no_step(&self) -> Status {
         let smallest = SMALLEST_STEP * self.homotopy.unit;
-        self.stopped(&format!("no step succeeds, even of {smallest:.1e},"))
+        let why = format!("no step succeeds, even of {smallest:.1e},");
+        self.stopped(StopKind::NoStep, &why)
     }
 
-    fn stopped(&self, why: &str) -> Status {
-        Status::Stopped(format!(
+    fn stopped(&self, kind: StopKind, why: &str) -> Status {
+        let words = format!(
             "{why} at t = {:.9} after {} steps{}",
             self.current.t(),
             self.steps,
             self.homotopy.remark_on_lengths(self.current.t())
-        ))
+        );
+        Status::Stopped(Stop::new(kind, words))
     }
 
     fn finish(self, status: Status) -> Outcome {

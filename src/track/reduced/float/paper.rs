@@ -4,7 +4,7 @@
 use super::events::Events;
 use super::{SMALLEST_STEP, Tracker};
 use crate::plan::Differences;
-use crate::track::{Control, Status};
+use crate::track::{Control, Status, StopKind};
 
 /// δmax in the reduced space (RR 8705, section 7.3.1).
 pub const LONGEST_STEP: f64 = 0.05;
@@ -22,7 +22,7 @@ impl<const D: usize> Tracker<'_, D> {
             match self.step_as_in_the_paper(&mut delta, longest, &mut differences) {
                 Err(status) => return status,
                 Ok(()) if control.is_cancelled(self.progress()) => {
-                    return self.stopped("interrupted");
+                    return self.stopped(StopKind::Interrupted, "interrupted");
                 }
                 Ok(()) => {}
             }
@@ -36,7 +36,7 @@ impl<const D: usize> Tracker<'_, D> {
         differences: &mut Differences<D>,
     ) -> Result<(), Status> {
         if self.steps >= self.options.max_steps {
-            return Err(self.stopped("the limit on steps is reached"));
+            return Err(self.stopped(StopKind::Limit, "the limit on steps is reached"));
         }
         let error = self.corrector.predict_and_correct(
             &mut self.evaluation,

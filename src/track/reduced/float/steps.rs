@@ -3,7 +3,7 @@
 use super::events::Events;
 use super::path_point::{Piece, distance};
 use super::{SMALLEST_STEP, Tracker, UNCLEAR};
-use crate::track::{Control, Status};
+use crate::track::{Control, Status, StopKind};
 
 /// The first step from the sketch, while there is no history.
 const FIRST_STEP: f64 = 0.01;
@@ -75,7 +75,7 @@ impl<const D: usize> Tracker<'_, D> {
     /// One attempt at a step, and what follows from it. The error is how the run ends.
     fn step(&mut self, pace: &mut Pace, control: &mut Control) -> Result<(), Status> {
         if self.steps >= self.options.max_steps {
-            return Err(self.stopped("the limit on steps is reached"));
+            return Err(self.stopped(StopKind::Limit, "the limit on steps is reached"));
         }
         let (length, error, turn) = match self.attempt(pace.h) {
             Attempt::Point {
@@ -100,14 +100,16 @@ impl<const D: usize> Tracker<'_, D> {
                 return Err(Status::Closed);
             }
             Events::Unclear => {
-                return self.reject(pace).map_err(|_| self.stopped(UNCLEAR));
+                return self
+                    .reject(pace)
+                    .map_err(|_| self.stopped(StopKind::Undecided, UNCLEAR));
             }
         }
         if near || self.steps.is_multiple_of(RESTORE_EVERY) && self.plan_is_restorable(RESTORE) {
             self.change_plan(false, RESTORE)?;
         }
         if control.is_cancelled(self.progress()) {
-            return Err(self.stopped("interrupted"));
+            return Err(self.stopped(StopKind::Interrupted, "interrupted"));
         }
         // The predictor's error grows like h⁴, and with it what the corrector's contraction is
         // lacking; the turn like h.

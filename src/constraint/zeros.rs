@@ -1,0 +1,228 @@
+//! Auxiliary unknowns that are zero in every figure that meets the constraints.
+//!
+//! The signed area of a point and a line that it is on by another constraint is such an unknown, and so is the cosine of an
+//! angle that is said to be right elsewhere. An equation that has a sign of its own for them tells nothing, and changes of
+//! sign that it seems to forbid are allowed ([`super::twins`]).
+//!
+//! Equations say of sums of products of two unknowns that they are zero, or a number. Where elimination over the rational
+//! numbers leaves one product alone it is zero, and so is one factor if the other one is not: a length, which is positive, or
+//! a number that is given. Where it leaves one unknown and a number, or the difference of two unknowns, these are equal. What
+//! is known is then put in the place of its name, and so on.
+
+use super::quadratic::{Entry, Equation, Form, Product, Role, Tail};
+use crate::interval::{Interval, Real};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+
+/// Larger eliminations are not made: no unknown is known to be zero then.
+const MOST: usize = 200;
+
+/// A factor of a product: a coordinate or an unknown.
+type Factor = (bool, usize, usize);
+/// None, one or two factors, in order.
+type Monomial = Vec<Factor>;
+type Sum = BTreeMap<Monomial, BigRational>;
+
+/// What stands for a coordinate or unknown.
+#[derive(Clone)]
+enum Value {
+    Number(BigRational),
+    /// Itself, or another one that is equal.
+    Name(Factor),
+}
+
+/// What is known of coordinates and unknowns.
+#[derive(Default)]
+struct Known(BTreeMap<Factor, Value>);
+
+impl Known {
+    fn value(&self, of: Factor) -> Value {
+        let mut name = of;
+        loop {
+            match self.0.get(&name) {
+                Some(&Value::Name(other)) => name = other,
+                Some(number) => return number.clone(),
+                None => return Value::Name(name),
+            }
+        }
+    }
+
+    fn is_open(&self, of: Factor) -> bool {
+        !self.0.contains_key(&of)
+    }
+}
+
+fn factor(entry: Entry) -> Option<Factor> {
+    match entry {
+        Entry::Coordinate { point, axis } => Some((false, point, axis)),
+        Entry::Unknown(u) => Some((true, u, 0)),
+        Entry::Zero => None,
+    }
+}
+
+/// The unknowns that are zero at t = 1 wherever the equations hold and lengths and radii are positive.
+pub fn zeros(tail: &Tail) -> Vec<bool> {
+    let mut known = Known::default();
+    let nonzero = nonzero(tail);
+    let mut goes_on = tail.equations.len() <= MOST;
+    while goes_on {
+        goes_on = false;
+        let rows = tail.equations.iter().filter_map(|equation| {
+            let mut row = sum(&equation.products, &known);
+            let right = at_target(equation).as_rational()?.clone();
+            *row.entry(Monomial::new()).or_default() -= right * BigRational::from(BigInt::from(2));
+            row.retain(|_, factor| !factor.is_zero());
+            Some(row)
+        });
+        for row in reduced(rows) {
+            let terms: Vec<(&[Factor], &BigRational)> =
+                row.iter().map(|(m, x)| (m.as_slice(), x)).collect();
+            let (of, is) = match terms[..] {
+                [([], x), ([other], _)] => (*other, Value::Number(-x)),
+                [([one], x), ([other], y)] if *x == -y => (*other, Value::Name(*one)),
+                [(product, _)] => {
+                    let mut others: Vec<Factor> = product.to_vec();
+                    others.retain(|&(is_unknown, u, _)| !(is_unknown && nonzero[u]));
+                    others.dedup();
+                    match others[..] {
+                        [only] => (only, Value::Number(BigRational::zero())),
+                        _ => continue,
+                    }
+                }
+                _ => continue,
+            };
+            // Rows before this one may have told.
+            let is_new = known.is_open(of)
+                && match is {
+                    Value::Name(is) => known.is_open(is),
+                    Value::Number(_) => true,
+                };
+            if is_new {
+                known.0.insert(of, is);
+                goes_on = true;
+            }
+        }
+    }
+    let unknowns = 0..tail.unknowns.len();
+    let is_zero = |u| matches!(known.value((true, u, 0)), Value::Number(x) if x.is_zero());
+    unknowns.map(is_zero).collect()
+}
+
+/// The right-hand side at t = 1.
+fn at_target(equation: &Equation) -> Real {
+    let coefficients = equation.right.iter();
+    coefficients.fold(Real::zero(), |sum, x| &sum + x)
+}
+
+/// The unknowns that are not zero at t = 1: those that must be positive, those that are given, and products of such.
+fn nonzero(tail: &Tail) -> Vec<bool> {
+    let unknowns = tail.unknowns.iter();
+    let mut nonzero: Vec<bool> = unknowns.map(|u| u.role == Role::Positive).collect();
+    loop {
+        let before = nonzero.clone();
+        for equation in &tail.equations {
+            let at_target = at_target(equation);
+            let left = sum(&equation.products, &Known::default());
+            let terms: Vec<&Monomial> = left.keys().collect();
+            let is_nonzero = |monomial: &Monomial| {
+                let mut factors = monomial.iter();
+                factors.all(|&(is_unknown, u, _)| is_unknown && before[u])
+            };
+            let single = |monomial: &Monomial| match monomial[..] {
+                [(true, u, _)] => Some(u),
+                _ => None,
+            };
+            match terms[..] {
+                // x = E with E not zero.
+                [only] => {
+                    let is_given = |x: Interval| x.inf() > 0.0 || x.sup() < 0.0;
+                    if let Some(u) = single(only) {
+                        nonzero[u] |= is_given(at_target.enclose());
+                    }
+                }
+                // x = y z with neither of these zero.
+                [one, other] if at_target.is_zero() => {
+                    for (one, other) in [(one, other), (other, one)] {
+                        if let Some(u) = single(one) {
+                            nonzero[u] |= is_nonzero(other);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        if nonzero == before {
+            return nonzero;
+        }
+    }
+}
+
+/// Σ factor · left · right, multiplied out, with what is known in the place of names.
+fn sum(products: &[Product], known: &Known) -> Sum {
+    let parts = |form: Form| -> Vec<(Option<Factor>, BigRational)> {
+        let one = BigRational::one;
+        let Form::Difference(a, b) = form else {
+            return vec![(None, one())];
+        };
+        let signed = [(factor(a), one()), (factor(b), -one())].into_iter();
+        let named = signed.filter_map(|(x, sign)| match known.value(x?) {
+            Value::Number(number) => Some((None, number * sign)),
+            Value::Name(name) => Some((Some(name), sign)),
+        });
+        named.collect()
+    };
+    let mut out = Sum::new();
+    for p in products {
+        let factor = BigRational::from(BigInt::from(p.factor));
+        for (a, by) in parts(p.left) {
+            for (b, times) in parts(p.right) {
+                let mut monomial: Monomial = [a, b].into_iter().flatten().collect();
+                monomial.sort_unstable();
+                *out.entry(monomial).or_default() += &factor * &by * times;
+            }
+        }
+    }
+    out.retain(|_, factor| !factor.is_zero());
+    out
+}
+
+/// The reduced echelon form: in each row the last product has the factor 1 and is in no other row. A product that is a sum of
+/// multiples of the rows is one of the rows then.
+fn reduced(rows: impl Iterator<Item = Sum>) -> Vec<Sum> {
+    let mut basis: BTreeMap<Monomial, Sum> = BTreeMap::new();
+    let subtract = |from: &mut Sum, other: &Sum, times: &BigRational| {
+        for (monomial, value) in other {
+            let entry = from.entry(monomial.clone()).or_default();
+            *entry -= times * value;
+            if entry.is_zero() {
+                from.remove(monomial);
+            }
+        }
+    };
+    for mut row in rows {
+        // No row of the basis has another one's last product: what is taken away brings none in.
+        let known: Vec<Monomial> = row
+            .keys()
+            .filter(|m| basis.contains_key(*m))
+            .cloned()
+            .collect();
+        for monomial in known {
+            let times = row[&monomial].clone();
+            subtract(&mut row, &basis[&monomial], &times);
+        }
+        let Some((last, value)) = row.last_key_value().map(|(m, x)| (m.clone(), x.clone())) else {
+            continue;
+        };
+        row.values_mut().for_each(|x| *x = &*x / &value);
+        for other in basis.values_mut() {
+            if let Some(times) = other.get(&last).cloned() {
+                subtract(other, &row, &times);
+            }
+        }
+        debug_assert!(row[&last].is_one());
+        basis.insert(last, row);
+    }
+    basis.into_values().collect()
+}

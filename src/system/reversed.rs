@@ -1,0 +1,57 @@
+//! Figures that may differ in nothing but the directions of lines and planes of their own.
+
+use super::Homotopy;
+use crate::constraint::Entry;
+use crate::problem::Shape;
+
+impl Homotopy {
+    /// Whether two different solutions may be one figure: with the same points and radii, and with lines and planes of
+    /// their own that are the same but run the other way in at least one place. Where such a reversal is one of the known
+    /// changes of sign (`twins`, of which the callers see whether they lead from one solution to the other) this is
+    /// false; it is true where constraints that seem to tell both directions apart may happen to hold with either.
+    ///
+    /// `apart(i, reversed)`: whether unknown i of the one solution, or with `reversed` its negative, is known to differ
+    /// from that of the other. All other unknowns than the ones looked at here follow from these.
+    pub fn may_be_reversed(
+        &self,
+        twins: &[Vec<bool>],
+        apart: impl Fn(usize, bool) -> bool,
+    ) -> bool {
+        let first = self.gauge.place.len();
+        if (0..first).any(|i| apart(i, false)) {
+            return false;
+        }
+        // An unknown that shows the direction of an object, and whether that is reversed.
+        let mut shown: Vec<(usize, bool)> = Vec::new();
+        let mut either = false;
+        for (shape, own) in self.shapes.iter().zip(&self.tail.objects) {
+            let unknowns: Vec<usize> = own
+                .iter()
+                .filter_map(|entry| match *entry {
+                    Entry::Unknown(u) => Some(first + u),
+                    _ => None,
+                })
+                .collect();
+            let (stay, turn) = match shape {
+                Shape::FreeLine { .. } => unknowns.split_at(self.dimension.min(unknowns.len())),
+                Shape::FreePlane { .. } => unknowns.split_at(0),
+                _ => (&unknowns[..], &[][..]),
+            };
+            if stay.iter().any(|&i| apart(i, false)) {
+                return false;
+            }
+            if turn.is_empty() {
+                continue;
+            }
+            let tells = |reversed: bool| turn.iter().find(|&&i| apart(i, reversed));
+            match (tells(false), tells(true)) {
+                (Some(_), Some(_)) => return false,
+                (Some(&i), None) => shown.push((i, true)),
+                (None, Some(&i)) => shown.push((i, false)),
+                (None, None) => either = true,
+            }
+        }
+        let is_shown = |twin: &Vec<bool>| shown.iter().all(|&(i, reversed)| twin[i] == reversed);
+        either || shown.iter().any(|shown| shown.1) && !twins.iter().any(is_shown)
+    }
+}
