@@ -3,6 +3,7 @@
 use super::output::{self, Destination};
 use super::template::{Search, read, read_template};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
+use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Status, Template, Ways, solve, to_certificate};
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
 use std::path::PathBuf;
@@ -125,7 +126,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut written = true;
     if let Some(cert) = &cert {
         match to_certificate(&problem, &lowered, &result) {
-            Some(set) => written &= cert.write(&set.to_text()),
+            Some(set) => {
+                let text = set.to_text();
+                written &= cert.write(&text);
+                let verdict = verify_complex_set(&text).map_err(|e| format!("{file}: {e}"))?;
+                if let Some(ComplexFlaw::False(why) | ComplexFlaw::NotProved(why)) = verdict.flaw {
+                    output::complain(&format!(
+                        "{file}: the certificate is written, but `krawl verify` does not prove it: {why}"
+                    ));
+                }
+            }
             None => output::complain(&format!(
                 "{file}: no certificate is written: they are defined for distances in a figure with a proper reference only"
             )),
