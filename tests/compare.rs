@@ -159,6 +159,7 @@ fn writes_json_csv_and_pictures_into_a_new_directory() {
             "narrowest",
             "residual",
             "length",
+            "stopped_kind",
             "switched_on",
             "verdict",
             "faults",

@@ -59,6 +59,9 @@ struct Line {
 pub(super) struct Store {
     file: File,
     path: PathBuf,
+    /// How much of the file is whole. What is behind is cut off when the first line is written, not before: what is refused
+    /// later is left as it is.
+    whole: Option<u64>,
     /// What search it is about, once that is known.
     pub(super) head: Option<Head>,
     /// The pieces that are done.
@@ -191,11 +194,10 @@ impl Store {
         if let Some(head) = &head {
             head.is_of(problem, cover).map_err(|what| at(&what))?;
         }
-        file.set_len(length).map_err(|e| at(&e))?;
-        file.seek(SeekFrom::End(0)).map_err(|e| at(&e))?;
         Ok(Store {
             file,
             path,
+            whole: Some(length),
             head,
             done,
         })
@@ -255,8 +257,15 @@ impl Store {
     }
 
     fn append(&mut self, line: &str) -> Result<(), String> {
-        let whole = format!("{line}\n");
-        let written = self.file.write_all(whole.as_bytes());
-        written.map_err(|e| self.at(&e.to_string()))
+        let text = format!("{line}\n");
+        self.write(&text).map_err(|e| self.at(&e.to_string()))
+    }
+
+    fn write(&mut self, text: &str) -> std::io::Result<()> {
+        if let Some(length) = self.whole.take() {
+            self.file.set_len(length)?;
+            self.file.seek(SeekFrom::Start(length))?;
+        }
+        self.file.write_all(text.as_bytes())
     }
 }

@@ -62,16 +62,18 @@ fn factor(entry: Entry) -> Option<Factor> {
     }
 }
 
-/// The unknowns that are zero at t = 1 wherever the equations hold and lengths and radii are positive.
-pub fn zeros(tail: &Tail) -> Vec<bool> {
+/// The unknowns that are zero at t = 1 wherever the equations hold and lengths and radii are positive. `vanishing`: for
+/// each equation whether its right-hand side is known to be zero there, which sums of irrational numbers do not tell.
+pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
     let mut known = Known::default();
-    let nonzero = nonzero(tail);
+    let nonzero = nonzero(tail, vanishing);
     let mut goes_on = tail.equations.len() <= MOST;
     while goes_on {
         goes_on = false;
-        let rows = tail.equations.iter().filter_map(|equation| {
+        let equations = tail.equations.iter().zip(vanishing);
+        let rows = equations.filter_map(|(equation, &vanishing)| {
             let mut row = sum(&equation.products, &known);
-            let right = at_target(equation).as_rational()?.clone();
+            let right = at_target(equation, vanishing).as_rational()?.clone();
             *row.entry(Monomial::new()).or_default() -= right * BigRational::from(BigInt::from(2));
             row.retain(|_, factor| !factor.is_zero());
             Some(row)
@@ -111,19 +113,22 @@ pub fn zeros(tail: &Tail) -> Vec<bool> {
 }
 
 /// The right-hand side at t = 1.
-fn at_target(equation: &Equation) -> Real {
+fn at_target(equation: &Equation, vanishing: bool) -> Real {
+    if vanishing {
+        return Real::zero();
+    }
     let coefficients = equation.right.iter();
     coefficients.fold(Real::zero(), |sum, x| &sum + x)
 }
 
 /// The unknowns that are not zero at t = 1: those that must be positive, those that are given, and products of such.
-fn nonzero(tail: &Tail) -> Vec<bool> {
+fn nonzero(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
     let unknowns = tail.unknowns.iter();
     let mut nonzero: Vec<bool> = unknowns.map(|u| u.role == Role::Positive).collect();
     loop {
         let before = nonzero.clone();
-        for equation in &tail.equations {
-            let at_target = at_target(equation);
+        for (equation, &vanishing) in tail.equations.iter().zip(vanishing) {
+            let at_target = at_target(equation, vanishing);
             let left = sum(&equation.products, &Known::default());
             let terms: Vec<&Monomial> = left.keys().collect();
             let is_nonzero = |monomial: &Monomial| {

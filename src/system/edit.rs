@@ -25,6 +25,9 @@ impl Homotopy {
         for (after, right) in then.iter().zip(&mut self.rights[head..]) {
             *right = Right::polynomial(&after.right, self.unit.powi(after.power));
         }
+        // Which changes of sign keep the equations depends on what is zero in the end.
+        self.tail.twins.clone_from(&other.twins);
+        self.tail.mirrors = other.mirrors;
         true
     }
 

@@ -17,7 +17,7 @@ impl Lowering<'_> {
         if rank(&plain, &shown) == shown.len() {
             return plain;
         }
-        let zeros = zeros(&self.tail);
+        let zeros = zeros(&self.tail, &self.vanishing);
         match zeros.contains(&true) {
             true => twins(&self.tail, &self.vanishing, &same_sign, &zeros),
             false => plain,
