@@ -133,11 +133,6 @@ impl Cut {
         let radii = radii.collect();
         let own = problem.objects.iter().zip(&tail.objects);
         let own = own.filter_map(|(object, of)| {
-            let stay = match object.shape {
-                Shape::FreeLine { .. } => problem.dimension,
-                Shape::FreePlane { .. } => 0,
-                _ => return None,
-            };
             let unknowns = |of: &[Entry]| -> Vec<usize> {
                 of.iter()
                     .filter_map(|entry| match *entry {
@@ -146,8 +141,8 @@ impl Cut {
                     })
                     .collect()
             };
-            let (stay, turn) = of.split_at(stay);
-            Some([unknowns(stay), unknowns(turn)])
+            let split = object.shape.split_direction(of, problem.dimension);
+            split.map(|of| of.map(unknowns))
         });
         let own = own.collect();
         let powers = tail.equations.iter().map(|e| e.power).collect();

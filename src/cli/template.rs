@@ -134,19 +134,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ));
     }
     let out = Destination::new(&arguments.out)?;
-    let from = match &arguments.from {
-        Some(path) => Some(read_template(path, &lowered)?),
-        None => None,
-    };
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let begin = Instant::now();
-    let fibre = arguments
-        .search
-        .in_pool(|| arguments.search.fill(&lowered, from.as_ref(), &line))?;
+    let fibre = arguments.search.in_pool(|| {
+        let from = arguments.from.as_ref();
+        let from = from.map(|path| read_template(path, &lowered)).transpose()?;
+        let fibre = arguments.search.fill(&lowered, from.as_ref(), &line);
+        fibre.map_err(|error| format!("{file}: {error}"))
+    })?;
     if let Ok(line) = line.into_inner() {
         line.clear();
     }
-    let fibre = fibre.map_err(|error| format!("{file}: {error}"))?;
+    let fibre = fibre?;
     let is_full = lowered.enough() == Some(fibre.solutions.len());
     let text = summary(&problem, &lowered, &fibre, begin.elapsed().as_secs_f64());
     let template = Template::new(&problem.name, fibre);

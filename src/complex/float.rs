@@ -4,8 +4,10 @@
 //! A step predicts by them, as far as they say that it may, and corrects by Newton's method with the Jacobian where it
 //! arrived, whose elimination serves the next step's coefficients too: one elimination a step. Where unknowns are large,
 //! squares cancel, and 53 bits leave Newton's method short of a zero; then the residual, and it alone, is taken in
-//! double-doubles. The path may jump to another one. So what comes of it is a guess, to be proved at its end, and a claim about all solutions rests on their number
-//! alone.
+//! double-doubles.
+//!
+//! The path may jump to another one. So what comes of it is a guess, to be proved at its end, and a claim about all
+//! solutions rests on their number alone.
 
 use super::system::System;
 use crate::interval::DoubleDouble;
@@ -241,21 +243,10 @@ impl FloatFollower {
             for k in 0..self.n {
                 let change = self.right[k];
                 largest = largest.max(change.norm_sqr());
-                let moved = |x: f64, low: f64, change: f64| {
-                    DoubleDouble::sum(x, low) - DoubleDouble::from(change)
-                };
-                let (re, im) = match precisely {
-                    false => {
-                        self.there[k] -= change;
-                        continue;
-                    }
-                    true => (
-                        moved(self.there[k].re, self.low[k].re, change.re),
-                        moved(self.there[k].im, self.low[k].im, change.im),
-                    ),
-                };
-                self.there[k] = C::new(re.hi, im.hi);
-                self.low[k] = C::new(re.lo, im.lo);
+                match precisely {
+                    false => self.there[k] -= change,
+                    true => self.subtract_precisely(k, change),
+                }
             }
             let change = largest.sqrt() / size;
             if change < SETTLED {
@@ -274,6 +265,15 @@ impl FloatFollower {
             before = change;
         }
         false
+    }
+
+    /// Subtracts a number from an unknown, in double-doubles.
+    fn subtract_precisely(&mut self, k: usize, change: C) {
+        let (x, low) = (self.there[k], self.low[k]);
+        let re = DoubleDouble::sum(x.re, low.re) - DoubleDouble::from(change.re);
+        let im = DoubleDouble::sum(x.im, low.im) - DoubleDouble::from(change.im);
+        self.there[k] = C::new(re.hi, im.hi);
+        self.low[k] = C::new(re.lo, im.lo);
     }
 
     /// What an equation lacks.

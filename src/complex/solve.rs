@@ -160,6 +160,9 @@ fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
                 .collect()
         })
         .collect();
+    if alone.is_empty() {
+        return 0;
+    }
     let target = system.target();
     let proved = prove_all(system, &segment(&target, &target, None), &alone);
     let before = set.len();

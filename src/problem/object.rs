@@ -39,6 +39,24 @@ impl Object {
     }
 }
 
+impl Shape {
+    /// Of the numbers that say where a line or plane of its own is those that stay where its direction is reversed, and those
+    /// that change their signs then. `None` for all other objects.
+    pub(crate) fn split_direction<'a, T>(
+        &self,
+        numbers: &'a [T],
+        dimension: usize,
+    ) -> Option<[&'a [T]; 2]> {
+        let stay = match self {
+            Shape::FreeLine { .. } => dimension.min(numbers.len()),
+            Shape::FreePlane { .. } => 0,
+            _ => return None,
+        };
+        let (stay, turn) = numbers.split_at(stay);
+        Some([stay, turn])
+    }
+}
+
 /// What an object is, and where it is in the sketch. Points are indices into [`Problem::points`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {

@@ -2,7 +2,6 @@
 
 use super::Homotopy;
 use crate::constraint::Entry;
-use crate::problem::Shape;
 
 impl Homotopy {
     /// Whether two different solutions may be one figure: with the same points and radii, and with lines and planes of
@@ -25,18 +24,14 @@ impl Homotopy {
         let mut shown: Vec<(usize, bool)> = Vec::new();
         let mut either = false;
         for (shape, own) in self.shapes.iter().zip(&self.tail.objects) {
-            let unknowns: Vec<usize> = own
-                .iter()
-                .filter_map(|entry| match *entry {
+            let split = shape.split_direction(own, self.dimension);
+            let [stay, turn] = split.unwrap_or([own, &[]]).map(|entries| -> Vec<usize> {
+                let unknowns = entries.iter().filter_map(|entry| match *entry {
                     Entry::Unknown(u) => Some(first + u),
                     _ => None,
-                })
-                .collect();
-            let (stay, turn) = match shape {
-                Shape::FreeLine { .. } => unknowns.split_at(self.dimension.min(unknowns.len())),
-                Shape::FreePlane { .. } => unknowns.split_at(0),
-                _ => (&unknowns[..], &[][..]),
-            };
+                });
+                unknowns.collect()
+            });
             if stay.iter().any(|&i| apart(i, false)) {
                 return false;
             }

@@ -7,7 +7,7 @@
 use super::system::{Form, System};
 use crate::constraint::{Entry, Symmetry, symmetry};
 use crate::interval::ZERO;
-use crate::problem::{Problem, Shape};
+use crate::problem::Problem;
 use crate::system::Homotopy;
 
 /// The unknowns that may be taken as not negative.
@@ -57,12 +57,9 @@ pub fn directed(homotopy: &Homotopy, system: &System) -> Option<usize> {
         homotopy.gauge.place.len(),
     );
     let own = |object: usize| {
-        let entries = homotopy.tail.objects[object].as_slice();
-        match homotopy.shapes[object] {
-            Shape::FreeLine { .. } => &entries[d.min(entries.len())..],
-            Shape::FreePlane { .. } => entries,
-            _ => &[],
-        }
+        let entries = &homotopy.tail.objects[object];
+        let split = homotopy.shapes[object].split_direction(entries, d);
+        split.map_or(&[][..], |[_, turn]| turn)
     };
     let reverses = |changes: &[bool], object: usize| {
         own(object).iter().any(|entry| match *entry {

@@ -27,13 +27,9 @@ impl Lowering<'_> {
     /// Of each line and plane of its own an unknown that changes its sign where the direction is reversed.
     fn directions(&self) -> impl Iterator<Item = usize> + '_ {
         self.objects.iter().filter_map(|(&object, entries)| {
-            let at = match &self.problem.objects[object].shape {
-                Shape::FreeLine { .. } => self.dimension(),
-                Shape::FreePlane { .. } => 0,
-                _ => return None,
-            };
-            match entries[at] {
-                Entry::Unknown(u) => Some(u),
+            let shape = &self.problem.objects[object].shape;
+            match shape.split_direction(entries, self.dimension())?[1] {
+                [Entry::Unknown(u), ..] => Some(*u),
                 _ => None,
             }
         })
