@@ -227,8 +227,8 @@ fn along(
     let back = segment(other, &template.parameters, Some(&bow));
     let ways = Ways::default();
     let mut effort = Effort::default();
-    let mut out = Follower::new(system.homotopy(), &there, &ways);
-    let mut home = Follower::new(system.homotopy(), &back, &ways);
+    let mut out = Follower::new(system, system.homotopy(), &there, &ways);
+    let mut home = Follower::new(system, system.homotopy(), &back, &ways);
     let mut pairs = Vec::new();
     for one in template.solutions.boxes() {
         let PathEnd::Reached(far) = out.follow(one, &ways, &mut effort) else {
@@ -270,7 +270,7 @@ fn there_and_back_is_the_identity_and_loops_are_permutations() {
         // Another way back makes a permutation.
         let bow = bow(system, &mut random);
         let rights = segment(&other.parameters, &template.parameters, Some(&bow));
-        let mut home = Follower::new(system.homotopy(), &rights, &Ways::default());
+        let mut home = Follower::new(system, system.homotopy(), &rights, &Ways::default());
         let mut hit = vec![false; count];
         for (there, _) in &pairs {
             let mut effort = Effort::default();

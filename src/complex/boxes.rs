@@ -1,7 +1,7 @@
 //! Boxes in complex space that hold exactly one solution each, and sets of them without duplicates.
 
 use super::system::Signs;
-use crate::interval::{Interval, hull, point};
+use crate::interval::{DoubleDouble, Interval, hull, point};
 use crate::track::arc::Figure;
 
 /// A box around a solution, proved to hold exactly one.
@@ -40,16 +40,32 @@ impl SolutionBox {
         }
     }
 
+    /// How far the solution may be from the middle in any part.
+    pub fn radius(&self) -> f64 {
+        self.figure.radius.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The box's middle: real and imaginary part of every unknown in turn.
+    pub fn middle(&self) -> Vec<DoubleDouble> {
+        let words = self.figure.centre.iter().zip(&self.figure.low);
+        words.map(|(&x, &low)| DoubleDouble::sum(x, low)).collect()
+    }
+
     /// Whether the image of this one's solution under a change of signs, and under conjugation if asked for,
     /// is the other one's. Both have to be solutions of the same equations, which the image satisfies too.
     pub fn is_same(&self, other: &SolutionBox, signs: &Signs, conjugate: bool) -> Same {
         let (mut inside, mut apart) = (true, false);
-        for (i, (&x, &y)) in self.parts.iter().zip(&other.parts).enumerate() {
+        let (one, two) = (&self.figure, &other.figure);
+        for i in 0..one.centre.len() {
             let minus = signs.changes[i / 2] ^ (conjugate && i % 2 == 1);
-            let x = if minus { -x } else { x };
-            apart |= x.disjoint(y);
-            let middle = point(other.figure.centre[i]) + point(other.figure.low[i]);
-            inside &= (x - middle).mag() < other.alone_within;
+            let image = |x: f64| point(if minus { -x } else { x });
+            // Between the middles, both words of which count: large solutions are alone within less than a float's last digit.
+            let between = image(one.centre[i]) - point(two.centre[i])
+                + (image(one.low[i]) - point(two.low[i]));
+            let around = hull(-one.radius[i], one.radius[i]);
+            inside &= (between + around).mag() < other.alone_within;
+            let both = around + hull(-two.radius[i], two.radius[i]);
+            apart |= !(between + both).contains(0.0);
         }
         match (inside, apart) {
             (true, _) => Same::Yes,

@@ -33,7 +33,10 @@ pub fn to_certificate(
             .map(|&p| problem.points[p].name.clone())
             .collect(),
         solutions: solutions.boxes.boxes().iter().map(figure).collect(),
-        // In the plane the bound is another one, which the checker does not know.
-        complete: solutions.status == Status::Complete && !is_cited && problem.dimension == 3,
+        // The checker knows neither the bound in the plane nor figures at infinity.
+        complete: solutions.status == Status::Complete
+            && !is_cited
+            && problem.dimension == 3
+            && solutions.departures.is_empty(),
     })
 }

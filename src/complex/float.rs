@@ -4,17 +4,16 @@
 //! A step predicts by them, as far as they say that it may, and corrects by Newton's method with the Jacobian where it
 //! arrived, whose elimination serves the next step's coefficients too: one elimination a step. Where unknowns are large,
 //! squares cancel, and 53 bits leave Newton's method short of a zero; then the residual, and it alone, is taken in
-//! double-doubles.
+//! double-doubles. Where that does not suffice, as the linear equations lose all digits too, the path is followed in
+//! double-doubles altogether, until its unknowns are smaller again; such a step takes some thirty times as long.
 //!
 //! The path may jump to another one. So what comes of it is a guess, to be proved at its end, and a claim about all
 //! solutions rests on their number alone.
 
+use super::number::{Complex, Matrix, Number};
 use super::system::System;
 use crate::interval::DoubleDouble;
 use crate::system::Right;
-use nalgebra::Complex;
-
-type C = Complex<f64>;
 
 /// Taylor coefficients beyond the zeroth.
 const ORDER: usize = 10;
@@ -22,29 +21,122 @@ const ORDER: usize = 10;
 const TOLERANCE: f64 = 1e-5;
 /// A step is taken if each correction is at most this part of the one before.
 const CONTRACTION: f64 = 0.05;
-/// A correction smaller than this beside the unknowns is the last one.
-const SETTLED: f64 = 1e-12;
+/// A correction smaller than this beside the unknowns is the last one: in floats, in double-doubles.
+const SETTLED: [f64; 2] = [1e-12, 1e-20];
 /// A correction smaller than this that is followed by no smaller one is taken for rounding.
-const ROUNDING: f64 = 1e-8;
+const ROUNDING: [f64; 2] = [1e-8, 1e-14];
 /// Where corrections smaller than this stop shrinking it is taken for rounding's doing, not for that of too long a step.
 const NEAR: f64 = 1e-5;
+/// How often a step is halved before floats are given up, and before the path is.
+const HALVINGS: [usize; 2] = [10, 30];
+/// Double-doubles are left again where the unknowns are by so much smaller than where they were taken up.
+const SMALLER: f64 = 0.1;
 /// Corrections for one step.
 const MOST_CORRECTIONS: usize = 12;
 /// Beyond this size of an unknown, in units of the typical length, or the radius allowed if that is larger, a path is
 /// not followed: rounding has the say there. Up to it paths may go far and come back.
 const FAR: f64 = 1e8;
 /// Shorter steps of t end the path.
-const LEAST_STEP: f64 = 1e-9;
+const LEAST_STEP: f64 = 1e-12;
 
 /// How a path ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FloatEnd {
     /// Near this point at t = 1: real and imaginary part of every unknown in turn.
-    Reached(Vec<f64>),
-    /// It could not be followed beyond this t < 1, where an unknown is larger than the radius allowed.
-    Beyond(f64),
+    Reached(Vec<DoubleDouble>),
+    /// It could not be followed beyond this t < 1, where an unknown is larger than the radius allowed, and where it was
+    /// near this point.
+    Beyond(f64, Vec<DoubleDouble>),
     /// It could not be followed beyond this t, where the largest unknown is of this size.
     Stopped(f64, f64),
+}
+
+/// Follows paths of one system, setting nothing up twice.
+pub struct FloatFollower {
+    plain: Stepper<f64>,
+    /// Made when it is wanted for the first time.
+    double: Option<Stepper<DoubleDouble>>,
+    system: System,
+    rights: Vec<Right>,
+    /// Steps taken, and those of them in double-doubles.
+    pub steps: [usize; 2],
+}
+
+impl FloatFollower {
+    /// For the paths while the right-hand sides are these, of real and imaginary parts in turn.
+    pub fn new(system: &System, rights: &[Right]) -> Self {
+        FloatFollower {
+            plain: Stepper::new(system, rights),
+            double: None,
+            system: system.clone(),
+            rights: rights.to_vec(),
+            steps: [0; 2],
+        }
+    }
+
+    /// Follows a path from near this point at t = 0: real and imaginary part of every unknown in turn.
+    pub fn follow(&mut self, start: &[DoubleDouble], radius: f64, most_steps: usize) -> FloatEnd {
+        let mut t = 0.0;
+        // Where double-doubles are on: the size of the unknowns below which floats are tried again.
+        let mut until = None;
+        // The size where the path is known to be.
+        let mut size = 1.0;
+        if self.plain.set(start, 0.0) {
+            size = self.plain.size();
+        } else if !self.go_over(start, 0.0, &mut until) {
+            return FloatEnd::Stopped(0.0, self.plain.size());
+        }
+        for _ in 0..most_steps {
+            if size > radius.max(FAR) {
+                break;
+            }
+            let went = match (&mut self.double, until) {
+                (Some(double), Some(small)) => {
+                    let went = double.step(&mut t, size);
+                    size = if went { double.size() } else { size };
+                    if went && size < small && self.plain.set(&double.place(), t) {
+                        until = None;
+                    }
+                    self.steps[1] += usize::from(went);
+                    went
+                }
+                _ => {
+                    let went = self.plain.step(&mut t, size);
+                    size = if went { self.plain.size() } else { size };
+                    let from = self.plain.last_place();
+                    went || self.go_over(&from, t, &mut until)
+                }
+            };
+            if !went {
+                break;
+            }
+            self.steps[0] += 1;
+            if t == 1.0 {
+                return FloatEnd::Reached(self.place(until.is_some()));
+            }
+        }
+        match size > radius {
+            true => FloatEnd::Beyond(t, self.place(until.is_some())),
+            false => FloatEnd::Stopped(t, size),
+        }
+    }
+
+    /// Where the path is known to be: the last step, if it failed, began there.
+    fn place(&self, in_double: bool) -> Vec<DoubleDouble> {
+        match &self.double {
+            Some(double) if in_double => double.known(),
+            _ => self.plain.known(),
+        }
+    }
+
+    /// Goes on in double-doubles from near a point at t. False where Newton's method does not settle there either.
+    fn go_over(&mut self, from: &[DoubleDouble], t: f64, until: &mut Option<f64>) -> bool {
+        let make = || Stepper::new(&self.system, &self.rights);
+        let double = self.double.get_or_insert_with(make);
+        let settled = double.set(from, t);
+        *until = Some(SMALLER * double.size());
+        settled
+    }
 }
 
 /// One term of an equation: a factor times two linear forms, each the difference of two unknowns, or the number 1.
@@ -54,29 +146,28 @@ struct Term {
     forms: [Option<[usize; 2]>; 2],
 }
 
-/// Follows paths of one system, setting nothing up twice.
-pub struct FloatFollower {
+/// Takes steps along paths in numbers of one kind.
+struct Stepper<N> {
     n: usize,
     /// Terms, and where each equation's begin.
     terms: Vec<Term>,
     first: Vec<usize>,
     /// Taylor coefficients of the unknowns, then of every term's two forms. Unknowns n and n + 1 are zero.
-    x: Vec<[C; ORDER + 1]>,
-    forms: Vec<[[C; ORDER + 1]; 2]>,
-    /// Where a step arrives, rounded, and what that leaves, real and imaginary part.
-    there: Vec<C>,
-    low: Vec<C>,
-    matrix: Matrix,
-    right: Vec<C>,
+    x: Vec<[Complex<N>; ORDER + 1]>,
+    forms: Vec<[[Complex<N>; ORDER + 1]; 2]>,
+    /// Where a step arrives, and in floats what that leaves if it is known better.
+    there: Vec<Complex<N>>,
+    low: Vec<Complex<f64>>,
+    /// Whether the last step arrived.
+    arrived: bool,
+    matrix: Matrix<N>,
+    right: Vec<Complex<N>>,
     /// For every equation the coefficients of its right-hand side, a polynomial in t.
-    rights: Vec<[C; 3]>,
-    /// Steps taken.
-    pub steps: usize,
+    rights: Vec<[Complex<N>; 3]>,
 }
 
-impl FloatFollower {
-    /// For the paths while the right-hand sides are these, of real and imaginary parts in turn.
-    pub fn new(system: &System, rights: &[Right]) -> Self {
+impl<N: Number> Stepper<N> {
+    fn new(system: &System, rights: &[Right]) -> Self {
         let n = system.unknowns.len();
         let (mut terms, mut first) = (Vec::new(), vec![0]);
         for equation in &system.equations {
@@ -86,69 +177,84 @@ impl FloatFollower {
             }));
             first.push(terms.len());
         }
-        let zero = C::new(0.0, 0.0);
-        let coefficients = |parts: &[Right]| -> [C; 3] {
-            std::array::from_fn(|k| C::new(parts[0].e[k], parts[1].e[k]))
+        let coefficients = |parts: &[Right]| -> [Complex<N>; 3] {
+            let number = |part: &Right| part.doubles().map(|(near, _)| N::near(near));
+            let (re, im) = (number(&parts[0]), number(&parts[1]));
+            std::array::from_fn(|k| Complex::new(re[k], im[k]))
         };
-        FloatFollower {
+        let zero = Complex::default();
+        Stepper {
             n,
             x: vec![[zero; ORDER + 1]; n + 1],
             forms: vec![[[zero; ORDER + 1]; 2]; terms.len()],
             terms,
             first,
             there: vec![zero; n + 1],
-            low: vec![zero; n + 1],
+            low: vec![Complex::default(); n + 1],
+            arrived: false,
             matrix: Matrix::new(n),
             right: vec![zero; n],
             rights: rights.chunks(2).map(coefficients).collect(),
-            steps: 0,
         }
     }
 
-    /// Follows a path from near this point at t = 0: real and imaginary part of every unknown in turn.
-    pub fn follow(&mut self, start: &[f64], radius: f64, most_steps: usize) -> FloatEnd {
+    /// Begins near a point at t. False where Newton's method does not settle there.
+    fn set(&mut self, start: &[DoubleDouble], t: f64) -> bool {
         for (to, parts) in self.there.iter_mut().zip(start.chunks(2)) {
-            *to = C::new(parts[0], parts[1]);
+            *to = Complex::new(N::near(parts[0]), N::near(parts[1]));
         }
-        let mut t = 0.0;
-        if !self.correct(0.0) {
-            return FloatEnd::Stopped(0.0, self.size());
+        // Should it not settle, this is where it was.
+        for (x, &there) in self.x.iter_mut().zip(&self.there) {
+            x[0] = there;
         }
-        // The size where the path is known to be.
-        let mut size = self.size();
-        for _ in 0..most_steps {
-            if size > radius.max(FAR) || !self.step(&mut t, size) {
-                break;
-            }
-            size = self.size();
-            self.steps += 1;
-            if t == 1.0 {
-                let arrived = self.there[..self.n].iter();
-                return FloatEnd::Reached(arrived.flat_map(|z| [z.re, z.im]).collect());
-            }
+        self.arrived = self.correct(t);
+        self.arrived
+    }
+
+    /// Real and imaginary part of every unknown in turn, where the last step arrived.
+    fn place(&self) -> Vec<DoubleDouble> {
+        let parts = |(z, low): (&Complex<N>, &Complex<f64>)| {
+            [(z.re, low.re), (z.im, low.im)]
+                .map(|(x, low)| DoubleDouble::sum(x.rough(), x.rest()) + DoubleDouble::from(low))
+        };
+        let all = self.there[..self.n].iter().zip(&self.low);
+        all.flat_map(parts).collect()
+    }
+
+    /// The same, or where the last step began if it failed.
+    fn known(&self) -> Vec<DoubleDouble> {
+        match self.arrived {
+            true => self.place(),
+            false => self.last_place(),
         }
-        match size > radius {
-            true => FloatEnd::Beyond(t),
-            false => FloatEnd::Stopped(t, size),
-        }
+    }
+
+    /// The same where the last step began.
+    fn last_place(&self) -> Vec<DoubleDouble> {
+        let parts = |x: &[Complex<N>; ORDER + 1]| {
+            [x[0].re, x[0].im].map(|x| DoubleDouble::sum(x.rough(), x.rest()))
+        };
+        self.x[..self.n].iter().flat_map(parts).collect()
     }
 
     /// One step from t on, to be tried at shorter lengths until Newton's method settles. False where none does.
     fn step(&mut self, t: &mut f64, size: f64) -> bool {
         self.expand(*t);
         let mut step = self.reach(size).min(1.0 - *t);
-        loop {
+        for _ in 0..HALVINGS[usize::from(N::IS_DOUBLE)] {
             self.predict(step);
             let to = if *t + step >= 1.0 { 1.0 } else { *t + step };
-            if self.correct(to) {
+            self.arrived = self.correct(to);
+            if self.arrived {
                 *t = to;
                 return true;
             }
             step *= 0.5;
             if step < LEAST_STEP {
-                return false;
+                break;
             }
         }
+        false
     }
 
     /// The greatest size of an unknown, at least 1.
@@ -158,14 +264,14 @@ impl FloatFollower {
     }
 
     /// The right-hand side of an equation.
-    fn wanted(&self, equation: usize, t: f64) -> C {
+    fn wanted(&self, equation: usize, t: f64) -> Complex<N> {
         let [a, b, c] = self.rights[equation];
-        (c * t + b) * t + a
+        (c.times(t.into()) + b).times(t.into()) + a
     }
 
     /// The Taylor coefficients at the point arrived at, at t, by the elimination made there.
     fn expand(&mut self, t: f64) {
-        let zero = C::new(0.0, 0.0);
+        let zero = Complex::default();
         for (x, &there) in self.x.iter_mut().zip(&self.there) {
             x[0] = there;
         }
@@ -174,14 +280,15 @@ impl FloatFollower {
                 for e in 0..self.n {
                     let [_, b, c] = self.rights[e];
                     let mut right = match order {
-                        1 => b + c * (2.0 * t),
+                        1 => b + c.times((2.0 * t).into()),
                         2 => c,
                         _ => zero,
                     };
                     for term in self.first[e]..self.first[e + 1] {
                         let [left, other] = &self.forms[term];
                         let products = (1..order).map(|i| left[i] * other[order - i]);
-                        right -= products.sum::<C>() * self.terms[term].factor;
+                        let sum = products.fold(zero, |sum, product| sum + product);
+                        right = right - sum.times(self.terms[term].factor.into());
                     }
                     self.right[e] = right;
                 }
@@ -194,7 +301,7 @@ impl FloatFollower {
                 for (form, ends) in forms.iter_mut().zip(term.forms) {
                     form[order] = match ends {
                         Some([a, b]) => self.x[a][order] - self.x[b][order],
-                        None => C::new(if order == 0 { 1.0 } else { 0.0 }, 0.0),
+                        None => Complex::real(if order == 0 { 1.0 } else { 0.0 }),
                     };
                 }
             }
@@ -215,10 +322,8 @@ impl FloatFollower {
 
     fn predict(&mut self, step: f64) {
         for (to, x) in self.there.iter_mut().zip(&self.x) {
-            *to = x
-                .iter()
-                .rev()
-                .fold(C::new(0.0, 0.0), |sum, &c| sum * step + c);
+            let powers = x.iter().rev();
+            *to = powers.fold(Complex::default(), |sum, &c| sum.times(step.into()) + c);
         }
     }
 
@@ -228,8 +333,8 @@ impl FloatFollower {
         if !self.matrix.eliminate() {
             return false;
         }
-        self.low.fill(C::new(0.0, 0.0));
-        let size = self.size();
+        self.low.fill(Complex::default());
+        let (kind, size) = (usize::from(N::IS_DOUBLE), self.size());
         let (mut before, mut precisely) = (f64::INFINITY, false);
         for _ in 0..MOST_CORRECTIONS {
             for e in 0..self.n {
@@ -244,20 +349,20 @@ impl FloatFollower {
                 let change = self.right[k];
                 largest = largest.max(change.norm_sqr());
                 match precisely {
-                    false => self.there[k] -= change,
+                    false => self.there[k] = self.there[k] - change,
                     true => self.subtract_precisely(k, change),
                 }
             }
             let change = largest.sqrt() / size;
-            if change < SETTLED {
+            if change < SETTLED[kind] {
                 return true;
             }
             if change > CONTRACTION * before || change.is_nan() {
-                if before < ROUNDING {
+                if before < ROUNDING[kind] {
                     return true;
                 }
                 let is_rounding = before.max(change) < NEAR;
-                if precisely || !is_rounding {
+                if precisely || N::IS_DOUBLE || !is_rounding {
                     return false;
                 }
                 precisely = true;
@@ -268,50 +373,50 @@ impl FloatFollower {
     }
 
     /// Subtracts a number from an unknown, in double-doubles.
-    fn subtract_precisely(&mut self, k: usize, change: C) {
+    fn subtract_precisely(&mut self, k: usize, change: Complex<N>) {
         let (x, low) = (self.there[k], self.low[k]);
-        let re = DoubleDouble::sum(x.re, low.re) - DoubleDouble::from(change.re);
-        let im = DoubleDouble::sum(x.im, low.im) - DoubleDouble::from(change.im);
-        self.there[k] = C::new(re.hi, im.hi);
-        self.low[k] = C::new(re.lo, im.lo);
+        let re = DoubleDouble::sum(x.re.rough(), low.re) - change.re.rough().into();
+        let im = DoubleDouble::sum(x.im.rough(), low.im) - change.im.rough().into();
+        self.there[k] = Complex::new(re.hi.into(), im.hi.into());
+        self.low[k] = Complex::new(re.lo, im.lo);
     }
 
     /// What an equation lacks.
-    fn residual(&self, e: usize, t: f64) -> C {
+    fn residual(&self, e: usize, t: f64) -> Complex<N> {
         let mut value = -self.wanted(e, t);
         for term in &self.terms[self.first[e]..self.first[e + 1]] {
             let [left, right] = term.forms.map(|form| self.form(form));
-            value += left * right * term.factor;
+            value = value + (left * right).times(term.factor.into());
         }
         value
     }
 
-    /// The same in double-doubles.
-    fn precise_residual(&self, e: usize, t: f64) -> C {
+    /// The same in double-doubles where `there` and `low` are floats.
+    fn precise_residual(&self, e: usize, t: f64) -> Complex<N> {
         let wanted = self.wanted(e, t);
-        let mut sum = [-wanted.re, -wanted.im].map(DoubleDouble::from);
-        let form = |ends: Option<[usize; 2]>| match ends {
-            None => [DoubleDouble::from(1.0), DoubleDouble::default()],
-            Some([a, b]) => {
-                let (x, y) = (self.there[a], self.there[b]);
-                let (p, q) = (self.low[a], self.low[b]);
-                [
-                    DoubleDouble::sum(x.re, p.re) - DoubleDouble::sum(y.re, q.re),
-                    DoubleDouble::sum(x.im, p.im) - DoubleDouble::sum(y.im, q.im),
-                ]
-            }
+        let mut sum = -Complex::new(
+            DoubleDouble::from(wanted.re.rough()),
+            wanted.im.rough().into(),
+        );
+        let number = |k: usize| {
+            let (x, low) = (self.there[k], self.low[k]);
+            Complex::new(
+                DoubleDouble::sum(x.re.rough(), low.re),
+                DoubleDouble::sum(x.im.rough(), low.im),
+            )
         };
         for term in &self.terms[self.first[e]..self.first[e + 1]] {
-            let ([a, b], [c, d]) = (form(term.forms[0]), form(term.forms[1]));
-            let factor = DoubleDouble::from(term.factor);
-            sum[0] = sum[0] + factor * (a * c - b * d);
-            sum[1] = sum[1] + factor * (a * d + b * c);
+            let [left, right] = term.forms.map(|ends| match ends {
+                None => Complex::real(1.0),
+                Some([a, b]) => number(a) - number(b),
+            });
+            sum = sum + (left * right).times(term.factor.into());
         }
-        C::new(sum[0].hi, sum[1].hi)
+        Complex::new(sum.re.hi.into(), sum.im.hi.into())
     }
 
-    fn form(&self, ends: Option<[usize; 2]>) -> C {
-        ends.map_or(C::new(1.0, 0.0), |[a, b]| self.there[a] - self.there[b])
+    fn form(&self, ends: Option<[usize; 2]>) -> Complex<N> {
+        ends.map_or(Complex::real(1.0), |[a, b]| self.there[a] - self.there[b])
     }
 
     /// The Jacobian at the point arrived at.
@@ -325,7 +430,7 @@ impl FloatFollower {
                     let Some([plus, minus]) = term.forms[side] else {
                         continue;
                     };
-                    let slope = values[1 - side] * term.factor;
+                    let slope = values[1 - side].times(term.factor.into());
                     for (unknown, slope) in [(plus, slope), (minus, -slope)] {
                         if unknown < n {
                             self.matrix.add(e, unknown, slope);
@@ -334,139 +439,5 @@ impl FloatFollower {
                 }
             }
         }
-    }
-}
-
-/// A square matrix of complex numbers and its elimination with pivots of rows, real and imaginary parts apart.
-struct Matrix {
-    n: usize,
-    re: Vec<f64>,
-    im: Vec<f64>,
-    /// Which row stands at each place.
-    order: Vec<usize>,
-    /// Inverses of the pivots.
-    pivots: Vec<C>,
-    work: Vec<C>,
-}
-
-impl Matrix {
-    fn new(n: usize) -> Self {
-        let zero = C::new(0.0, 0.0);
-        Matrix {
-            n,
-            re: vec![0.0; n * n],
-            im: vec![0.0; n * n],
-            order: (0..n).collect(),
-            pivots: vec![zero; n],
-            work: vec![zero; n],
-        }
-    }
-
-    fn clear(&mut self) {
-        self.re.fill(0.0);
-        self.im.fill(0.0);
-        for (k, row) in self.order.iter_mut().enumerate() {
-            *row = k;
-        }
-    }
-
-    fn add(&mut self, row: usize, column: usize, value: C) {
-        self.re[row * self.n + column] += value.re;
-        self.im[row * self.n + column] += value.im;
-    }
-
-    /// L and U in place. False where a pivot is zero or no number.
-    fn eliminate(&mut self) -> bool {
-        let n = self.n;
-        for k in 0..n {
-            let mut best = (k, -1.0);
-            for place in k..n {
-                let at = self.order[place] * n + k;
-                let size = self.re[at] * self.re[at] + self.im[at] * self.im[at];
-                if size > best.1 {
-                    best = (place, size);
-                }
-            }
-            if best.1 <= 0.0 || !best.1.is_finite() {
-                return false;
-            }
-            self.order.swap(k, best.0);
-            let top = self.order[k] * n;
-            let inverse = C::new(self.re[top + k], self.im[top + k]).inv();
-            self.pivots[k] = inverse;
-            for place in k + 1..n {
-                let row = self.order[place] * n;
-                let here = C::new(self.re[row + k], self.im[row + k]);
-                if here.re == 0.0 && here.im == 0.0 {
-                    continue;
-                }
-                let factor = here * inverse;
-                subtract(&mut self.re, &mut self.im, [row, top], k + 1, n, factor);
-                self.re[row + k] = factor.re;
-                self.im[row + k] = factor.im;
-            }
-        }
-        true
-    }
-
-    /// Puts the solution in place of the right-hand side.
-    fn solve(&mut self, right: &mut [C]) {
-        let n = self.n;
-        let dot = |row: usize, from: usize, to: usize, x: &[C]| -> C {
-            let (re, im) = (
-                &self.re[row + from..row + to],
-                &self.im[row + from..row + to],
-            );
-            let mut sum = C::new(0.0, 0.0);
-            for ((&a, &b), z) in re.iter().zip(im).zip(&x[from..to]) {
-                sum.re = a.mul_add(z.re, (-b).mul_add(z.im, sum.re));
-                sum.im = a.mul_add(z.im, b.mul_add(z.re, sum.im));
-            }
-            sum
-        };
-        let mut work = std::mem::take(&mut self.work);
-        for k in 0..n {
-            let row = self.order[k];
-            work[k] = right[row] - dot(row * n, 0, k, &work);
-        }
-        for k in (0..n).rev() {
-            work[k] = (work[k] - dot(self.order[k] * n, k + 1, n, &work)) * self.pivots[k];
-        }
-        right.copy_from_slice(&work);
-        self.work = work;
-    }
-}
-
-/// Subtracts a multiple of one row from another, from a column on.
-fn subtract(
-    re: &mut [f64],
-    im: &mut [f64],
-    [row, top]: [usize; 2],
-    from: usize,
-    n: usize,
-    factor: C,
-) {
-    let (row_re, top_re) = two_rows(re, row, top, from, n);
-    let (row_im, top_im) = two_rows(im, row, top, from, n);
-    for (((a, b), &c), &d) in row_re.iter_mut().zip(row_im).zip(top_re).zip(top_im) {
-        *a = factor.im.mul_add(d, (-factor.re).mul_add(c, *a));
-        *b = (-factor.im).mul_add(c, (-factor.re).mul_add(d, *b));
-    }
-}
-
-/// One row to write and another to read, from a column on.
-fn two_rows(
-    all: &mut [f64],
-    row: usize,
-    top: usize,
-    from: usize,
-    n: usize,
-) -> (&mut [f64], &[f64]) {
-    if row < top {
-        let (low, high) = all.split_at_mut(top);
-        (&mut low[row + from..row + n], &high[from..n])
-    } else {
-        let (low, high) = all.split_at_mut(row);
-        (&mut high[from..n], &low[top + from..top + n])
     }
 }

@@ -1,8 +1,10 @@
 //! Following solutions while the parameters move from one place to another.
 
 use super::boxes::SolutionBox;
+use super::ends::EndProver;
 use super::float::{FloatEnd, FloatFollower};
 use super::system::System;
+use crate::interval::DoubleDouble;
 use crate::system::{Homotopy, Right};
 use crate::track::arc::ArcEnd;
 use crate::track::certified::{FollowArcs, arcs};
@@ -16,8 +18,9 @@ use std::time::{Duration, Instant};
 pub enum PathEnd {
     /// At t = 1, in a box with exactly one solution, which is the continuation of the one at t = 0 if paths are proved.
     Reached(SolutionBox),
-    /// It was followed up to this t < 1, where an unknown is larger than the radius allowed.
-    Beyond(f64),
+    /// It was followed up to this t < 1, where an unknown is larger than the radius allowed, and where it was near this
+    /// point: real and imaginary part of every unknown in turn.
+    Beyond(f64, Vec<DoubleDouble>),
     /// It could not be followed to its end: why.
     Stopped(String),
 }
@@ -33,6 +36,8 @@ pub struct Effort {
     pub rejected: usize,
     /// Steps in floats.
     pub steps: usize,
+    /// Those of them that were in double-doubles.
+    pub double_steps: usize,
 }
 
 impl Effort {
@@ -42,6 +47,7 @@ impl Effort {
         self.tubes += other.tubes;
         self.rejected += other.rejected;
         self.steps += other.steps;
+        self.double_steps += other.double_steps;
     }
 }
 
@@ -97,15 +103,20 @@ impl Ways<'_> {
 /// Follows paths of one system, one after the other, setting nothing up twice.
 #[derive(Debug)]
 pub struct Follower {
+    system: System,
     arcs: Box<dyn FollowArcs>,
+    /// Made where the tracker's own proof of an end fails.
+    ends: Option<EndProver>,
 }
 
+/// Boxes that are wider, in typical lengths, are tried again with more digits, as they have to be told apart.
+const NARROW: f64 = 1e-8;
 /// A path that is longer than so many radii is given up.
 const LONGEST: f64 = 20.0;
 
 impl Follower {
-    /// For a homotopy made by [`System::homotopy`].
-    pub fn new(mut homotopy: Homotopy, rights: &[Right], ways: &Ways) -> Self {
+    /// For a homotopy made by [`System::homotopy`] of this system.
+    pub fn new(system: &System, mut homotopy: Homotopy, rights: &[Right], ways: &Ways) -> Self {
         homotopy.rights = rights.to_vec();
         let options = Options {
             space: Space::Full,
@@ -115,12 +126,17 @@ impl Follower {
         };
         let mut arcs = arcs(homotopy, &options);
         arcs.set_complex();
-        Follower { arcs }
+        Follower {
+            system: system.clone(),
+            arcs,
+            ends: None,
+        }
     }
 
     /// Takes other right-hand sides.
     pub fn set_rights(&mut self, rights: &[Right]) {
         self.arcs.homotopy_mut().rights = rights.to_vec();
+        self.ends = None;
     }
 
     /// Follows the path of one solution, proving every step.
@@ -139,12 +155,15 @@ impl Follower {
             paths: 1,
             tubes: run.steps,
             rejected: run.rejected,
-            steps: 0,
+            ..Effort::default()
         });
         let size = run.last.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         match run.end {
             ArcEnd::Reached(figure) => PathEnd::Reached(SolutionBox::new(figure, run.alone_within)),
-            _ if size > ways.radius => PathEnd::Beyond(run.t.0),
+            _ if size > ways.radius => {
+                let last = run.last.iter().map(|&x| x.into()).collect();
+                PathEnd::Beyond(run.t.0, last)
+            }
             ArcEnd::Limit(_) => PathEnd::Stopped("the path turns back in t".to_owned()),
             ArcEnd::Passes(stop) | ArcEnd::Stopped(stop) => PathEnd::Stopped(stop.text),
         }
@@ -158,18 +177,19 @@ impl Follower {
         ways: &Ways,
         effort: &mut Effort,
     ) -> PathEnd {
-        let before = floats.steps;
-        let end = floats.follow(&start.figure.centre, ways.radius, ways.most_tubes);
+        let [steps, double_steps] = floats.steps;
+        let end = floats.follow(&start.middle(), ways.radius, ways.most_tubes);
         effort.add(Effort {
             paths: 1,
-            steps: floats.steps - before,
+            steps: floats.steps[0] - steps,
+            double_steps: floats.steps[1] - double_steps,
             ..Effort::default()
         });
         match end {
             FloatEnd::Reached(near) => self
                 .prove(&near)
                 .map_or_else(PathEnd::Stopped, PathEnd::Reached),
-            FloatEnd::Beyond(t) => PathEnd::Beyond(t),
+            FloatEnd::Beyond(t, last) => PathEnd::Beyond(t, last),
             FloatEnd::Stopped(t, size) => PathEnd::Stopped(format!(
                 "in floats the path cannot be followed beyond t = 1 - {:.1e}, where the largest unknown is {size:.1e} \
                  typical lengths",
@@ -178,10 +198,25 @@ impl Follower {
         }
     }
 
-    /// Proves a box around the solution near a point, for the parameters at t = 1.
-    pub fn prove(&mut self, near: &[f64]) -> Result<SolutionBox, String> {
-        let (figure, alone_within) = self.arcs.prove_at_end(near)?;
-        Ok(SolutionBox::new(figure, alone_within))
+    /// Proves a box around the solution near a point, for the parameters at t = 1: real and imaginary part of every
+    /// unknown in turn.
+    pub fn prove(&mut self, near: &[DoubleDouble]) -> Result<SolutionBox, String> {
+        let rounded: Vec<f64> = near.iter().map(|x| x.hi).collect();
+        let proved = self.arcs.prove_at_end(&rounded);
+        let found = proved.map(|(figure, alone)| SolutionBox::new(figure, alone));
+        if let Ok(found) = &found
+            && found.radius() < NARROW
+        {
+            return Ok(found.clone());
+        }
+        let (system, rights) = (&self.system, &self.arcs.homotopy_mut().rights);
+        let make = || EndProver::new(system, rights);
+        let better = self.ends.get_or_insert_with(make).prove(near);
+        match (found, better) {
+            (Ok(found), Ok(better)) if found.radius() < better.radius() => Ok(found),
+            (Ok(found), Err(_)) => Ok(found),
+            (_, better) => better,
+        }
     }
 }
 
@@ -202,7 +237,7 @@ pub fn follow_all(
     let results: Vec<(Vec<PathEnd>, Effort)> = starts
         .par_chunks(piece)
         .map(|starts| {
-            let mut follower = Follower::new(homotopy.clone(), rights, ways);
+            let mut follower = Follower::new(system, homotopy.clone(), rights, ways);
             let mut floats = (!ways.proved).then(|| FloatFollower::new(system, rights));
             let mut effort = Effort::default();
             let ends = starts.iter().map(|start| {
@@ -210,8 +245,8 @@ pub fn follow_all(
                     return PathEnd::Stopped("the time was over, or it was interrupted".to_owned());
                 }
                 let end = match &mut floats {
-                    None => follower.follow(start, ways, &mut effort),
                     Some(floats) => follower.follow_in_floats(floats, start, ways, &mut effort),
+                    None => follower.follow(start, ways, &mut effort),
                 };
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 if let Some(progress) = ways.progress {
@@ -235,7 +270,7 @@ pub fn follow_all(
 pub fn prove_all(
     system: &System,
     rights: &[Right],
-    points: &[Vec<f64>],
+    points: &[Vec<DoubleDouble>],
 ) -> Vec<Result<SolutionBox, String>> {
     let homotopy = system.homotopy();
     let piece = points
@@ -245,7 +280,7 @@ pub fn prove_all(
     points
         .par_chunks(piece)
         .flat_map_iter(|points| {
-            let mut follower = Follower::new(homotopy.clone(), rights, &Ways::default());
+            let mut follower = Follower::new(system, homotopy.clone(), rights, &Ways::default());
             let proved: Vec<_> = points.iter().map(|point| follower.prove(point)).collect();
             proved
         })

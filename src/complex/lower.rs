@@ -2,6 +2,7 @@
 
 use super::bound::{self, Bound};
 use super::exact::{Exact, zero};
+use super::infinity::Graph;
 use super::lines;
 use super::system::{Equation, Kind, Start, System, Unknown};
 use crate::constraint::MAX_DEGREE;
@@ -33,6 +34,8 @@ pub struct Lowered {
     pub bound: Option<Bound>,
     /// The points that stand on places of their own, where the problem has distances only.
     pub placed: Option<Vec<usize>>,
+    /// The distances, where figures at infinity can be told and counted.
+    pub graph: Option<Graph>,
 }
 
 impl Lowered {
@@ -87,6 +90,7 @@ fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
             system,
             bound: None,
             placed: None,
+            graph: None,
         },
         None => general(problem, placed)?,
     };
@@ -205,7 +209,11 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     let bound = bound.filter(|bound| {
         bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed)
     });
+    let graph = bound
+        .as_ref()
+        .and_then(|bound| Graph::new(&problem, &bound.fixed, system.unit));
     Ok(Lowered {
+        graph,
         placed: matches!(system.start, Start::Placed(..))
             .then(|| problem.homotopy.reference.clone()),
         system: system.with_groups(),

@@ -14,6 +14,7 @@ use super::follow::{Effort, Follower, PathEnd, Ways, follow_all};
 use super::start;
 use super::system::{Equation, Kind, System, segment};
 use super::template::Template;
+use crate::interval::DoubleDouble;
 use crate::system::Right;
 
 /// The solutions of a generic instance that were found.
@@ -156,8 +157,8 @@ fn seed(system: &System, random: &mut Random) -> Result<(Vec<Parameter>, Solutio
         };
         let rights = segment(&figure.parameters, &figure.parameters, None);
         let values = figure.values.iter().flat_map(|value| value.parts());
-        let near: Vec<f64> = values.map(|x| x.enclose().mid()).collect();
-        match Follower::new(system.homotopy(), &rights, &Ways::default()).prove(&near) {
+        let near: Vec<DoubleDouble> = values.map(|x| x.double().0).collect();
+        match Follower::new(system, system.homotopy(), &rights, &Ways::default()).prove(&near) {
             Ok(found) => {
                 let mut alone = SolutionSet::default();
                 alone.push(found);
@@ -216,7 +217,9 @@ fn exhaust(
                 Found::New => Ok(to.push(found)),
                 Found::Unknown => Err("two solutions could not be told apart".to_owned()),
             },
-            PathEnd::Beyond(t) => Err(format!("it went beyond the radius allowed at t = {t:.6}")),
+            PathEnd::Beyond(t, _) => {
+                Err(format!("it went beyond the radius allowed at t = {t:.6}"))
+            }
             PathEnd::Stopped(reason) => Err(reason),
         };
         match arrived {

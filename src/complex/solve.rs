@@ -4,10 +4,13 @@ use super::boxes::{Found, Same, SolutionBox, SolutionSet};
 use super::count::{Counts, count};
 use super::exact::Random;
 use super::follow::{Effort, PathEnd, Ways, follow_all, prove_all};
+use super::infinity::{Departure, enter};
 use super::lower::Lowered;
 use super::monodromy::bow;
+use super::number::Complex;
 use super::system::{Signs, System, segment};
 use super::template::Template;
+use crate::interval::DoubleDouble;
 use crate::problem::counted;
 use std::time::Instant;
 
@@ -51,13 +54,16 @@ pub struct Solutions {
     pub counts: Counts,
     /// Paths that went beyond the radius allowed, with the greatest t at which they were proved.
     pub infinite: Vec<f64>,
+    /// Figures at infinity, proved: so many fewer solutions there are than for other dimensions.
+    pub departures: Vec<Departure>,
     /// Why other paths stopped.
     pub stopped: Vec<String>,
     /// Paths that came to a solution to which another path had come.
     pub repeated: usize,
     /// Solutions that no path came to: conjugates of others, which are solutions too, as dimensions are real.
     pub conjugates: usize,
-    /// Whether every path was proved, step by step.
+    /// Whether every path was proved, step by step: otherwise paths were followed in floats, as asked for, or after proved
+    /// ones that did not reach all ends.
     pub paths_proved: bool,
     /// What it took.
     pub effort: Effort,
@@ -74,74 +80,136 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
     let system = &lowered.system;
     let target = system.target();
     let mut effort = Effort::default();
-    let mut set = SolutionSet::default();
-    let (mut infinite, mut stopped) = (Vec::new(), Vec::new());
-    let (mut repeated, mut conjugates) = (0, 0);
+    let mut arrived = Arrived::default();
     let starts: Vec<&SolutionBox> = template.solutions.boxes().iter().collect();
     let mut random = Random::new(0x5eed);
+    let mut proved = ways.proved;
     for attempt in 0..=DETOURS {
         let bow = (attempt > 0).then(|| bow(system, &mut random));
         let rights = segment(&template.parameters, &target, bow.as_deref());
         let (ends, took) = follow_all(system, &rights, &starts, ways);
         effort.add(took);
-        infinite.clear();
-        stopped.clear();
-        repeated = 0;
-        let known = set.len();
-        // Solutions that this way has come to.
-        let mut came = vec![false; known];
-        for end in ends {
-            match end {
-                PathEnd::Reached(found) => {
-                    match set.find(&found, &system.group_of_instance, false) {
-                        Found::New => {
-                            set.push(found);
-                            came.push(true);
-                        }
-                        Found::Old(index) => {
-                            repeated += usize::from(std::mem::replace(&mut came[index], true));
-                        }
-                        Found::Unknown => stopped.push(
-                            "two solutions are so near each other that their boxes cannot be told apart"
-                                .to_owned(),
-                        ),
-                    }
-                }
-                PathEnd::Beyond(t) => infinite.push(t),
-                PathEnd::Stopped(reason) => stopped.push(reason),
-            }
-        }
+        let known = arrived.set.len();
+        arrived.take(lowered, ends);
         // What was found on one way stays proved; another way may come to what this one did not. In floats a path may have
         // jumped to another one's end, or not come back from afar.
-        let all_came = stopped.is_empty() && (ways.proved || repeated == 0 && infinite.is_empty());
-        conjugates += add_conjugates(system, &mut set);
-        let nothing_new = stopped.is_empty() && set.len() == known;
-        if all_came || nothing_new || ways.is_over() || is_complete(lowered, &set) {
+        let all_came = arrived.stopped.is_empty()
+            && (proved || arrived.repeated == 0 && arrived.infinite.is_empty());
+        let nothing_new = arrived.stopped.is_empty() && arrived.set.len() == known;
+        if all_came || nothing_new || ways.is_over() || arrived.is_complete(lowered) {
             break;
         }
     }
-    let counts = count(&set, system);
-    let natures = natures(&set, &system.group_of_instance);
-    let status = if is_complete(lowered, &set) {
+    let missing = !arrived.infinite.is_empty() || !arrived.stopped.is_empty();
+    if proved
+        && missing
+        && lowered.bound.is_some()
+        && !ways.is_over()
+        && !arrived.is_complete(lowered)
+    {
+        // Floats go farther than proved tubes. What they come to is proved by itself, and the bound may be met with it.
+        let floats = Ways {
+            proved: false,
+            ..*ways
+        };
+        let rights = segment(&template.parameters, &target, None);
+        let (ends, took) = follow_all(system, &rights, &starts, &floats);
+        effort.add(took);
+        let mut farther = arrived.clone();
+        farther.take(lowered, ends);
+        if farther.is_complete(lowered) {
+            arrived = farther;
+            proved = false;
+        }
+    }
+    let status = if arrived.is_complete(lowered) {
         // Whatever stopped: there is nothing else.
         Status::Complete
-    } else if stopped.is_empty() {
+    } else if arrived.stopped.is_empty() {
         Status::Found
     } else {
         Status::Partial
     };
+    let Arrived {
+        set,
+        departures,
+        infinite,
+        stopped,
+        repeated,
+        conjugates,
+    } = arrived;
+    let counts = count(&set, system);
+    let natures = natures(&set, &system.group_of_instance);
     Solutions {
         status,
         boxes: set,
         natures,
         counts,
         infinite,
+        departures,
         stopped,
         repeated,
         conjugates,
-        paths_proved: ways.proved,
+        paths_proved: proved,
         effort,
         seconds: clock.elapsed().as_secs_f64(),
+    }
+}
+
+/// What paths came to.
+#[derive(Debug, Clone, Default)]
+struct Arrived {
+    /// Of all ways.
+    set: SolutionSet,
+    departures: Vec<Departure>,
+    conjugates: usize,
+    /// Of the last way.
+    infinite: Vec<f64>,
+    stopped: Vec<String>,
+    repeated: usize,
+}
+
+impl Arrived {
+    /// Enters the ends of all paths of a way, and the conjugates of what is new.
+    fn take(&mut self, lowered: &Lowered, ends: Vec<PathEnd>) {
+        let system = &lowered.system;
+        self.infinite.clear();
+        self.stopped.clear();
+        self.repeated = 0;
+        // Solutions that this way has come to.
+        let mut came = vec![false; self.set.len()];
+        for end in ends {
+            match end {
+                PathEnd::Reached(found) => {
+                    match self.set.find(&found, &system.group_of_instance, false) {
+                        Found::New => {
+                            self.set.push(found);
+                            came.push(true);
+                        }
+                        Found::Old(index) => {
+                            let again = std::mem::replace(&mut came[index], true);
+                            self.repeated += usize::from(again);
+                        }
+                        Found::Unknown => self.stopped.push(
+                            "two solutions are so near each other that their boxes cannot be told apart"
+                                .to_owned(),
+                        ),
+                    }
+                }
+                PathEnd::Beyond(t, last) => {
+                    self.infinite.push(t);
+                    if let Some(graph) = &lowered.graph {
+                        enter(graph, &places(system, &last), &mut self.departures);
+                    }
+                }
+                PathEnd::Stopped(reason) => self.stopped.push(reason),
+            }
+        }
+        self.conjugates += add_conjugates(system, &mut self.set);
+    }
+
+    fn is_complete(&self, lowered: &Lowered) -> bool {
+        is_complete(lowered, &self.set, &self.departures)
     }
 }
 
@@ -149,17 +217,14 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
 fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
     let group = &system.group_of_instance;
     let is_alone = |one: &&SolutionBox| set.find(one, group, true) == Found::New;
-    let alone: Vec<Vec<f64>> = set
-        .boxes()
-        .iter()
-        .filter(is_alone)
-        .map(|one| {
-            let parts = one.figure.centre.iter().enumerate();
-            parts
-                .map(|(k, &x)| if k % 2 == 0 { x } else { -x })
-                .collect()
-        })
-        .collect();
+    let conjugate = |one: &SolutionBox| {
+        let parts = one.middle().into_iter().enumerate();
+        parts
+            .map(|(k, x)| if k % 2 == 0 { x } else { -x })
+            .collect()
+    };
+    let alone: Vec<Vec<DoubleDouble>> =
+        set.boxes().iter().filter(is_alone).map(conjugate).collect();
     if alone.is_empty() {
         return 0;
     }
@@ -174,11 +239,37 @@ fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
     set.len() - before
 }
 
-/// Whether there are as many solutions, up to rotation, as a proved bound allows.
-fn is_complete(lowered: &Lowered, set: &SolutionSet) -> bool {
+/// Whether there are as many solutions, up to rotation, as a proved bound allows; figures at infinity are among those that
+/// it allows (see [`infinity`]), and none is congruent to its mirror image by a rotation.
+///
+/// [`infinity`]: super::infinity
+fn is_complete(lowered: &Lowered, set: &SolutionSet, departures: &[Departure]) -> bool {
     let counts = count(set, &lowered.system);
-    let bound = lowered.bound.as_ref();
-    counts.certain && bound.is_some_and(|bound| counts.rotation as u128 == bound.count)
+    let Some(bound) = &lowered.bound else {
+        return false;
+    };
+    // What somebody cites need not be a bound for all dimensions, with multiplicities.
+    let at_infinity = if bound.is_cited {
+        0
+    } else {
+        2 * at_infinity(departures)
+    };
+    counts.certain && (counts.rotation + at_infinity) as u128 == bound.count
+}
+
+/// How many figures at infinity there are, up to isometry.
+fn at_infinity(departures: &[Departure]) -> usize {
+    departures.iter().map(|one| one.figures.len()).sum()
+}
+
+/// The places of all points, where the unknowns have these real and imaginary parts.
+fn places(system: &System, at: &[DoubleDouble]) -> Vec<[Complex<DoubleDouble>; 3]> {
+    let coordinate = |unknown: Option<usize>| match unknown {
+        Some(u) => Complex::new(at[2 * u], at[2 * u + 1]),
+        None => Complex::default(),
+    };
+    let places = system.points.iter();
+    places.map(|place| place.map(coordinate)).collect()
 }
 
 /// What the conjugates are. The parameters of an instance are real, so the conjugate of a solution is one too.
@@ -201,6 +292,11 @@ fn natures(set: &SolutionSet, group: &[Signs]) -> Vec<Nature> {
 }
 
 impl Solutions {
+    /// How many figures at infinity are proved, up to isometry.
+    pub fn at_infinity(&self) -> usize {
+        at_infinity(&self.departures)
+    }
+
     /// The indices of the solutions that are proved real.
     pub fn real(&self) -> impl Iterator<Item = usize> + '_ {
         let natures = self.natures.iter().enumerate();

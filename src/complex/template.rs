@@ -166,10 +166,10 @@ impl Template {
         }
         let rights = segment(&parameters, &parameters, None);
         let mut solutions = SolutionSet::default();
-        for (k, proved) in prove_all(system, &rights, &file.solutions)
-            .into_iter()
-            .enumerate()
-        {
+        let exactly = |point: &Vec<f64>| point.iter().map(|&x| x.into()).collect();
+        let points: Vec<_> = file.solutions.iter().map(exactly).collect();
+        let proved = prove_all(system, &rights, &points);
+        for (k, proved) in proved.into_iter().enumerate() {
             let fail = |reason: String| TemplateError::Unproved {
                 index: k + 1,
                 reason,

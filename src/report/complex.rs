@@ -2,9 +2,10 @@
 
 use super::{JSON_VERSION, certain_digits};
 use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
+use crate::complex::infinity::{Departure, Split};
 use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
 use crate::interval::{Interval, point};
-use crate::problem::{Problem, counted};
+use crate::problem::{Problem, Target, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -118,6 +119,11 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
         },
         "real": result.real().collect::<Vec<_>>(),
         "infinite": result.infinite.len(),
+        "at_infinity": result.departures.iter().map(|one| json!({
+            "points": names(problem, &one.split.inside),
+            "cycle": names(problem, &one.split.cycle),
+            "figures": one.figures.len(),
+        })).collect::<Value>(),
         "stopped": result.stopped,
         "repeated": result.repeated,
         "conjugates": result.conjugates,
@@ -125,6 +131,7 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
         "tubes": result.effort.tubes,
         "paths_proved": result.paths_proved,
         "steps": result.effort.steps,
+        "double_steps": result.effort.double_steps,
         "seconds": result.seconds,
         "solutions": solutions.collect::<Value>(),
     });
@@ -169,11 +176,16 @@ fn write_table(
     )?;
     if !result.infinite.is_empty() {
         let paths = counted(result.infinite.len(), "path");
+        let where_to = match result.at_infinity() {
+            0 => "as to a solution at infinity",
+            _ => "to the figures at infinity below, or so it seems",
+        };
         writeln!(
             out,
-            "{paths} went beyond the radius before t = 1, as to a solution at infinity."
+            "{paths} went beyond the radius before t = 1, {where_to}."
         )?;
     }
+    departures(out, problem, result)?;
     if result.repeated > 0 {
         let paths = counted(result.repeated, "path");
         let why = match result.paths_proved {
@@ -254,19 +266,86 @@ fn write_table(
     writeln!(out, "\ngauge      {}", lowered.system.gauge)?;
     let effort = result.effort;
     let paths = effort.paths;
-    match result.paths_proved {
-        true => writeln!(
+    write!(out, "paths      {paths}")?;
+    if result.paths_proved || effort.tubes > 0 {
+        write!(
             out,
-            "paths      {paths}, {} tubes, {} rejected",
+            ", {} tubes, {} rejected",
             effort.tubes, effort.rejected
-        )?,
-        false => writeln!(
-            out,
-            "paths      {paths}, followed in floats, {} steps",
-            effort.steps
-        )?,
+        )?;
     }
+    if effort.steps > 0 {
+        write!(out, ", followed in floats, {} steps", effort.steps)?;
+    }
+    if effort.double_steps > 0 {
+        let double = effort.double_steps;
+        write!(
+            out,
+            ", {double} of them in double-doubles, where unknowns are large"
+        )?;
+    }
+    writeln!(out)?;
     writeln!(out, "seconds    {:.4}", result.seconds)
+}
+
+/// The figures at infinity: which points go there, and which lengths let them.
+fn departures(out: &mut String, problem: &Problem, result: &Solutions) -> std::fmt::Result {
+    if result.at_infinity() == 0 {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "{} at infinity, proved, up to isometry; other lengths bring them back. Here lengths around the points that go away add up \
+         to zero with signs:",
+        counted(result.at_infinity(), "figure")
+    )?;
+    for Departure { split, figures } in &result.departures {
+        let go = list(&names(problem, &split.inside), 4);
+        let verb = if split.inside.len() == 1 {
+            "goes"
+        } else {
+            "go"
+        };
+        writeln!(
+            out,
+            "  {} where {go} {verb} away, as {}",
+            figures.len(),
+            sum_of_lengths(problem, split)
+        )?;
+    }
+    Ok(())
+}
+
+fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
+    let names = points.iter().map(|&p| problem.points[p].name.as_str());
+    names.collect()
+}
+
+/// The lengths around a cycle with the signs with which they add up to zero.
+fn sum_of_lengths(problem: &Problem, split: &Split) -> String {
+    let mut text = String::new();
+    for (k, &to) in split.cycle.iter().enumerate() {
+        let from = split.cycle[(k + split.cycle.len() - 1) % split.cycle.len()];
+        let joins =
+            |d: &&crate::problem::Distance| d.points == [from, to] || d.points == [to, from];
+        let Some(distance) = problem.distances.iter().find(joins) else {
+            continue;
+        };
+        let falls = split.height(to) < split.height(from);
+        let sign = match (k, falls) {
+            (0, false) => "",
+            (0, true) => "-",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        };
+        let length = match &distance.target {
+            Target::Length(length) => length.to_f64(),
+            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+        };
+        let [a, b] = [from, to].map(|p| problem.points[p].name.as_str());
+        text += &format!("{sign}{length} ({a}-{b})");
+    }
+    text + " = 0"
 }
 
 /// What the check of a set of complex solutions showed.
@@ -335,8 +414,13 @@ fn verdict(lowered: &Lowered, result: &Solutions) -> String {
             )
         }
         (Status::Complete, Some(bound)) => format!(
-            "Complete, proved: {counts}. There is no other isolated complex solution: {} is {}.",
-            bound.source, bound.count
+            "Complete, proved: {counts}. There is no other isolated complex solution: {} is {}{}.",
+            bound.source,
+            bound.count,
+            match 2 * result.at_infinity() {
+                0 => String::new(),
+                lost => format!(", of which {lost} are at infinity, proved"),
+            }
         ),
         (Status::Complete, None) | (Status::Found, _) => {
             let bound = match &lowered.bound {

@@ -1,0 +1,265 @@
+//! The coordinates in which a figure at infinity is a place like all others, and the proof of one.
+
+use super::split::{Parts, Split, parts};
+use super::{Edge, Graph};
+use crate::complex::boxes::SolutionBox;
+use crate::complex::ends::EndProver;
+use crate::complex::exact::Exact;
+use crate::complex::number::{Complex, Number};
+use crate::complex::system::{Equation, Kind, Start, System, Unknown, segment};
+use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
+use crate::system::Term;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+type Z = Complex<DoubleDouble>;
+
+/// A point belongs to those that go where it is so much farther than the next nearer one, in typical lengths.
+const GAP: f64 = 1e3;
+
+/// Unknowns of a point: Λ or λ, ν, τ or σ.
+const LAMBDA: usize = 0;
+const NU: usize = 1;
+const SIGMA: usize = 2;
+
+fn unknown(point: usize, which: usize) -> usize {
+    3 * point + which
+}
+
+/// Finds how the points go of which these are the places shortly before, and a box around the figure at infinity.
+pub fn prove(graph: &Graph, last: &[[Z; 3]]) -> Option<(Split, SolutionBox)> {
+    let parts = parts(graph.points, &graph.edges, &far(last)?)?;
+    let [inside, _, outside] = &parts;
+    // The fixed triangle does not go, and one of its corners is none of the neighbours: see the module's text.
+    let is_fixed = |p: &usize| graph.fixed.contains(p);
+    if inside.iter().any(is_fixed) || !outside.iter().any(is_fixed) {
+        return None;
+    }
+    let mut near = coordinates(last, &parts)?;
+    let rough = |p: usize| near[p][NU].re.rough();
+    let split = Split::new(parts, &graph.edges, rough)?;
+    // Whether it is the mirror image that has these signs.
+    let highest = split.heights.iter().position(|h| !h.is_zero())?;
+    if rough(split.link[highest]) < 0.0 {
+        for place in &mut near {
+            place[NU] = -place[NU];
+        }
+    }
+    let system = system(graph, &split)?;
+    let rights = segment(&system.target(), &system.target(), None);
+    let near: Vec<DoubleDouble> = near.iter().flatten().flat_map(|z| [z.re, z.im]).collect();
+    let found = EndProver::new(&system, &rights).prove(&near).ok()?;
+    is_regular(&split, &found).then_some((split, found))
+}
+
+/// Which points are far away. `None`: none is clearly farther than others.
+fn far(last: &[[Z; 3]]) -> Option<Vec<bool>> {
+    let of = |place: &[Z; 3]| place.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+    let sizes: Vec<f64> = last.iter().map(of).collect();
+    let mut sorted: Vec<f64> = sizes.iter().map(|size| size.max(1.0)).collect();
+    sorted.sort_by(f64::total_cmp);
+    let gaps = sorted.windows(2).map(|pair| (pair[1] / pair[0], pair[1]));
+    let (gap, from) = gaps.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (gap >= GAP).then(|| sizes.iter().map(|&size| size >= from).collect())
+}
+
+fn dot(a: &[Z; 3], b: &[Z; 3]) -> Z {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: &[Z; 3], b: &[Z; 3]) -> [Z; 3] {
+    let part = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [part(1, 2), part(2, 0), part(0, 1)]
+}
+
+/// a + factor b.
+fn plus(a: &[Z; 3], factor: Z, b: &[Z; 3]) -> [Z; 3] {
+    std::array::from_fn(|k| a[k] + factor * b[k])
+}
+
+/// About the coordinates of all points: those of the module's text, for the ε that they have.
+fn coordinates(last: &[[Z; 3]], [inside, link, outside]: &Parts) -> Option<Vec<[Z; 3]>> {
+    let origin = last[link[0]];
+    let minus_one = -Complex::real(1.0);
+    let from_origin = |p: usize| plus(&last[p], minus_one, &origin);
+    let (near, away) = (from_origin(outside[0]), from_origin(inside[0]));
+    // The isotropic directions in the plane of both: one nearly that of the point far away, the other nearly that of the
+    // point that stays, or as far from it as its length is from zero beside its product with the former.
+    let product = dot(&near, &away);
+    let towards = plus(
+        &away,
+        small_root(dot(&near, &near), product, dot(&away, &away)),
+        &near,
+    );
+    let other = plus(
+        &near,
+        small_root(dot(&away, &away), product, dot(&near, &near)),
+        &away,
+    );
+    let normal = cross(&near, &away);
+    let scale = dot(&normal, &normal).sqrt().inverse();
+    // σ of the point that stays is 1.
+    let of_sigma = dot(&towards, &near).inverse();
+    let of_lambda = dot(&towards, &near) * dot(&towards, &other).inverse();
+    let of_lambda = of_lambda.times(2.0.into());
+    let coordinates = |p: usize| {
+        let v = from_origin(p);
+        [
+            dot(&other, &v) * of_lambda,
+            dot(&normal, &v) * scale,
+            dot(&towards, &v) * of_sigma,
+        ]
+    };
+    let mut all: Vec<[Z; 3]> = (0..last.len()).map(coordinates).collect();
+    // Λ of the point far away is 1.
+    let per_epsilon = all[inside[0]][LAMBDA];
+    let epsilon = per_epsilon.inverse();
+    for &p in inside {
+        all[p][LAMBDA] = all[p][LAMBDA] * epsilon;
+    }
+    for &p in inside.iter().chain(link) {
+        all[p][SIGMA] = all[p][SIGMA] * per_epsilon;
+    }
+    let is_number = |z: &Z| z.sum_of_sizes().is_finite();
+    all.iter().flatten().all(is_number).then_some(all)
+}
+
+/// The root of a x² + 2 b x + c that is near zero.
+fn small_root(a: Z, b: Z, c: Z) -> Z {
+    // c / (−b ∓ √(b² − a c)), with the sign that makes it small.
+    let root = (b * b - a * c).sqrt();
+    let below = [b + root, b - root];
+    let larger = if below[0].norm_sqr() > below[1].norm_sqr() {
+        below[0]
+    } else {
+        below[1]
+    };
+    -(c * larger.inverse())
+}
+
+/// The equations at ε = 0. `None`: there are not as many as unknowns.
+fn system(graph: &Graph, split: &Split) -> Option<System> {
+    let count = 3 * graph.points;
+    let zero = count + 1;
+    let is_in = |part: &[usize], p: usize| part.contains(&p);
+    let names =
+        |p: usize| ["lambda", "nu", "sigma"].map(|which| format!("{which} of point {}", p + 1));
+    let unknowns = (0..graph.points).flat_map(names).map(|name| Unknown {
+        name,
+        power: 0,
+        flips: [false; 3],
+    });
+    let mut equations = Vec::with_capacity(count);
+    let mut push = |terms: Vec<Term>, value: BigRational| {
+        equations.push(Equation {
+            name: String::new(),
+            terms,
+            power: 0,
+            right: Kind::Fixed(Exact {
+                re: value,
+                im: BigRational::zero(),
+            }),
+            bows: false,
+        });
+    };
+    let product = |left: [usize; 2], right: Option<[usize; 2]>| Term {
+        factor: 2,
+        left: Some(left),
+        right,
+    };
+    for Edge {
+        points, squared, ..
+    } in &graph.edges
+    {
+        let [a, b] = *points;
+        let both = |which: usize| [unknown(a, which), unknown(b, which)];
+        if is_in(&split.link, a) && is_in(&split.link, b) {
+            continue;
+        }
+        // λ stands for nothing in L beside S, σ for nothing in L beside O.
+        let only = |which: usize, part: &[usize]| {
+            [a, b].map(|p| {
+                if is_in(part, p) {
+                    unknown(p, which)
+                } else {
+                    zero
+                }
+            })
+        };
+        let at_link = is_in(&split.link, a) || is_in(&split.link, b);
+        let goes = is_in(&split.inside, a) || is_in(&split.inside, b);
+        let lambda = if at_link && goes {
+            only(LAMBDA, &split.inside)
+        } else {
+            both(LAMBDA)
+        };
+        let sigma = if at_link && !goes {
+            only(SIGMA, &split.outside)
+        } else {
+            both(SIGMA)
+        };
+        let heights = product(both(NU), Some(both(NU)));
+        push(vec![heights, product(lambda, Some(sigma))], squared.clone());
+    }
+    let (origin, near, away) = (split.link[0], split.outside[0], split.inside[0]);
+    let whole = |value: i64| BigRational::from_integer(value.into());
+    let mut values: Vec<(usize, BigRational)> = vec![
+        (unknown(origin, LAMBDA), whole(0)),
+        (unknown(origin, SIGMA), whole(0)),
+        (unknown(near, NU), whole(0)),
+        (unknown(near, SIGMA), whole(1)),
+        (unknown(away, NU), whole(0)),
+        (unknown(away, LAMBDA), whole(1)),
+    ];
+    let heights = split.link.iter().zip(&split.heights);
+    values.extend(heights.map(|(&p, height)| (unknown(p, NU), height.clone())));
+    for (unknown, value) in values {
+        push(vec![product([unknown, zero], None)], value);
+    }
+    let system = System {
+        dimension: 3,
+        unknowns: unknowns.collect(),
+        equations,
+        points: Vec::new(),
+        unit: 1.0,
+        group: Vec::new(),
+        group_of_instance: Vec::new(),
+        start: Start::Any,
+        positions: 1,
+        gauge: String::new(),
+    };
+    (system.equations.len() == count).then_some(system)
+}
+
+/// Whether Λ is not zero where points go, nor σ where they stay, and the sum around the cycle is not zero either.
+fn is_regular(split: &Split, found: &SolutionBox) -> bool {
+    let part = |p: usize, which: usize| -> [Interval; 2] {
+        let at = 2 * unknown(p, which);
+        [found.parts[at], found.parts[at + 1]]
+    };
+    let is_nonzero = |z: [Interval; 2]| z.iter().any(|x| !x.contains(0.0));
+    let goes = split.inside.iter().all(|&p| is_nonzero(part(p, LAMBDA)));
+    let stays = split.outside.iter().all(|&p| is_nonzero(part(p, SIGMA)));
+    let mut sum = [point(0.0); 2];
+    for (k, &to) in split.cycle.iter().enumerate() {
+        let from = split.cycle[(k + split.cycle.len() - 1) % split.cycle.len()];
+        let (Some(a), Some(b)) = (split.height(to), split.height(from)) else {
+            return false;
+        };
+        let rise = a - b;
+        if rise.is_zero() {
+            return false;
+        }
+        let difference = |which: usize| {
+            let (a, b) = (part(to, which), part(from, which));
+            [a[0] - b[0], a[1] - b[1]]
+        };
+        let ([a, b], [c, d]) = (difference(LAMBDA), difference(SIGMA));
+        let per_rise = enclose_rational(&rise.recip());
+        sum = [
+            sum[0] + (a * c - b * d) * per_rise,
+            sum[1] + (a * d + b * c) * per_rise,
+        ];
+    }
+    goes && stays && is_nonzero(sum)
+}

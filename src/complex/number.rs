@@ -1,0 +1,357 @@
+//! Complex numbers whose parts are floats or double-doubles, and the elimination of a matrix of them.
+
+use crate::interval::DoubleDouble;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// What complex numbers are made of.
+pub trait Number:
+    Copy
+    + Default
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Whether this has twice a float's digits.
+    const IS_DOUBLE: bool;
+
+    /// a b + c.
+    fn fused(a: Self, b: Self, c: Self) -> Self;
+    /// About 1 / a.
+    fn inverse(self) -> Self;
+    /// The float near it.
+    fn rough(self) -> f64;
+    /// What that leaves.
+    fn rest(self) -> f64;
+    /// The number near a double-double.
+    fn near(value: DoubleDouble) -> Self;
+}
+
+impl Number for f64 {
+    const IS_DOUBLE: bool = false;
+
+    #[inline(always)]
+    fn fused(a: Self, b: Self, c: Self) -> Self {
+        a.mul_add(b, c)
+    }
+
+    fn inverse(self) -> Self {
+        1.0 / self
+    }
+
+    #[inline(always)]
+    fn rough(self) -> f64 {
+        self
+    }
+
+    fn rest(self) -> f64 {
+        0.0
+    }
+
+    fn near(value: DoubleDouble) -> Self {
+        value.hi
+    }
+}
+
+impl Number for DoubleDouble {
+    const IS_DOUBLE: bool = true;
+
+    #[inline(always)]
+    fn fused(a: Self, b: Self, c: Self) -> Self {
+        a * b + c
+    }
+
+    /// One step of Newton's method from the float nearest to it.
+    fn inverse(self) -> Self {
+        let near = DoubleDouble::from(1.0 / self.hi);
+        near + near * (DoubleDouble::from(1.0) - self * near)
+    }
+
+    #[inline(always)]
+    fn rough(self) -> f64 {
+        self.hi
+    }
+
+    fn rest(self) -> f64 {
+        self.lo
+    }
+
+    fn near(value: DoubleDouble) -> Self {
+        value
+    }
+}
+
+/// A complex number.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Complex<N> {
+    /// The real part.
+    pub re: N,
+    /// The imaginary part.
+    pub im: N,
+}
+
+impl<N: Number> Complex<N> {
+    /// From both parts.
+    #[inline(always)]
+    pub fn new(re: N, im: N) -> Self {
+        Complex { re, im }
+    }
+
+    /// A real number.
+    #[inline(always)]
+    pub fn real(re: f64) -> Self {
+        Complex::new(re.into(), 0.0.into())
+    }
+
+    /// About the square of its size.
+    #[inline(always)]
+    pub fn norm_sqr(self) -> f64 {
+        let (re, im) = (self.re.rough(), self.im.rough());
+        re * re + im * im
+    }
+
+    /// At most a few roundings below |re| + |im|, which is its size or more.
+    pub fn sum_of_sizes(self) -> f64 {
+        self.re.rough().abs() + self.im.rough().abs()
+    }
+
+    /// About 1 / z.
+    pub fn inverse(self) -> Self {
+        let scale = N::fused(self.re, self.re, self.im * self.im).inverse();
+        Complex::new(self.re * scale, -(self.im * scale))
+    }
+
+    /// This number times a real one.
+    #[inline(always)]
+    pub fn times(self, factor: N) -> Self {
+        Complex::new(self.re * factor, self.im * factor)
+    }
+}
+
+impl Complex<DoubleDouble> {
+    /// About a square root.
+    pub fn sqrt(self) -> Self {
+        let near = nalgebra::Complex::new(self.re.hi, self.im.hi).sqrt();
+        let mut root = Complex::new(near.re.into(), near.im.into());
+        if near.norm_sqr() > 0.0 {
+            for _ in 0..2 {
+                root = (root + self * root.inverse()).times(0.5.into());
+            }
+        }
+        root
+    }
+}
+
+impl<N: Number> Add for Complex<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Complex::new(self.re + other.re, self.im + other.im)
+    }
+}
+
+impl<N: Number> Sub for Complex<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Complex::new(self.re - other.re, self.im - other.im)
+    }
+}
+
+impl<N: Number> Neg for Complex<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Complex::new(-self.re, -self.im)
+    }
+}
+
+impl<N: Number> Mul for Complex<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Complex::new(
+            self.re * other.re - self.im * other.im,
+            self.re * other.im + self.im * other.re,
+        )
+    }
+}
+
+/// A square matrix of complex numbers and its elimination with pivots of rows, real and imaginary parts apart.
+#[derive(Debug)]
+pub struct Matrix<N> {
+    n: usize,
+    re: Vec<N>,
+    im: Vec<N>,
+    /// Which row stands at each place.
+    order: Vec<usize>,
+    /// Inverses of the pivots.
+    pivots: Vec<Complex<N>>,
+    work: Vec<Complex<N>>,
+}
+
+impl<N: Number> Matrix<N> {
+    /// Zero, with n rows.
+    pub fn new(n: usize) -> Self {
+        Matrix {
+            n,
+            re: vec![N::default(); n * n],
+            im: vec![N::default(); n * n],
+            order: (0..n).collect(),
+            pivots: vec![Complex::default(); n],
+            work: vec![Complex::default(); n],
+        }
+    }
+
+    /// Makes it zero.
+    pub fn clear(&mut self) {
+        self.re.fill(N::default());
+        self.im.fill(N::default());
+        for (k, row) in self.order.iter_mut().enumerate() {
+            *row = k;
+        }
+    }
+
+    /// Adds to an entry, before the elimination.
+    #[inline(always)]
+    pub fn add(&mut self, row: usize, column: usize, value: Complex<N>) {
+        let at = row * self.n + column;
+        self.re[at] = self.re[at] + value.re;
+        self.im[at] = self.im[at] + value.im;
+    }
+
+    /// L and U in place. False where a pivot is zero or no number.
+    pub fn eliminate(&mut self) -> bool {
+        let n = self.n;
+        for k in 0..n {
+            let mut best = (k, -1.0);
+            for place in k..n {
+                let at = self.order[place] * n + k;
+                let size = Complex::new(self.re[at], self.im[at]).norm_sqr();
+                if size > best.1 {
+                    best = (place, size);
+                }
+            }
+            if best.1 <= 0.0 || !best.1.is_finite() {
+                return false;
+            }
+            self.order.swap(k, best.0);
+            let top = self.order[k] * n;
+            let inverse = Complex::new(self.re[top + k], self.im[top + k]).inverse();
+            self.pivots[k] = inverse;
+            for place in k + 1..n {
+                let row = self.order[place] * n;
+                let here = Complex::new(self.re[row + k], self.im[row + k]);
+                if here.re.rough() == 0.0 && here.im.rough() == 0.0 {
+                    continue;
+                }
+                let factor = here * inverse;
+                subtract(&mut self.re, &mut self.im, [row, top], k + 1, n, factor);
+                self.re[row + k] = factor.re;
+                self.im[row + k] = factor.im;
+            }
+        }
+        true
+    }
+
+    /// Puts the solution in place of the right-hand side.
+    pub fn solve(&mut self, right: &mut [Complex<N>]) {
+        let n = self.n;
+        let dot = |row: usize, from: usize, to: usize, x: &[Complex<N>]| -> Complex<N> {
+            let (re, im) = (
+                &self.re[row + from..row + to],
+                &self.im[row + from..row + to],
+            );
+            let mut sum = Complex::default();
+            for ((&a, &b), z) in re.iter().zip(im).zip(&x[from..to]) {
+                sum.re = N::fused(a, z.re, N::fused(-b, z.im, sum.re));
+                sum.im = N::fused(a, z.im, N::fused(b, z.re, sum.im));
+            }
+            sum
+        };
+        let mut work = std::mem::take(&mut self.work);
+        for k in 0..n {
+            let row = self.order[k];
+            work[k] = right[row] - dot(row * n, 0, k, &work);
+        }
+        for k in (0..n).rev() {
+            work[k] = (work[k] - dot(self.order[k] * n, k + 1, n, &work)) * self.pivots[k];
+        }
+        right.copy_from_slice(&work);
+        self.work = work;
+    }
+}
+
+/// Subtracts a multiple of one row from another, from a column on.
+fn subtract<N: Number>(
+    re: &mut [N],
+    im: &mut [N],
+    [row, top]: [usize; 2],
+    from: usize,
+    n: usize,
+    factor: Complex<N>,
+) {
+    let (row_re, top_re) = two_rows(re, row, top, from, n);
+    let (row_im, top_im) = two_rows(im, row, top, from, n);
+    for (((a, b), &c), &d) in row_re.iter_mut().zip(row_im).zip(top_re).zip(top_im) {
+        *a = N::fused(factor.im, d, N::fused(-factor.re, c, *a));
+        *b = N::fused(-factor.im, c, N::fused(-factor.re, d, *b));
+    }
+}
+
+/// One row to write and another to read, from a column on.
+fn two_rows<N>(all: &mut [N], row: usize, top: usize, from: usize, n: usize) -> (&mut [N], &[N]) {
+    if row < top {
+        let (low, high) = all.split_at_mut(top);
+        (&mut low[row + from..row + n], &high[from..n])
+    } else {
+        let (low, high) = all.split_at_mut(row);
+        (&mut high[from..n], &low[top + from..top + n])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A matrix with singular values from 1 down to 1e-20 loses all digits in floats, and keeps ten in double-doubles.
+    #[test]
+    fn double_doubles_solve_what_floats_cannot() {
+        let n = 6;
+        let entry = |i: usize, j: usize| -> Complex<DoubleDouble> {
+            // Hilbert's matrix, its rows turned by i to the power of their number; n = 12 has a condition of 1e16.
+            let value = DoubleDouble::from((i + j + 1) as f64).inverse();
+            match i % 4 {
+                0 => Complex::new(value, 0.0.into()),
+                1 => Complex::new(0.0.into(), value),
+                2 => Complex::new(-value, 0.0.into()),
+                _ => Complex::new(0.0.into(), -value),
+            }
+        };
+        fn worst<N: Number>(
+            n: usize,
+            entry: &dyn Fn(usize, usize) -> Complex<DoubleDouble>,
+        ) -> f64 {
+            let mut matrix = Matrix::<N>::new(n);
+            let mut right = vec![Complex::<N>::default(); n];
+            for (i, right) in right.iter_mut().enumerate() {
+                let mut sum = Complex::<DoubleDouble>::default();
+                for j in 0..n {
+                    let value = entry(i, j);
+                    sum = sum + value;
+                    matrix.add(i, j, Complex::new(N::near(value.re), N::near(value.im)));
+                }
+                *right = Complex::new(N::near(sum.re), N::near(sum.im));
+            }
+            assert!(matrix.eliminate());
+            matrix.solve(&mut right);
+            let off = right.iter().map(|&x| (x - Complex::real(1.0)).norm_sqr());
+            off.fold(0.0, f64::max).sqrt()
+        }
+        assert!(worst::<f64>(n, &entry) < 1e-8);
+        assert!(worst::<DoubleDouble>(n, &entry) < 1e-22);
+        assert!(worst::<f64>(14, &entry) > 1e-3);
+        assert!(worst::<DoubleDouble>(14, &entry) < 1e-10);
+    }
+}
