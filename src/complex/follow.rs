@@ -190,11 +190,17 @@ impl Follower {
                 .prove(&near)
                 .map_or_else(PathEnd::Stopped, PathEnd::Reached),
             FloatEnd::Beyond(t, last) => PathEnd::Beyond(t, last),
-            FloatEnd::Stopped(t, size) => PathEnd::Stopped(format!(
-                "in floats the path cannot be followed beyond t = 1 - {:.1e}, where the largest unknown is {size:.1e} \
-                 typical lengths",
-                1.0 - t
-            )),
+            FloatEnd::Stopped(t, size) => {
+                // Near the end it matters how near.
+                let at = match 1.0 - t {
+                    left if left < 1e-3 => format!("1 - {left:.1e}"),
+                    _ => format!("{t:.4}"),
+                };
+                PathEnd::Stopped(format!(
+                    "in floats the path cannot be followed beyond t = {at}, where the largest unknown is {size:.1e} typical \
+                     lengths"
+                ))
+            }
         }
     }
 
