@@ -10,6 +10,7 @@ use crate::problem::{Decimal, Problem, Target};
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::{LARGEST_SQUARE, Status, TubeSeen, Witness};
 use sha2::{Digest, Sha256};
+use std::collections::VecDeque;
 use std::io::{self, Write};
 
 // What runs prove can be read again.
@@ -22,6 +23,8 @@ const WIDER: f64 = 2.0;
 /// Boxes of folds are written wider than they were proved by this factor: a checker may bound all their entries by
 /// the largest, velocities among them.
 const WIDER_AT_FOLDS: f64 = 1024.0;
+/// So many records at the end of an open path's way may be left out.
+const TAIL: usize = 16;
 /// See [`WIDER`].
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
@@ -39,6 +42,9 @@ pub struct Writer<'a, W> {
     /// The last tubes, in extended precision, and their solutions: left out where the run stops among them, near a
     /// singular place, as the checker's bounds are coarser.
     held: Vec<Record>,
+    /// Up to [`TAIL`] records that were written last, or rather will be: of an open path the tubes at an end that the
+    /// checker would not prove are left out.
+    tail: VecDeque<Record>,
     /// The edit at hand: what it changes, and its tubes so far.
     arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
@@ -49,7 +55,7 @@ pub struct Writer<'a, W> {
     result: io::Result<()>,
     /// What lengths are divided by, and what tells whether tubes will be proved.
     unit: f64,
-    trial: Option<Trial>,
+    trial: Option<Option<Trial>>,
 }
 
 /// An edit that is being followed.
@@ -69,6 +75,7 @@ impl<'a, W: Write> Writer<'a, W> {
             solutions: 0,
             back: None,
             held: Vec::new(),
+            tail: VecDeque::new(),
             arc: None,
             edits: None,
             cut: None,
@@ -100,8 +107,68 @@ impl<'a, W: Write> Writer<'a, W> {
     fn put(&mut self, record: &Record) {
         if let Some((records, _)) = &mut self.back {
             records.push(record.clone());
-        } else if self.result.is_ok() {
+        } else {
+            self.tail.push_back(record.clone());
+            if self.tail.len() > TAIL
+                && let Some(record) = self.tail.pop_front()
+            {
+                self.write(&record);
+            }
+        }
+    }
+
+    fn write(&mut self, record: &Record) {
+        if self.result.is_ok() {
             self.result = write_record(&mut self.out, record);
+        }
+    }
+
+    /// Leaves out tubes at the end of an open path, behind its last solution: those in extended precision, and from the first
+    /// one on that the checker would not prove. The certificate is of a path that ends before, with the same solutions.
+    fn trim(&mut self) {
+        let is_tube = |record: &Record| matches!(record, Record::Tube(_));
+        // The tube around the sketch stays: behind the turn, or as the first of all.
+        let is_first = match &self.back {
+            Some((records, _)) => records.len() < 2,
+            None => self.tubes == self.held.iter().filter(|r| is_tube(r)).count() as u64,
+        };
+        let least = usize::from(is_first);
+        while self.held.len() > least && self.held.pop_if(|record| is_tube(record)).is_some() {
+            self.tubes -= 1;
+        }
+        self.release();
+        let (records, first): (Vec<&Record>, usize) = match &self.back {
+            Some((records, _)) => (records.iter().collect(), 2),
+            None => {
+                let written = self.tubes > self.tail.iter().filter(|r| is_tube(r)).count() as u64;
+                (self.tail.iter().collect(), usize::from(!written))
+            }
+        };
+        let after = records.iter().rposition(|record| !is_tube(record));
+        let from = after
+            .map_or(0, |k| k + 1)
+            .max(first)
+            .max(records.len().saturating_sub(TAIL));
+        let make = || Trial::new(self.problem, self.unit);
+        let trial = self.trial.get_or_insert_with(make).as_ref();
+        let fails = |record: &&Record| match (record, trial) {
+            (Record::Tube(tube), Some(trial)) => !trial.proves_to_exit(tube),
+            _ => false,
+        };
+        let kept = (from..records.len()).find(|&k| fails(&records[k]));
+        let Some(kept) = kept else {
+            return;
+        };
+        self.tubes -= (records.len() - kept) as u64;
+        match &mut self.back {
+            Some((records, _)) => records.truncate(kept),
+            None => self.tail.truncate(kept),
+        }
+    }
+
+    fn flush(&mut self) {
+        for record in std::mem::take(&mut self.tail) {
+            self.write(&record);
         }
     }
 
@@ -117,6 +184,7 @@ impl<'a, W: Write> Writer<'a, W> {
             tubes: self.tubes,
             classes: classes.iter().map(|&c| c as u32).collect(),
         }));
+        self.flush();
         self.ended = true;
     }
 }
@@ -189,10 +257,8 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn is_provable(&mut self, tube: &TubeSeen) -> bool {
-        if self.trial.is_none() {
-            self.trial = Trial::new(self.problem, self.unit);
-        }
-        let trial = self.trial.as_ref();
+        let make = || Trial::new(self.problem, self.unit);
+        let trial = self.trial.get_or_insert_with(make).as_ref();
         trial.is_none_or(|trial| trial.proves(&tube_claim(tube)))
     }
 
@@ -212,12 +278,16 @@ impl<W: Write> Witness for Writer<'_, W> {
         if self.cut.is_some() {
             return;
         }
-        self.release();
+        self.trim();
         self.back = Some((vec![Record::Turn], self.solutions));
     }
 
     fn end_turn(&mut self, kept: bool) {
-        self.release();
+        if kept {
+            self.trim();
+        } else {
+            self.release();
+        }
         let Some((records, solutions)) = self.back.take() else {
             return;
         };

@@ -3,6 +3,7 @@
 use super::equations::Equations;
 use super::tube::Tube;
 use crate::certificate::format::TubeClaim;
+use crate::interval::hull;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use std::fmt;
@@ -22,7 +23,19 @@ impl Trial {
 
     /// Whether the checker proves a tube.
     pub fn proves(&self, claim: &TubeClaim) -> bool {
-        Tube::prove(&self.0, claim).is_ok_and(|tube| tube.proof.margin > MARGIN)
+        self.prove(claim).is_some()
+    }
+
+    /// Whether it proves a tube and, up to its exit, that lengths are positive and vectors not zero that must not be.
+    pub fn proves_to_exit(&self, claim: &TubeClaim) -> bool {
+        let range = hull(-claim.h, claim.exit.max(-claim.h));
+        self.prove(claim)
+            .is_some_and(|tube| tube.stands(&self.0, range).is_ok())
+    }
+
+    fn prove(&self, claim: &TubeClaim) -> Option<Tube> {
+        let tube = Tube::prove(&self.0, claim).ok()?;
+        (tube.proof.margin > MARGIN).then_some(tube)
     }
 }
 
