@@ -60,6 +60,6 @@ fn stabiliser(one: &SolutionBox, group: &[Signs]) -> (usize, usize, bool) {
             Same::Unknown => certain = false,
         }
     }
-    // The one that changes nothing is among them always.
+    // The one that changes nothing is among them always; should that not be told, `certain` is false.
     (kept.max(1), rotations.max(1), certain)
 }

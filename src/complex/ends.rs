@@ -5,11 +5,16 @@
 //! N(h) = h − Y F(x + h) = −Y F(x) + (I − Y J) h − Y Q(h), and the other way round where |I − Y J| < 1, as Y is invertible
 //! then. In the norm max |h_k|, |h_k| being the size of a complex number, let
 //!
-//! - η bound |Y F(x)|, α bound |I − Y J|, and β bound |Y Q(h)| for |h| ≤ 1, so that
-//!   |Y (Q(h) − Q(g))| ≤ 2 β r |h − g| for |h|, |g| ≤ r.
+//! - η bound |Y F(x)|, α bound |I − Y J|, and β bound |Y B(h, g)| for |h|, |g| ≤ 1, B being the symmetric bilinear form with
+//!   Q(h) = B(h, h), so that |Y (Q(h) − Q(g))| = |Y B(h − g, h + g)| ≤ 2 β r |h − g| for |h|, |g| ≤ r.
 //!
-//! If η + α r + β r² ≤ r and α + 2 β r < 1, N maps the ball of radius r into itself and contracts it: exactly one zero is in
-//! it. If α + 2 β R < 1 there is at most one in the ball of radius R. (Kantorovich's theorem for quadratic maps.)
+//! If α < 1, η + α r + β r² ≤ r and α + 2 β r < 1, N maps the ball of radius r into itself and contracts it: exactly one zero is in
+//! it, where the Jacobian is regular, as |I − Y F'(x + h)| ≤ α + 2 β r. If α + 2 β R < 1 there is at most one in the ball of radius R.
+//! (Kantorovich's theorem for quadratic maps.)
+//!
+//! The ball is of sizes of complex numbers; boxes have real and imaginary parts. Numbers both of whose parts are at most r are
+//! at most √2 r < 1.5 r in size, so that 1.5 r has to be such an R; numbers both of whose parts are less than 0.7 R are less than 0.99 R in
+//! size.
 //!
 //! F(x) is evaluated in exact ratios; Y, which may be any matrix, J and their product in double-doubles, with the bounds
 //! of [`gamma_double`]. Sizes of complex numbers are bounded by |Re| + |Im|.
@@ -69,13 +74,10 @@ impl EndProver {
                  {size:.1e} typical lengths, and its equations are nearly singular there"
             )
         };
-        // Products and sums of a few floats: five roundings at most.
-        let is_kept = |r: f64| round_up(eta + alpha * r + beta * r * r, 5) <= r;
-        let contracts = |r: f64| round_up(alpha + 2.0 * beta * r, 5) < 1.0;
+        let contracts = |r: f64| contracts(alpha, beta, r);
         let radius = 2.0 * eta / (1.0 - alpha) + f64::MIN_POSITIVE.sqrt();
-        // Numbers both of whose parts are at most the radius are less than 1.5 times that in size.
         let least = 1.5 * radius;
-        if !(is_kept(radius) && contracts(least)) {
+        if !has_one_zero([eta, alpha, beta], radius) {
             return Err(too_coarse());
         }
         // Any number for which the inequality holds will do.
@@ -95,7 +97,6 @@ impl EndProver {
             low: parts(|x| x.lo),
             radius: vec![radius; 2 * x.len()],
         };
-        // Both parts less than 0.7 of it make a size less than 0.99 of it.
         Ok(SolutionBox::new(figure, 0.7 * alone))
     }
 
@@ -181,8 +182,12 @@ impl EndProver {
                 im: exact(&z.im)?,
             })
         };
+        // So that their products are numbers.
+        let are_in_range = x.iter().all(|z| in_range(z.sum_of_sizes()));
         let at: Option<Vec<Exact>> = x.iter().map(exactly).collect();
-        let at = at.ok_or("a path ended at no number")?;
+        let at = at
+            .filter(|_| are_in_range)
+            .ok_or("Newton's method does not settle at the path's end")?;
         let half = BigRational::new(1.into(), 2.into());
         let (mut values, mut errors) = (Vec::new(), Vec::new());
         for (e, (wanted, radius)) in self.wanted.iter().enumerate() {
@@ -268,7 +273,71 @@ impl EndProver {
     }
 }
 
+/// Whether α + 2 β r < 1, in at most five roundings.
+fn contracts(alpha: f64, beta: f64, r: f64) -> bool {
+    round_up(alpha + 2.0 * beta * r, 5) < 1.0
+}
+
+/// Whether the bounds prove that there is exactly one zero in the box of this radius.
+fn has_one_zero([eta, alpha, beta]: [f64; 3], r: f64) -> bool {
+    // So that no number is none.
+    let are_numbers = [eta, alpha, beta, r].into_iter().all(in_range);
+    let is_kept = round_up(eta + alpha * r + beta * r * r, 5) <= r;
+    are_numbers && r > 0.0 && alpha < 1.0 && is_kept && contracts(alpha, beta, 1.5 * r)
+}
+
 /// About the size of the largest number.
 fn size_of(x: &[Z]) -> f64 {
     x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::complex::Random;
+    use crate::complex::exact;
+    use crate::complex::lower::lower;
+    use crate::complex::start::draw;
+    use crate::complex::system::segment;
+    use crate::problem::Problem;
+
+    #[test]
+    fn bounds_that_prove_nothing_are_refused() {
+        assert!(has_one_zero([0.01, 0.1, 1.0], 0.02));
+        // α > 1, with a negative radius for which both inequalities hold.
+        assert!(!has_one_zero([0.002, 1.1, 1.0], -0.04));
+        assert!(!has_one_zero([0.01, 0.1, 100.0], 0.02));
+        assert!(!has_one_zero([0.01, f64::NAN, 1.0], 0.02));
+        assert!(!has_one_zero([0.0, 0.0, 0.0], f64::INFINITY));
+    }
+
+    /// Random figures whose coordinates are known exactly: each is in its box, which is narrower than floats are apart.
+    #[test]
+    fn a_figure_is_in_its_box_and_far_from_it_there_is_none() {
+        let problem = Problem::read("problems/octahedron.toml").unwrap();
+        let system = lower(&problem).unwrap().system;
+        let mut random = Random::new(5);
+        for _ in 0..10 {
+            let Some(figure) = draw(&system, &mut random) else {
+                continue;
+            };
+            let rights = segment(&figure.parameters, &figure.parameters, None);
+            let parts = |value: &exact::Exact| [value.re.clone(), value.im.clone()];
+            let exactly: Vec<BigRational> = figure.values.iter().flat_map(parts).collect();
+            // From a point that is wrong in the eighth digit.
+            let near = exactly
+                .iter()
+                .map(|x| DoubleDouble::near(x).0 * DoubleDouble::from(1.0 + 1e-8));
+            let near: Vec<DoubleDouble> = near.collect();
+            let found = EndProver::new(&system, &rights).prove(&near).unwrap();
+            assert!(found.radius() < 1e-22 && found.alone_within > 1e-6);
+            for ((x, middle), radius) in
+                exactly.iter().zip(found.middle()).zip(&found.figure.radius)
+            {
+                let exact = |x: f64| BigRational::from_float(x).unwrap();
+                let off = x - exact(middle.hi) - exact(middle.lo);
+                assert!(num_traits::Signed::abs(&off) <= exact(*radius));
+            }
+        }
+    }
 }

@@ -254,7 +254,14 @@ fn is_complete(lowered: &Lowered, set: &SolutionSet, departures: &[Departure]) -
     } else {
         2 * at_infinity(departures)
     };
-    counts.certain && (counts.rotation + at_infinity) as u128 == bound.count
+    let all = (counts.rotation + at_infinity) as u128;
+    // More would disprove a bound that is proved.
+    assert!(
+        bound.is_cited || !counts.certain || all <= bound.count,
+        "{all} solutions and figures at infinity are more than the bound of {}: a bug in krawl, and nothing of this is proved",
+        bound.count
+    );
+    counts.certain && all == bound.count
 }
 
 /// How many figures at infinity there are, up to isometry.

@@ -1,4 +1,7 @@
 //! The coordinates in which a figure at infinity is a place like all others, and the proof of one.
+//!
+//! What a path's last point is taken for (`far`, `coordinates`) is a guess, on which no proof rests; [`prove`] rests on the exact sum of lengths, on
+//! the equations ([`system`]) with the proof of their zero, and on [`is_regular`].
 
 use super::split::{Parts, Split, parts};
 use super::{Edge, Graph};
@@ -137,7 +140,7 @@ fn small_root(a: Z, b: Z, c: Z) -> Z {
     -(c * larger.inverse())
 }
 
-/// The equations at ε = 0. `None`: there are not as many as unknowns.
+/// The equations at ε = 0, of whose terms half the sum is meant, hence their factors of 2. `None`: there are not as many as unknowns.
 fn system(graph: &Graph, split: &Split) -> Option<System> {
     let count = 3 * graph.points;
     let zero = count + 1;

@@ -4,11 +4,11 @@
 //! isolated solutions than a bound for all lengths allows, and how many fewer can be proved.
 //!
 //! # How a figure goes to infinity
-//! Let some points S go away, L be their neighbours and O all others. They go along an isotropic direction n (n·n = 0). A
-//! neighbour q keeps its distance only if n·(p − q) goes to zero as fast as |p| grows; so all of L comes to lie in a
-//! plane n·q = constant. In such a plane the square of a distance is the square of *one* coordinate's difference, as on
-//! a line: the lengths among L have to add up to zero with signs around every cycle. Around one cycle that is one
-//! condition on the lengths, which round decimals often meet.
+//! The kind of departure that is treated here: some points S go away, all along one direction n with n·n = 0 and equally fast, L
+//! are their neighbours and O all others, and these stay. A neighbour q keeps its distance from p in S only if n·(p − q) goes to
+//! zero as fast as |p| grows; so all of L comes to lie in a plane n·q = constant. In such a plane the square of a distance is
+//! the square of *one* coordinate's difference, as on a line: the lengths among L have to add up to zero with signs around every
+//! cycle. Around one cycle that is one condition on the lengths, which round decimals often meet.
 //!
 //! # Coordinates in which it is a place like all others
 //! Let p = λ n + ν m + σ n', with n and n' isotropic, 2 n·n' = 1 = m·m and n·m = n'·m = 0: squares of distances are
@@ -18,29 +18,38 @@
 //! | --- | --- | --- | --- | --- | --- |
 //! | Δν² plus | ΔΛ Δτ | (Λ − ε λ) Δτ | ε Δλ Δτ | Δλ (ε τ − σ) | Δλ Δσ |
 //!
-//! which make sense for ε = 0 too: a figure at infinity. All that moves a figure in these coordinates is fixed by
-//! λ = ν = τ = 0 at one point of L, ν = 0 and σ = 1 at one of O, ν = 0 and Λ = 1 at one of S.
+//! which make sense for ε = 0 too: a figure at infinity. Seven more equations fix the six motions and the choice of ε: λ = ν = τ = 0
+//! at one point of L, ν = 0 and σ = 1 at one of O, ν = 0 and Λ = 1 at one of S. For small ε ≠ 0 a figure has few such positions:
+//! the three points span the plane of n and n', as 1/ε − ε λ τ ≠ 0 (λ at the point of O, τ at that of S), so that m is this
+//! plane's normal, up to its sign, and n and n' are its two isotropic directions, up to an exchange; σ = 1 scales n, and with it n', and
+//! Λ = 1 says what ε is.
 //!
 //! # What is proved of each
 //! Let L be connected by its edges with exactly one cycle, and let the lengths add up with signs to zero around it, exactly:
-//! then ν is known in L. What remains at ε = 0 are as many quadratic equations as unknowns, without the edges in L; that
-//! they have exactly one zero in a box, where their Jacobian is regular, is proved by `ends`. So are Λ ≠ 0 throughout S and
-//! σ ≠ 0 throughout O, and Σ Δλ Δτ / Δν ≠ 0 around the cycle. The latter two make the Jacobian of *all* equations
-//! regular at this place, ε and ν in L being unknowns: a change of ε has to change Δν by −Δλ Δτ ε / 2 Δν along every
-//! edge in L, which cannot be as these do not add up to zero.
+//! then ν is known in L, up to one sign, which is that of the mirror image and chosen. What remains at ε = 0, without the edges in L, are as many quadratic
+//! equations as unknowns (3 N for N points with 3 N − 6 edges, ν in L and the other six equations for positions included). That
+//! they have exactly one zero in a box, and a regular Jacobian there, is proved by `ends`. So are Λ ≠ 0 throughout S and
+//! σ ≠ 0 throughout O, and Σ Δλ Δτ / Δν ≠ 0 around the cycle. And S has no point of the triangle that the bound holds fixed,
+//! while O has one: other departures are not counted.
 //!
 //! # What follows
-//! By the implicit function theorem there is one figure near that place for all lengths near these, with ε ≠ 0 for general ones: a
-//! regular figure, in which the distances between S and O, and no others, grow beyond all bounds as the lengths become
-//! these. Figures from two such places are not congruent. If S is another one, so are the pairs whose distances
-//! grow: S is told from O by the fixed triangle of the bound, which does not move, and has a corner in O, as no proper triangle lies in
-//! an isotropic plane. If S is the same, m is the normal of the plane through the three points that fix the coordinates,
-//! n and n' are the isotropic directions in it, and the two figures have coordinates that differ by no more than an
-//! exchange of n with n', for which ε would not be small, and the sign of ν, which the lengths in L fix; so the
-//! same figure cannot be near two places. For the same reason none is congruent to its mirror image by a rotation.
+//! The Jacobian of all equations, with ε and ν in L as unknowns, is regular at this place. For along every edge in L a vector of its
+//! kernel has 2 Δν δ(Δν) + Δλ Δτ δε = 0. The δ(Δν) add up to zero around the cycle, while Σ Δλ Δτ / Δν does not, so δε = 0, hence all δ(Δν)
+//! are zero, and as L is connected and one of its ν is fixed, so is δν in L; the rest is in the kernel of the equations at ε = 0.
+//! By the implicit function theorem there is one zero near that place for all lengths near these. It has ε ≠ 0 for general ones, as ε = 0
+//! makes the sum around the cycle zero. So it is a regular figure, in which the distances between S and O, and no others,
+//! grow beyond all bounds as the lengths become these: their squares are about −Λ σ / ε.
 //!
-//! Each isolated solution for the lengths given, on the other hand, has one near it for all lengths near these, where distances do
-//! not grow. So the solutions up to rotation, and twice the places at infinity, are together no more than the bound allows.
+//! Figures from two such places are not congruent. If they belong to S, O and to S', O', the same pairs of points grow apart only
+//! if S' = S or S' = O, and the latter would have a point of the fixed triangle. If S is the same, both have positions as above,
+//! which are the same, or have the other sign of ν, or n and n' exchanged. The sign of ν, and ν in L altogether, are those of
+//! the lengths' signs. An exchange takes ε to 1 / (ε τ λ), with τ of a point in S and λ of one in O, which is not small (or there is none, where τ λ = 0).
+//! Nor is such a figure flat: it would lie in the plane of the three points, and have ν = 0 in L. So it and its mirror image
+//! are two figures up to rotation.
+//!
+//! Each isolated solution for the lengths given, on the other hand, has at least one near it for all lengths near these, as there are as many
+//! equations as unknowns; there no distance grows. So for general lengths near these there are as many isolated figures as the
+//! solutions up to rotation and twice the places at infinity together, or more; and no more than the bound.
 
 mod chart;
 mod split;
@@ -106,15 +115,15 @@ pub struct Departure {
     pub figures: SolutionSet,
 }
 
-/// Enters the figure at infinity to which a path seems to go, whose last point this is: for each point of the problem its
-/// coordinates. Tells whether it could be proved to be one, be it known before or not.
+/// Enters the figure at infinity to which a path seems to go, whose last point this is, if it can be proved: for each point
+/// of the problem its coordinates.
 pub(super) fn enter(
     graph: &Graph,
     last: &[[Complex<DoubleDouble>; 3]],
     known: &mut Vec<Departure>,
-) -> bool {
+) {
     let Some((split, figure)) = prove(graph, last) else {
-        return false;
+        return;
     };
     let index = known.iter().position(|one| one.split == split);
     let index = index.unwrap_or_else(|| {
@@ -129,13 +138,8 @@ pub(super) fn enter(
         changes: vec![false; 3 * graph.points],
         mirrors: false,
     };
-    match figures.find(&figure, &[nothing], false) {
-        Found::New => {
-            figures.push(figure);
-            true
-        }
-        Found::Old(_) => true,
-        Found::Unknown => false,
+    if figures.find(&figure, &[nothing], false) == Found::New {
+        figures.push(figure);
     }
 }
 

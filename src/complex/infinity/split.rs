@@ -14,7 +14,8 @@ pub struct Edge {
     pub length: Option<BigRational>,
 }
 
-/// How points go to infinity.
+/// How points go to infinity. Two of the same problem are equal if the same points go with the same signs of lengths: points stand
+/// in the problem's order, and the first ν that is not zero is positive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Split {
     /// The points that go.
@@ -23,7 +24,7 @@ pub struct Split {
     pub link: Vec<usize>,
     /// All others.
     pub outside: Vec<usize>,
-    /// For each neighbour ν, the coordinate in the isotropic plane that distances there are differences of.
+    /// For each neighbour its ν: the coordinate in the isotropic plane of which distances there are differences.
     pub heights: Vec<BigRational>,
     /// The points of the one cycle among the neighbours, in order.
     pub cycle: Vec<usize>,
