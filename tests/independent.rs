@@ -134,6 +134,48 @@ fn other_constraints_are_proved_in_javascript() {
     }
 }
 
+/// What stopped on the way is incomplete, paths and edits; and records of other kinds than those of the shipped certificates.
+#[test]
+fn what_is_rare_is_checked_in_javascript() {
+    let of = |file: &str| certificate::of(&Problem::read(file).unwrap(), &Options::certified()).1;
+    let stopped = certificate::of_edits(&kind("triangle"), &[&["a-b-c=130"]]).1;
+    for (name, bytes, code, end) in [
+        (
+            "crossing",
+            of("problems/hard/crossing.toml"),
+            4,
+            "1 classes, stopped",
+        ),
+        (
+            "lengths-6",
+            of("problems/hard/lengths-6.toml"),
+            4,
+            "0 classes, stopped",
+        ),
+        ("triangle", stopped, 4, "2 arcs, reached, stopped"),
+        (
+            "flaps-split-8",
+            of("problems/hard/flaps-split-8.toml"),
+            0,
+            "2 classes, closed",
+        ),
+        (
+            "6p7d3a2c-undefined",
+            of("problems/constraints/6p7d3a2c-undefined.toml"),
+            0,
+            "0 classes, open",
+        ),
+    ] {
+        let Some((found, text)) = scripted_bytes(&bytes) else {
+            return;
+        };
+        assert!(
+            found == Some(code) && text.trim().ends_with(end),
+            "{name}: {text}"
+        );
+    }
+}
+
 /// One of the problems in `tests/independent/kinds`.
 fn kind(name: &str) -> Problem {
     Problem::read(format!("tests/independent/kinds/{name}.toml")).unwrap()
