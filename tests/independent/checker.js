@@ -176,8 +176,9 @@ function readProblem(text) {
   const dim = need(root, 'dimension');
   if (!isNum(dim) || dim.d !== 1n || (dim.n !== 2n && dim.n !== 3n)) refuse('dimension');
   const D = Number(dim.n), P = { D, names: [], pts: [], dist: [], lines: root.get('lines') || new Map(), planes: root.get('planes') || new Map(), rounds: root.get(Number(dim.n) === 2 ? 'circles' : 'spheres') || new Map(), more: [] };
-  if (root.has(D === 2 ? 'spheres' : 'circles') || (D === 2 && root.has('planes'))) refuse('objects of the other dimension');
-  if (!isText(need(root, 'name')) || (root.has('source') && !isText(root.get('source')))) refuse('name or source');
+  for (const k of D === 2 ? ['spheres', 'planes'] : ['circles']) if (root.has(k) && !(root.get(k) instanceof Map && !root.get(k).size)) refuse('objects of the other dimension');
+  if (!root.has('name')) unsupported('a problem without a name');
+  if (!isText(root.get('name')) || (root.has('source') && !isText(root.get('source')))) refuse('name or source');
   for (const k of ['points', 'constraints', 'homotopy']) if (!(need(root, k) instanceof Map)) refuse(k);
   const raw = [];
   for (const [k, v] of root.get('points')) {
