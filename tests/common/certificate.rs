@@ -3,6 +3,7 @@
 use krawl::certificate::{
     Reader, Record, SolutionClaim, TubeClaim, Writer, write_header, write_record,
 };
+use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
 use krawl::system::Gauge;
 use krawl::track::{Control, Options, Outcome, solve};
@@ -31,6 +32,25 @@ pub fn of(problem: &Problem, options: &Options) -> (Outcome, Vec<u8>) {
     };
     let outcome = solve(problem, options, &mut control).unwrap();
     (outcome, writer.finish().unwrap())
+}
+
+/// Edits of a figure one after the other, each of dimensions like `a-b=5`, with the certificate that they leave.
+pub fn of_edits(problem: &Problem, edits: &[&[&str]]) -> (Vec<Ending>, Vec<u8>) {
+    let mut writer = Writer::new(Vec::new(), problem);
+    let mut control = Control {
+        witness: Some(&mut writer),
+        ..Control::default()
+    };
+    let mut session = Session::open_with(problem, &Options::certified(), &mut control).unwrap();
+    let mut edit = |sets: &&[&str]| {
+        let settings = sets
+            .iter()
+            .map(|text| Setting::parse(problem, text).unwrap());
+        let settings: Vec<Setting> = settings.collect();
+        session.edit_with(&settings, &mut control).ending
+    };
+    let endings = edits.iter().map(&mut edit).collect();
+    (endings, writer.finish().unwrap())
 }
 
 /// A certificate's parts.
