@@ -692,6 +692,45 @@ fn damaged_edits_are_refused() {
     assert_eq!(without.unwrap(), Outcome::Refuted(Flaw::Met));
 }
 
+/// A path beyond t = 1 has the figure wanted before it turns back: that is no limit. The certificate of an edit to a
+/// little beyond the limit is forged to one of an edit to a little before it, t being larger by the same factor throughout.
+#[test]
+fn a_fold_beyond_the_figure_wanted_is_no_limit() {
+    let t = check(&edit(&plate(), &["C-D=30"]).1).arcs[1].t.mid();
+    let limit = 49.5 - 19.5 * t;
+    let beyond = format!("{:.6}", limit - 1e-3);
+    let (ending, bytes) = edit(&plate(), &[&format!("C-D={beyond}")]);
+    assert!(matches!(ending, Ending::Limit(_)));
+    let good = Certificate::read(&bytes);
+    for (off, outcome) in [(-2e-3, true), (1e-3, false)] {
+        let mut forged = good.clone();
+        let to: f64 = format!("{:.6}", limit + off).parse().unwrap();
+        let factor = (49.5 - beyond.parse::<f64>().unwrap()) / (49.5 - to);
+        let arc = forged
+            .records
+            .iter()
+            .rposition(|r| matches!(r, Record::Arc(_)));
+        for record in &mut forged.records[arc.unwrap()..] {
+            match record {
+                Record::Arc(arc) => arc.dimensions[0].1 = format!("{to:.6}").parse().unwrap(),
+                Record::Tube(tube) => {
+                    *tube.centre.last_mut().unwrap() *= factor;
+                    *tube.normal.last_mut().unwrap() /= factor as f32;
+                }
+                Record::Fold(fold) => fold.t *= factor,
+                _ => {}
+            }
+        }
+        let verdict = check(&forged.bytes());
+        assert_eq!(
+            verdict.outcome == Outcome::Verified,
+            outcome,
+            "{off}: {:?}",
+            verdict.outcome
+        );
+    }
+}
+
 /// The way back is that from the sketch, and the other one.
 #[test]
 fn damaged_open_paths_are_refused() {

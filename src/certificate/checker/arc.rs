@@ -96,9 +96,13 @@ impl Fold {
         let figure = spot.is_within(&claim.figure.centre, claim.figure.radius);
         let off = size(spot.at(m) - point(claim.t));
         let inside = figure && off.sup() <= claim.t_radius.into();
-        match inside && !along.contains(0.0) {
+        // With a fold beyond t = 1 the figure wanted would be there, before it.
+        let early = spot.at(m).sup() < 1.0;
+        match inside && early && !along.contains(0.0) {
             true => Ok(Fold { place, along, spot }),
-            false => Err(Fault::because("the box is too narrow for the one near it")),
+            false => Err(Fault::because(
+                "the box is too narrow for the one near it, or t is not below 1 there",
+            )),
         }
     }
 
