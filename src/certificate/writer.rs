@@ -152,7 +152,7 @@ impl<'a, W: Write> Writer<'a, W> {
         let make = || Trial::new(self.problem, self.unit);
         let trial = self.trial.get_or_insert_with(make).as_ref();
         let fails = |record: &&Record| match (record, trial) {
-            (Record::Tube(tube), Some(trial)) => !trial.proves_to_exit(tube),
+            (Record::Tube(tube), Some(trial)) => !trial.proves(tube),
             _ => false,
         };
         let kept = (from..records.len()).find(|&k| fails(&records[k]));

@@ -21,21 +21,12 @@ impl Trial {
         Some(Trial(Equations::new(homotopy)))
     }
 
-    /// Whether the checker proves a tube.
+    /// Whether the checker proves a tube and, up to its exit, that lengths are positive and vectors not zero that must not be.
     pub fn proves(&self, claim: &TubeClaim) -> bool {
-        self.prove(claim).is_some()
-    }
-
-    /// Whether it proves a tube and, up to its exit, that lengths are positive and vectors not zero that must not be.
-    pub fn proves_to_exit(&self, claim: &TubeClaim) -> bool {
         let range = hull(-claim.h, claim.exit.max(-claim.h));
-        self.prove(claim)
-            .is_some_and(|tube| tube.stands(&self.0, range).is_ok())
-    }
-
-    fn prove(&self, claim: &TubeClaim) -> Option<Tube> {
-        let tube = Tube::prove(&self.0, claim).ok()?;
-        (tube.proof.margin > MARGIN).then_some(tube)
+        let stands = |tube: &Tube| tube.stands(&self.0, range).is_ok();
+        let has_margin = |tube: &Tube| tube.proof.margin > MARGIN;
+        Tube::prove(&self.0, claim).is_ok_and(|tube| has_margin(&tube) && stands(&tube))
     }
 }
 
