@@ -194,14 +194,8 @@ mod tests {
             split
         );
         // Signs that do not add up to zero, and lengths that do not.
-        assert!(
-            Split::new(parts.clone(), &edges, |p| if p == 4 {
-                -1.0
-            } else {
-                rough(p)
-            })
-            .is_none()
-        );
+        let others = |p: usize| if p == 3 { -5.0 } else { rough(p) };
+        assert!(Split::new(parts.clone(), &edges, others).is_none());
         edges[0] = edge([1, 2], 2);
         assert!(Split::new(parts, &edges, rough).is_none());
     }
