@@ -136,3 +136,43 @@ fn round_lengths_agree_with_complete_real_sets() {
         "{complete} complete, {away} with figures at infinity"
     );
 }
+
+/// The listed real figures of the true icosahedron have its lengths, and no two are congruent.
+#[test]
+fn the_listed_icosahedra_have_their_lengths() {
+    let problem = Problem::read("problems/complex/icosahedron-graph.toml").unwrap();
+    let text = std::fs::read_to_string("docs/icosahedron-graph-real.csv").unwrap();
+    let place = |line: &str| -> [f64; 3] {
+        let parts: Vec<f64> = line
+            .split(',')
+            .skip(2)
+            .map(|x| x.parse().unwrap())
+            .collect();
+        parts.try_into().unwrap()
+    };
+    let places: Vec<[f64; 3]> = text.lines().skip(1).map(place).collect();
+    let figures: Vec<&[[f64; 3]]> = places.chunks(problem.points.len()).collect();
+    assert_eq!(figures.len(), 308);
+    let distance = |figure: &[[f64; 3]], a: usize, b: usize| -> f64 {
+        let squares = (0..3).map(|k| (figure[a][k] - figure[b][k]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let mut all: Vec<Vec<f64>> = Vec::new();
+    for figure in figures {
+        for wanted in &problem.distances {
+            let [a, b] = wanted.points;
+            let krawl::problem::Target::Length(length) = &wanted.target else {
+                panic!("a length");
+            };
+            assert!((distance(figure, a, b) - length.to_f64()).abs() < 1e-8);
+        }
+        let pairs = (0..figure.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+        let distances: Vec<f64> = pairs.map(|(a, b)| distance(figure, a, b)).collect();
+        let differs = |other: &Vec<f64>| {
+            let pairs = other.iter().zip(&distances);
+            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > 1e-6
+        };
+        assert!(all.iter().all(differs));
+        all.push(distances);
+    }
+}
