@@ -45,6 +45,8 @@ pub struct Writer<'a, W> {
     /// Up to [`TAIL`] records that were written last, or rather will be: of an open path the tubes at an end that the
     /// checker would not prove are left out.
     tail: VecDeque<Record>,
+    /// Whether tubes are written in parts, as those of the reduced space are.
+    in_parts: bool,
     /// The edit at hand: what it changes, and its tubes so far.
     arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
@@ -76,6 +78,7 @@ impl<'a, W: Write> Writer<'a, W> {
             back: None,
             held: Vec::new(),
             tail: VecDeque::new(),
+            in_parts: false,
             arc: None,
             edits: None,
             cut: None,
@@ -123,9 +126,14 @@ impl<'a, W: Write> Writer<'a, W> {
         }
     }
 
-    /// Leaves out tubes at the end of an open path, behind its last solution: those in extended precision, and from the first
-    /// one on that the checker would not prove. The certificate is of a path that ends before, with the same solutions.
+    /// Leaves out tubes at the end of an open path: all that are in extended precision, and of the last [`TAIL`] others those
+    /// from the first one on that the checker would not prove. The certificate is of a path that ends before, with the same
+    /// solutions: one may be told a little before it is passed, so that the tube behind it stays.
     fn trim(&mut self) {
+        if self.in_parts {
+            // Solutions are told behind the first of a tube's parts, and lie in any of them.
+            return self.release();
+        }
         let is_tube = |record: &Record| matches!(record, Record::Tube(_));
         // The tube around the sketch stays: behind the turn, or as the first of all.
         let is_first = match &self.back {
@@ -133,7 +141,9 @@ impl<'a, W: Write> Writer<'a, W> {
             None => self.tubes == self.held.iter().filter(|r| is_tube(r)).count() as u64,
         };
         let least = usize::from(is_first);
-        while self.held.len() > least && self.held.pop_if(|record| is_tube(record)).is_some() {
+        let told = self.held.iter().rposition(|record| !is_tube(record));
+        let least = told.map_or(least, |k| k + 2);
+        while self.held.len() > least && self.held.pop().is_some() {
             self.tubes -= 1;
         }
         self.release();
@@ -146,7 +156,7 @@ impl<'a, W: Write> Writer<'a, W> {
         };
         let after = records.iter().rposition(|record| !is_tube(record));
         let from = after
-            .map_or(0, |k| k + 1)
+            .map_or(0, |k| k + 2)
             .max(first)
             .max(records.len().saturating_sub(TAIL));
         let make = || Trial::new(self.problem, self.unit);
@@ -257,6 +267,7 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn is_provable(&mut self, tube: &TubeSeen) -> bool {
+        self.in_parts = true;
         let make = || Trial::new(self.problem, self.unit);
         let trial = self.trial.get_or_insert_with(make).as_ref();
         trial.is_none_or(|trial| trial.proves(&tube_claim(tube)))
@@ -283,7 +294,7 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn end_turn(&mut self, kept: bool) {
-        if kept {
+        if kept && self.cut.is_none() {
             self.trim();
         } else {
             self.release();

@@ -1,4 +1,4 @@
-//! Proof of a box around one complex solution in double-doubles throughout, where the tracker's own proof
+//! Proof of a box around one complex solution in double-doubles, with exact residuals, where the tracker's own proof
 //! (an extended residual, all else in floats) does not suffice: solutions that are large or nearly singular.
 //!
 //! With x the middle, J = F'(x), Y about J⁻¹ and Q the quadratic part of F, a zero x + h of F is a fixed point of
@@ -255,7 +255,7 @@ impl EndProver {
         Ok([eta, alpha, beta].map(|bound| round_up(bound, operations) + n as f64 * UNDERFLOW))
     }
 
-    /// Bounds on |Q_e(h)| for |h| ≤ 1.
+    /// Bounds on |B_e(h, g)| for |h|, |g| ≤ 1.
     fn weights(&self) -> Vec<f64> {
         let n = self.system.unknowns.len();
         // How many unknowns there are in a form.

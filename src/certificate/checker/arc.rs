@@ -96,12 +96,12 @@ impl Fold {
         let figure = spot.is_within(&claim.figure.centre, claim.figure.radius);
         let off = size(spot.at(m) - point(claim.t));
         let inside = figure && off.sup() <= claim.t_radius.into();
-        // With a fold beyond t = 1 the figure wanted would be there, before it.
+        // Otherwise the path would have met the figure wanted by then, and the fold be no limit.
         let early = spot.at(m).sup() < 1.0;
         match inside && early && !along.contains(0.0) {
             true => Ok(Fold { place, along, spot }),
             false => Err(Fault::because(
-                "the box is too narrow for the one near it, or t is not below 1 there",
+                "the box is too narrow for the one near it, or t may not be below 1 there",
             )),
         }
     }

@@ -1,7 +1,8 @@
 //! The coordinates in which a figure at infinity is a place like all others, and the proof of one.
 //!
-//! What a path's last point is taken for (`far`, `coordinates`) is a guess, on which no proof rests; [`prove`] rests on the exact sum of lengths, on
-//! the equations ([`system`]) with the proof of their zero, and on [`is_regular`].
+//! What a path's last point is taken for (`far`, `coordinates`) is a guess, on which no proof rests; [`prove`] rests on the parts (no edge
+//! joins S and O, where the fixed triangle is), on what [`Split::new`] finds exactly, on the equations ([`system`]) with the proof of their
+//! zero, and on [`is_regular`].
 
 use super::split::{Parts, Split, parts};
 use super::{Edge, Graph};

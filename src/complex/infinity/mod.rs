@@ -6,7 +6,7 @@
 //! # How a figure goes to infinity
 //! The kind of departure that is treated here: some points S go away, all along one direction n with n·n = 0 and equally fast, L
 //! are their neighbours and O all others, and these stay. A neighbour q keeps its distance from p in S only if n·(p − q) goes to
-//! zero as fast as |p| grows; so all of L comes to lie in a plane n·q = constant. In such a plane the square of a distance is
+//! zero as fast as |p| grows; so all of L comes to lie in a plane n·q = constant (if S is connected; one plane is the case treated). In such a plane the square of a distance is
 //! the square of *one* coordinate's difference, as on a line: the lengths among L have to add up to zero with signs around every
 //! cycle. Around one cycle that is one condition on the lengths, which round decimals often meet.
 //!
@@ -19,14 +19,15 @@
 //! | Δν² plus | ΔΛ Δτ | (Λ − ε λ) Δτ | ε Δλ Δτ | Δλ (ε τ − σ) | Δλ Δσ |
 //!
 //! which make sense for ε = 0 too: a figure at infinity. Seven more equations fix the six motions and the choice of ε: λ = ν = τ = 0
-//! at one point of L, ν = 0 and σ = 1 at one of O, ν = 0 and Λ = 1 at one of S. For small ε ≠ 0 a figure has few such positions:
+//! at one point of L, ν = 0 and σ = 1 at one of O, ν = 0 and Λ = 1 at one of S. For small ε ≠ 0 and bounded λ and τ a figure has few such positions:
 //! the three points span the plane of n and n', as 1/ε − ε λ τ ≠ 0 (λ at the point of O, τ at that of S), so that m is this
 //! plane's normal, up to its sign, and n and n' are its two isotropic directions, up to an exchange; σ = 1 scales n, and with it n', and
 //! Λ = 1 says what ε is.
 //!
 //! # What is proved of each
-//! Let L be connected by its edges with exactly one cycle, and let the lengths add up with signs to zero around it, exactly:
-//! then ν is known in L, up to one sign, which is that of the mirror image and chosen. What remains at ε = 0, without the edges in L, are as many quadratic
+//! Let L be connected by its edges with exactly one cycle, let none of their lengths be zero, and let a sign be chosen for each so that
+//! around the cycle they add up to zero, exactly: then ν is known in L, up to the mirror image's sign, which is chosen so that the first
+//! ν that is not zero is positive. What remains at ε = 0, without the edges in L, are as many quadratic
 //! equations as unknowns (3 N for N points with 3 N − 6 edges, ν in L and the other six equations for positions included). That
 //! they have exactly one zero in a box, and a regular Jacobian there, is proved by `ends`. So are Λ ≠ 0 throughout S and
 //! σ ≠ 0 throughout O, and Σ Δλ Δτ / Δν ≠ 0 around the cycle. And S has no point of the triangle that the bound holds fixed,
@@ -42,13 +43,14 @@
 //!
 //! Figures from two such places are not congruent. If they belong to S, O and to S', O', the same pairs of points grow apart only
 //! if S' = S or S' = O, and the latter would have a point of the fixed triangle. If S is the same, both have positions as above,
-//! which are the same, or have the other sign of ν, or n and n' exchanged. The sign of ν, and ν in L altogether, are those of
-//! the lengths' signs. An exchange takes ε to 1 / (ε τ λ), with τ of a point in S and λ of one in O, which is not small (or there is none, where τ λ = 0).
+//! which are the same, or have the other sign of ν, or n and n' exchanged, or both. With the other sign of ν they cannot be the same, as in
+//! both places the first ν in L that is not zero is positive. With the same one ν is the same in L, so the lengths' signs are too, and the
+//! two places are zeros of the same equations in disjoint boxes: near them positions differ. An exchange takes ε to 1 / (ε τ λ), with τ of a point in S and λ of one in O, which is not small (or there is none, where τ λ = 0).
 //! Nor is such a figure flat: it would lie in the plane of the three points, and have ν = 0 in L. So it and its mirror image
 //! are two figures up to rotation.
 //!
 //! Each isolated solution for the lengths given, on the other hand, has at least one near it for all lengths near these, as there are as many
-//! equations as unknowns; there no distance grows. So for general lengths near these there are as many isolated figures as the
+//! equations as unknowns; there no distance grows. The bound holds for those lengths, too, as the fixed triangle stays a proper one. So for general lengths near these there are as many isolated figures as the
 //! solutions up to rotation and twice the places at infinity together, or more; and no more than the bound.
 
 mod chart;
