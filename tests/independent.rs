@@ -12,46 +12,59 @@ use krawl::track::Options;
 use std::process::Command;
 use std::sync::Mutex;
 
-/// What the checker prints, or nothing where it cannot be run.
-fn checked(certificate: &str) -> Option<(Option<i32>, String)> {
-    let run = |arguments: &[&str]| Command::new("python3").args(arguments).output().ok();
-    if !run(&["-c", "import tomllib"]).is_some_and(|run| run.status.success()) {
-        println!("left out: there is no python3 with tomllib (3.11)");
+/// What a program prints, or nothing where it does not pass a first test with these arguments, `missing` saying why.
+fn printed(
+    program: &str,
+    test: [&str; 2],
+    missing: &str,
+    arguments: &[&str],
+) -> Option<(Option<i32>, String)> {
+    let run = |arguments: &[&str]| Command::new(program).args(arguments).output().ok();
+    if !run(&test).is_some_and(|run| run.status.success()) {
+        println!("left out: there is no {missing}");
         return None;
     }
-    let run = run(&["tests/independent/checker.py", certificate])?;
+    let run = run(arguments)?;
     let text = String::from_utf8_lossy(&run.stdout).into_owned();
     Some((run.status.code(), text))
 }
 
-/// The same of a certificate in memory.
-fn checked_bytes(bytes: &[u8]) -> Option<(Option<i32>, String)> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("certificate.krawl");
-    std::fs::write(&path, bytes).unwrap();
-    checked(&path.to_string_lossy())
+/// What the checker in Python prints, or nothing where it cannot be run.
+fn checked(certificate: &str) -> Option<(Option<i32>, String)> {
+    let arguments = ["tests/independent/checker.py", certificate];
+    let missing = "python3 with tomllib (3.11)";
+    printed("python3", ["-c", "import tomllib"], missing, &arguments)
 }
 
 /// What a script in JavaScript prints, or nothing where it cannot be run.
 fn scripted(script: &str, arguments: &[&str]) -> Option<(Option<i32>, String)> {
-    let run = |arguments: &[&str]| Command::new("node").args(arguments).output().ok();
-    let is_there = "process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)";
-    if !run(&["-e", is_there]).is_some_and(|run| run.status.success()) {
-        println!("left out: there is no node of version 18 or later");
-        return None;
-    }
     let script = format!("tests/independent/{script}");
-    let run = run(&[&[&script[..]], arguments].concat())?;
-    let text = String::from_utf8_lossy(&run.stdout).into_owned();
-    Some((run.status.code(), text))
+    let is_there = "process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)";
+    let arguments = [&[&script[..]], arguments].concat();
+    printed(
+        "node",
+        ["-e", is_there],
+        "node of version 18 or later",
+        &arguments,
+    )
+}
+
+/// What a checker prints of a certificate in memory, by what it prints of a file.
+fn of_bytes<T>(bytes: &[u8], check: impl FnOnce(&str) -> T) -> T {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("certificate.krawl");
+    std::fs::write(&path, bytes).unwrap();
+    check(&path.to_string_lossy())
+}
+
+/// What the checker in Python prints of a certificate in memory.
+fn checked_bytes(bytes: &[u8]) -> Option<(Option<i32>, String)> {
+    of_bytes(bytes, checked)
 }
 
 /// What the checker in JavaScript prints of a certificate in memory.
 fn scripted_bytes(bytes: &[u8]) -> Option<(Option<i32>, String)> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("certificate.krawl");
-    std::fs::write(&path, bytes).unwrap();
-    scripted("checker.js", &[&path.to_string_lossy()])
+    of_bytes(bytes, |file| scripted("checker.js", &[file]))
 }
 
 /// Files and what the checker in JavaScript has to say of them.
@@ -250,6 +263,20 @@ fn edits_of_other_constraints_are_proved_in_javascript() {
         }
         let (code, text) = scripted_bytes(&led_elsewhere.bytes()).unwrap();
         assert!(matches!(code, Some(1 | 3)), "{name}: {text}");
+    }
+}
+
+/// A path that turns back beyond t = 1 has met the figure wanted before: neither checker takes the fold for a limit.
+#[test]
+fn a_fold_beyond_the_figure_wanted_is_no_limit() {
+    for (off, is_limit) in [(-2e-3, true), (1e-3, false)] {
+        let bytes = certificate::plate_led_beside_its_limit(off).bytes();
+        for printed in [checked_bytes(&bytes), scripted_bytes(&bytes)] {
+            let Some((code, text)) = printed else {
+                continue;
+            };
+            assert_eq!(code, Some(if is_limit { 0 } else { 3 }), "{off}: {text}");
+        }
     }
 }
 

@@ -30,7 +30,7 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 /// Writes what a certified run lets it see: to be given to [`crate::track::Control::witness`].
 ///
-/// Nothing is kept in memory but the tubes of one edit, and those of the way back of an open path. Errors are kept until [`Writer::finish`].
+/// Nothing is kept in memory but the last few records, the tubes of one edit, and those of the way back of an open path. Errors are kept until [`Writer::finish`].
 #[derive(Debug)]
 pub struct Writer<'a, W> {
     out: W,
@@ -42,8 +42,7 @@ pub struct Writer<'a, W> {
     /// The last tubes, in extended precision, and their solutions: left out where the run stops among them, near a
     /// singular place, as the checker's bounds are coarser.
     held: Vec<Record>,
-    /// Up to [`TAIL`] records that were written last, or rather will be: of an open path the tubes at an end that the
-    /// checker would not prove are left out.
+    /// The last records, up to [`TAIL`], which are not written yet: tubes at the end of an open path may be left out.
     tail: VecDeque<Record>,
     /// Whether tubes are written in parts, as those of the reduced space are.
     in_parts: bool,
@@ -57,7 +56,7 @@ pub struct Writer<'a, W> {
     result: io::Result<()>,
     /// What lengths are divided by, and what tells whether tubes will be proved.
     unit: f64,
-    trial: Option<Option<Trial>>,
+    trial: Option<Trial>,
 }
 
 /// An edit that is being followed.
@@ -107,11 +106,11 @@ impl<'a, W: Write> Writer<'a, W> {
         Ok(self.out)
     }
 
-    fn put(&mut self, record: &Record) {
+    fn put(&mut self, record: Record) {
         if let Some((records, _)) = &mut self.back {
-            records.push(record.clone());
+            records.push(record);
         } else {
-            self.tail.push_back(record.clone());
+            self.tail.push_back(record);
             if self.tail.len() > TAIL
                 && let Some(record) = self.tail.pop_front()
             {
@@ -159,8 +158,7 @@ impl<'a, W: Write> Writer<'a, W> {
             .map_or(0, |k| k + 2)
             .max(first)
             .max(records.len().saturating_sub(TAIL));
-        let make = || Trial::new(self.problem, self.unit);
-        let trial = self.trial.get_or_insert_with(make).as_ref();
+        let trial = prepared(&mut self.trial, self.problem, self.unit);
         let fails = |record: &&Record| match (record, trial) {
             (Record::Tube(tube), Some(trial)) => !trial.proves(tube),
             _ => false,
@@ -184,12 +182,12 @@ impl<'a, W: Write> Writer<'a, W> {
 
     fn release(&mut self) {
         for record in std::mem::take(&mut self.held) {
-            self.put(&record);
+            self.put(record);
         }
     }
 
     fn close(&mut self, ending: Ending, classes: &[usize]) {
-        self.put(&Record::End(EndClaim {
+        self.put(Record::End(EndClaim {
             ending,
             tubes: self.tubes,
             classes: classes.iter().map(|&c| c as u32).collect(),
@@ -197,6 +195,14 @@ impl<'a, W: Write> Writer<'a, W> {
         self.flush();
         self.ended = true;
     }
+}
+
+/// What tells whether tubes will be proved, made when it is wanted for the first time.
+fn prepared<'t>(trial: &'t mut Option<Trial>, problem: &Problem, unit: f64) -> Option<&'t Trial> {
+    if trial.is_none() {
+        *trial = Trial::new(problem, unit);
+    }
+    trial.as_ref()
 }
 
 /// A box around a figure, wider than it was proved.
@@ -258,7 +264,7 @@ impl<W: Write> Witness for Writer<'_, W> {
                 self.tubes += 1;
                 if tube.low.is_empty() {
                     self.release();
-                    self.put(&Record::Tube(tube));
+                    self.put(Record::Tube(tube));
                 } else {
                     self.held.push(Record::Tube(tube));
                 }
@@ -268,8 +274,7 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn is_provable(&mut self, tube: &TubeSeen) -> bool {
         self.in_parts = true;
-        let make = || Trial::new(self.problem, self.unit);
-        let trial = self.trial.get_or_insert_with(make).as_ref();
+        let trial = prepared(&mut self.trial, self.problem, self.unit);
         trial.is_none_or(|trial| trial.proves(&tube_claim(tube)))
     }
 
@@ -279,7 +284,7 @@ impl<W: Write> Witness for Writer<'_, W> {
             self.solutions += 1;
             let record = Record::Solution(solution_claim(centre, radius, WIDER));
             match self.held.is_empty() {
-                true => self.put(&record),
+                true => self.put(record),
                 false => self.held.push(record),
             }
         }
@@ -303,7 +308,7 @@ impl<W: Write> Witness for Writer<'_, W> {
             return;
         };
         if kept {
-            records.iter().for_each(|record| self.put(record));
+            records.into_iter().for_each(|record| self.put(record));
         } else {
             let tubes = records.iter().filter(|r| matches!(r, Record::Tube(_)));
             self.tubes -= tubes.count() as u64;
@@ -346,14 +351,14 @@ impl<W: Write> Witness for Writer<'_, W> {
             .filter(|o| o.sign != 0 && o.lost.is_none());
         let kept = kept.map(|o| (o.points.iter().map(|&p| p as u32).collect(), o.sign > 0));
         let kept = kept.collect();
-        self.put(&Record::Arc(ArcClaim {
+        self.put(Record::Arc(ArcClaim {
             is_general: !self.problem.is_distances_only(),
             dimensions,
             kept,
         }));
         self.tubes += tubes.len() as u64;
         for tube in tubes {
-            self.put(&Record::Tube(tube));
+            self.put(Record::Tube(tube));
         }
         let figure = |figure: &Figure, wider: f64| {
             let radius = figure.radius.iter().zip(&figure.low);
@@ -362,12 +367,12 @@ impl<W: Write> Witness for Writer<'_, W> {
         };
         self.edits = Some(match &run.end {
             ArcEnd::Reached(reached) => {
-                self.put(&Record::Reached(figure(reached, WIDER)));
+                self.put(Record::Reached(figure(reached, WIDER)));
                 Ok(())
             }
             ArcEnd::Limit(fold) => {
                 let t = fold.t.mid();
-                self.put(&Record::Fold(FoldClaim {
+                self.put(Record::Fold(FoldClaim {
                     figure: figure(&fold.figure, WIDER_AT_FOLDS),
                     t,
                     t_radius: (WIDER_AT_FOLDS * fold.t.rad() + 64.0 * ROUNDINGS) as f32,

@@ -13,7 +13,8 @@ use std::time::{Duration, Instant};
 /// Find all complex solutions, every path proved (unless --float)
 ///
 /// Each box holds exactly one; which are real is proved. "Complete" claims that there is no other isolated solution, and
-/// is claimed only where their number meets a proved bound. Without a template one is made first.
+/// is claimed only where their number meets a proved bound, with figures that these dimensions send to infinity, which are proved and
+/// counted too. Without a template one is made first.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -52,24 +52,24 @@ pub enum FloatEnd {
 }
 
 /// Follows paths of one system, setting nothing up twice.
-pub struct FloatFollower {
+pub struct FloatFollower<'a> {
     plain: Stepper<f64>,
     /// Made when it is wanted for the first time.
     double: Option<Stepper<DoubleDouble>>,
-    system: System,
-    rights: Vec<Right>,
+    system: &'a System,
+    rights: &'a [Right],
     /// Steps taken, and those of them in double-doubles.
     pub steps: [usize; 2],
 }
 
-impl FloatFollower {
+impl<'a> FloatFollower<'a> {
     /// For the paths while the right-hand sides are these, of real and imaginary parts in turn.
-    pub fn new(system: &System, rights: &[Right]) -> Self {
+    pub fn new(system: &'a System, rights: &'a [Right]) -> Self {
         FloatFollower {
             plain: Stepper::new(system, rights),
             double: None,
-            system: system.clone(),
-            rights: rights.to_vec(),
+            system,
+            rights,
             steps: [0; 2],
         }
     }
@@ -100,11 +100,13 @@ impl FloatFollower {
                     self.steps[1] += usize::from(went);
                     went
                 }
+                _ if self.plain.step(&mut t, size) => {
+                    size = self.plain.size();
+                    true
+                }
                 _ => {
-                    let went = self.plain.step(&mut t, size);
-                    size = if went { self.plain.size() } else { size };
                     let from = self.plain.last_place();
-                    went || self.go_over(&from, t, &mut until)
+                    self.go_over(&from, t, &mut until)
                 }
             };
             if !went {
@@ -131,7 +133,7 @@ impl FloatFollower {
 
     /// Goes on in double-doubles from near a point at t. False where Newton's method does not settle there either.
     fn go_over(&mut self, from: &[DoubleDouble], t: f64, until: &mut Option<f64>) -> bool {
-        let make = || Stepper::new(&self.system, &self.rights);
+        let make = || Stepper::new(self.system, self.rights);
         let double = self.double.get_or_insert_with(make);
         let settled = double.set(from, t);
         *until = Some(SMALLER * double.size());
@@ -221,7 +223,7 @@ impl<N: Number> Stepper<N> {
         all.flat_map(parts).collect()
     }
 
-    /// The same, or where the last step began if it failed.
+    /// Real and imaginary part of every unknown in turn, where the last step arrived, or where it began if it failed.
     fn known(&self) -> Vec<DoubleDouble> {
         match self.arrived {
             true => self.place(),
@@ -229,7 +231,7 @@ impl<N: Number> Stepper<N> {
         }
     }
 
-    /// The same where the last step began.
+    /// Real and imaginary part of every unknown in turn, where the last step began.
     fn last_place(&self) -> Vec<DoubleDouble> {
         let parts = |x: &[Complex<N>; ORDER + 1]| {
             [x[0].re, x[0].im].map(|x| DoubleDouble::sum(x.rough(), x.rest()))

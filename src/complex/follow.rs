@@ -172,7 +172,7 @@ impl Follower {
     /// Follows the path of one solution in floats, and proves a box around what it comes to.
     fn follow_in_floats(
         &mut self,
-        floats: &mut FloatFollower,
+        floats: &mut FloatFollower<'_>,
         start: &SolutionBox,
         ways: &Ways,
         effort: &mut Effort,
@@ -251,8 +251,8 @@ pub fn follow_all(
                     return PathEnd::Stopped("the time was over, or it was interrupted".to_owned());
                 }
                 let end = match &mut floats {
-                    Some(floats) => follower.follow_in_floats(floats, start, ways, &mut effort),
                     None => follower.follow(start, ways, &mut effort),
+                    Some(floats) => follower.follow_in_floats(floats, start, ways, &mut effort),
                 };
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 if let Some(progress) = ways.progress {

@@ -316,7 +316,7 @@ fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
 }
 
 /// The square of a target.
-fn square(target: &Target) -> BigRational {
+pub(super) fn square(target: &Target) -> BigRational {
     match target {
         Target::Length(length) => length.value() * length.value(),
         Target::SquaredLength(squared) => squared.value().clone(),

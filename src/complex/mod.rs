@@ -9,7 +9,8 @@
 //! followed in floats ([`Ways::proved`]), ten to twenty times as fast.
 //!
 //! What is proved: every box holds exactly one complex solution; boxes are disjoint; which solutions are real. That there
-//! is no other isolated solution is proved where their number meets a proved bound ([`bound`]), and not claimed elsewhere.
+//! is no other isolated solution is proved where their number meets a proved bound ([`bound`]), less the figures that are at
+//! infinity ([`infinity`]), and not claimed elsewhere.
 //!
 //! ```
 //! use krawl::complex::{Filling, Status, Template, Ways, fill, lower, solve};

@@ -32,7 +32,7 @@ pub enum Nature {
 /// How much is proved about all solutions together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Status {
-    /// Every isolated complex solution is listed: there are as many as a proved bound allows.
+    /// Every isolated complex solution is listed: with the figures at infinity there are as many as a proved bound allows.
     Complete,
     /// All paths came to solutions or went away, and no bound is known or met: there may be more.
     Found,
@@ -83,7 +83,7 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
     let mut arrived = Arrived::default();
     let starts: Vec<&SolutionBox> = template.solutions.boxes().iter().collect();
     let mut random = Random::new(0x5eed);
-    let mut proved = ways.proved;
+    let (mut proved, mut complete) = (ways.proved, false);
     for attempt in 0..=DETOURS {
         let bow = (attempt > 0).then(|| bow(system, &mut random));
         let rights = segment(&template.parameters, &target, bow.as_deref());
@@ -96,17 +96,13 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
         let all_came = arrived.stopped.is_empty()
             && (proved || arrived.repeated == 0 && arrived.infinite.is_empty());
         let nothing_new = arrived.stopped.is_empty() && arrived.set.len() == known;
-        if all_came || nothing_new || ways.is_over() || arrived.is_complete(lowered) {
+        complete = arrived.is_complete(lowered);
+        if all_came || nothing_new || ways.is_over() || complete {
             break;
         }
     }
     let missing = !arrived.infinite.is_empty() || !arrived.stopped.is_empty();
-    if proved
-        && missing
-        && lowered.bound.is_some()
-        && !ways.is_over()
-        && !arrived.is_complete(lowered)
-    {
+    if proved && missing && lowered.bound.is_some() && !complete && !ways.is_over() {
         // Floats go farther than proved tubes. What they come to is proved by itself, and the bound may be met with it.
         let floats = Ways {
             proved: false,
@@ -117,12 +113,13 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
         effort.add(took);
         let mut farther = arrived.clone();
         farther.take(lowered, ends);
-        if farther.is_complete(lowered) {
+        if farther.figures() > arrived.figures() {
+            complete = farther.is_complete(lowered);
             arrived = farther;
             proved = false;
         }
     }
-    let status = if arrived.is_complete(lowered) {
+    let status = if complete {
         // Whatever stopped: there is nothing else.
         Status::Complete
     } else if arrived.stopped.is_empty() {
@@ -208,8 +205,33 @@ impl Arrived {
         self.conjugates += add_conjugates(system, &mut self.set);
     }
 
+    /// How many solutions and figures at infinity are known.
+    fn figures(&self) -> usize {
+        self.set.len() + at_infinity(&self.departures)
+    }
+
+    /// Whether there are as many solutions, up to rotation, as a proved bound allows; figures at infinity are among those that
+    /// it allows (see [`infinity`]), and none is congruent to its mirror image by a rotation.
+    ///
+    /// [`infinity`]: super::infinity
     fn is_complete(&self, lowered: &Lowered) -> bool {
-        is_complete(lowered, &self.set, &self.departures)
+        let counts = count(&self.set, &lowered.system);
+        let Some(bound) = &lowered.bound else {
+            return false;
+        };
+        // What somebody cites need not be a bound for all dimensions, with multiplicities.
+        let at_infinity = match bound.is_cited {
+            true => 0,
+            false => 2 * at_infinity(&self.departures),
+        };
+        let all = (counts.rotation + at_infinity) as u128;
+        // More would disprove a bound that is proved.
+        assert!(
+            bound.is_cited || !counts.certain || all <= bound.count,
+            "{all} solutions and figures at infinity are more than the bound of {}: a bug in krawl, and nothing of this is proved",
+            bound.count
+        );
+        counts.certain && all == bound.count
     }
 }
 
@@ -237,31 +259,6 @@ fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
         }
     }
     set.len() - before
-}
-
-/// Whether there are as many solutions, up to rotation, as a proved bound allows; figures at infinity are among those that
-/// it allows (see [`infinity`]), and none is congruent to its mirror image by a rotation.
-///
-/// [`infinity`]: super::infinity
-fn is_complete(lowered: &Lowered, set: &SolutionSet, departures: &[Departure]) -> bool {
-    let counts = count(set, &lowered.system);
-    let Some(bound) = &lowered.bound else {
-        return false;
-    };
-    // What somebody cites need not be a bound for all dimensions, with multiplicities.
-    let at_infinity = if bound.is_cited {
-        0
-    } else {
-        2 * at_infinity(departures)
-    };
-    let all = (counts.rotation + at_infinity) as u128;
-    // More would disprove a bound that is proved.
-    assert!(
-        bound.is_cited || !counts.certain || all <= bound.count,
-        "{all} solutions and figures at infinity are more than the bound of {}: a bug in krawl, and nothing of this is proved",
-        bound.count
-    );
-    counts.certain && all == bound.count
 }
 
 /// How many figures at infinity there are, up to isometry.

@@ -275,7 +275,11 @@ fn write_table(
         )?;
     }
     if effort.steps > 0 {
-        write!(out, ", followed in floats, {} steps", effort.steps)?;
+        let which = match effort.tubes {
+            0 => "followed in floats",
+            _ => "some of them in floats",
+        };
+        write!(out, ", {which}, {} steps", effort.steps)?;
     }
     if effort.double_steps > 0 {
         let double = effort.double_steps;
@@ -301,10 +305,9 @@ fn departures(out: &mut String, problem: &Problem, result: &Solutions) -> std::f
     )?;
     for Departure { split, figures } in &result.departures {
         let go = list(&names(problem, &split.inside), 4);
-        let verb = if split.inside.len() == 1 {
-            "goes"
-        } else {
-            "go"
+        let verb = match split.inside.len() {
+            1 => "goes",
+            _ => "go",
         };
         writeln!(
             out,
@@ -324,8 +327,7 @@ fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
 /// The lengths around a cycle with the signs with which they add up to zero.
 fn sum_of_lengths(problem: &Problem, split: &Split) -> String {
     let mut text = String::new();
-    for (k, &to) in split.cycle.iter().enumerate() {
-        let from = split.cycle[(k + split.cycle.len() - 1) % split.cycle.len()];
+    for (k, [from, to]) in split.around().enumerate() {
         let joins =
             |d: &&crate::problem::Distance| d.points == [from, to] || d.points == [to, from];
         let Some(distance) = problem.distances.iter().find(joins) else {

@@ -1,7 +1,7 @@
 //! Certificates taken apart, to be damaged and put together again.
 
 use krawl::certificate::{
-    Reader, Record, SolutionClaim, TubeClaim, Writer, write_header, write_record,
+    Reader, Record, Settings, SolutionClaim, TubeClaim, Writer, verify, write_header, write_record,
 };
 use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
@@ -51,6 +51,42 @@ pub fn of_edits(problem: &Problem, edits: &[&[&str]]) -> (Vec<Ending>, Vec<u8>) 
     };
     let endings = edits.iter().map(&mut edit).collect();
     (endings, writer.finish().unwrap())
+}
+
+/// The certificate of an edit of the plate in `docs/examples` to 0.001 beyond its limit, forged to one of an edit to a length that
+/// differs by `off` from the limit: t is multiplied by the same factor throughout, and beyond 1 at the fold if `off` is positive.
+pub fn plate_led_beside_its_limit(off: f64) -> Certificate {
+    let plate = Problem::read("docs/examples/plate.toml").unwrap();
+    let led_to = |length: &str| {
+        let (endings, bytes) = of_edits(&plate, &[&[&format!("C-D={length}")]]);
+        assert!(matches!(endings[..], [Ending::Limit(_)]));
+        bytes
+    };
+    let verdict = verify(&led_to("30")[..], &Settings::default(), &mut |_| ()).unwrap();
+    let limit = 49.5 - 19.5 * verdict.arcs[1].t.mid();
+    let beyond = format!("{:.6}", limit - 1e-3);
+    let mut forged = Certificate::read(&led_to(&beyond));
+    let to: f64 = format!("{:.6}", limit + off).parse().unwrap();
+    let factor = (49.5 - beyond.parse::<f64>().unwrap()) / (49.5 - to);
+    let mut records = forged.records.iter_mut();
+    let arc = records.rfind(|record| matches!(record, Record::Arc(_)));
+    let Some(Record::Arc(arc)) = arc else {
+        panic!("an edit has an arc");
+    };
+    arc.dimensions[0].1 = format!("{to:.6}").parse().unwrap();
+    let behind = forged.records.iter_mut().rev();
+    for record in behind.take_while(|record| !matches!(record, Record::Arc(_))) {
+        match record {
+            Record::Tube(tube) => {
+                assert!(tube.low.is_empty());
+                *tube.centre.last_mut().unwrap() *= factor;
+                *tube.normal.last_mut().unwrap() /= factor as f32;
+            }
+            Record::Fold(fold) => fold.t *= factor,
+            _ => {}
+        }
+    }
+    forged
 }
 
 /// A certificate's parts.

@@ -1098,7 +1098,7 @@ function fold(S, tube, box, name) {
   const s = paramOf(N, [p, q]); tube.exit = p;
   box.mid.forEach((v, i) => { const d = phi(N, i, s, fix(v)); if (d[0] > box.radius || d[1] < -box.radius) refute(`${name}: the fold is elsewhere`); if (!(d[0] >= -box.radius && d[1] <= box.radius)) notProved(`${name}: the fold is not seen to be within its radius (off by up to ${mag(d)}, radius ${box.radius})`); });
   const dt = phi(N, S.m, s, fix(box.t)); if (dt[0] > box.tr || dt[1] < -box.tr) refute(`${name}: t at the fold is another`); if (!(dt[0] >= -box.tr && dt[1] <= box.tr)) notProved(`${name}: t at the fold`);
-  if (phi(N, S.m, s, ONE)[0] > 0) notProved(`${name}: t at the fold is above 1, where the arc is at its end already`);
+  if (!(phi(N, S.m, s, ONE)[1] < 0)) notProved(`${name}: t at the fold is not seen to be below 1`);
   // d^2t/dsigma^2 < 0 on [x, q], so dt/dsigma > 0 on [x, p], one zero between p and q; and dt/dsigma > 0 from the entry to x
   for (let l = (a - Math.max(-tube.h, tube.entry[0])); l > w; l /= 2) {
     const x = Math.max(a - l, tube.entry[0]);

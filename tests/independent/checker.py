@@ -832,6 +832,7 @@ class Tube:
                 reach = hull(reach, add(x, mul(v[i], span)))
             middle, room = (exact(t), exact(t_radius)) if i == self.n - 1 else (exact(centre[i]), exact(radius))
             need(mag(sub(reach, middle)) < room[0], "the fold is in its box")
+            need(i < self.n - 1 or reach[1] < exact(1.0)[0], "t is below 1 at the fold")
 
     def bends_down(self, a, b, depth=20):
         """t'' < 0 between two parameters, of the curve by its own: J phi'' = -(second derivatives of F along phi')."""

@@ -245,8 +245,7 @@ fn is_regular(split: &Split, found: &SolutionBox) -> bool {
     let goes = split.inside.iter().all(|&p| is_nonzero(part(p, LAMBDA)));
     let stays = split.outside.iter().all(|&p| is_nonzero(part(p, SIGMA)));
     let mut sum = [point(0.0); 2];
-    for (k, &to) in split.cycle.iter().enumerate() {
-        let from = split.cycle[(k + split.cycle.len() - 1) % split.cycle.len()];
+    for [from, to] in split.around() {
         let (Some(a), Some(b)) = (split.height(to), split.height(from)) else {
             return false;
         };

@@ -113,6 +113,13 @@ impl Split {
         })
     }
 
+    /// The edges of the cycle, one after the other: from a point to the next.
+    pub fn around(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let last = self.cycle.len().saturating_sub(1);
+        let before = self.cycle[last..].iter().chain(&self.cycle);
+        before.zip(&self.cycle).map(|(&from, &to)| [from, to])
+    }
+
     /// ν of a neighbour.
     pub fn height(&self, point: usize) -> Option<&BigRational> {
         let place = self.link.iter().position(|&p| p == point)?;
