@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 ///
 /// The sketch's path plays no part: every figure that meets the dimensions is listed, up to rigid motions and
 /// reflections where constraints do not say otherwise. "Complete" claims that these are all; "partial" and "flexible" say
-/// what is undecided. Certificates and stores are for distances between points alone.
+/// what is undecided. Stores are for distances between points alone.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -36,7 +36,7 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the cover of the parameter space, which `verify` can check
+    /// Write why there is no other solution, part by part of the space searched, which `verify` can check
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Threads to use [default: one per processor]; the answer does not depend on it
@@ -146,9 +146,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let whole = (&mut beside.file()).write_all(cover);
             written &= beside.commit(whole);
         }
-        (Some(_), None) => output::complain(
-            "no certificate is written: the reason above is proved without a search",
-        ),
+        (Some(_), None) => output::complain(match result.reason {
+            Some(_) => "no certificate is written: the reason above is proved without a search",
+            None => {
+                "no certificate is written: the checker's test is too coarse for a solution, or two are too near each \
+                 other for it"
+            }
+        }),
         _ => {}
     }
     if let Some(json) = &json {

@@ -2,7 +2,7 @@
 
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
-use krawl::certificate::cover::{FIRST_LINE, verify_cover};
+use krawl::certificate::cover::{FIRST_WORDS, verify_cover};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::edit::Decomposition;
 use krawl::problem::Problem;
@@ -55,7 +55,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let found = found.flatten();
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let mut file = BufReader::new(file);
-    if begins(&mut file, FIRST_LINE) {
+    if begins(&mut file, FIRST_WORDS) {
         return verify_the_cover(arguments, file, problem.as_ref());
     }
     if begins(&mut file, krawl::certificate::complex::FIRST_LINE) {
@@ -119,23 +119,23 @@ fn about(file: &Path, found: Option<&Decomposition>) -> String {
     text + ".\n"
 }
 
-/// Whether the file has this first line.
-fn begins(file: &mut BufReader<File>, line: &str) -> bool {
+/// Whether the file begins with these words.
+fn begins(file: &mut BufReader<File>, words: &str) -> bool {
     file.fill_buf()
-        .is_ok_and(|bytes| bytes.starts_with(format!("{line}\n").as_bytes()))
+        .is_ok_and(|bytes| bytes.starts_with(words.as_bytes()))
 }
 
-/// Prints what was proved of a set of solutions, and whether it is about the `same` points and distances as the problem
+/// Prints what was proved of a set of solutions, and whether it is about the `same` points and constraints as the problem
 /// file, if there is one. False: it could not be printed.
 fn print_with_problem(arguments: &Arguments, mut text: String, same: bool) -> bool {
     if let Some(file) = &arguments.file {
         text += &match same {
             true => format!(
-                "The points and distances are those in {}, exactly.\n",
+                "The points and constraints are those in {}, exactly.\n",
                 file.display()
             ),
             false => format!(
-                "REFUTED: the points or distances are not those in {}.\n",
+                "REFUTED: the points or constraints are not those in {}.\n",
                 file.display()
             ),
         };
@@ -186,7 +186,8 @@ fn verify_the_cover(
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.proves_all() {
-        _ if !same || verdict.flaw.is_some() => REFUTED,
+        _ if !same => REFUTED,
+        _ if verdict.flaw.is_some() => NOT_PROVED,
         true => CLOSED,
         false => INCOMPLETE,
     })

@@ -70,9 +70,9 @@ use visit::Found;
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let wants_one_search = options.cover || options.store.is_some();
     if !problem.is_distances_only() {
-        return match wants_one_search {
-            true => Err(Unserved::Constraints),
-            false => coordinates::all(problem, options),
+        return match options.store {
+            Some(_) => Err(Unserved::Constraints),
+            None => coordinates::all(problem, options),
         };
     }
     if !wants_one_search && let Some(result) = parts::searched(problem, options) {
@@ -80,7 +80,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     }
     match by_plan(problem, options) {
         // Where no plan serves.
-        Err(Unserved::NoBase | Unserved::TooManyParameters) if !wants_one_search => {
+        Err(Unserved::NoBase | Unserved::TooManyParameters) if options.store.is_none() => {
             coordinates::all(problem, options)
         }
         result => result,

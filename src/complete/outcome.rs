@@ -88,8 +88,8 @@ pub struct Complete {
 pub enum Unserved {
     /// Other constraints.
     #[error(
-        "not served yet: certificates and stores of all solutions are for distances between points alone, and there \
-         are other constraints"
+        "not served yet: stores of all solutions are for distances between points alone, and there are other \
+         constraints"
     )]
     Constraints,
     /// No base.

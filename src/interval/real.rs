@@ -127,6 +127,29 @@ impl Real {
         self.as_rational().is_some_and(Zero::is_zero)
     }
 
+    /// Whether this is written as −1 times the other number.
+    fn is_opposite(&self, other: &Real) -> bool {
+        let Real::Product(parts) = self else {
+            return false;
+        };
+        let [a, b] = &**parts;
+        let minus_one = |x: &Real| x.as_rational().is_some_and(|x| (-x).is_one());
+        (minus_one(a) && b == other || minus_one(b) && a == other) && other.is_one_number()
+    }
+
+    /// Whether what is written is always the same number: two numbers that are only known to be in a range may
+    /// differ, though the ranges are the same.
+    fn is_one_number(&self) -> bool {
+        match self {
+            Real::Rational(_) | Real::Cosine(_) => true,
+            Real::Root(of) => of.is_one_number(),
+            Real::Sum(parts) | Real::Product(parts) | Real::Quotient(parts) => {
+                parts.iter().all(Real::is_one_number)
+            }
+            Real::Within(_) => false,
+        }
+    }
+
     /// An enclosure in floats.
     ///
     /// # Panics
@@ -168,6 +191,7 @@ impl<'a> Add<&'a Real> for &'a Real {
             (Real::Rational(a), Real::Rational(b)) => Real::Rational(a + b),
             (a, b) if a.is_zero() => b.clone(),
             (a, b) if b.is_zero() => a.clone(),
+            (a, b) if a.is_opposite(b) || b.is_opposite(a) => Real::zero(),
             (a, b) => Real::Sum(Box::new([a.clone(), b.clone()])),
         }
     }
@@ -430,6 +454,18 @@ mod tests {
 
     fn exact(x: f64) -> BigRational {
         BigRational::from_float(x).unwrap()
+    }
+
+    /// What vanishes in the end vanishes exactly.
+    #[test]
+    fn a_number_less_itself_is_zero() {
+        let root = &Real::whole(2).sqrt() + &(&Real::whole(1) / &Real::whole(3)).sqrt();
+        assert!((&root - &root).is_zero() && (&-&root + &root).is_zero());
+        assert!(!(&root - &Real::whole(3).sqrt()).is_zero());
+        assert!(!(&-&root - &root).is_zero());
+        // Two numbers in the same range need not be the same.
+        let range = || Real::within(crate::interval::hull(1.0, 2.0));
+        assert!(!(&range() - &range()).is_zero());
     }
 
     #[test]

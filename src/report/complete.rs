@@ -7,7 +7,7 @@ use super::objects::Objects;
 use super::table::write_objects;
 use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Complete, Method, Status, Why};
-use crate::constraint::Symmetry;
+use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted};
 use crate::track::Mode;
@@ -222,17 +222,7 @@ fn verdict(result: &Complete) -> String {
         Some(count) => counted(count as usize, "solution"),
         None => "more than 2^64 solutions".to_owned(),
     };
-    let (up_to, different) = match result.symmetry {
-        Symmetry::Isometries => (
-            " up to rigid motions and reflections",
-            "no two are congruent, even up to reflection",
-        ),
-        Symmetry::Motions => (" up to rigid motions", "no two are the same figure moved"),
-        Symmetry::Identity => (
-            " in the coordinates of the file",
-            "no two are the same figure",
-        ),
-    };
+    let (up_to, different) = counted_once(result.symmetry);
     let space = match result.method {
         Method::Plan => "the parameter space",
         Method::Coordinates => "the space of coordinates",
@@ -272,6 +262,21 @@ fn verdict(result: &Complete) -> String {
     }
 }
 
+/// Up to what figures are counted once, and what is proved of any two then.
+fn counted_once(symmetry: Symmetry) -> (&'static str, &'static str) {
+    match symmetry {
+        Symmetry::Isometries => (
+            " up to rigid motions and reflections",
+            "no two are congruent, even up to reflection",
+        ),
+        Symmetry::Motions => (" up to rigid motions", "no two are the same figure moved"),
+        Symmetry::Identity => (
+            " in the coordinates of the file",
+            "no two are the same figure",
+        ),
+    }
+}
+
 /// How many of all figures a path has: "these are 8 of 18".
 pub fn among_in_words(among: Among) -> String {
     let Among { found, all } = among;
@@ -292,15 +297,15 @@ pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> Strin
     let count = counted(verdict.solutions, "solution");
     let seconds = took.as_secs_f64();
     let parts = counted(verdict.parts as usize, "part");
+    let (up_to, different) = counted_once(symmetry(&verdict.problem));
     match &verdict.flaw {
-        Some(flaw) => format!("REFUTED: {name}: {flaw}. Nothing is proved.\n"),
+        Some(flaw) => format!("NOT PROVED: {name}: {flaw}. Nothing is claimed.\n"),
         None if verdict.undecided == 0 => format!(
-            "VERIFIED: {name} has exactly {count} up to rigid motions and reflections. The cover has {parts}, \
-             each proved again in {seconds:.2} s.\n"
+            "VERIFIED: {name} has exactly {count}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.\n"
         ),
         None => format!(
-            "INCOMPLETE: {name} has {count} at least, no two congruent; nothing is claimed of {} of the \
-             {parts} of the cover. Any other solution lies there. Checked in {seconds:.2} s.\n",
+            "INCOMPLETE: {name} has {count} at least, {different}; nothing is claimed of {} of the {parts} of the \
+             cover. Any other solution lies there. Checked in {seconds:.2} s.\n",
             verdict.undecided
         ),
     }

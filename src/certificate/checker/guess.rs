@@ -266,7 +266,7 @@ fn value(eq: &Equations, z: &[f64]) -> Vec<f64> {
 }
 
 /// A float inverse, or nothing where there is none.
-fn invert(columns: &Columns) -> Option<Matrix> {
+pub fn invert(columns: &Columns) -> Option<Matrix> {
     let n = columns.len();
     // Row by row as column by column: the inverse of the transposed matrix is that of the matrix, transposed.
     let mut matrix = vec![0.0; n * n];

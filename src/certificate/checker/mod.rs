@@ -5,12 +5,12 @@
 
 mod arc;
 mod chain;
-mod equations;
+pub(super) mod equations;
 mod extended;
-mod guess;
+pub(super) mod guess;
 mod krawczyk;
 mod matrix;
-mod place;
+pub(super) mod place;
 mod refute;
 mod sparse;
 mod structure;

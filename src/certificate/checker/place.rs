@@ -93,19 +93,8 @@ impl Place {
     ) -> Result<Place, Fault> {
         let radius = around(point(claim.radius.into()));
         let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
-        let near: Vec<f64> = claim.centre.iter().copied().chain([1.0]).collect();
-        let extended = !tube.low.is_empty();
-        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
-        (c[eq.m], u[eq.m]) = (1.0, WEIGHT_UNIT);
-        let place = Place::prove(eq, (&near, extended), (&c, &u), claimed.clone());
-        let place = place.and_then(|mut place| {
-            // In this cross-section t is what it is in the middle.
-            place.spot.rest[eq.m] = ZERO;
-            let other = Fault::because("its cross-section is not t = 1");
-            (place.middle[eq.m] == point(1.0) && place.spot.near[eq.m] == 1.0)
-                .then_some(place)
-                .ok_or(other)
-        });
+        let near = (&*claim.centre, !tube.low.is_empty());
+        let place = Place::at_target(eq, near, claimed.clone());
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
         }
@@ -117,6 +106,23 @@ impl Place {
                 "it is too narrow to hold the one near it, or so wide that it may hold another one",
             )),
         }
+    }
+
+    /// Proves that near these unknowns there is exactly one solution of F(X, a(1)) = 0.
+    pub fn at_target(
+        eq: &Equations,
+        (near, extended): (&[f64], bool),
+        claimed: Vec<Interval>,
+    ) -> Result<Place, Fault> {
+        let near: Vec<f64> = near.iter().copied().chain([1.0]).collect();
+        let (mut c, mut u) = (vec![0.0; eq.m + 1], vec![HALF; eq.m + 1]);
+        (c[eq.m], u[eq.m]) = (1.0, WEIGHT_UNIT);
+        let mut place = Place::prove(eq, (&near, extended), (&c, &u), claimed)?;
+        // In this cross-section t is what it is in the middle.
+        place.spot.rest[eq.m] = ZERO;
+        let other = Fault::because("its cross-section is not t = 1");
+        let is_there = place.middle[eq.m] == point(1.0) && place.spot.near[eq.m] == 1.0;
+        is_there.then_some(place).ok_or(other)
     }
 
     /// Proves that near a point there is a zero of F in a cross-section with this normal.

@@ -17,6 +17,7 @@
 
 mod bound;
 mod contract;
+mod cover;
 mod newton;
 mod search;
 mod symmetry;
@@ -28,6 +29,7 @@ use super::search::Run as Watched;
 use super::targets::Targets;
 use super::{Complete, Options, Part, Status, Unserved, Why, emptiness};
 use crate::blocks::{Block as Cut, Blocks, fixed_direction};
+use crate::certificate::cover::coordinates::Half;
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -79,7 +81,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         cover: false,
     };
     Ok(options.watched(&run, begin, || {
-        searched(problem, (&homotopy, system), &run, begin)
+        searched(problem, (&homotopy, system), &run, options.cover, begin)
     }))
 }
 
@@ -87,6 +89,7 @@ fn searched(
     problem: &Problem,
     (homotopy, mut system): (&Homotopy, System),
     run: &Watched,
+    cover: bool,
     begin: Instant,
 ) -> Complete {
     let mut reason = None;
@@ -106,8 +109,9 @@ fn searched(
     let m = system.unknowns;
     let mut x = vec![entire(); m + 1];
     x[m] = ZERO;
-    let pivots = symmetry::pivots(problem, homotopy, &system);
-    for i in pivots.into_iter().chain(homotopy.positive_unknowns()) {
+    let halves = symmetry::halves(problem, homotopy, &system);
+    let pivots = halves.iter().map(|half| half.unknown);
+    for i in pivots.chain(homotopy.positive_unknowns()) {
         x[i] = upper_half();
     }
     let mut is_free = vec![true; m + 1];
@@ -117,9 +121,12 @@ fn searched(
     if contract(&rows, &is_free, &mut x).is_ok() {
         figures.go(0, &mut Vec::new(), &x, 1.0);
     }
-    let undecided = figures.undecided;
     result.solutions = solutions(homotopy, &figures.found);
     result.boxes = run.boxes.load(Ordering::Relaxed);
+    if cover {
+        result.cover = figures.cover(problem, halves);
+    }
+    let undecided = figures.undecided;
     result.status = match undecided.is_empty() {
         true => Status::Complete,
         false if undecided.iter().any(|part| part.why == Why::Flexible) => Status::Flexible,
@@ -178,6 +185,8 @@ struct Figures<'a> {
     /// What was found of a block, by the zeros of its ancestors.
     known: HashMap<(usize, Vec<(usize, usize)>), Rc<Found>>,
     found: Vec<FigureBox>,
+    /// Zeros in which a vector vanishes that must not, exactly.
+    others: Vec<Vec<f64>>,
     undecided: Vec<Part>,
 }
 
@@ -213,6 +222,7 @@ impl<'a> Figures<'a> {
             ancestors,
             known: HashMap::new(),
             found: Vec::new(),
+            others: Vec::new(),
             undecided: Vec::new(),
         }
     }
@@ -296,7 +306,14 @@ impl<'a> Figures<'a> {
         }
         match self.is_proper(&figure) {
             Some(true) => {}
-            Some(false) => return,
+            Some(false) => {
+                let exact = self.exact(&figure).map(|mut exact| {
+                    exact.pop();
+                    exact
+                });
+                self.others.extend(exact);
+                return;
+            }
             None => {
                 leave(&mut self.undecided, Why::Vanishing, 1, share);
                 return;
@@ -313,6 +330,24 @@ impl<'a> Figures<'a> {
             }
         }
         self.found.push(figure);
+    }
+
+    /// The cover of the space, for the check.
+    fn cover(&self, problem: &Problem, halves: Vec<Half>) -> Option<Vec<u8>> {
+        let needs = self.ancestors.iter();
+        let results = cover::Results {
+            figures: self
+                .found
+                .iter()
+                .map(|found| found.figure.centre.clone())
+                .collect(),
+            others: self.others.clone(),
+            halves,
+            blocks: &self.blocks,
+            needs: needs.map(|all| all.iter().copied().collect()).collect(),
+            boxes: self.run.boxes.load(Ordering::Relaxed),
+        };
+        cover::file(problem, self.system, results, self.run.stop)
     }
 
     /// The unknowns of a figure, and the number 0, if numbers of few digits in its box meet all equations exactly, without any

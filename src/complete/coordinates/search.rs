@@ -36,7 +36,7 @@ pub struct Found {
 /// Parts that are searched each by itself.
 const PIECES: usize = 64;
 /// A part whose unknowns are all known to this much is not halved any more.
-const SMALL: f64 = 1e-9;
+pub const SMALL: f64 = 1e-9;
 /// The same once that many parts of a piece are undecided.
 const COARSE: f64 = 1e-3;
 /// How many that are.
@@ -48,7 +48,8 @@ const HUGE: f64 = (1u64 << 40) as f64;
 
 /// A block and how it is contracted.
 pub struct Block<'a> {
-    square: Square<'a>,
+    /// The equations with the unknowns.
+    pub square: Square<'a>,
     /// The equations, and what follows from them.
     rows: Vec<&'a Row>,
     is_free: Vec<bool>,
@@ -144,6 +145,75 @@ impl<'a> Block<'a> {
         });
         all
     }
+
+    /// The logarithm of the product of all widths.
+    pub fn volume(&self, x: &[Interval]) -> f64 {
+        let own = self.square.own.iter();
+        own.map(|&u| x[u].wid().max(1e-300).ln()).sum()
+    }
+
+    /// The unknown to be halved: the one that moves the equations most, each beside what all others move it.
+    pub fn widest(&self, x: &[Interval]) -> Choice {
+        let square = &self.square;
+        let (mut widest, mut unbounded): (f64, Option<usize>) = (0.0, None);
+        for &u in &square.own {
+            if !x[u].is_common_interval() {
+                unbounded.get_or_insert(u);
+            } else {
+                widest = widest.max(x[u].wid() / (1.0f64).max(x[u].mag()));
+            }
+        }
+        if let Some(u) = unbounded {
+            let near = if x[u].inf().is_finite() {
+                x[u].inf()
+            } else if x[u].sup().is_finite() {
+                x[u].sup()
+            } else {
+                0.0
+            };
+            // Near first; what is far is looked at only where all others are known well.
+            if widest * near.abs() < 1.0 {
+                return match near.abs() > HUGE {
+                    true => Choice::Huge,
+                    false => Choice::Halve(u, f64::INFINITY),
+                };
+            }
+        }
+        let mut smear = vec![0.0; square.own.len()];
+        for row in &square.rows {
+            let mut of = vec![0.0; square.own.len()];
+            row.derivatives(x, |entry, slope| {
+                if square.place[entry] != KNOWN {
+                    of[square.place[entry]] += slope.mag().min(1e6);
+                }
+            });
+            for (k, of) in of.iter_mut().enumerate() {
+                let u = square.own[k];
+                *of *= match x[u].is_common_interval() {
+                    true => x[u].wid(),
+                    false => 0.0,
+                };
+            }
+            let sum: f64 = of.iter().sum();
+            if sum > 0.0 {
+                let pairs = smear.iter_mut().zip(&of);
+                pairs.for_each(|(total, of)| *total += of / sum);
+            }
+        }
+        let best = (0..smear.len()).filter(|&k| {
+            let x = x[square.own[k]];
+            // What is narrow already is not what keeps the part from being decided.
+            x.is_common_interval() && x.wid() / (1.0f64).max(x.mag()) > 1e-3 * widest
+        });
+        let best = best.max_by(|&a, &b| smear[a].total_cmp(&smear[b]));
+        match best {
+            Some(k) => Choice::Halve(square.own[k], widest),
+            None => match unbounded {
+                Some(u) => Choice::Halve(u, f64::INFINITY),
+                None => Choice::Halve(square.own[0], 0.0),
+            },
+        }
+    }
 }
 
 fn add(zeros: &mut Vec<Zero>, zero: Zero) {
@@ -206,7 +276,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             true => COARSE,
             false => SMALL,
         };
-        let (which, widest) = match self.widest(&x) {
+        let (which, widest) = match self.block.widest(&x) {
             Choice::Halve(u, widest) => (u, widest),
             Choice::Huge => {
                 self.leave(Why::Unbounded, share);
@@ -249,7 +319,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             if !is_bounded {
                 return false;
             }
-            let before = self.volume(x);
+            let before = block.volume(x);
             let Ok(step) = square.step(x) else {
                 return true;
             };
@@ -263,85 +333,16 @@ impl<'s, 'a> Piece<'s, 'a> {
                 }
             }
             // Worth another round where a good part of the box is gone.
-            if self.volume(x) > before - 0.7 {
+            if block.volume(x) > before - 0.7 {
                 return false;
             }
         }
         false
     }
-
-    /// The logarithm of the product of all widths.
-    fn volume(&self, x: &[Interval]) -> f64 {
-        let own = self.block.square.own.iter();
-        own.map(|&u| x[u].wid().max(1e-300).ln()).sum()
-    }
-
-    /// The unknown to be halved: the one that moves the equations most, each beside what all others move it.
-    fn widest(&self, x: &[Interval]) -> Choice {
-        let square = &self.block.square;
-        let (mut widest, mut unbounded): (f64, Option<usize>) = (0.0, None);
-        for &u in &square.own {
-            if !x[u].is_common_interval() {
-                unbounded.get_or_insert(u);
-            } else {
-                widest = widest.max(x[u].wid() / (1.0f64).max(x[u].mag()));
-            }
-        }
-        if let Some(u) = unbounded {
-            let near = if x[u].inf().is_finite() {
-                x[u].inf()
-            } else if x[u].sup().is_finite() {
-                x[u].sup()
-            } else {
-                0.0
-            };
-            // Near first; what is far is looked at only where all others are known well.
-            if widest * near.abs() < 1.0 {
-                return match near.abs() > HUGE {
-                    true => Choice::Huge,
-                    false => Choice::Halve(u, f64::INFINITY),
-                };
-            }
-        }
-        let mut smear = vec![0.0; square.own.len()];
-        for row in &square.rows {
-            let mut of = vec![0.0; square.own.len()];
-            row.derivatives(x, |entry, slope| {
-                if square.place[entry] != KNOWN {
-                    of[square.place[entry]] += slope.mag().min(1e6);
-                }
-            });
-            for (k, of) in of.iter_mut().enumerate() {
-                let u = square.own[k];
-                *of *= match x[u].is_common_interval() {
-                    true => x[u].wid(),
-                    false => 0.0,
-                };
-            }
-            let sum: f64 = of.iter().sum();
-            if sum > 0.0 {
-                let pairs = smear.iter_mut().zip(&of);
-                pairs.for_each(|(total, of)| *total += of / sum);
-            }
-        }
-        let best = (0..smear.len()).filter(|&k| {
-            let x = x[square.own[k]];
-            // What is narrow already is not what keeps the part from being decided.
-            x.is_common_interval() && x.wid() / (1.0f64).max(x.mag()) > 1e-3 * widest
-        });
-        let best = best.max_by(|&a, &b| smear[a].total_cmp(&smear[b]));
-        match best {
-            Some(k) => Choice::Halve(square.own[k], widest),
-            None => match unbounded {
-                Some(u) => Choice::Halve(u, f64::INFINITY),
-                None => Choice::Halve(square.own[0], 0.0),
-            },
-        }
-    }
 }
 
 /// What is done with a part that is not decided.
-enum Choice {
+pub enum Choice {
     /// This unknown is halved; and how wide the widest range is, beside its size.
     Halve(usize, f64),
     /// An unknown may be as large as it likes.

@@ -5,47 +5,86 @@
 //! found, up to such changes, where no pivot is negative.
 
 use super::system::{Form, System};
+use crate::certificate::cover::coordinates::{self, Half};
 use crate::constraint::{Entry, Symmetry, symmetry};
 use crate::interval::ZERO;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 
-/// The unknowns that may be taken as not negative.
-pub fn pivots(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<usize> {
+/// A change of signs: of which unknowns, and by what.
+#[derive(Clone)]
+struct Change {
+    unknowns: Vec<bool>,
+    axes: Vec<bool>,
+    twins: Vec<bool>,
+}
+
+impl Change {
+    fn add(&mut self, other: &Change) {
+        let pairs = [
+            (&mut self.unknowns, &other.unknowns),
+            (&mut self.axes, &other.axes),
+            (&mut self.twins, &other.twins),
+        ];
+        for (own, other) in pairs {
+            own.iter_mut().zip(other).for_each(|(x, y)| *x ^= y);
+        }
+    }
+}
+
+/// The unknowns that may be taken as not negative, each with the symmetry that changes it and none of the others.
+pub fn halves(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<Half> {
     let m = system.unknowns;
     let d = homotopy.dimension;
-    let reversed = |axes: &[usize]| -> Vec<bool> {
-        (0..m)
+    let first = homotopy.gauge.place.len();
+    let twins = &homotopy.tail.twins;
+    let reversed = |axes: &[usize]| Change {
+        unknowns: (0..m)
             .map(|i| axes.iter().filter(|&&axis| homotopy.flips(i, axis)).count() % 2 == 1)
-            .collect()
+            .collect(),
+        axes: (0..d).map(|axis| axes.contains(&axis)).collect(),
+        twins: vec![false; twins.len()],
     };
-    let mut generators: Vec<Vec<bool>> = match symmetry(problem) {
+    let mut generators: Vec<Change> = match symmetry(problem) {
         Symmetry::Identity => Vec::new(),
         Symmetry::Motions => (1..d).map(|axis| reversed(&[axis - 1, axis])).collect(),
         Symmetry::Isometries => (0..d).map(|axis| reversed(&[axis])).collect(),
     };
-    let first = homotopy.gauge.place.len();
-    for twin in &homotopy.tail.twins {
-        generators.push((0..m).map(|i| i >= first && twin[i - first]).collect());
+    for (k, twin) in twins.iter().enumerate() {
+        let mut change = reversed(&[]);
+        change.unknowns = (0..m).map(|i| i >= first && twin[i - first]).collect();
+        change.twins[k] = true;
+        generators.push(change);
     }
     let positive = homotopy.positive_unknowns();
-    generators.retain(|g| keeps(system, g) && positive.iter().all(|&i| !g[i]));
+    generators.retain(|g| keeps(system, &g.unknowns) && positive.iter().all(|&i| !g.unknowns[i]));
     let mut pivots: Vec<usize> = Vec::new();
     for column in 0..m {
         let rank = pivots.len();
-        let Some(k) = (rank..generators.len()).find(|&k| generators[k][column]) else {
+        let Some(k) = (rank..generators.len()).find(|&k| generators[k].unknowns[column]) else {
             continue;
         };
         generators.swap(rank, k);
         let pivot = generators[rank].clone();
         for (k, row) in generators.iter_mut().enumerate() {
-            if k != rank && row[column] {
-                row.iter_mut().zip(&pivot).for_each(|(x, y)| *x ^= y);
+            if k != rank && row.unknowns[column] {
+                row.add(&pivot);
             }
         }
         pivots.push(column);
     }
+    let places = |of: &[bool]| (0..of.len()).filter(|&k| of[k]).collect();
     pivots
+        .into_iter()
+        .zip(&generators)
+        .map(|(unknown, change)| Half {
+            unknown,
+            by: coordinates::Change {
+                axes: places(&change.axes),
+                twins: places(&change.twins),
+            },
+        })
+        .collect()
 }
 
 /// A line or plane of its own whose direction cannot be reversed alone with all equations kept: constraints tell its two

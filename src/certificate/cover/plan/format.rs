@@ -2,6 +2,8 @@
 //!
 //! Lines of text, and then as many bytes of marks as the last line says.
 
+use super::super::CoverError;
+use super::super::lines::{Lines, error, float, number};
 use std::fmt::Write;
 
 /// The first line of every cover.
@@ -50,11 +52,6 @@ pub struct Cover {
     /// The marks.
     pub marks: Vec<u8>,
 }
-
-/// Why bytes are no cover.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("not a cover that can be read: {0}")]
-pub struct CoverError(pub String);
 
 /// One mark of the cover (the tags are its bytes).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,56 +126,14 @@ impl Cover {
 
     /// Reads the bytes of a file.
     pub fn from_bytes(bytes: &[u8]) -> Result<Cover, CoverError> {
-        let error = |what: &str| CoverError(what.to_owned());
-        let mut rest = bytes;
-        let mut line = || -> Result<String, CoverError> {
-            let end = rest
-                .iter()
-                .position(|&b| b == b'\n')
-                .ok_or_else(|| error("it ends early"))?;
-            let text =
-                std::str::from_utf8(&rest[..end]).map_err(|_| error("a line is not text"))?;
-            let text = text.to_owned();
-            rest = &rest[end + 1..];
-            Ok(text)
-        };
-        if line()? != FIRST_LINE || line()? != format!("version {VERSION}") {
-            return Err(error("another format or version"));
-        }
-        let number = |text: Option<&str>| -> Result<usize, CoverError> {
-            text.and_then(|t| t.parse().ok())
-                .ok_or_else(|| error("a whole number is missing"))
-        };
-        let float = |text: &str| -> Result<f64, CoverError> {
-            let x: f64 = text.parse().map_err(|_| error("a number is missing"))?;
-            if x.abs() <= 1e60 {
-                Ok(x)
-            } else {
-                Err(error("a number is out of range"))
-            }
-        };
-        let unit = line()?;
-        let unit_exponent: i32 = unit
+        let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
+        let unit_exponent: i32 = lines
+            .line()?
             .strip_prefix("unit ")
             .and_then(|t| t.parse().ok())
             .filter(|e: &i32| e.abs() <= 220)
             .ok_or_else(|| error("the unit"))?;
-        let length = number(line()?.strip_prefix("problem "))?;
-        let mut problem = String::new();
-        while problem.len() < length {
-            problem += &line()?;
-            problem.push('\n');
-        }
-        if problem.len() != length + 1 && problem.len() != length {
-            return Err(error("the problem's length"));
-        }
-        if problem.len() == length {
-            // The line end after the problem.
-            if !line()?.is_empty() {
-                return Err(error("the problem's length"));
-            }
-        }
-        problem.truncate(length);
+        let problem = lines.problem()?;
         let mut cover = Cover {
             problem,
             base: Vec::new(),
@@ -189,8 +144,7 @@ impl Cover {
             marks: Vec::new(),
         };
         loop {
-            let text = line()?;
-            let mut words = text.split(' ');
+            let mut words = lines.line()?.split(' ');
             let kind = words.next().unwrap_or_default();
             match kind {
                 "base" => cover.base = words.map(|w| number(Some(w))).collect::<Result<_, _>>()?,
@@ -237,11 +191,7 @@ impl Cover {
                         .push(all.chunks(3).map(|p| [p[0], p[1], p[2]]).collect());
                 }
                 "marks" => {
-                    let length = number(words.next())?;
-                    if rest.len() != length {
-                        return Err(error("the length of the marks"));
-                    }
-                    cover.marks = rest.to_vec();
+                    cover.marks = lines.marks(words.next())?;
                     return Ok(cover);
                 }
                 _ => return Err(error("an unknown line")),

@@ -1,0 +1,194 @@
+//! Bounds of a block's unknowns where the equations one by one have none: circles that touch are cones in centres and radii.
+//!
+//! Whole multiples of equations are added until products of unknowns cancel, exactly. Where all unknowns but one follow from the linear
+//! equations that come of it, x_k = α_k + β_k t, any equation is a t² + b t + c = 0; if a is not 0 then
+//! |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|).
+
+use super::space::{Part, difference};
+use crate::certificate::checker::equations::{Equations, Product, ZERO};
+use crate::interval::{Interval, checked, point};
+use std::collections::BTreeMap;
+
+/// Whole numbers beyond this are not reckoned with: all below are floats, exactly.
+const LARGEST: u64 = 1 << 40;
+
+/// `Σ squares_kl x_k x_l + Σ linear_k x_k + constant = 0` in a block's unknowns.
+#[derive(Clone)]
+struct Expanded {
+    squares: BTreeMap<(usize, usize), i64>,
+    linear: Vec<Interval>,
+    constant: Interval,
+}
+
+impl Expanded {
+    /// Σ products = right, all entries that are not unknowns of the block being numbers in their ranges.
+    fn new(
+        eq: &Equations,
+        (products, right): (&[Product], Interval),
+        unknowns: &[usize],
+        x: &[Interval],
+    ) -> Self {
+        let mut out = Expanded {
+            squares: BTreeMap::new(),
+            linear: vec![ZERO; unknowns.len()],
+            constant: -right,
+        };
+        // The unknowns in a form, with their signs, and the rest of it.
+        let split = |form: usize| {
+            let [i, j] = eq.forms[form];
+            let own = |entry: usize| unknowns.iter().position(|&u| u == entry);
+            let rest = match (i == j, own(i), own(j)) {
+                (true, ..) => return (Vec::new(), ZERO),
+                (_, None, None) => difference(x, [i, j]),
+                (_, Some(_), None) => -x[j],
+                (_, None, Some(_)) => x[i],
+                (_, Some(_), Some(_)) => ZERO,
+            };
+            let first = own(i).map(|k| (k, 1));
+            let second = own(j).map(|k| (k, -1));
+            (first.into_iter().chain(second).collect(), rest)
+        };
+        for &(factor, [left, right]) in products {
+            let (l, r): ((Vec<(usize, i64)>, _), (Vec<(usize, i64)>, _)) =
+                (split(left), split(right));
+            for &(k, s) in &l.0 {
+                for &(j, t) in &r.0 {
+                    *out.squares.entry((k.min(j), k.max(j))).or_default() += factor * s * t;
+                }
+            }
+            for (one, other) in [(&l, &r), (&r, &l)] {
+                for &(k, s) in &one.0 {
+                    out.linear[k] += point((factor * s) as f64) * other.1;
+                }
+            }
+            out.constant += point(factor as f64) * l.1 * r.1;
+        }
+        out.squares.retain(|_, q| *q != 0);
+        out
+    }
+
+    /// This times a whole number less another one times one.
+    fn combined(&self, by: i64, other: &Self, times: i64) -> Option<Self> {
+        let mut squares = BTreeMap::new();
+        for (row, factor) in [(self, by), (other, times.checked_neg()?)] {
+            for (&key, &q) in &row.squares {
+                let sum = squares.entry(key).or_insert(0i64);
+                *sum = sum.checked_add(factor.checked_mul(q)?)?;
+            }
+        }
+        squares.retain(|_, q| *q != 0);
+        let is_large = |q: &i64| q.unsigned_abs() > LARGEST;
+        if squares.values().any(is_large) || is_large(&by) || is_large(&times) {
+            return None;
+        }
+        let (by, times) = (point(by as f64), point(times as f64));
+        let pairs = self.linear.iter().zip(&other.linear);
+        Some(Expanded {
+            linear: pairs.map(|(&a, &b)| by * a - times * b).collect(),
+            constant: by * self.constant - times * other.constant,
+            squares,
+        })
+    }
+
+    /// The greatest |t| if all unknowns are α + β t.
+    fn greatest(&self, lines: &[[Interval; 2]]) -> Option<f64> {
+        let (mut a, mut b, mut c) = (ZERO, ZERO, self.constant);
+        for (&(k, l), &q) in &self.squares {
+            let (q, [alpha, beta], [gamma, delta]) = (point(q as f64), lines[k], lines[l]);
+            // A square is never negative.
+            let product = |x: Interval, y: Interval| if k == l { x.sqr() } else { x * y };
+            a += q * product(beta, delta);
+            b += q * (alpha * delta + beta * gamma);
+            c += q * product(alpha, gamma);
+        }
+        for (&by, [alpha, beta]) in self.linear.iter().zip(lines) {
+            b += by * *beta;
+            c += by * *alpha;
+        }
+        let is_bounded = [a, b, c].iter().all(|x| x.is_common_interval());
+        if !is_bounded || a.contains(0.0) {
+            return None;
+        }
+        let (least, a, b, c) = (
+            point(a.mig()),
+            point(a.mag()),
+            point(b.mag()),
+            point(c.mag()),
+        );
+        let most = (b + (b.sqr() + point(4.0) * a * c).sqrt()) / (point(2.0) * least);
+        Some(most.sup()).filter(|most| most.is_finite())
+    }
+}
+
+/// Ranges that hold the unknowns of a block at every zero in a part. `None`: nothing follows.
+pub fn bounds<'a>(
+    eq: &Equations,
+    rows: impl Iterator<Item = (&'a [Product], Interval)>,
+    unknowns: &[usize],
+    part: &Part,
+) -> Option<Vec<Interval>> {
+    let n = unknowns.len();
+    let rows: Vec<Expanded> = rows
+        .map(|row| Expanded::new(eq, row, unknowns, part.entries()))
+        .collect();
+    // What is linear, and what is not.
+    let (mut linear, mut curved): (Vec<Expanded>, Vec<Expanded>) = (Vec::new(), Vec::new());
+    for row in &rows {
+        let mut row = row.clone();
+        for pivot in &curved {
+            let (key, &p) = pivot.squares.first_key_value()?;
+            if let Some(&q) = row.squares.get(key) {
+                row = row.combined(p, pivot, q)?;
+            }
+        }
+        match row.squares.is_empty() {
+            true => linear.push(row),
+            false => curved.push(row),
+        }
+    }
+    linear.truncate(n);
+    if linear.len() + 1 < n {
+        return None;
+    }
+    // Gauss and Jordan in intervals: for each row the unknown that it is solved for.
+    let mut solved: Vec<usize> = Vec::new();
+    for k in 0..linear.len() {
+        let size = |c: usize| linear[k].linear[c].mig();
+        let others = (0..n).filter(|c| !solved.contains(c));
+        let best = others.max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
+        if linear[k].linear[best].contains(0.0) {
+            return None;
+        }
+        let pivot = linear[k].clone();
+        for row in linear.iter_mut().enumerate().filter(|(j, _)| *j != k) {
+            let factor = row.1.linear[best] / pivot.linear[best];
+            for (x, y) in row.1.linear.iter_mut().zip(&pivot.linear) {
+                *x -= factor * *y;
+            }
+            // The same numbers in both, so that nothing is left of this one.
+            row.1.linear[best] = ZERO;
+            row.1.constant -= factor * pivot.constant;
+        }
+        solved.push(best);
+    }
+    let free = (0..n).find(|c| !solved.contains(c));
+    let line = |k: usize| match solved.iter().position(|&c| c == k) {
+        None => [ZERO, point(1.0)],
+        Some(row) => {
+            let (row, by) = (&linear[row], linear[row].linear[k]);
+            let beta = free.map_or(ZERO, |t| -(row.linear[t] / by));
+            [-(row.constant / by), beta]
+        }
+    };
+    let lines: Vec<[Interval; 2]> = (0..n).map(line).collect();
+    let range = match free {
+        None => ZERO,
+        Some(_) => {
+            let all = rows.iter().filter_map(|row| row.greatest(&lines));
+            let most = all.min_by(f64::total_cmp)?;
+            checked(-most, most)?
+        }
+    };
+    let of = |[alpha, beta]: &[Interval; 2]| *alpha + *beta * range;
+    Some(lines.iter().map(of).collect())
+}

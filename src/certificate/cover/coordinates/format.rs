@@ -1,0 +1,225 @@
+//! Covers of the space of coordinates on disk: lines of text, and then as many bytes of marks as the last line says.
+
+use super::super::CoverError;
+use super::super::lines::{Lines, error, float, number};
+use std::fmt::Write;
+
+/// The first line.
+pub const FIRST_LINE: &str = "krawl cover of coordinates";
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0; numbers are in its unit.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CoordinateCover {
+    /// The problem's text.
+    pub problem: String,
+    /// The unknowns that are looked at where they are not negative, in order.
+    pub halves: Vec<Half>,
+    /// Equations that are taken together.
+    pub blocks: Vec<Block>,
+    /// For each solution about where it is, unknown by unknown.
+    pub figures: Vec<Vec<f64>>,
+    /// Zeros of the equations that are images of these.
+    pub images: Vec<Image>,
+    /// Zeros of the equations that are no figures, as a vector vanishes in them that must not: exactly.
+    pub others: Vec<Vec<f64>>,
+    /// The marks.
+    pub marks: Vec<u8>,
+}
+
+/// A symmetry: changes of the signs of unknowns that take figures to congruent ones.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Change {
+    /// The axes that are reversed.
+    pub axes: Vec<usize>,
+    /// The changes of sign beside, of lines and planes of their own: places in [`crate::constraint::Tail::twins`].
+    pub twins: Vec<usize>,
+}
+
+/// An unknown that is looked at where it is not negative.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Half {
+    /// The unknown.
+    pub unknown: usize,
+    /// What changes its sign, and of none that was halved before.
+    pub by: Change,
+}
+
+/// A zero that is a listed solution seen otherwise.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    /// The solution.
+    pub figure: usize,
+    /// What takes the zero to it.
+    pub by: Change,
+}
+
+/// As many equations as unknowns.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Block {
+    /// The equations.
+    pub equations: Vec<usize>,
+    /// The unknowns.
+    pub unknowns: Vec<usize>,
+}
+
+/// What is said of a part, after its ranges were narrowed by the equations one by one. Parts in which nothing is left have no mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// 1: the ranges are narrowed by a block's equations together, and then one by one again; more marks follow.
+    Block(usize),
+    /// 2: an unknown's range is halved; both halves follow, the lower one first.
+    Halves(usize),
+    /// 3: all of the part lies where this solution is the only zero of the equations.
+    Figure(usize),
+    /// 4: the same for a zero that is no figure.
+    Other(usize),
+    /// 5: the same for an image of a solution.
+    Image(usize),
+    /// 6: a block's unknowns are bounded by its equations together, and then all by one after the other; more marks follow.
+    Bound(usize),
+    /// 7: nothing is claimed.
+    Undecided,
+}
+
+fn list(numbers: &[usize]) -> String {
+    numbers.iter().map(|x| format!(" {x}")).collect()
+}
+
+fn floats(numbers: &[f64]) -> String {
+    numbers.iter().map(|x| format!(" {x:e}")).collect()
+}
+
+/// Whole numbers up to a word, or to the end.
+fn until<'a>(
+    words: &mut impl Iterator<Item = &'a str>,
+    end: Option<&str>,
+) -> Result<Vec<usize>, CoverError> {
+    let mut out = Vec::new();
+    loop {
+        match words.next() {
+            word if word == end => return Ok(out),
+            word => out.push(number(word)?),
+        }
+    }
+}
+
+impl Change {
+    fn text(&self) -> String {
+        format!("axes{} twins{}", list(&self.axes), list(&self.twins))
+    }
+
+    fn read<'a>(mut words: impl Iterator<Item = &'a str>) -> Result<Self, CoverError> {
+        match words.next() {
+            Some("axes") => Ok(Change {
+                axes: until(&mut words, Some("twins"))?,
+                twins: until(&mut words, None)?,
+            }),
+            _ => Err(error("the axes of a symmetry")),
+        }
+    }
+}
+
+impl CoordinateCover {
+    /// The bytes of the file.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut out = format!("{FIRST_LINE}\nversion {VERSION}\n");
+        // Writing to a string cannot fail.
+        let _ = write!(out, "problem {}\n{}\n", self.problem.len(), self.problem);
+        for half in &self.halves {
+            let _ = writeln!(out, "half {} {}", half.unknown, half.by.text());
+        }
+        for block in &self.blocks {
+            let (equations, unknowns) = (list(&block.equations), list(&block.unknowns));
+            let _ = writeln!(out, "block{equations} unknowns{unknowns}");
+        }
+        for figure in &self.figures {
+            let _ = writeln!(out, "figure{}", floats(figure));
+        }
+        for image in &self.images {
+            let _ = writeln!(out, "image {} {}", image.figure, image.by.text());
+        }
+        for other in &self.others {
+            let _ = writeln!(out, "other{}", floats(other));
+        }
+        let _ = writeln!(out, "marks {}", self.marks.len());
+        let mut out = out.into_bytes();
+        out.extend(&self.marks);
+        out
+    }
+
+    /// Reads the bytes of a file.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, CoverError> {
+        let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
+        let mut cover = CoordinateCover {
+            problem: lines.problem()?,
+            ..CoordinateCover::default()
+        };
+        loop {
+            let mut words = lines.line()?.split(' ');
+            match words.next().unwrap_or_default() {
+                "half" => cover.halves.push(Half {
+                    unknown: number(words.next())?,
+                    by: Change::read(words)?,
+                }),
+                "image" => cover.images.push(Image {
+                    figure: number(words.next())?,
+                    by: Change::read(words)?,
+                }),
+                "block" => cover.blocks.push(Block {
+                    equations: until(&mut words, Some("unknowns"))?,
+                    unknowns: until(&mut words, None)?,
+                }),
+                "figure" => cover
+                    .figures
+                    .push(words.map(float).collect::<Result<_, _>>()?),
+                "other" => cover
+                    .others
+                    .push(words.map(float).collect::<Result<_, _>>()?),
+                "marks" => {
+                    cover.marks = lines.marks(words.next())?;
+                    return Ok(cover);
+                }
+                _ => return Err(error("an unknown line")),
+            }
+        }
+    }
+}
+
+impl Mark {
+    /// Appends the mark: a byte, and for all but the last kind a number in two more, the lower one first.
+    pub fn put(self, out: &mut Vec<u8>) {
+        let (tag, number) = match self {
+            Mark::Block(k) => (1, k),
+            Mark::Halves(k) => (2, k),
+            Mark::Figure(k) => (3, k),
+            Mark::Other(k) => (4, k),
+            Mark::Image(k) => (5, k),
+            Mark::Bound(k) => (6, k),
+            Mark::Undecided => return out.push(7),
+        };
+        out.push(tag);
+        out.extend((number as u16).to_le_bytes());
+    }
+
+    /// Reads the mark at a place, and where the next one begins.
+    pub fn read(bytes: &[u8], at: usize) -> Option<(Mark, usize)> {
+        let tag = *bytes.get(at)?;
+        if tag == 7 {
+            return Some((Mark::Undecided, at + 1));
+        }
+        let number = bytes.get(at + 1..at + 3)?;
+        let number = usize::from(u16::from_le_bytes([number[0], number[1]]));
+        let mark = match tag {
+            1 => Mark::Block(number),
+            2 => Mark::Halves(number),
+            3 => Mark::Figure(number),
+            4 => Mark::Other(number),
+            5 => Mark::Image(number),
+            6 => Mark::Bound(number),
+            _ => return None,
+        };
+        Some((mark, at + 3))
+    }
+}

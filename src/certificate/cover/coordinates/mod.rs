@@ -1,0 +1,256 @@
+//! The check of covers of the space of coordinates: for every problem, whatever its constraints.
+//!
+//! The equations are those of the kernel with t = 1. A figure is a zero of them at which lengths and radii are positive and no vector vanishes that
+//! must not. Every figure has an image under the problem's symmetries in the space that the cover begins with
+//! ([`symmetry`]). A part's ranges are narrowed without losing any zero ([`space`]), parts are halved, and one that is left is within
+//! the distance around a listed zero in which certificates' test for one figure proves that there is no other.
+
+mod bounds;
+mod format;
+mod space;
+mod symmetry;
+
+pub use format::{Block, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark};
+pub use space::{Empty, Part};
+
+use super::{CoverError, CoverVerdict};
+use crate::certificate::checker::equations::Equations;
+use crate::certificate::checker::place::Place;
+use crate::interval::{Interval, point};
+use crate::problem::Problem;
+use crate::system::Homotopy;
+use space::Rows;
+
+/// What a cover is about, with all that it says but its marks proved.
+pub struct Space {
+    eq: Equations,
+    rows: Rows,
+    not_negative: Vec<usize>,
+    blocks: Vec<Block>,
+    figures: Vec<Place>,
+    images: Vec<Seen>,
+    others: Vec<Place>,
+}
+
+/// A zero that is a solution seen otherwise.
+struct Seen {
+    figure: usize,
+    /// The unknowns with other signs.
+    changes: Vec<bool>,
+}
+
+impl Space {
+    /// Proves that the zeros listed exist, that the figures among them are figures and no two congruent, and the others none.
+    pub fn new(problem: &Problem, cover: &CoordinateCover) -> Result<Space, String> {
+        let homotopy = Homotopy::new(problem).map_err(|error| error.to_string())?;
+        let eq = Equations::new(homotopy);
+        if let Some(name) = symmetry::directed(&eq, problem) {
+            return Err(format!(
+                "the equations have both directions of {name}, and a figure has one of them"
+            ));
+        }
+        let not_negative = symmetry::not_negative(&eq, problem, &cover.halves)?;
+        for block in &cover.blocks {
+            let fits = |numbers: &[usize]| {
+                let mut sorted = numbers.to_vec();
+                sorted.sort_unstable();
+                sorted.dedup();
+                sorted.len() == numbers.len() && numbers.iter().all(|&i| i < eq.m)
+            };
+            let is_square = block.equations.len() == block.unknowns.len();
+            if !(is_square && fits(&block.equations) && fits(&block.unknowns)) {
+                return Err("a block is none".to_owned());
+            }
+        }
+        let mut space = Space {
+            rows: Rows::new(&eq),
+            eq,
+            not_negative,
+            blocks: cover.blocks.clone(),
+            figures: Vec::new(),
+            images: Vec::new(),
+            others: Vec::new(),
+        };
+        for (index, near) in cover.figures.iter().enumerate() {
+            let number = index + 1;
+            let place = space.zero(near).filter(|place| space.is_figure(place));
+            let place = place.ok_or_else(|| format!("solution {number} is not proved to exist"))?;
+            let known = space.figures.iter();
+            let same = known
+                .map(|known| space.are_different(known, &place))
+                .position(|different| !different);
+            if let Some(same) = same {
+                let same = same + 1;
+                return Err(format!("the solutions {same} and {number} may be the same"));
+            }
+            space.figures.push(place);
+        }
+        for image in &cover.images {
+            space.see(problem, image)?;
+        }
+        for (index, at) in cover.others.iter().enumerate() {
+            let place = space.zero(at).filter(|place| space.is_none(place, at));
+            let unproved = || format!("zero {} may be a figure", index + 1);
+            space.others.push(place.ok_or_else(unproved)?);
+        }
+        Ok(space)
+    }
+
+    /// The only zero near these numbers.
+    fn zero(&self, near: &[f64]) -> Option<Place> {
+        let test = |extended| Place::at_target(&self.eq, (near, extended), Vec::new());
+        (near.len() == self.eq.m)
+            .then(|| test(false).or_else(|_| test(true)).ok())
+            .flatten()
+    }
+
+    /// Whether two solutions are surely neither the same nor congruent.
+    fn are_different(&self, one: &Place, other: &Place) -> bool {
+        let apart = |i: usize| one.spot.at(i).disjoint(other.spot.at(i));
+        (0..self.eq.m).any(apart) && one.is_congruent(other, &self.eq) == Some(false)
+    }
+
+    /// Whether lengths and radii are positive at a zero, and no vector vanishes that must not.
+    fn is_figure(&self, place: &Place) -> bool {
+        let at = |i: usize| match i < self.eq.m {
+            true => place.spot.at(i),
+            false => point(0.0),
+        };
+        let is_there = |vector: &Vec<[usize; 2]>| {
+            let mut coordinates = vector.iter();
+            coordinates.any(|&[i, j]| i != j && !(at(i) - at(j)).contains(0.0))
+        };
+        self.eq.positive.iter().all(|&i| at(i).inf() > 0.0) && self.eq.nonzero.iter().all(is_there)
+    }
+
+    /// Whether a zero is exactly at these numbers, and no figure.
+    fn is_none(&self, place: &Place, numbers: &[f64]) -> bool {
+        let exact: Vec<_> = numbers.iter().map(|&x| point(x)).collect();
+        let at = |i: usize| numbers.get(i).copied().unwrap_or(0.0);
+        let vanishes = |vector: &Vec<[usize; 2]>| vector.iter().all(|&[i, j]| at(i) == at(j));
+        let is_improper =
+            self.eq.positive.iter().any(|&i| at(i) <= 0.0) || self.eq.nonzero.iter().any(vanishes);
+        is_improper && place.covers(&exact) && self.rows.hold_exactly(&self.eq, numbers)
+    }
+
+    /// All of the space that has to be looked at: lengths and radii are positive in figures.
+    pub fn whole(&self) -> Part {
+        let positive = self.eq.positive.iter();
+        let halved: Vec<usize> = self.not_negative.iter().chain(positive).copied().collect();
+        Part::whole(&self.eq, &halved)
+    }
+
+    /// Narrows a part by the equations one by one.
+    pub fn narrow(&self, part: &mut Part) -> Result<(), Empty> {
+        self.rows.narrow(&self.eq, part)
+    }
+
+    /// Narrows a part by a block's equations together, and then one by one. A block that there is not does nothing.
+    pub fn narrow_together(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
+        if let Some(block) = self.blocks.get(block) {
+            self.rows.together(&self.eq, block, part)?;
+        }
+        self.narrow(part)
+    }
+
+    /// Bounds the unknowns of a block, and then narrows the part by the equations one by one.
+    pub fn bound(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
+        if let Some(block) = self.blocks.get(block) {
+            self.rows.bound(&self.eq, block, part)?;
+        }
+        self.narrow(part)
+    }
+
+    /// Adds a zero that is an image of a solution.
+    pub fn see(&mut self, problem: &Problem, image: &Image) -> Result<(), String> {
+        let changes = symmetry::changes(&self.eq, problem, &image.by);
+        let changes = changes.filter(|_| image.figure < self.figures.len());
+        let unlike = || format!("an image of solution {} is not like it", image.figure + 1);
+        self.images.push(Seen {
+            figure: image.figure,
+            changes: changes.ok_or_else(unlike)?,
+        });
+        Ok(())
+    }
+
+    /// Whether all of a part lies so near to a zero that there is no other.
+    fn holds(&self, zero: Option<&Place>, part: &Part) -> bool {
+        zero.is_some_and(|zero| zero.covers(part.ranges()))
+    }
+
+    /// The same of an image of a solution.
+    fn shows(&self, seen: &Seen, part: &Part) -> bool {
+        let ranges = part.ranges().iter().zip(&seen.changes);
+        let moved: Vec<Interval> = ranges
+            .map(|(&x, &turn)| if turn { -x } else { x })
+            .collect();
+        self.figures[seen.figure].covers(&moved)
+    }
+
+    /// A listed zero to which all of a part lies so near.
+    pub fn zero_of(&self, part: &Part) -> Option<Mark> {
+        let of = |zeros: &[Place]| zeros.iter().position(|zero| self.holds(Some(zero), part));
+        let figure = of(&self.figures).map(Mark::Figure);
+        let image = || self.images.iter().position(|seen| self.shows(seen, part));
+        figure
+            .or_else(|| image().map(Mark::Image))
+            .or_else(|| of(&self.others).map(Mark::Other))
+    }
+}
+
+/// Checks a cover.
+pub fn verify(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
+    let cover = CoordinateCover::from_bytes(bytes)?;
+    let mut verdict = CoverVerdict::about(&cover.problem, cover.figures.len())?;
+    verdict.flaw = check(&cover, &mut verdict).err();
+    Ok(verdict)
+}
+
+fn check(cover: &CoordinateCover, verdict: &mut CoverVerdict) -> Result<(), String> {
+    let space = Space::new(&verdict.problem, cover)?;
+    let mut at = 0;
+    let mut stack = vec![space.whole()];
+    while let Some(mut part) = stack.pop() {
+        verdict.parts += 1;
+        let number = verdict.parts;
+        let mut left = space.narrow(&mut part);
+        while left.is_ok() {
+            let (mark, next) = Mark::read(&cover.marks, at)
+                .ok_or_else(|| format!("part {number}: the marks end, or are damaged"))?;
+            at = next;
+            let proved = match mark {
+                Mark::Block(k) if k < cover.blocks.len() => {
+                    left = space.narrow_together(k, &mut part);
+                    continue;
+                }
+                Mark::Halves(unknown) => part.halved(unknown).is_some_and(|[low, high]| {
+                    stack.extend([high, low]);
+                    true
+                }),
+                Mark::Figure(k) => space.holds(space.figures.get(k), &part),
+                Mark::Image(k) => {
+                    let seen = space.images.get(k);
+                    seen.is_some_and(|seen| space.shows(seen, &part))
+                }
+                Mark::Other(k) => space.holds(space.others.get(k), &part),
+                Mark::Undecided => {
+                    verdict.undecided += 1;
+                    true
+                }
+                Mark::Bound(k) if k < cover.blocks.len() => {
+                    left = space.bound(k, &mut part);
+                    continue;
+                }
+                Mark::Block(_) | Mark::Bound(_) => false,
+            };
+            if !proved {
+                return Err(format!("part {number}: what its mark says is not proved"));
+            }
+            break;
+        }
+    }
+    match at == cover.marks.len() {
+        true => Ok(()),
+        false => Err("there are more marks than parts".to_owned()),
+    }
+}

@@ -1,0 +1,369 @@
+//! Parts of the space of all unknowns, and what the equations leave of them.
+//!
+//! A part has a range for every unknown. All that is done to it keeps every zero of the equations that is in it, so that a part in
+//! which a range becomes empty has none.
+
+use super::bounds::bounds;
+use super::format::Block;
+use crate::certificate::checker::equations::{Equations, Product, ZERO};
+use crate::certificate::checker::guess::invert;
+use crate::interval::{Interval, checked, point};
+
+/// A range counts as changed where it became narrower by this part of it. (No zero is lost whatever this number is.)
+const ENOUGH: f64 = 0.05;
+/// How often all equations are gone through at most.
+const ROUNDS: usize = 12;
+
+/// A part in which nothing is left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Empty;
+
+/// A part of the space.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// The range of each unknown; then that of t, which is 1, and of the numbers 0 and 1.
+    x: Vec<Interval>,
+    /// Which of them were narrowed since the equations were gone through.
+    fresh: Vec<bool>,
+}
+
+/// Σ products = right.
+struct Row {
+    products: Vec<Product>,
+    right: Interval,
+    /// The unknowns in it.
+    unknowns: Vec<usize>,
+}
+
+/// The equations at t = 1.
+pub struct Rows {
+    /// Per equation 2 q_e = 2 E_e(1), and then what follows from several.
+    rows: Vec<Row>,
+}
+
+/// All numbers.
+fn entire() -> Interval {
+    checked(f64::NEG_INFINITY, f64::INFINITY).expect("an interval")
+}
+
+/// All numbers that are not negative.
+fn upper_half() -> Interval {
+    checked(0.0, f64::INFINITY).expect("an interval")
+}
+
+impl Part {
+    /// All of the space where some unknowns are not negative.
+    pub fn whole(eq: &Equations, not_negative: &[usize]) -> Part {
+        let mut x = vec![entire(); eq.m];
+        not_negative.iter().for_each(|&i| x[i] = upper_half());
+        x.extend([point(1.0), ZERO, point(1.0)]);
+        Part {
+            fresh: vec![true; x.len()],
+            x,
+        }
+    }
+
+    /// The ranges of the unknowns.
+    pub fn ranges(&self) -> &[Interval] {
+        &self.x[..self.x.len() - 3]
+    }
+
+    /// The ranges of all entries: also of t and of the numbers 0 and 1.
+    pub fn entries(&self) -> &[Interval] {
+        &self.x
+    }
+
+    /// The part with an unknown in the lower and in the upper half of its range, which share a border.
+    pub fn halved(&self, unknown: usize) -> Option<[Part; 2]> {
+        let x = *self.ranges().get(unknown)?;
+        let middle = match (x.inf().is_finite(), x.sup().is_finite()) {
+            (true, true) => x.mid(),
+            (true, false) => (2.0 * x.inf()).max(1.0),
+            (false, true) => (2.0 * x.sup()).min(-1.0),
+            (false, false) => 0.0,
+        };
+        if !(x.inf() < middle && middle < x.sup()) {
+            return None;
+        }
+        let with = |range| {
+            let mut part = self.clone();
+            part.x[unknown] = range;
+            part.fresh[unknown] = true;
+            part
+        };
+        Some([
+            with(checked(x.inf(), middle)?),
+            with(checked(middle, x.sup())?),
+        ])
+    }
+
+    /// Narrows one range to what it has in common with another one.
+    fn narrow(&mut self, i: usize, to: Interval) -> Result<(), Empty> {
+        let old = self.x[i];
+        let new = old.intersection(to);
+        if new.is_empty() {
+            return Err(Empty);
+        }
+        let is_worth = match (old.wid().is_finite(), new.wid().is_finite()) {
+            (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
+            (false, true) => true,
+            // A bound that is new, or moved well.
+            (false, false) => [(old.inf(), new.inf()), (old.sup(), new.sup())]
+                .iter()
+                .any(|&(a, b)| a != b && !(a.is_finite() && (b - a).abs() < 0.5 * a.abs())),
+        };
+        self.fresh[i] |= is_worth;
+        self.x[i] = new;
+        Ok(())
+    }
+}
+
+/// The difference of two entries: an entry less itself is zero, whatever it is.
+pub fn difference(x: &[Interval], [i, j]: [usize; 2]) -> Interval {
+    if i == j { ZERO } else { x[i] - x[j] }
+}
+
+/// factor · left · right, where each is a difference.
+fn value(eq: &Equations, (factor, [left, right]): Product, x: &[Interval]) -> Interval {
+    let value = difference(x, eq.forms[left]);
+    let product = match left == right {
+        true => value.sqr(),
+        false => value * difference(x, eq.forms[right]),
+    };
+    point(factor as f64) * product
+}
+
+impl Rows {
+    /// Of the equations.
+    pub fn new(eq: &Equations) -> Rows {
+        let row = |products: Vec<Product>, right| {
+            let forms = products.iter().flat_map(|(_, forms)| forms);
+            let mut unknowns: Vec<usize> = forms.flat_map(|&form| eq.forms[form]).collect();
+            unknowns.retain(|&i| i < eq.m);
+            unknowns.sort_unstable();
+            unknowns.dedup();
+            Row {
+                products,
+                right,
+                unknowns,
+            }
+        };
+        let right = |e: usize| point(2.0) * eq.right_at(e, point(1.0))[0];
+        let own = (0..eq.m).map(|e| row(eq.products[e].clone(), right(e)));
+        let mut rows: Vec<Row> = own.collect();
+        for products in parallel(eq, &rows) {
+            rows.push(row(products, ZERO));
+        }
+        Rows { rows }
+    }
+
+    /// Whether all equations hold for these numbers, reckoned without any rounding.
+    pub fn hold_exactly(&self, eq: &Equations, at: &[f64]) -> bool {
+        let ends = [1.0, 0.0, 1.0];
+        let x: Vec<Interval> = at.iter().chain(&ends).map(|&x| point(x)).collect();
+        self.rows[..eq.m].iter().all(|row| {
+            let sum = row.products.iter().fold(-row.right, |sum, &product| {
+                // Where a range is one number nothing was rounded.
+                sum + value(eq, product, &x)
+            });
+            sum == ZERO
+        })
+    }
+
+    /// Narrows a part by the equations one after the other, again and again while that helps.
+    pub fn narrow(&self, eq: &Equations, part: &mut Part) -> Result<(), Empty> {
+        for _ in 0..ROUNDS {
+            let before = std::mem::replace(&mut part.fresh, vec![false; part.x.len()]);
+            if !before.contains(&true) {
+                break;
+            }
+            for row in &self.rows {
+                if row.unknowns.iter().any(|&i| before[i] || part.fresh[i]) {
+                    self.narrow_by(eq, row, part)?;
+                }
+            }
+        }
+        part.fresh.fill(false);
+        Ok(())
+    }
+
+    /// Narrows by one row: factor · L · R = right − rest, and all on the right is in a range.
+    fn narrow_by(&self, eq: &Equations, row: &Row, part: &mut Part) -> Result<(), Empty> {
+        let values: Vec<Interval> = row
+            .products
+            .iter()
+            .map(|&product| value(eq, product, &part.x))
+            .collect();
+        if values
+            .iter()
+            .fold(ZERO, |sum, &x| sum + x)
+            .disjoint(row.right)
+        {
+            return Err(Empty);
+        }
+        // The sums of all products behind each.
+        let mut behind = vec![ZERO; values.len() + 1];
+        for k in (0..values.len()).rev() {
+            behind[k] = behind[k + 1] + values[k];
+        }
+        let mut before = ZERO;
+        for (k, &(factor, [left, right])) in row.products.iter().enumerate() {
+            let rest = before + behind[k + 1];
+            before += values[k];
+            let wanted = (row.right - rest) / point(factor as f64);
+            if left == right {
+                self.square(eq.forms[left], wanted, part)?;
+                continue;
+            }
+            for (this, other) in [(left, right), (right, left)] {
+                let by = difference(&part.x, eq.forms[other]);
+                // If 0 may be the product and the other factor, this one may be anything. If 0 is not
+                // the product, it is not the other factor, and the quotient is of all others.
+                if !(by.contains(0.0) && wanted.contains(0.0)) {
+                    self.form(eq.forms[this], wanted / by, part)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Narrows by L² in a range.
+    fn square(&self, form: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
+        let range = range.intersection(upper_half());
+        if range.is_empty() {
+            return Err(Empty);
+        }
+        let root = range.sqrt();
+        let most = root.sup();
+        let now = difference(&part.x, form);
+        // Of −root and root what may be.
+        let sides = [-root, root].map(|side| side.intersection(now));
+        let both = match (sides[0].is_empty(), sides[1].is_empty()) {
+            (true, true) => return Err(Empty),
+            (true, false) => sides[1],
+            (false, true) => sides[0],
+            (false, false) => checked(-most, most).unwrap_or_else(entire),
+        };
+        self.form(form, both, part)
+    }
+
+    /// Narrows by L = a − b in a range: a is in L + b, and b in a − L.
+    fn form(&self, [a, b]: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
+        let range = range.intersection(difference(&part.x, [a, b]));
+        if range.is_empty() {
+            return Err(Empty);
+        }
+        if a == b {
+            return Ok(());
+        }
+        let unknowns = part.x.len() - 3;
+        if a < unknowns {
+            part.narrow(a, range + part.x[b])?;
+        }
+        if b < unknowns {
+            part.narrow(b, part.x[a] - range)?;
+        }
+        Ok(())
+    }
+
+    /// Narrows by a block's equations together, where its unknowns are bounded; all others are numbers in their ranges.
+    ///
+    /// With c in the middle and F the block's equations, which are quadratic, F(x) = F(c) + J((x + c)/2)(x − c) exactly.
+    /// Each row of Y F(x) = 0, Y any matrix of floats, is solved for one unknown.
+    pub fn together(&self, eq: &Equations, block: &Block, part: &mut Part) -> Result<(), Empty> {
+        let n = block.unknowns.len();
+        let is_bounded = |&u: &usize| part.x[u].is_common_interval();
+        if !block.unknowns.iter().all(is_bounded) {
+            return Ok(());
+        }
+        let middle: Vec<f64> = block.unknowns.iter().map(|&u| part.x[u].mid()).collect();
+        let with = |of: &dyn Fn(usize) -> Interval| {
+            let mut x = part.x.clone();
+            (0..n).for_each(|k| x[block.unknowns[k]] = of(k));
+            x
+        };
+        let slopes = |x: &[Interval]| -> Vec<Vec<(usize, Interval)>> {
+            let row = |&e: &usize| {
+                let terms = eq.gradient[e].iter().filter_map(|&(i, factor, form)| {
+                    let k = block.unknowns.iter().position(|&u| u == i)?;
+                    let slope = point(factor as f64) * difference(x, eq.forms[form]);
+                    Some((k, slope))
+                });
+                terms.collect()
+            };
+            block.equations.iter().map(row).collect()
+        };
+        let at = with(&|k| point(middle[k]));
+        let near = slopes(&at);
+        let mut columns = vec![Vec::new(); n];
+        for (e, row) in near.iter().enumerate() {
+            row.iter().for_each(|(k, x)| columns[*k].push((e, x.mid())));
+        }
+        let Some(y) = invert(&columns).filter(|y| y.entries.iter().all(|y| y.is_finite())) else {
+            return Ok(());
+        };
+        let values = block.equations.iter().map(|&e| {
+            let row = &self.rows[e];
+            let products = row.products.iter();
+            products.fold(-row.right, |sum, &product| sum + value(eq, product, &at))
+        });
+        let values: Vec<Interval> = values.collect();
+        let half = point(0.5);
+        let between = slopes(&with(&|k| {
+            (part.x[block.unknowns[k]] + point(middle[k])) * half
+        }));
+        for i in 0..n {
+            let (mut line, mut constant) = (vec![ZERO; n], ZERO);
+            for e in 0..n {
+                let by = point(y.entries[e * n + i]);
+                constant += by * values[e];
+                between[e]
+                    .iter()
+                    .for_each(|&(k, slope)| line[k] += by * slope);
+            }
+            if line[i].contains(0.0) {
+                continue;
+            }
+            let rest = (0..n).filter(|&k| k != i).fold(constant, |sum, k| {
+                sum + line[k] * (part.x[block.unknowns[k]] - point(middle[k]))
+            });
+            part.narrow(block.unknowns[i], point(middle[i]) - rest / line[i])?;
+        }
+        Ok(())
+    }
+}
+
+impl Rows {
+    /// Bounds the unknowns of a block ([`bounds`]).
+    pub fn bound(&self, eq: &Equations, block: &Block, part: &mut Part) -> Result<(), Empty> {
+        let rows = block.equations.iter().map(|&e| {
+            let row = &self.rows[e];
+            (row.products.as_slice(), row.right)
+        });
+        let found = bounds(eq, rows, &block.unknowns, part);
+        let ranges = block.unknowns.iter().zip(found.into_iter().flatten());
+        ranges
+            .into_iter()
+            .try_for_each(|(&u, range)| part.narrow(u, range))
+    }
+}
+
+/// From v = k u and w = k x follows v x = w u, which says something where k is not known.
+fn parallel(eq: &Equations, rows: &[Row]) -> Vec<Vec<Product>> {
+    let (zero, one) = (eq.m + 1, [eq.m + 2, eq.m + 1]);
+    // (k, v, u)
+    let parts = |row: &Row| -> Option<(usize, usize, usize)> {
+        let &[(factor, [v, number]), (other, [k, u])] = row.products.as_slice() else {
+            return None;
+        };
+        let [k, level] = eq.forms[k];
+        let fits = row.right == ZERO && eq.forms[number] == one && other == -factor;
+        (fits && level == zero && k < eq.m).then_some((k, v, u))
+    };
+    let found: Vec<_> = rows.iter().filter_map(parts).collect();
+    let pairs = found.iter().enumerate().flat_map(|(i, &(k, v, u))| {
+        let same = found[..i].iter().filter(move |other| other.0 == k);
+        same.map(move |&(_, w, x)| vec![(1, [v, x]), (-1, [w, u])])
+    });
+    pairs.collect()
+}

@@ -1,0 +1,423 @@
+//! Covers of the space of coordinates: of problems with other constraints than distances, verified by the check, and
+//! damaged ones refused.
+
+mod common;
+
+use common::mixed::Spec;
+use krawl::certificate::cover::coordinates::{Change, CoordinateCover, Half, Image, Mark};
+use krawl::certificate::cover::{CoverVerdict, verify_cover};
+use krawl::complete::{Complete, Options, Status, Unserved, all};
+use krawl::problem::Problem;
+
+fn parse(text: &str) -> Problem {
+    Problem::parse(text, "test.toml").unwrap()
+}
+
+fn searched(problem: &Problem) -> (Complete, CoordinateCover) {
+    let options = Options {
+        cover: true,
+        ..Options::default()
+    };
+    let mut result = all(problem, &options).unwrap();
+    let bytes = result.cover.take().expect("a cover");
+    let cover = CoordinateCover::from_bytes(&bytes).unwrap();
+    assert_eq!(cover.to_bytes(), bytes);
+    (result, cover)
+}
+
+fn check(cover: &CoordinateCover) -> CoverVerdict {
+    verify_cover(&cover.to_bytes()).unwrap()
+}
+
+/// A set that has to be complete, and proved by its cover.
+fn proved(problem: &Problem) -> CoordinateCover {
+    let (result, cover) = searched(problem);
+    assert_eq!(result.status, Status::Complete, "{}", problem.name);
+    let verdict = check(&cover);
+    assert_eq!(verdict.flaw, None, "{}", problem.name);
+    assert_eq!(verdict.undecided, 0, "{}", problem.name);
+    assert_eq!(verdict.solutions, result.solutions.len());
+    assert!(verdict.is_about(problem));
+    cover
+}
+
+/// c on a ray from a, at a distance from b: two figures.
+fn triangle() -> Problem {
+    parse(
+        r#"
+        name = "triangle"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [4, 0]
+        c = [3, 2]
+        [constraints]
+        distances = [["a", "b", 4], ["b", "c", 2.5]]
+        angles = [["b", "a", "c", 30]]
+        "#,
+    )
+}
+
+/// A right angle at c, of which a leg vanishes where c is at a: that is a zero of the equations, and no figure.
+fn leg() -> Problem {
+    parse(
+        r#"
+        name = "leg"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [4, 0]
+        d = [0.5, 2.9]
+        c = [1.5, 1.5]
+        [constraints]
+        fixed = ["a", "b"]
+        x = [["d", 0]]
+        y = [["d", 3]]
+        distances = [["c", "d", 3]]
+        angles = [["a", "c", "b", 90]]
+        "#,
+    )
+}
+
+#[test]
+fn the_pentahedron_is_proved() {
+    let pentahedron = Problem::read("problems/constraints/pentahedron.toml").unwrap();
+    let cover = proved(&pentahedron);
+    assert_eq!(cover.figures.len(), 9);
+    // Flat figures are their own mirror images, with auxiliary unknowns that are not.
+    assert!(!cover.images.is_empty());
+}
+
+/// Cones without a bound of their own: a circle that touches three.
+#[test]
+fn a_circle_that_touches_three_is_proved() {
+    let cover = proved(&parse(
+        r#"
+        name = "apollonius"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [7, 0]
+        c = [2, 6]
+        m = [3, 2.2]
+        [circles]
+        c1 = { center = "a", radius = 1 }
+        c2 = { center = "b", radius = 1.5 }
+        c3 = { center = "c", radius = 2 }
+        k = { center = "m", radius = 2.3 }
+        [constraints]
+        fixed = ["c1", "c2", "c3"]
+        tangent = [["k", "c1"], ["k", "c2"], ["k", "c3"]]
+        "#,
+    ));
+    assert_eq!(cover.figures.len(), 1);
+    assert!(
+        marks(&cover)
+            .iter()
+            .any(|(_, mark)| matches!(mark, Mark::Bound(_)))
+    );
+}
+
+#[test]
+fn figures_and_zeros_that_are_none_are_told_apart() {
+    let cover = proved(&triangle());
+    assert_eq!((cover.figures.len(), cover.others.len()), (2, 0));
+    let cover = proved(&leg());
+    // In one zero a leg has no length.
+    assert!(!cover.others.is_empty());
+}
+
+/// Where each mark begins.
+fn marks(cover: &CoordinateCover) -> Vec<(usize, Mark)> {
+    let mut out = Vec::new();
+    let mut at = 0;
+    while at < cover.marks.len() {
+        let (mark, next) = Mark::read(&cover.marks, at).unwrap();
+        out.push((at, mark));
+        at = next;
+    }
+    out
+}
+
+fn with_marks(cover: &CoordinateCover, all: impl Iterator<Item = Mark>) -> CoordinateCover {
+    let mut cover = cover.clone();
+    cover.marks.clear();
+    all.for_each(|mark| mark.put(&mut cover.marks));
+    cover
+}
+
+/// What a damaged cover may still prove: the truth, or less.
+fn is_harmless(damaged: &CoordinateCover, truth: &CoordinateCover) -> bool {
+    let Ok(verdict) = verify_cover(&damaged.to_bytes()) else {
+        return true;
+    };
+    !verdict.proves_all() || verdict.solutions == truth.figures.len()
+}
+
+#[test]
+fn no_mark_can_hide_a_solution() {
+    for problem in [triangle(), leg()] {
+        let cover = proved(&problem);
+        let all: Vec<Mark> = marks(&cover).into_iter().map(|(_, mark)| mark).collect();
+        let (mut refused, mut tried) = (0, 0);
+        let others = [
+            Mark::Block(0),
+            Mark::Halves(0),
+            Mark::Figure(0),
+            Mark::Figure(1),
+            Mark::Other(0),
+            Mark::Image(0),
+            Mark::Bound(0),
+            Mark::Undecided,
+        ];
+        for k in 0..all.len() {
+            let kept = all[..k].iter().chain(&all[k + 1..]).copied();
+            let mut damaged = vec![with_marks(&cover, kept)];
+            for other in others.into_iter().filter(|&other| other != all[k]) {
+                let changed = (0..all.len()).map(|i| if i == k { other } else { all[i] });
+                damaged.push(with_marks(&cover, changed));
+            }
+            for damaged in damaged {
+                tried += 1;
+                assert!(is_harmless(&damaged, &cover));
+                refused += usize::from(!check(&damaged).proves_all());
+            }
+        }
+        assert!(2 * refused > tried, "{refused} of {tried}");
+        // A solution is left out, with all marks that name it.
+        for gone in 0..cover.figures.len() {
+            let mut damaged = cover.clone();
+            damaged.figures.remove(gone);
+            let kept = all.iter().filter(|&&mark| mark != Mark::Figure(gone));
+            let kept = kept.map(|&mark| match mark {
+                Mark::Figure(k) if k > gone => Mark::Figure(k - 1),
+                mark => mark,
+            });
+            assert!(!check(&with_marks(&damaged, kept)).proves_all());
+        }
+    }
+}
+
+#[test]
+fn solutions_that_are_none_or_twice_there_are_noticed() {
+    let cover = proved(&triangle());
+    for k in 0..cover.figures[0].len() {
+        let mut moved = cover.clone();
+        moved.figures[0][k] += 0.1;
+        assert!(is_harmless(&moved, &cover));
+    }
+    let mut twice = cover.clone();
+    twice.figures.push(cover.figures[0].clone());
+    assert!(check(&twice).flaw.is_some());
+    // The mirror image is the same figure.
+    let mut mirrored = cover.clone();
+    mirrored
+        .figures
+        .push(cover.figures[0].iter().map(|x| -x).collect());
+    assert!(check(&mirrored).flaw.is_some());
+    // A solution is no zero that is none.
+    let mut other = cover.clone();
+    other.others.push(cover.figures[0].clone());
+    assert!(check(&other).flaw.is_some());
+    // Nor the other way round.
+    let cover = proved(&leg());
+    let mut figure = cover.clone();
+    figure.figures.push(cover.others[0].clone());
+    assert!(check(&figure).flaw.is_some());
+    let mut short = cover.clone();
+    short.figures[0].pop();
+    assert!(check(&short).flaw.is_some());
+}
+
+#[test]
+fn symmetries_that_are_none_are_refused() {
+    for problem in [triangle(), leg()] {
+        let cover = proved(&problem);
+        let unknowns = cover.figures[0].len();
+        for unknown in 0..=unknowns {
+            for axes in [vec![], vec![0], vec![1], vec![2], vec![0, 1]] {
+                for twins in [vec![], vec![0], vec![7]] {
+                    let by = Change {
+                        axes: axes.clone(),
+                        twins,
+                    };
+                    let mut more = cover.clone();
+                    more.halves.push(Half {
+                        unknown,
+                        by: by.clone(),
+                    });
+                    assert!(is_harmless(&more, &cover));
+                    let mut seen = cover.clone();
+                    seen.images.push(Image { figure: 0, by });
+                    assert!(is_harmless(&seen, &cover));
+                    seen.images.push(Image {
+                        figure: 9,
+                        by: Change::default(),
+                    });
+                    assert!(check(&seen).flaw.is_some());
+                }
+            }
+        }
+        // Half of the space is left out, and nothing says that it may be: all unknowns but those halved have
+        // solutions on both sides, or on one that is not proved to be the only one.
+        let mut wrong = cover.clone();
+        wrong.halves.push(Half {
+            unknown: 0,
+            by: Change::default(),
+        });
+        assert!(check(&wrong).flaw.is_some());
+    }
+}
+
+#[test]
+fn another_problem_is_noticed() {
+    let cover = proved(&triangle());
+    let verdict = check(&cover);
+    let text = cover.problem.replace("2.5", "2.6");
+    assert_ne!(text, cover.problem);
+    let mut other = cover.clone();
+    other.problem = text.clone();
+    assert!(!check(&other).proves_all());
+    assert!(verdict.is_about(&triangle()));
+    assert!(!verdict.is_about(&parse(&text)));
+    let angle = parse(&cover.problem.replace("30", "31"));
+    assert!(!verdict.is_about(&angle));
+}
+
+/// A constraint that tells two directions of a line of its own apart: the equations have figures that a path has not.
+#[test]
+fn a_fixed_direction_is_refused_by_the_check_too() {
+    let mut cover = proved(&triangle());
+    cover.problem = r#"
+        name = "fixed"
+        dimension = 2
+        [points]
+        p = [1, 2]
+        q = [3, 1]
+        [lines]
+        l = { point = [0, 0], direction = [1, 0.5] }
+        [constraints]
+        fixed = ["l", "q"]
+        distances = [["p", "l", 1], ["p", "q", 2]]
+        "#
+    .to_owned();
+    let verdict = check(&cover);
+    assert!(verdict.flaw.unwrap().contains("l"));
+}
+
+#[test]
+fn any_byte_may_be_wrong() {
+    for problem in [triangle(), leg()] {
+        let cover = proved(&problem);
+        let bytes = cover.to_bytes();
+        for at in 0..bytes.len() {
+            for bit in [0, 3, 6] {
+                let mut damaged = bytes.clone();
+                damaged[at] ^= 1 << bit;
+                // No panic, and nothing proved of the problem but the truth.
+                let Ok(verdict) = verify_cover(&damaged) else {
+                    continue;
+                };
+                let same = verdict.is_about(&problem) && verdict.proves_all();
+                assert!(!same || verdict.solutions == cover.figures.len(), "{at}");
+            }
+        }
+    }
+}
+
+/// For people: what the command says, and the check.
+#[test]
+fn the_commands_write_and_check_covers() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("triangle.toml"), triangle().to_toml()).unwrap();
+    let krawl = || {
+        let mut krawl = assert_cmd::Command::cargo_bin("krawl").unwrap();
+        krawl.current_dir(folder.path());
+        krawl
+    };
+    let all = ["all", "triangle.toml", "--quiet", "--cert", "all.cover"];
+    krawl().args(all).assert().success();
+    let verify = ["verify", "all.cover", "triangle.toml"];
+    let assert = krawl().args(verify).assert().success();
+    let told = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert!(
+        told.starts_with("VERIFIED: triangle has exactly 2 solutions"),
+        "{told}"
+    );
+    // The last mark is another one.
+    let mut bytes = std::fs::read(at("all.cover")).unwrap();
+    let cover = CoordinateCover::from_bytes(&bytes).unwrap();
+    let last = marks(&cover).last().unwrap().0;
+    let end = bytes.len() - cover.marks.len();
+    bytes[end + last + 1] ^= 1;
+    std::fs::write(at("damaged.cover"), bytes).unwrap();
+    let assert = krawl().args(["verify", "damaged.cover"]).assert().code(3);
+    let told = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert!(told.starts_with("NOT PROVED: triangle"), "{told}");
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) % n as u64) as usize
+    }
+}
+
+/// Random problems: how many sets were complete, and of how many of these the cover proves it.
+fn mixed(tries: usize, seed: u64, most_boxes: u64) -> [usize; 2] {
+    let mut random = Random(seed);
+    let (mut complete, mut verified) = (0, 0);
+    for number in 0..tries {
+        let Some((_, problem)) = Spec::random(2, &mut |n| random.below(n)) else {
+            continue;
+        };
+        let options = Options {
+            most_boxes,
+            cover: true,
+            ..Options::default()
+        };
+        let result = match all(&problem, &options) {
+            Err(Unserved::Refused(_)) => continue,
+            result => result.unwrap(),
+        };
+        complete += usize::from(result.status == Status::Complete);
+        let Some(bytes) = &result.cover else {
+            continue;
+        };
+        let verdict = verify_cover(bytes).unwrap();
+        assert_eq!(verdict.flaw, None, "{number}\n{}", problem.to_toml());
+        assert_eq!(verdict.solutions, result.solutions.len());
+        if verdict.undecided == 0 {
+            assert_eq!(result.status, Status::Complete, "{number}");
+            verified += 1;
+        }
+    }
+    [complete, verified]
+}
+
+#[test]
+fn random_problems_verify() {
+    let [complete, verified] = mixed(60, 17, 3000);
+    println!("{verified} of {complete}");
+    assert!(verified > 10);
+}
+
+#[test]
+#[ignore = "minutes: KRAWL_COUNT problems (1000), those of KRAWL_SEED"]
+fn many_random_problems_verify() {
+    let number = |name, default| std::env::var(name).map_or(default, |x| x.parse().unwrap());
+    let [complete, verified] = mixed(
+        number("KRAWL_COUNT", 1000) as usize,
+        number("KRAWL_SEED", 1),
+        20_000,
+    );
+    println!("{verified} of {complete}");
+    assert!(verified > complete / 2);
+}
