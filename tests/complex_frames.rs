@@ -115,6 +115,29 @@ fn dietmaiers_platform_has_forty_real_figures() {
     }
 }
 
+/// The template serves a platform whose fixed points, legs and body are others: forty again, of which few are real.
+#[test]
+fn the_template_serves_another_platform() {
+    let mut text = std::fs::read_to_string(DIETMAIER).unwrap();
+    for (old, new) in [
+        ("A1 = [0.0, 0.0, 0.0]", "A1 = [0.1, -0.25, 0.05]"),
+        ("B6 = [-0.137087,", "B6 = [-0.25,"),
+        ("\"B3\", 1.086284", "\"B3\", 1.25"),
+    ] {
+        assert_eq!(text.matches(old).count(), 1);
+        text = text.replace(old, new);
+    }
+    let lowered = lower(&Problem::parse(&text, "test.toml").unwrap()).unwrap();
+    let shipped = std::fs::read_to_string("problems/mechanisms/dietmaier.krawl-template").unwrap();
+    let template = Template::read(&shipped, &lowered.system).unwrap();
+    let solutions = solve(&lowered, &template, &FLOATS);
+    assert_eq!(solutions.boxes.len(), 40);
+    let real = solutions.real().count();
+    assert!(real < 40 && real % 2 == 0, "{real}");
+    let is_settled = |nature: &Nature| matches!(nature, Nature::Real | Nature::Pair(_));
+    assert!(solutions.natures.iter().all(is_settled));
+}
+
 /// Without a bound nothing is claimed of other solutions, and a bound that is too small is called wrong.
 #[test]
 fn what_is_said_rests_on_the_bound() {
