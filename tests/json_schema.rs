@@ -155,6 +155,12 @@ fn results_of_other_verbs_meet_their_schemas() {
         written("complex", &["complex", octahedron, "--template", template]);
     assert_eq!(complaints, [""; 0]);
     assert!(complex["solutions"].as_array().unwrap().len() > 1);
+    let butterfly = "problems/mechanisms/double-butterfly.toml";
+    let bound = ["complex", butterfly, "--float", "--bound", "18"];
+    let (mechanism, complaints) = written("complex", &bound);
+    assert_eq!(complaints, [""; 0]);
+    assert_eq!(mechanism["gauge"], "the coordinates of the file");
+    assert_eq!(mechanism["real"].as_array().unwrap().len(), 6);
     let (comparison, complaints) = written(
         "comparison",
         &["compare", "problems/k33.toml", "--repeat", "1"],

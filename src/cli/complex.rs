@@ -21,6 +21,7 @@ Examples:
   krawl complex problems/octahedron.toml
   krawl complex problems/disulfide.toml --template problems/disulfide.krawl-template --json -
   krawl complex problems/disulfide.toml --bound 64     complete if you know that there are at most 64
+  krawl complex problems/mechanisms/dietmaier.toml --float --bound 40     all assembly modes of a robot
 
 Exit codes: 0 complete, by a proved bound or one that you cite, 4 all paths were followed, and that there are no other solutions is
 not proved, 1 paths stopped, 2 bad input.")]
@@ -40,8 +41,8 @@ pub struct Arguments {
     /// followed to its end)
     #[arg(long, value_name = "R", default_value_t = 1000.0, value_parser = super::all::seconds)]
     radius: f64,
-    /// A bound on the number of solutions up to rotation that you know from elsewhere: the result then says that it is
-    /// complete if this bound holds. A smaller bound that is proved here is used in its place
+    /// A bound on the number of solutions, up to rotation unless fixed places say where the figure is, that you know from
+    /// elsewhere: the result then says that it is complete if this bound holds. A smaller bound that is proved here is used in its place
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     bound: Option<u64>,
     /// List all solutions, not the real ones only

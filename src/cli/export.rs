@@ -8,7 +8,8 @@ use std::path::PathBuf;
 
 /// Write the polynomial system of a problem for another program
 ///
-/// The gauge is krawl's: one reference point at the origin, one on the x axis, one in the xy plane. x4 is the first
+/// The gauge is krawl's: one reference point at the origin, one on the x axis, one in the xy plane; with fixed places it is
+/// the file's coordinates. x4 is the first
 /// coordinate of the fourth point; what is zero in the gauge is left out. Numbers are exact where they are ratios.
 #[derive(clap::Args)]
 #[command(after_help = "\

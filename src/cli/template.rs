@@ -163,10 +163,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 /// What was found, in words.
 fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) -> String {
     let count = krawl::complex::count_generic(&fibre.solutions, &lowered.system);
-    let found = format!(
-        "{} solutions up to signs of axes, {} up to rotation, {} in the gauge",
-        count.isometry, count.rotation, count.gauge
-    );
+    let is_absolute = lowered.system.is_absolute;
+    let found = match is_absolute {
+        true => format!("{} solutions", count.isometry),
+        false => format!(
+            "{} solutions up to signs of axes, {} up to rotation, {} in the gauge",
+            count.isometry, count.rotation, count.gauge
+        ),
+    };
     let full = match (&lowered.bound, lowered.enough()) {
         (Some(bound), Some(enough)) if enough == fibre.solutions.len() => {
             format!(

@@ -3,7 +3,8 @@
 use super::boxes::{Same, SolutionBox, SolutionSet};
 use super::system::{Signs, System};
 
-/// The number of solutions, counted in three ways.
+/// The number of solutions, counted in three ways. In a frame of the problem's own there is no motion to divide by: the last
+/// two numbers are that of solutions, and the first is that with directions of lines and normals of planes reversed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
     /// In the gauge: every solution of the equations.

@@ -77,11 +77,34 @@ impl Exact {
         })
     }
 
+    /// Bits of the longest number in it.
+    pub fn bits(&self) -> u64 {
+        let parts = [&self.re, &self.im];
+        let numbers = parts.into_iter().flat_map(|x| [x.numer(), x.denom()]);
+        numbers.map(BigInt::bits).max().unwrap_or(0)
+    }
+
+    /// Itself, or where that is a long ratio the nearest number whose parts are multiples of 2⁻¹⁰⁰.
+    pub fn shortened(self) -> Self {
+        if self.bits() <= SHORT {
+            return self;
+        }
+        let scale = BigRational::from_integer(BigInt::from(1u128 << 100));
+        let round = |x: BigRational| (x * &scale).round() / &scale;
+        Exact {
+            re: round(self.re),
+            im: round(self.im),
+        }
+    }
+
     /// The parts as exact reals.
     pub fn parts(&self) -> Parameter {
         [self.re.clone().into(), self.im.clone().into()]
     }
 }
+
+/// Numbers of so many bits are short.
+const SHORT: u64 = 256;
 
 /// The right-hand side of a complex equation: real part, imaginary part.
 pub type Parameter = [Real; 2];

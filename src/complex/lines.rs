@@ -263,6 +263,7 @@ pub fn lower(problem: &Problem) -> Option<System> {
             name(0),
             name(1)
         ),
+        is_absolute: false,
     };
     Some(system.with_groups())
 }

@@ -3,8 +3,8 @@
 use super::bound::{self, Bound};
 use super::exact::{Exact, zero};
 use super::infinity::Graph;
-use super::lines;
 use super::system::{Equation, Kind, Start, System, Unknown};
+use super::{lines, own_frame};
 use crate::constraint::MAX_DEGREE;
 use crate::interval::Real;
 use crate::problem::{Problem, Target, list};
@@ -25,7 +25,8 @@ pub enum Unserved {
 
 crate::debug_in_words!(Unserved);
 
-/// A problem's complex system, and a bound on the number of its solutions up to rotation where one is known.
+/// A problem's complex system, and a bound on the number of its solutions up to rotation where one is known. (In a frame of
+/// the problem's own no two solutions are the same up to rotation, and the bound is on their number.)
 #[derive(Debug, Clone)]
 pub struct Lowered {
     /// The system.
@@ -39,7 +40,7 @@ pub struct Lowered {
 }
 
 impl Lowered {
-    /// Takes a bound on the number of solutions up to rotation that somebody cites, unless a smaller one is proved.
+    /// Takes a bound on the number of solutions, up to rotation unless the frame is the problem's own, that somebody cites, unless a smaller one is proved.
     pub fn cite(&mut self, count: u128) {
         if self.bound.as_ref().is_some_and(|own| own.count <= count) {
             return;
@@ -78,14 +79,8 @@ pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
 }
 
 fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
-    if problem.is_absolute() {
-        return Err(Unserved::Other(
-            "the problem is in a frame of its own (fixed places, coordinates or directions): complex solutions are \
-             searched for figures up to motions only"
-                .to_owned(),
-        ));
-    }
-    let lowered = match lines::lower(problem) {
+    let three_lines = || lines::lower(problem).filter(|_| !problem.is_absolute());
+    let lowered = match three_lines() {
         Some(system) => Lowered {
             system,
             bound: None,
@@ -125,6 +120,10 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
             "complex solutions have no signs, and {name} must be positive"
         )));
     }
+    let is_absolute = problem.is_absolute();
+    if is_absolute {
+        own_frame::check(&problem, &homotopy)?;
+    }
     let n = homotopy.equations;
     let places = homotopy.gauge.place.len();
     let d = homotopy.dimension;
@@ -142,7 +141,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         Unknown {
             name,
             power,
-            flips: std::array::from_fn(|axis| axis < d && homotopy.flips(k, axis)),
+            flips: std::array::from_fn(|axis| !is_absolute && axis < d && homotopy.flips(k, axis)),
         }
     });
     let unknowns = unknowns.collect();
@@ -155,7 +154,11 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
             ),
             _ => {
                 let equation = &homotopy.tail.equations[e - head];
-                (equation.power, right_of(&equation.right))
+                let right = match is_absolute && own_frame::is_place(equation) {
+                    true => dimension(&equation.right),
+                    false => right_of(&equation.right),
+                };
+                (equation.power, right)
             }
         };
         Equation {
@@ -187,7 +190,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         .iter()
         .map(|&p| problem.points[p].name.as_str());
     let names: Vec<&str> = names.collect();
-    let system = System {
+    let mut system = System {
         dimension: d,
         unknowns,
         equations,
@@ -197,14 +200,20 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         group_of_instance: Vec::new(),
         start,
         positions,
+        is_absolute,
         gauge: match d {
+            _ if is_absolute => "the coordinates of the file".to_owned(),
             2 => format!("{} at the origin, {} on the x axis", names[0], names[1]),
             _ => format!(
                 "{} at the origin, {} on the x axis, {} in the xy plane",
                 names[0], names[1], names[2]
             ),
         },
-    };
+    }
+    .with_groups();
+    if is_absolute {
+        own_frame::add_groups(&mut system, &problem, &homotopy)?;
+    }
     // The bound is about figures that stand on what it holds fixed.
     let bound = bound.filter(|bound| {
         bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed)
@@ -216,7 +225,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         graph,
         placed: matches!(system.start, Start::Placed(..))
             .then(|| problem.homotopy.reference.clone()),
-        system: system.with_groups(),
+        system,
         bound,
     })
 }
@@ -334,8 +343,17 @@ fn right_of(coefficients: &[Real]) -> Kind {
     if coefficients.iter().all(Real::is_zero) {
         return Kind::Fixed(Exact::zero());
     }
-    let at_target = coefficients.iter().fold(Real::zero(), |sum, c| &sum + c);
-    Kind::Parameter([at_target, zero()[1].clone()])
+    dimension(coefficients)
+}
+
+/// A dimension, whatever it is.
+fn dimension(coefficients: &[Real]) -> Kind {
+    Kind::Parameter([at_target(coefficients), zero()[1].clone()])
+}
+
+/// What a right-hand side is at t = 1.
+pub(super) fn at_target(coefficients: &[Real]) -> Real {
+    coefficients.iter().fold(Real::zero(), |sum, c| &sum + c)
 }
 
 /// A right-hand side that is given in the problem's unit of length, in the system's, `unit`; `power`: the power of

@@ -43,6 +43,7 @@ mod lines;
 mod lower;
 pub mod monodromy;
 mod number;
+mod own_frame;
 mod solve;
 mod start;
 pub mod system;

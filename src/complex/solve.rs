@@ -309,17 +309,21 @@ impl Solutions {
             .map(|(k, _)| k)
     }
 
-    /// The counts in words.
-    pub fn counts_in_words(&self) -> String {
+    /// The counts in words, for solutions of this system.
+    pub fn counts_in_words(&self, system: &System) -> String {
         let Counts {
             gauge,
             rotation,
             isometry,
             ..
         } = self.counts;
-        format!(
-            "{} up to isometry, {rotation} up to rotation, {gauge} in the gauge",
-            counted(isometry, "complex solution")
-        )
+        let solutions = counted(isometry, "complex solution");
+        if system.is_absolute {
+            return match gauge == isometry {
+                true => solutions,
+                false => format!("{solutions}, {gauge} with directions reversed"),
+            };
+        }
+        format!("{solutions} up to isometry, {rotation} up to rotation, {gauge} in the gauge")
     }
 }

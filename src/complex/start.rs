@@ -5,7 +5,7 @@ use super::exact::{Exact, Parameter, Random};
 use super::lines;
 use super::system::{Kind, Start, System};
 
-/// A figure and its parameters, exactly.
+/// A figure and its parameters: exactly, or, where these would be long ratios, nearly.
 #[derive(Debug, Clone)]
 pub struct StartFigure {
     /// The unknowns.
@@ -13,6 +13,9 @@ pub struct StartFigure {
     /// The right-hand sides of all equations.
     pub parameters: Vec<Parameter>,
 }
+
+/// Unknowns that are longer ratios are not computed.
+const MOST_BITS: u64 = 100_000;
 
 /// Draws a figure. `None` where the equations that define auxiliary unknowns cannot be solved for them one after
 /// the other.
@@ -30,14 +33,24 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
             }
         }
     }
-    // An unknown that a fixed equation defines is not drawn: the last that stands in it alone.
+    // An unknown that a fixed equation defines is not drawn: the last that stands in it alone, or, in a frame of its own where
+    // there is none, the last that is multiplied by others only, a coordinate of a point if there is one.
+    let mut is_coordinate = vec![false; n];
+    for &unknown in system.points.iter().flatten().flatten() {
+        is_coordinate[unknown] = true;
+    }
     let mut defined: Vec<Option<usize>> = vec![None; n];
     for (e, equation) in system.equations.iter().enumerate() {
         if let Kind::Fixed(_) = equation.right {
-            let alone = (0..n)
-                .rev()
-                .find(|&u| defined[u].is_none() && values[u].is_none() && is_linear(system, e, u));
-            if let Some(unknown) = alone {
+            let is_open = |&u: &usize| defined[u].is_none() && values[u].is_none();
+            let open = || (0..n).rev().filter(is_open);
+            let alone = open().find(|&u| is_linear(system, e, u));
+            let multiplied = || {
+                let mut affine = open().filter(|&u| system.is_absolute && is_affine(system, e, u));
+                let last = affine.clone().next();
+                affine.find(|&u| is_coordinate[u]).or(last)
+            };
+            if let Some(unknown) = alone.or_else(multiplied) {
                 defined[unknown] = Some(e);
             }
         }
@@ -61,7 +74,11 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
             break;
         };
         let equation = defined[unknown]?;
-        values[unknown] = Some(solve(system, equation, unknown, &values)?);
+        let value = solve(system, equation, unknown, &values)?;
+        if value.bits() > MOST_BITS {
+            return None;
+        }
+        values[unknown] = Some(value);
     }
     let values: Vec<Exact> = values.into_iter().collect::<Option<_>>()?;
     let half = Exact::whole(1).over(&Exact::whole(2))?;
@@ -73,12 +90,16 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
         {
             return None;
         }
+        let value = match &equation.right {
+            Kind::Parameter(_) => value.shortened(),
+            Kind::Fixed(_) => value,
+        };
         parameters.push(value.parts());
     }
     Some(StartFigure { values, parameters })
 }
 
-fn unknowns_of(system: &System, equation: usize) -> impl Iterator<Item = usize> + '_ {
+pub(super) fn unknowns_of(system: &System, equation: usize) -> impl Iterator<Item = usize> + '_ {
     let n = system.unknowns.len();
     let terms = system.equations[equation].terms.iter();
     let ends = terms.flat_map(|t| t.left.into_iter().chain(t.right).flatten());
@@ -99,6 +120,14 @@ fn is_linear(system: &System, equation: usize, unknown: usize) -> bool {
         }
     }
     found
+}
+
+/// Whether an unknown stands in an equation, and never times itself.
+fn is_affine(system: &System, equation: usize, unknown: usize) -> bool {
+    let stands = |form: Option<[usize; 2]>| form.is_some_and(|ends| ends.contains(&unknown));
+    let terms = system.equations[equation].terms.iter();
+    let mut found = terms.map(|term| [stands(term.left), stands(term.right)]);
+    found.clone().all(|both| both != [true, true]) && found.any(|both| both != [false, false])
 }
 
 /// The value of the unknown that stands alone in an equation, all others being known.

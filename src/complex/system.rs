@@ -90,6 +90,8 @@ pub struct System {
     pub positions: usize,
     /// How the figure is placed, in words.
     pub gauge: String,
+    /// Whether the problem is in a frame of its own: no motion takes a figure to another one.
+    pub is_absolute: bool,
 }
 
 /// The index of the real part of a complex unknown; the imaginary part comes next.
@@ -98,6 +100,48 @@ pub fn real_part(unknown: usize) -> usize {
 }
 
 impl System {
+    /// Whether the points of a solution tell all other unknowns, one after the other by equations in which they stand
+    /// times a number: two solutions with the same points are one.
+    pub fn is_told_by_points(&self) -> bool {
+        let n = self.unknowns.len();
+        let mut told = vec![false; n];
+        for unknown in self.points.iter().flatten().flatten() {
+            told[*unknown] = true;
+        }
+        loop {
+            let mut open = (0..n).filter(|&u| !told[u]);
+            let next = open.find(|&u| {
+                let others = |e: usize| super::start::unknowns_of(self, e).filter(|&v| v != u);
+                (0..n).any(|e| self.stands_alone(e, u) && others(e).all(|v| told[v]))
+            });
+            match next {
+                Some(unknown) => told[unknown] = true,
+                None => return told.iter().all(|&told| told),
+            }
+        }
+    }
+
+    /// Whether an unknown stands in an equation times a number that is not zero, and nowhere else in it.
+    fn stands_alone(&self, equation: usize, unknown: usize) -> bool {
+        let mut slope = 0;
+        for term in &self.equations[equation].terms {
+            let mut forms = [term.left, term.right].into_iter().flatten();
+            let here = forms.clone().filter(|ends| ends.contains(&unknown)).count();
+            match (here, forms.next(), forms.next()) {
+                (0, ..) => {}
+                (1, Some([a, b]), None) if a != b => {
+                    slope += if a == unknown {
+                        term.factor
+                    } else {
+                        -term.factor
+                    };
+                }
+                _ => return false,
+            }
+        }
+        slope != 0
+    }
+
     /// Adds the groups to what has been set up.
     pub(super) fn with_groups(mut self) -> Self {
         self.group = self.signs(|equation| equation.is_zero_always());
@@ -202,6 +246,9 @@ impl System {
     /// A text that is the same for all instances of one template, and for no others: hashed.
     pub fn structure(&self) -> String {
         let mut text = format!("{} {:?}\n", self.unknowns.len(), self.start);
+        if self.is_absolute {
+            text += &format!("in its own frame, {} changes of signs\n", self.group.len());
+        }
         let n = self.unknowns.len();
         let end = |i: usize| {
             if i < n {
@@ -233,7 +280,8 @@ impl Equation {
         matches!(&self.right, Kind::Fixed(value) if value.is_zero())
     }
 
-    fn is_zero(&self) -> bool {
+    /// Whether the right-hand side is zero in the instance.
+    pub(super) fn is_zero(&self) -> bool {
         match &self.right {
             Kind::Fixed(value) => value.is_zero(),
             Kind::Parameter(value) => value.iter().all(|part| part.is_zero()),
@@ -242,7 +290,7 @@ impl Equation {
 }
 
 /// Whether a change of signs reverses the left-hand side (`Some(true)`), leaves it, or does neither.
-fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
+pub(super) fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
     let n = changes.len();
     let form = |form: Option<[usize; 2]>| match form {
         None => Some(false),

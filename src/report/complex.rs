@@ -162,17 +162,22 @@ fn write_table(
     all: bool,
 ) -> std::fmt::Result {
     writeln!(out, "{}: {}", problem.name, verdict(lowered, result))?;
-    let different = match others(lowered).is_empty() {
-        true => "no two are congruent",
+    let is_absolute = lowered.system.is_absolute;
+    let different = match (is_absolute, others(lowered).is_empty()) {
+        (true, _) if lowered.system.is_told_by_points() => "no two are the same figure",
+        (true, _) => {
+            "no two agree in points and auxiliary unknowns together (in points alone they may)"
+        }
+        (false, true) => "no two are congruent",
         // A flat figure has normals on both sides.
-        false => {
+        (false, false) => {
             "no two agree up to signs of axes in points and auxiliary unknowns together (in points alone they may)"
         }
     };
     writeln!(
         out,
         "Each box holds exactly one solution; {different}. {}",
-        natures(result)
+        natures(lowered, result)
     )?;
     if !result.infinite.is_empty() {
         let paths = counted(result.infinite.len(), "path");
@@ -194,9 +199,13 @@ fn write_table(
                 "these dimensions have symmetries, or paths jumped, as they were followed in floats"
             }
         };
+        let image = match is_absolute {
+            true => "",
+            false => " or a mirror image of one",
+        };
         writeln!(
             out,
-            "{paths} came to a solution or a mirror image of one to which another had come: {why}."
+            "{paths} came to a solution{image} to which another had come: {why}."
         )?;
     }
     if result.conjugates > 0 {
@@ -220,8 +229,14 @@ fn write_table(
     for &k in listed.iter().take(most) {
         let (one, nature) = (&result.boxes.boxes()[k], result.natures[k]);
         let what = match nature {
+            Nature::Pair(other) if is_absolute => {
+                format!("its conjugate is solution {}", other + 1)
+            }
             Nature::Pair(other) => format!("its conjugate is congruent to solution {}", other + 1),
             Nature::Real => "real, proved".to_owned(),
+            Nature::SelfConjugate if is_absolute => {
+                "its own conjugate with directions reversed, not real".to_owned()
+            }
             Nature::SelfConjugate => "congruent to its conjugate, not real".to_owned(),
             Nature::Alone => "its conjugate was not found".to_owned(),
             Nature::Unknown => "it could not be told whether it is real".to_owned(),
@@ -384,15 +399,19 @@ pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) 
 }
 
 /// How many are real, and so on.
-fn natures(result: &Solutions) -> String {
+fn natures(lowered: &Lowered, result: &Solutions) -> String {
     let number = |pick: &dyn Fn(&Nature) -> bool| result.natures.iter().filter(|n| pick(n)).count();
     let real = number(&|n| *n == Nature::Real);
     let own = number(&|n| *n == Nature::SelfConjugate);
     let pairs = number(&|n| matches!(n, Nature::Pair(_)));
     let rest = result.natures.len() - real - own - pairs;
-    let mut text = format!("Up to isometry {real} are real, {pairs} in pairs of conjugates");
+    let (up_to, congruent) = match lowered.system.is_absolute {
+        true => ("", "equal to their conjugates with directions reversed"),
+        false => ("Up to isometry ", "congruent to their conjugates"),
+    };
+    let mut text = format!("{up_to}{real} are real, {pairs} in pairs of conjugates");
     if own > 0 {
-        text += &format!(", {own} congruent to their conjugates without being real");
+        text += &format!(", {own} {congruent} without being real");
     }
     if rest > 0 {
         text += &format!(", {rest} of which that is not known");
@@ -402,16 +421,20 @@ fn natures(result: &Solutions) -> String {
 
 /// What was found, in words that claim no more than was proved.
 fn verdict(lowered: &Lowered, result: &Solutions) -> String {
-    let counts = result.counts_in_words();
+    let counts = result.counts_in_words(&lowered.system);
+    let up_to = match lowered.system.is_absolute {
+        true => "",
+        false => " up to rotation",
+    };
     match (&result.status, &lowered.bound) {
         (Status::Complete, Some(bound)) if bound.is_cited => format!(
             "Complete if the bound that you cite holds: {counts}, each proved. There is no other isolated complex solution \
-             if there are at most {} up to rotation, which is not proved here.",
+             if there are at most {}{up_to}, which is not proved here.",
             bound.count
         ),
         (_, Some(bound)) if bound.is_cited && bound.count < result.counts.rotation as u128 => {
             format!(
-                "The bound that you cite is wrong: at most {} up to rotation, and {counts} are proved.",
+                "The bound that you cite is wrong: at most {}{up_to}, and {counts} are proved.",
                 bound.count
             )
         }
@@ -426,7 +449,7 @@ fn verdict(lowered: &Lowered, result: &Solutions) -> String {
         ),
         (Status::Complete, None) | (Status::Found, _) => {
             let bound = match &lowered.bound {
-                Some(bound) => format!("; {} is {} up to rotation", bound.source, bound.count),
+                Some(bound) => format!("; {} is {}{up_to}", bound.source, bound.count),
                 None => String::new(),
             };
             format!("Found, each proved: {counts}. That there are no others is not proved{bound}.")

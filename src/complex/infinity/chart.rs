@@ -230,6 +230,7 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         group_of_instance: Vec::new(),
         start: Start::Any,
         positions: 1,
+        is_absolute: false,
         gauge: String::new(),
     };
     (system.equations.len() == count).then_some(system)

@@ -1,0 +1,135 @@
+//! Problems in a frame of their own: fixed places, coordinates and directions say where the figure is.
+//!
+//! No motion takes one figure to another, and a mirror image is another figure; so solutions are counted as they are. What
+//! may still be reversed is the direction of a line, or the normal of a plane, that goes through no points of the problem:
+//! these changes of signs are the group of the system.
+
+use super::lower::Unserved;
+use super::system::{Equation, Kind, Signs, System, sign_of};
+use crate::blocks::fixed_direction;
+use crate::constraint::{self, Entry, Form};
+use crate::problem::Problem;
+use crate::system::Homotopy;
+
+/// Refuses what zeros of the equations need not meet and figures do: directions that are told by a sign, vectors that must
+/// not vanish.
+pub fn check(problem: &Problem, homotopy: &Homotopy) -> Result<(), Unserved> {
+    if let Some(object) = fixed_direction(problem) {
+        return Err(Unserved::Other(format!(
+            "`{object}` is fixed and has a direction of its own, of which one component is told by the length only (name two \
+             fixed points of it instead)"
+        )));
+    }
+    let vectors = homotopy.nonzero_vectors();
+    let mut vectors = vectors.iter().zip(&homotopy.tail.nonzero);
+    if let Some((_, vector)) = vectors.find(|(forms, _)| !is_held_apart(homotopy, forms)) {
+        return Err(Unserved::Other(format!(
+            "{} must not vanish, which zeros of the equations may do (give its length, or name fixed points)",
+            vector.name
+        )));
+    }
+    Ok(())
+}
+
+/// Whether a vector, per coordinate the unknowns of which it is the difference, goes between places that are told
+/// and different.
+fn is_held_apart(homotopy: &Homotopy, vector: &[[usize; 2]]) -> bool {
+    let head = homotopy.edges.len();
+    let told = |unknown: usize| {
+        let equations = homotopy.tail.equations.iter().enumerate();
+        let mut places = equations.filter(|(_, equation)| is_place(equation));
+        let is_its = |e: usize| {
+            let terms = homotopy.terms(head + e);
+            terms[0].left.is_some_and(|ends| ends[0] == unknown)
+        };
+        let (_, equation) = places.find(|(e, _)| is_its(*e))?;
+        super::lower::at_target(&equation.right)
+            .as_rational()
+            .cloned()
+    };
+    vector.iter().any(|&[a, b]| match (told(a), told(b)) {
+        (Some(a), Some(b)) => a != b,
+        _ => false,
+    })
+}
+
+/// Whether an equation says where a point is along an axis: that is a dimension even where it is zero.
+pub fn is_place(equation: &constraint::Equation) -> bool {
+    let [product] = &equation.products[..] else {
+        return false;
+    };
+    matches!(
+        (product.left, product.right),
+        (
+            Form::Difference(Entry::Coordinate { .. }, Entry::Zero),
+            Form::One
+        )
+    )
+}
+
+/// Makes the changes of signs that reverse directions the groups of a system whose groups are those of no change.
+///
+/// Fails where constraints tell the two directions of a line or plane of its own apart, as zeros of the equations may have
+/// either, and figures have the one that a path keeps.
+pub fn add_groups(
+    system: &mut System,
+    problem: &Problem,
+    homotopy: &Homotopy,
+) -> Result<(), Unserved> {
+    let Some(twins) = homotopy.twins() else {
+        return Err(Unserved::Other(
+            "there are too many lines and planes with directions of their own".to_owned(),
+        ));
+    };
+    let kept = |vanishes: &dyn Fn(&Equation) -> bool| -> Vec<Signs> {
+        let keeps = |changes: &[bool]| {
+            let mut equations = system.equations.iter();
+            equations.all(|equation| match sign_of(equation, changes) {
+                Some(reversed) => !reversed || vanishes(equation),
+                None => false,
+            })
+        };
+        let twins = twins.iter().filter(|changes| keeps(changes));
+        let signs = twins.map(|changes| Signs {
+            changes: changes.clone(),
+            mirrors: false,
+        });
+        signs.collect()
+    };
+    let of_all = kept(&|equation| matches!(&equation.right, Kind::Fixed(value) if value.is_zero()));
+    let of_instance = kept(&Equation::is_zero);
+    if let Some(object) = directed(&of_instance, homotopy) {
+        return Err(Unserved::Other(format!(
+            "constraints tell the two directions of `{}` apart, which has a direction of its own that a path keeps and the \
+             equations do not (name two points of it instead)",
+            problem.objects[object].name
+        )));
+    }
+    (system.group, system.group_of_instance) = (of_all, of_instance);
+    Ok(())
+}
+
+/// A line or plane of its own that no change of the group reverses alone.
+fn directed(group: &[Signs], homotopy: &Homotopy) -> Option<usize> {
+    let (d, first) = (homotopy.dimension, homotopy.gauge.place.len());
+    let turns = |object: usize| -> &[Entry] {
+        let entries = &homotopy.tail.objects[object];
+        let split = homotopy.shapes[object].split_direction(entries, d);
+        split.map_or(&[], |[_, turn]| turn)
+    };
+    let reverses = |signs: &Signs, object: usize| {
+        turns(object).iter().any(|entry| match *entry {
+            Entry::Unknown(u) => signs.changes[first + u],
+            _ => false,
+        })
+    };
+    let objects = 0..homotopy.tail.objects.len();
+    let objects: Vec<usize> = objects.filter(|&o| !turns(o).is_empty()).collect();
+    let alone = |object: usize| {
+        group.iter().any(|signs| {
+            let reversed = objects.iter().filter(|&&other| reverses(signs, other));
+            reversed.eq([&object])
+        })
+    };
+    objects.iter().copied().find(|&object| !alone(object))
+}
