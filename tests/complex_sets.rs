@@ -32,11 +32,14 @@ fn set_from(file: &str, template: &str, folder: &Path) -> ComplexSet {
 
 /// The set of the octahedron with another length of p2-p6.
 fn octahedron(length: &str, folder: &Path) -> ComplexSet {
+    octahedron_with(["p2", "p6", "1.18"], length, folder)
+}
+
+/// The set of the octahedron with another length in the place of this one.
+fn octahedron_with([a, b, old]: [&str; 3], length: &str, folder: &Path) -> ComplexSet {
     let text = fs::read_to_string("problems/octahedron.toml").unwrap();
-    let changed = text.replace(
-        "[\"p2\", \"p6\", 1.18]",
-        &format!("[\"p2\", \"p6\", {length}]"),
-    );
+    let entry = |length: &str| format!("[\"{a}\", \"{b}\", {length}]");
+    let changed = text.replace(&entry(old), &entry(length));
     assert_ne!(changed, text);
     let changed = &changed[..changed.find("[[published]]").unwrap()];
     let file = folder.join("octahedron.toml");
@@ -72,6 +75,27 @@ fn the_checker_proves_what_was_found() {
             "{name}"
         );
         assert_eq!(set.complete, all, "{name}");
+    }
+}
+
+/// The third fixed point may be on either side of the first one.
+#[test]
+fn obtuse_triangles_may_be_fixed() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = octahedron_with(["p2", "p3", "1.12"], "1.7", folder.path());
+    assert_eq!(set.fixed, ["p1", "p2", "p3"]);
+    assert!(set.solutions[0][2][0][0] < -0.1);
+    let found = verdict(&set);
+    assert_eq!(found.flaw, None);
+    assert!(set.complete && found.proves_all() && found.isometry == 8);
+    // Mirrored in the fixed points' plane it is the same figure, in other ways it is not where it should be.
+    for (axis, passes) in [(0, false), (1, false), (2, true)] {
+        let mut mirrored = set.clone();
+        for place in &mut mirrored.solutions[3] {
+            place[axis].iter_mut().for_each(|x| *x = -*x);
+        }
+        assert_eq!(verdict(&mirrored).proves_all(), passes);
+        assert_eq!(verdict(&mirrored).flaw.is_none(), passes);
     }
 }
 

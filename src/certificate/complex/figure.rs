@@ -15,8 +15,8 @@ pub struct Equations {
     /// For each point the unknowns that are its coordinates.
     places: Vec<Vec<Option<usize>>>,
     system: Quadratic,
-    /// The unknowns that are coordinates of fixed points.
-    of_fixed: Vec<usize>,
+    /// The unknowns that are to be positive: the second fixed point's x, the third one's y.
+    positive: Vec<usize>,
     /// For each unknown whether it is a last coordinate, which reflection in the fixed points' line or plane changes.
     is_last: Vec<bool>,
     /// For each unknown whether it is a first coordinate.
@@ -82,9 +82,11 @@ impl Equations {
         for p in (0..n).filter(|p| !fixed.contains(p)) {
             free = place(p, d);
         }
-        let mut unknowns = free;
-        for (rank, &p) in fixed.iter().enumerate() {
+        // The last coordinate of each fixed point is one of two opposite numbers.
+        let (mut unknowns, mut positive) = (free, Vec::new());
+        for (rank, &p) in fixed.iter().enumerate().skip(1) {
             unknowns = place(p, rank);
+            positive.push(unknowns - 1);
         }
         if problem.distances.len() != unknowns {
             return Err(format!(
@@ -107,15 +109,15 @@ impl Equations {
         Ok(Equations {
             dimension: d,
             system: Quadratic::new(unknowns, problem.distances.iter().map(equation).collect()),
-            of_fixed: (free..unknowns).collect(),
+            positive,
             places,
             is_last,
             is_first,
         })
     }
 
-    /// Proves that there is exactly one solution near these places (point by point), and that coordinates of fixed points, each of
-    /// which is one of two opposite numbers, are positive.
+    /// Proves that there is exactly one solution near these places (point by point), and that the fixed points are where they
+    /// are said to be, not mirrored.
     pub fn prove(&self, places: &[Vec<Vec<f64>>]) -> Option<Zero> {
         let fits = places.len() == self.places.len()
             && places.iter().all(|place| place.len() == self.dimension);
@@ -133,7 +135,7 @@ impl Equations {
         }
         let zero = self.system.prove(&near)?;
         let is_positive = |&unknown: &usize| zero.part(unknown)[0].inf() > 0.0;
-        self.of_fixed.iter().all(is_positive).then_some(zero)
+        self.positive.iter().all(is_positive).then_some(zero)
     }
 
     /// The mirror image of a solution, which is one, too.

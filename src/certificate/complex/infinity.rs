@@ -314,3 +314,55 @@ pub fn check(
     }
     Ok(counts)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Point 0 goes, 1, 2 and 3 are its neighbours at ν = 0, 1, 3, point 4 stays.
+    fn is_regular(values: [[i64; 3]; 5]) -> bool {
+        let whole = |value: i64| BigRational::from_integer(value.into());
+        let equation = |(unknown, &value): (usize, &i64)| {
+            let term = Term {
+                factor: 2,
+                left: Some([unknown, 16]),
+                right: None,
+            };
+            (vec![term], whole(value))
+        };
+        let system = values.iter().flatten().enumerate().map(equation);
+        let near = values
+            .iter()
+            .flatten()
+            .map(|&x| [(x as f64).into(), 0.0.into()]);
+        let near: Vec<Z> = near.collect();
+        let chart = Chart {
+            parts: vec![Part::Goes, Part::Link, Part::Link, Part::Link, Part::Stays],
+            heights: [0, 0, 1, 3, 0].map(whole).to_vec(),
+            edges: vec![[1, 2], [2, 3], [1, 3]],
+            origin: 1,
+            system: Quadratic::new(15, system.collect()),
+        };
+        chart.is_regular(&chart.system.prove(&near).unwrap())
+    }
+
+    #[test]
+    fn what_must_not_vanish_is_looked_at() {
+        // 1 · 1 / 1 + 0 − 1 · 1 / 3 around the cycle.
+        let good = [[1, 0, 5], [0, 0, 0], [1, 1, 1], [1, 3, 1], [7, 0, 1]];
+        assert!(is_regular(good));
+        let changed = |p: usize, place: [i64; 3]| {
+            let mut values = good;
+            values[p] = place;
+            values
+        };
+        assert!(!is_regular(changed(0, [0, 0, 5])), "Λ");
+        assert!(!is_regular(changed(4, [7, 0, 0])), "σ");
+        // Neither matters elsewhere.
+        assert!(is_regular(changed(0, [1, 0, 0])));
+        assert!(is_regular(changed(4, [0, 0, 1])));
+        // Where λ and τ are ν the sum is that of Δν.
+        let sum = [[1, 0, 5], [0, 0, 0], [1, 1, 1], [3, 3, 3], [7, 0, 1]];
+        assert!(!is_regular(sum), "the sum around the cycle");
+    }
+}
