@@ -1,7 +1,8 @@
 //! Figures at infinity: lengths that add up to zero with signs around a point take figures away, and the rest is complete.
 
+use krawl::certificate::complex::verify_complex_set;
 use krawl::complete::{self, all};
-use krawl::complex::{Lowered, Solutions, Status, Template, Ways, lower, solve};
+use krawl::complex::{Lowered, Solutions, Status, Template, Ways, lower, solve, to_certificate};
 use krawl::problem::Problem;
 
 const EDGES: [[usize; 2]; 12] = [
@@ -97,7 +98,7 @@ fn a_sum_that_is_nearly_zero_takes_nothing_away() {
 }
 
 /// Octahedra whose lengths are round decimals, where sums often are zero: what is complete has as many real
-/// solutions as the search of all real ones finds, and the numbers add up to the bound.
+/// solutions as the search of all real ones finds, the numbers add up to the bound, and the checker of certificates proves it.
 #[test]
 fn round_lengths_agree_with_complete_real_sets() {
     let mut state = 7u64;
@@ -120,7 +121,19 @@ fn round_lengths_agree_with_complete_real_sets() {
         complete += 1;
         away += usize::from(solutions.at_infinity() > 0);
         let counted = solutions.counts.rotation + 2 * solutions.at_infinity();
-        assert_eq!(counted as u128, lowered.bound.unwrap().count);
+        assert_eq!(
+            Some(counted as u128),
+            lowered.bound.as_ref().map(|b| b.count)
+        );
+        // The certificate proves the same.
+        let set = to_certificate(&problem, &lowered, &solutions).unwrap();
+        let verdict = verify_complex_set(&set.to_text()).unwrap();
+        assert!(
+            set.complete && verdict.proves_all(),
+            "{lengths:?}: {verdict:?}"
+        );
+        assert_eq!(verdict.rotation_at_infinity(), 2 * solutions.at_infinity());
+        assert_eq!(verdict.real, solutions.real().count());
         let real = all(&problem, &complete::Options::default()).unwrap();
         if real.status == complete::Status::Complete {
             assert_eq!(

@@ -11,15 +11,40 @@ fn krawl() -> Command {
 
 /// The set that `krawl complex` writes from the shipped template.
 fn set_of(name: &str, folder: &Path) -> ComplexSet {
+    set_of_file(&format!("problems/{name}.toml"), name, folder)
+}
+
+/// The set that `krawl complex` writes for a file, from a shipped template.
+fn set_of_file(file: &str, name: &str, folder: &Path) -> ComplexSet {
+    set_from(file, &format!("problems/{name}.krawl-template"), folder)
+}
+
+fn set_from(file: &str, template: &str, folder: &Path) -> ComplexSet {
     let cert = folder.join("set.krawl");
     krawl()
-        .args(["complex", &format!("problems/{name}.toml"), "--quiet"])
-        .args(["--template", &format!("problems/{name}.krawl-template")])
-        .arg("--cert")
+        .args(["complex", file, "--float", "--quiet"])
+        .args(["--template", template, "--cert"])
         .arg(&cert)
         .output()
         .unwrap();
     ComplexSet::from_text(&fs::read_to_string(cert).unwrap()).unwrap()
+}
+
+/// The set of the octahedron with another length of p2-p6.
+fn octahedron(length: &str, folder: &Path) -> ComplexSet {
+    octahedron_with(["p2", "p6", "1.18"], length, folder)
+}
+
+/// The set of the octahedron with another length in the place of this one.
+fn octahedron_with([a, b, old]: [&str; 3], length: &str, folder: &Path) -> ComplexSet {
+    let text = fs::read_to_string("problems/octahedron.toml").unwrap();
+    let entry = |length: &str| format!("[\"{a}\", \"{b}\", {length}]");
+    let changed = text.replace(&entry(old), &entry(length));
+    assert_ne!(changed, text);
+    let changed = &changed[..changed.find("[[published]]").unwrap()];
+    let file = folder.join("octahedron.toml");
+    fs::write(&file, changed).unwrap();
+    set_of_file(&file.to_string_lossy(), "octahedron", folder)
 }
 
 fn verdict(set: &ComplexSet) -> ComplexVerdict {
@@ -53,6 +78,27 @@ fn the_checker_proves_what_was_found() {
     }
 }
 
+/// The third fixed point may be on either side of the first one.
+#[test]
+fn obtuse_triangles_may_be_fixed() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = octahedron_with(["p2", "p3", "1.12"], "1.7", folder.path());
+    assert_eq!(set.fixed, ["p1", "p2", "p3"]);
+    assert!(set.solutions[0][2][0][0] < -0.1);
+    let found = verdict(&set);
+    assert_eq!(found.flaw, None);
+    assert!(set.complete && found.proves_all() && found.isometry == 8);
+    // Mirrored in the fixed points' plane it is the same figure, in other ways it is not where it should be.
+    for (axis, passes) in [(0, false), (1, false), (2, true)] {
+        let mut mirrored = set.clone();
+        for place in &mut mirrored.solutions[3] {
+            place[axis].iter_mut().for_each(|x| *x = -*x);
+        }
+        assert_eq!(verdict(&mirrored).proves_all(), passes);
+        assert_eq!(verdict(&mirrored).flaw.is_none(), passes);
+    }
+}
+
 #[test]
 fn sabotage_never_passes() {
     let folder = tempfile::tempdir().unwrap();
@@ -82,7 +128,7 @@ fn sabotage_never_passes() {
                 set.solutions[k] = set.solutions[0].clone();
                 if mirrored {
                     for place in &mut set.solutions[k] {
-                        place[2] = place[2].map(|x| -x);
+                        place[2].iter_mut().for_each(|x| *x = -*x);
                     }
                 }
             },
@@ -121,6 +167,281 @@ fn sabotage_never_passes() {
     }
 }
 
+/// 1.12 + 1.22 = 1.17 + 1.17 around p4; 1.12 + 1.17 = 1.17 + 1.12 in two ways.
+#[test]
+fn figures_at_infinity_count() {
+    let folder = tempfile::tempdir().unwrap();
+    for (length, isometry, away) in [("1.22", 7, 1), ("1.12", 6, 2)] {
+        let set = octahedron(length, folder.path());
+        assert!(set.complete && set.at_infinity.len() == away);
+        let found = verdict(&set);
+        assert_eq!(found.flaw, None, "{length}");
+        assert!(found.proves_all());
+        assert_eq!((found.isometry, found.rotation), (isometry, 2 * isometry));
+        assert_eq!(found.rotation_at_infinity(), 2 * away);
+        assert_eq!(found.at_infinity, vec![(vec![3], 1); away]);
+        // Without them the rest is true, and not all that there can be.
+        let mut fewer = set.clone();
+        fewer.at_infinity.clear();
+        let flaw = verdict(&fewer).flaw;
+        assert!(matches!(flaw, Some(ComplexFlaw::NotProved(_))), "{flaw:?}");
+        fewer.complete = false;
+        assert!(verdict(&fewer).flaw.is_none() && !verdict(&fewer).proves_all());
+    }
+}
+
+#[test]
+fn sabotage_at_infinity_never_passes() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = octahedron("1.22", folder.path());
+    let twice = octahedron("1.12", folder.path());
+    let near = octahedron("1.22001", folder.path());
+    let refused = |set: &ComplexSet, change: &dyn Fn(&mut ComplexSet), what: &str| {
+        let mut changed = set.clone();
+        change(&mut changed);
+        assert_ne!(changed, *set, "{what}");
+        let found = verdict(&changed);
+        assert!(found.flaw.is_some() && !found.proves_all(), "{what}");
+        found.flaw.unwrap()
+    };
+    let is_false = |flaw: ComplexFlaw, why: &str| {
+        assert!(
+            matches!(&flaw, ComplexFlaw::False(text) if text.contains(why)),
+            "{flaw:?}"
+        );
+    };
+    let is_doubt = |flaw: ComplexFlaw, why: &str| {
+        assert!(
+            matches!(&flaw, ComplexFlaw::NotProved(text) if text.contains(why)),
+            "{flaw:?}"
+        );
+    };
+    // Solutions or figures at infinity that were dropped, with others counted twice in their stead.
+    for k in 0..set.solutions.len() {
+        let dropped = |set: &mut ComplexSet| drop(set.solutions.remove(k));
+        is_doubt(
+            refused(&set, &dropped, "dropped"),
+            "all solutions are claimed",
+        );
+        let figure = |set: &mut ComplexSet| {
+            dropped(set);
+            let again = set.at_infinity[0].figures[0].clone();
+            set.at_infinity[0].figures.push(again);
+        };
+        is_false(refused(&set, &figure, "figure twice"), "are the same");
+        let departure = |set: &mut ComplexSet| {
+            dropped(set);
+            set.at_infinity.push(set.at_infinity[0].clone());
+        };
+        is_false(refused(&set, &departure, "departure twice"), "are the same");
+        // A figure at infinity is no solution.
+        let solution =
+            |set: &mut ComplexSet| set.solutions[k] = set.at_infinity[0].figures[0].clone();
+        refused(&set, &solution, "as a solution");
+    }
+    let dropped = |set: &mut ComplexSet| drop(set.at_infinity.pop());
+    is_doubt(
+        refused(&twice, &dropped, "a departure dropped"),
+        "all solutions",
+    );
+    let none = |set: &mut ComplexSet| set.at_infinity[0].figures.clear();
+    is_doubt(refused(&set, &none, "no figure"), "all solutions");
+    // The same figure with other signs, mirrored, and as a departure of its own.
+    let mirrored = |set: &mut ComplexSet| {
+        set.solutions.pop();
+        let mut again = set.at_infinity[0].clone();
+        again.rises.iter_mut().for_each(|rise| rise.reverse());
+        for place in &mut again.figures[0] {
+            place[1].iter_mut().for_each(|x| *x = -*x);
+        }
+        set.at_infinity.push(again);
+    };
+    is_false(refused(&set, &mirrored, "mirrored"), "is not positive");
+    for k in 0..4 {
+        let sign = |set: &mut ComplexSet| set.at_infinity[0].rises[k].reverse();
+        is_false(refused(&set, &sign, "a sign"), "add up to zero");
+        let without = |set: &mut ComplexSet| drop(set.at_infinity[0].rises.remove(k));
+        is_false(refused(&set, &without, "a sign less"), "how a distance");
+        let other = |set: &mut ComplexSet| set.at_infinity[0].rises[k][0] = "p4".into();
+        is_false(refused(&set, &other, "another edge"), "how a distance");
+    }
+    let more = |set: &mut ComplexSet| {
+        let again = set.at_infinity[0].rises[0].clone();
+        set.at_infinity[0].rises.push(again);
+    };
+    is_false(refused(&set, &more, "a sign twice"), "something else");
+    let exchanged = |set: &mut ComplexSet| {
+        let (first, second) = set.at_infinity.split_at_mut(1);
+        std::mem::swap(&mut first[0].rises, &mut second[0].rises);
+    };
+    is_doubt(
+        refused(&twice, &exchanged, "signs exchanged"),
+        "not proved to be one",
+    );
+    let same = |set: &mut ComplexSet| set.at_infinity[1] = set.at_infinity[0].clone();
+    is_false(refused(&twice, &same, "one of two twice"), "are the same");
+    // Other points.
+    for (away, why) in [
+        (vec!["p1"], "a fixed point goes"),
+        (vec!["p4", "p1"], "a fixed point goes"),
+        (vec!["p4", "p5"], "all of them have neighbours that go"),
+        (vec![], "no point goes"),
+    ] {
+        let away: Vec<String> = away.into_iter().map(String::from).collect();
+        let changed = |set: &mut ComplexSet| set.at_infinity[0].away = away.clone();
+        is_doubt(refused(&set, &changed, "points"), why);
+    }
+    for away in [vec!["p4", "p4"], vec!["p7"]] {
+        let away: Vec<String> = away.into_iter().map(String::from).collect();
+        let changed = |set: &mut ComplexSet| set.at_infinity[0].away = away.clone();
+        is_false(refused(&set, &changed, "no points"), "a point that goes");
+    }
+    // Another place.
+    for p in 0..6 {
+        for k in 0..3 {
+            for to in [f64::MAX, -3.0] {
+                let moved = |set: &mut ComplexSet| set.at_infinity[0].figures[0][p][k][0] = to;
+                is_doubt(refused(&set, &moved, "moved"), "not proved to be one");
+            }
+            let gone = |set: &mut ComplexSet| drop(set.at_infinity[0].figures[0][p].pop());
+            is_doubt(
+                refused(&set, &gone, "a number less"),
+                "not proved to be one",
+            );
+        }
+    }
+    let swapped = |set: &mut ComplexSet| set.at_infinity[0].figures[0].swap(0, 3);
+    is_doubt(refused(&set, &swapped, "swapped"), "not proved to be one");
+    // Lengths that do not add up to zero, where the figure that is not at infinity is left out.
+    assert!(near.complete && near.at_infinity.is_empty() && near.solutions.len() == 8);
+    assert!(verdict(&near).proves_all());
+    for k in 0..8 {
+        let claimed = |changed: &mut ComplexSet| {
+            changed.solutions.remove(k);
+            changed.at_infinity = set.at_infinity.clone();
+        };
+        is_false(refused(&near, &claimed, "no sum"), "add up to zero");
+    }
+    // In the plane.
+    let plane = set_of("k33", folder.path());
+    let claimed = |changed: &mut ComplexSet| changed.at_infinity = set.at_infinity.clone();
+    is_doubt(refused(&plane, &claimed, "plane"), "in space only");
+}
+
+/// An octahedron with a figure at infinity, and three points more: p7 goes with p4, p8 stays with p1, and p9 is a neighbour of p4 that
+/// is in no cycle, so that it may be on either side of p2.
+#[test]
+fn figures_at_infinity_with_more_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string("problems/octahedron.toml").unwrap();
+    let text = text[..text.find("[[published]]").unwrap()]
+        .replace("[\"p2\", \"p6\", 1.18]", "[\"p2\", \"p6\", 1.22]")
+        .replace(
+            "p6 = [-0.2, -0.7, 1.3]",
+            "p6 = [-0.2, -0.7, 1.3]\np7 = [1.9, 1.1, 0.9]\np8 = [0.6, 0.4, -0.9]\np9 = [0.8, -0.8, 0.7]",
+        )
+        .replace(
+            "distances = [",
+            "distances = [[\"p4\", \"p7\", 1.03], [\"p2\", \"p7\", 1.31], [\"p3\", \"p7\", 1.37], [\"p1\", \"p8\", 1.09], \
+             [\"p2\", \"p8\", 0.98], [\"p3\", \"p8\", 1.27], [\"p4\", \"p9\", 1.43], [\"p2\", \"p9\", 0.83], [\"p1\", \"p9\", 1.19],",
+        );
+    let [file, template] = ["nine.toml", "nine.krawl-template"]
+        .map(|name| folder.path().join(name).to_string_lossy().into_owned());
+    fs::write(&file, text).unwrap();
+    krawl()
+        .args(["template", &file, "--float", "--quiet", "--out", &template])
+        .assert()
+        .success();
+    let set = set_from(&file, &template, folder.path());
+    let found = verdict(&set);
+    assert_eq!(found.flaw, None);
+    assert!(set.complete && found.proves_all());
+    assert_eq!((found.isometry, found.rotation), (56, 112));
+    assert_eq!(found.bound, Some(128));
+    assert_eq!(found.at_infinity, vec![(vec![3, 6], 4); 2]);
+    let refused = |change: &dyn Fn(&mut ComplexSet), why: &str| {
+        let mut changed = set.clone();
+        change(&mut changed);
+        let found = verdict(&changed);
+        assert!(!found.proves_all());
+        let (ComplexFlaw::False(text) | ComplexFlaw::NotProved(text)) = found.flaw.unwrap();
+        assert!(text.contains(why), "{text}, not {why}");
+    };
+    // The other sign of what is in no cycle makes the other departure of it.
+    let hanging = |rise: &&mut [String; 2]| rise.contains(&"p9".to_owned());
+    for (departure, why) in [(0, "not proved to be one"), (1, "are the same")] {
+        let sign = |set: &mut ComplexSet| {
+            let rises = set.at_infinity[departure].rises.iter_mut();
+            rises.filter(hanging).for_each(|rise| rise.reverse());
+        };
+        refused(&sign, why);
+    }
+    let exchanged = |set: &mut ComplexSet| {
+        let (one, other) = set.at_infinity.split_at_mut(1);
+        std::mem::swap(&mut one[0].figures[1], &mut other[0].figures[2]);
+    };
+    refused(&exchanged, "not proved to be one");
+    for departure in 0..2 {
+        for k in 0..4 {
+            let dropped = |set: &mut ComplexSet| drop(set.at_infinity[departure].figures.remove(k));
+            refused(&dropped, "all solutions are claimed");
+            let again = |set: &mut ComplexSet| {
+                let figures = &mut set.at_infinity[departure].figures;
+                figures[k] = figures[(k + 1) % 4].clone();
+            };
+            refused(&again, "are the same");
+        }
+    }
+    // Other points go: their neighbours make no cycle, or two.
+    let away = |points: &[&str]| {
+        let points: Vec<String> = points.iter().map(|&p| p.to_owned()).collect();
+        move |set: &mut ComplexSet| set.at_infinity[0].away = points.clone()
+    };
+    refused(&away(&["p4"]), "it is not said how a distance");
+    refused(&away(&["p4", "p7", "p8"]), "all of them have neighbours");
+    refused(&away(&["p9"]), "it is not said how a distance");
+}
+
+/// Lengths that nearly add up to zero, with coordinates of up to 10⁶: twice a float's digits are needed.
+#[test]
+fn large_solutions_are_proved() {
+    let folder = tempfile::tempdir().unwrap();
+    for (length, size) in [("1.22001", 1e3), ("1.2200001", 1e5), ("1.22000001", 1e6)] {
+        let set = octahedron(length, folder.path());
+        let parts = || set.solutions.iter().flatten().flatten();
+        let largest = parts().flatten().fold(0.0, |max: f64, x| max.max(x.abs()));
+        assert!(largest > size, "{length}");
+        let found = verdict(&set);
+        assert_eq!(found.flaw, None, "{length}");
+        assert!(found.proves_all() && set.complete, "{length}");
+        assert_eq!((found.isometry, found.rotation), (8, 16), "{length}");
+        let doubles = parts().filter(|parts| parts.len() == 4).count();
+        println!("{length}: {largest:.1e}, {doubles} numbers with low parts");
+        // Where floats are not near enough, they are not all that is written.
+        let floats = ComplexSet {
+            solutions: set
+                .solutions
+                .iter()
+                .map(|places| {
+                    let short = |parts: &Vec<f64>| parts[..2].to_vec();
+                    let place = |place: &Vec<Vec<f64>>| place.iter().map(short).collect();
+                    places.iter().map(place).collect()
+                })
+                .collect(),
+            ..set.clone()
+        };
+        println!("{length}: floats alone: {:?}", verdict(&floats).flaw);
+        // A place that is near it only beside its size is none.
+        for k in 0..set.solutions.len() {
+            let mut moved = set.clone();
+            moved.solutions[k]
+                .iter_mut()
+                .for_each(|place| place[1][0] *= 1.5);
+            assert!(!verdict(&moved).proves_all(), "{length}");
+        }
+    }
+}
+
 #[test]
 fn verify_prints_the_theorem() {
     let folder = tempfile::tempdir().unwrap();
@@ -138,6 +459,15 @@ fn verify_prints_the_theorem() {
     let theorem = "VERIFIED: octahedron has exactly 8 complex solutions up to isometry (4 of them real), 16 up to rotation";
     assert!(said.starts_with(theorem), "{said}");
     assert_eq!(verify("problems/disulfide.toml").0, 1);
+    // With figures at infinity.
+    fs::write(&cert, octahedron("1.22", folder.path()).to_text()).unwrap();
+    let (code, said) = verify(&folder.path().join("octahedron.toml").to_string_lossy());
+    assert_eq!(code, 0);
+    let theorem = "VERIFIED: octahedron has exactly 7 complex solutions up to isometry";
+    assert!(said.starts_with(theorem), "{said}");
+    let reason = "and no other isolated one: the multi-homogeneous Bézout bound of the graph is 16, of which 2 are at infinity: \
+                  1 figure where p4 goes away, up to isometry.";
+    assert!(said.contains(reason), "{said}");
     let mut fewer = set;
     fewer.solutions.pop();
     fs::write(&cert, fewer.to_text()).unwrap();

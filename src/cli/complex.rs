@@ -131,7 +131,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             Some(set) => {
                 let text = set.to_text();
                 written &= cert.write(&text);
-                let verdict = verify_complex_set(&text).map_err(|e| format!("{file}: {e}"))?;
+                let verdict = arguments.search.in_pool(|| verify_complex_set(&text))?;
+                let verdict = verdict.map_err(|e| format!("{file}: {e}"))?;
                 if let Some(ComplexFlaw::False(why) | ComplexFlaw::NotProved(why)) = verdict.flaw {
                     output::complain(&format!(
                         "{file}: the certificate is written, but `krawl verify` does not prove it: {why}"

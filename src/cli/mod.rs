@@ -125,3 +125,12 @@ pub fn run() -> ExitCode {
     };
     ExitCode::from(code)
 }
+
+/// Runs what follows with a number of threads; `None`: one per processor.
+fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0).into())
+        .build()
+        .map_err(|error| format!("threads cannot be started: {error}"))?;
+    Ok(pool.install(work))
+}

@@ -64,11 +64,7 @@ pub struct Search {
 impl Search {
     /// Runs what follows with the number of threads asked for.
     pub fn in_pool<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, String> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.unwrap_or(0).into())
-            .build()
-            .map_err(|error| format!("threads cannot be started: {error}"))?;
-        Ok(pool.install(work))
+        super::in_pool(self.threads, work)
     }
 
     /// Fills a fibre.

@@ -154,7 +154,8 @@ fn verify_the_set(
     file.read_to_string(&mut text)
         .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
-    let verdict = verify_complex_set(&text).map_err(|error| format!("{name}: {error}"))?;
+    let verdict = super::in_pool(arguments.threads, || verify_complex_set(&text))?;
+    let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
     if !print_with_problem(arguments, text, same) {

@@ -382,20 +382,42 @@ pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) 
         (Some(ComplexFlaw::NotProved(flaw)), _) => {
             format!("NOT PROVED: {name}: {flaw}. Nothing is proved.\n")
         }
-        (None, Some(bound)) if verdict.proves_all() => format!(
-            "VERIFIED: {name} has exactly {counts}, and no other isolated one: the multi-homogeneous Bézout bound of the \
-             graph is {bound}. Each was proved again in {seconds:.2} s.\n"
-        ),
+        (None, Some(bound)) if verdict.proves_all() => {
+            let away = match verdict.rotation_at_infinity() {
+                0 => String::new(),
+                away => format!(
+                    ", of which {away} are at infinity: {}",
+                    at_infinity(verdict)
+                ),
+            };
+            format!(
+                "VERIFIED: {name} has exactly {counts}, and no other isolated one: the multi-homogeneous Bézout bound of the \
+                 graph is {bound}{away}. Each was proved again in {seconds:.2} s.\n"
+            )
+        }
         (None, bound) => {
-            let bound = bound.map_or(String::new(), |bound| {
+            let mut bound = bound.map_or(String::new(), |bound| {
                 format!(" There are at most {bound} isolated ones up to rotation.")
             });
+            if !verdict.at_infinity.is_empty() {
+                bound += &format!(" Of these at infinity are {}.", at_infinity(verdict));
+            }
             format!(
                 "VERIFIED: {name} has {counts}, no two congruent. That there are no others is not proved.{bound} Each was \
                  proved again in {seconds:.2} s.\n"
             )
         }
     }
+}
+
+/// The figures at infinity of a set, up to isometry.
+fn at_infinity(verdict: &ComplexVerdict) -> String {
+    let departures = verdict.at_infinity.iter().map(|(points, count)| {
+        let names = names(&verdict.problem, points).join(", ");
+        let verb = if points.len() == 1 { "goes" } else { "go" };
+        format!("{} where {names} {verb} away", counted(*count, "figure"))
+    });
+    departures.collect::<Vec<_>>().join(", ") + ", up to isometry"
 }
 
 /// How many are real, and so on.

@@ -1,41 +1,47 @@
-//! The equations of distances between complex points, and Krawczyk's test for one solution.
+//! The equations of distances between complex points, and proofs of figures that satisfy them.
 
-use super::numbers::{Rectangle, about_inverse};
-use crate::interval::{Interval, enclose, hull, point};
+use super::numbers::Z;
+use super::zero::{Quadratic, Zero};
+use crate::interval::{DoubleDouble, Interval, point};
 use crate::problem::{Problem, Target};
+use crate::system::Term;
+use num_rational::BigRational;
+use num_traits::Signed;
 
-/// The equations |p − q|² = d² with some points standing still.
+/// The equations |p − q|² = d², where coordinates that the fixed points do not have are zero.
 #[derive(Debug)]
 pub struct Equations {
     dimension: usize,
-    /// Places of fixed points.
-    places: Vec<Option<Vec<Rectangle>>>,
-    /// For each point the first of its unknowns, where it is free.
-    first: Vec<Option<usize>>,
-    unknowns: usize,
-    /// Points, and the square of their distance.
-    distances: Vec<([usize; 2], Interval)>,
+    /// For each point the unknowns that are its coordinates.
+    places: Vec<Vec<Option<usize>>>,
+    system: Quadratic,
+    /// The unknowns that are to be positive: the second fixed point's x, the third one's y.
+    positive: Vec<usize>,
+    /// For each unknown whether it is a last coordinate, which reflection in the fixed points' line or plane changes.
+    is_last: Vec<bool>,
+    /// For each unknown whether it is a first coordinate.
+    is_first: Vec<bool>,
 }
 
-/// A solution that is proved.
-#[derive(Debug)]
-pub struct Proved {
-    dimension: usize,
-    /// A box with exactly one solution.
-    outer: Vec<Rectangle>,
-    /// It is in here.
-    inner: Vec<Rectangle>,
-}
-
-fn square(target: &Target) -> Interval {
+/// The square of a distance.
+pub fn square(target: &Target) -> BigRational {
     match target {
-        Target::Length(length) => enclose(length).sqr(),
-        Target::SquaredLength(squared) => enclose(squared),
+        Target::Length(length) => length.value() * length.value(),
+        Target::SquaredLength(squared) => squared.value().clone(),
+    }
+}
+
+/// Numbers from a file: real and imaginary part, perhaps with what these leave; `None`: there are not two or four of them.
+pub fn number(parts: &[f64]) -> Option<Z> {
+    match *parts {
+        [re, im] => Some([re.into(), im.into()]),
+        [re, im, a, b] => Some([DoubleDouble::sum(re, a), DoubleDouble::sum(im, b)]),
+        _ => None,
     }
 }
 
 impl Equations {
-    /// For a problem of distances. Fails where the fixed points are not joined, or may be in line.
+    /// For a problem of distances. Fails where the fixed points are not joined, or are in line.
     pub fn new(problem: &Problem, fixed: &[usize]) -> Result<Self, String> {
         let (d, n) = (problem.dimension, problem.points.len());
         if !problem.is_distances_only() {
@@ -48,213 +54,123 @@ impl Equations {
                 .map(|x| square(&x.target))
                 .ok_or_else(|| "the fixed points are not joined by distances".to_owned())
         };
-        let zero = point(0.0);
-        let corners: Vec<Vec<Interval>> = match (d, fixed) {
-            (2, &[a, b]) => vec![vec![zero; 2], vec![between(a, b)?.sqrt(), zero]],
+        match (d, fixed) {
+            (2, &[a, b]) => drop(between(a, b)?),
             (3, &[a, b, c]) => {
                 let (u, v, w) = (between(a, b)?, between(a, c)?, between(b, c)?);
-                let length = u.sqrt();
-                if length.inf() <= 0.0 {
-                    return Err("fixed points may coincide".to_owned());
+                let twice = &u + &v - w;
+                // Sixteen times the squared area. Otherwise the triangle has no proper place, or none with real coordinates.
+                let area = BigRational::from_integer(4.into()) * u * v - &twice * &twice;
+                if !area.is_positive() {
+                    return Err("the fixed points are in line".to_owned());
                 }
-                let x = (u + v - w) / (point(2.0) * length);
-                let height = v - x.sqr();
-                // Otherwise the triangle has no proper place, or none with real coordinates.
-                if height.inf() <= 0.0 {
-                    return Err("the fixed points may be in line".to_owned());
-                }
-                vec![
-                    vec![zero; 3],
-                    vec![length, zero, zero],
-                    vec![x, height.sqrt(), zero],
-                ]
             }
             _ => return Err(format!("{d} points have to be fixed")),
-        };
-        let mut places = vec![None; n];
-        for (&p, corner) in fixed.iter().zip(corners) {
-            places[p] = Some(corner.into_iter().map(Rectangle::real).collect());
         }
-        let mut unknowns = 0;
-        let first = places.iter().map(|place: &Option<Vec<Rectangle>>| {
-            place.is_none().then(|| {
-                unknowns += d;
-                unknowns - d
-            })
-        });
-        let first = first.collect();
-        let is_fixed = |p: usize| fixed.contains(&p);
-        let distances: Vec<([usize; 2], Interval)> = problem
-            .distances
-            .iter()
-            .filter(|x| !x.points.into_iter().all(is_fixed))
-            .map(|x| (x.points, square(&x.target)))
-            .collect();
-        if distances.len() != unknowns {
+        // Points that are free come first, so that the first unknown tells most figures apart.
+        let mut places = vec![vec![None; d]; n];
+        let (mut is_last, mut is_first) = (Vec::new(), Vec::new());
+        let mut place = |p: usize, axes: usize| {
+            for (axis, place) in places[p].iter_mut().enumerate().take(axes) {
+                *place = Some(is_last.len());
+                is_last.push(axis + 1 == d);
+                is_first.push(axis == 0);
+            }
+            is_last.len()
+        };
+        let mut free = 0;
+        for p in (0..n).filter(|p| !fixed.contains(p)) {
+            free = place(p, d);
+        }
+        // The last coordinate of each fixed point is one of two opposite numbers.
+        let (mut unknowns, mut positive) = (free, Vec::new());
+        for (rank, &p) in fixed.iter().enumerate().skip(1) {
+            unknowns = place(p, rank);
+            positive.push(unknowns - 1);
+        }
+        if problem.distances.len() != unknowns {
             return Err(format!(
                 "there are {} distances for {unknowns} coordinates",
-                distances.len()
+                problem.distances.len()
             ));
         }
+        let zero = unknowns + 1;
+        let equation = |distance: &crate::problem::Distance| {
+            let term = |axis: usize| {
+                let ends = distance.points.map(|p| places[p][axis].unwrap_or(zero));
+                Term {
+                    factor: 2,
+                    left: Some(ends),
+                    right: Some(ends),
+                }
+            };
+            ((0..d).map(term).collect(), square(&distance.target))
+        };
         Ok(Equations {
             dimension: d,
+            system: Quadratic::new(unknowns, problem.distances.iter().map(equation).collect()),
+            positive,
             places,
-            first,
-            unknowns,
-            distances,
+            is_last,
+            is_first,
         })
     }
 
-    /// A coordinate of a point, where the unknowns are in a box.
-    fn at(&self, p: usize, axis: usize, x: &[Rectangle]) -> Rectangle {
-        match (&self.places[p], self.first[p]) {
-            (Some(place), _) => place[axis],
-            (None, Some(first)) => x[first + axis],
-            (None, None) => unreachable!("a point is fixed or free"),
-        }
-    }
-
-    fn difference(&self, e: usize, axis: usize, x: &[Rectangle]) -> Rectangle {
-        let [a, b] = self.distances[e].0;
-        self.at(a, axis, x).minus(self.at(b, axis, x))
-    }
-
-    /// The entries of a row of the Jacobian that are not zero: unknown and value.
-    fn row(&self, e: usize, x: &[Rectangle]) -> Vec<(usize, Rectangle)> {
-        let [a, b] = self.distances[e].0;
-        let two = Rectangle::real(point(2.0));
-        let mut row = Vec::new();
-        for axis in 0..self.dimension {
-            let slope = two.times(self.difference(e, axis, x));
-            row.extend(self.first[a].map(|first| (first + axis, slope)));
-            row.extend(self.first[b].map(|first| (first + axis, slope.negative())));
-        }
-        row
-    }
-
-    /// Proves that a box around these places (point by point) holds exactly one solution.
-    ///
-    /// Krawczyk: K = c − Y F(c) + (I − Y F'(X)) (X − c) inside X, for a box X around c, and Y about F'(c)⁻¹. It holds for
-    /// analytic maps of complex boxes as it does for real ones: F(x) − F(c) = M (x − c) with M in F'(X), as F' is
-    /// linear and X convex.
-    pub fn prove(&self, places: &[Vec<[f64; 2]>]) -> Option<Proved> {
-        let n = self.unknowns;
-        let fits = places.len() == self.first.len()
-            && places.iter().all(|place| {
-                place.len() == self.dimension && place.iter().flatten().all(|x| x.is_finite())
-            });
+    /// Proves that there is exactly one solution near these places (point by point), and that the fixed points are where they
+    /// are said to be, not mirrored.
+    pub fn prove(&self, places: &[Vec<Vec<f64>>]) -> Option<Zero> {
+        let fits = places.len() == self.places.len()
+            && places.iter().all(|place| place.len() == self.dimension);
         if !fits {
             return None;
         }
-        let mut c = vec![[0.0; 2]; n];
-        for (place, first) in places.iter().zip(&self.first) {
-            if let Some(first) = *first {
-                c[first..first + self.dimension].copy_from_slice(place);
-            }
-        }
-        let centre: Vec<Rectangle> = c.iter().map(|&x| Rectangle::point(x)).collect();
-        let mut jacobian = vec![vec![[0.0; 2]; n]; n];
-        for (e, row) in jacobian.iter_mut().enumerate() {
-            for (i, value) in self.row(e, &centre) {
-                row[i] = [value.re.mid(), value.im.mid()];
-            }
-        }
-        let y = about_inverse(jacobian)?;
-        if !y.iter().flatten().flatten().all(|x| x.is_finite()) {
-            return None;
-        }
-        let zero = Rectangle::point([0.0; 2]);
-        let residual: Vec<Rectangle> = (0..n)
-            .map(|e| {
-                let axes = 0..self.dimension;
-                let squares = axes.fold(zero, |sum, axis| {
-                    let u = self.difference(e, axis, &centre);
-                    sum.plus(u.times(u))
-                });
-                squares.minus(Rectangle::real(self.distances[e].1))
-            })
-            .collect();
-        let step: Vec<Rectangle> = y
-            .iter()
-            .map(|row| {
-                let terms = row.iter().zip(&residual);
-                terms.fold(zero, |sum, (&y, &f)| sum.plus(Rectangle::point(y).times(f)))
-            })
-            .collect();
-        let most = step
-            .iter()
-            .fold(f64::MIN_POSITIVE, |max, x| max.max(x.size()));
-        // As small as it goes: boxes of solutions that are near each other have to be apart.
-        [4.0, 100.0].into_iter().find_map(|factor| {
-            let radius = factor * most;
-            if !radius.is_finite() {
-                return None;
-            }
-            let around = Rectangle {
-                re: hull(-radius, radius),
-                im: hull(-radius, radius),
-            };
-            let outer: Vec<Rectangle> = centre.iter().map(|&x| x.plus(around)).collect();
-            let rows: Vec<Vec<(usize, Rectangle)>> = (0..n).map(|e| self.row(e, &outer)).collect();
-            let mut inner = Vec::with_capacity(n);
-            for (i, y) in y.iter().enumerate() {
-                let mut defect = vec![zero; n];
-                defect[i] = Rectangle::point([1.0, 0.0]);
-                for (&y, row) in y.iter().zip(&rows) {
-                    for &(k, value) in row {
-                        defect[k] = defect[k].minus(Rectangle::point(y).times(value));
-                    }
+        let mut near = vec![[DoubleDouble::default(); 2]; self.is_last.len()];
+        for (place, unknowns) in places.iter().zip(&self.places) {
+            for (parts, unknown) in place.iter().zip(unknowns) {
+                let number = number(parts)?;
+                if let Some(unknown) = *unknown {
+                    near[unknown] = number;
                 }
-                let spread = defect
-                    .into_iter()
-                    .fold(zero, |sum, m| sum.plus(m.times(around)));
-                inner.push(centre[i].minus(step[i]).plus(spread));
             }
-            let is_inside = inner.iter().zip(&outer).all(|(k, x)| k.is_inside(*x));
-            is_inside.then_some(Proved {
-                dimension: self.dimension,
-                outer,
-                inner,
-            })
-        })
-    }
-}
-
-impl Proved {
-    fn mirrored(&self, of: &[Rectangle]) -> Vec<Rectangle> {
-        let (d, last) = (self.dimension, self.dimension - 1);
-        let entry = |(i, x): (usize, &Rectangle)| match i % d == last {
-            true => x.negative(),
-            false => *x,
-        };
-        of.iter().enumerate().map(entry).collect()
-    }
-
-    /// Whether the solution is surely not the other one, nor its mirror image.
-    pub fn is_apart(&self, other: &Proved) -> bool {
-        let apart = |a: &[Rectangle], b: &[Rectangle]| a.iter().zip(b).any(|(a, b)| a.is_apart(*b));
-        apart(&self.inner, &other.inner) && apart(&self.mirrored(&self.inner), &other.inner)
-    }
-
-    /// Whether an image of the solution that is a solution, too, is the same. `None`: that is not clear.
-    fn is_its_own(&self, image: &[Rectangle]) -> Option<bool> {
-        let pairs = || image.iter().zip(&self.inner);
-        if pairs().any(|(a, b)| a.is_apart(*b)) {
-            return Some(false);
         }
-        // One solution is in the outer box, so both are that one.
-        let is_in = image.iter().zip(&self.outer).all(|(a, x)| a.is_inside(*x));
-        is_in.then_some(true)
+        let zero = self.system.prove(&near)?;
+        let is_positive = |&unknown: &usize| zero.part(unknown)[0].inf() > 0.0;
+        self.positive.iter().all(is_positive).then_some(zero)
     }
 
-    /// Whether the figure is its own mirror image.
-    pub fn is_its_own_mirror_image(&self) -> Option<bool> {
-        self.is_its_own(&self.mirrored(&self.inner))
+    /// The mirror image of a solution, which is one, too.
+    pub fn mirrored(&self, of: &Zero) -> Zero {
+        of.image(|unknown| self.is_last[unknown], false)
+    }
+
+    /// Whether a figure is its own mirror image.
+    pub fn is_its_own_mirror_image(&self, zero: &Zero) -> Option<bool> {
+        zero.is_same(&self.mirrored(zero))
     }
 
     /// Whether it is real: the same as its conjugate, which solves the same equations.
-    pub fn is_real(&self) -> Option<bool> {
-        let conjugate: Vec<Rectangle> = self.inner.iter().map(|x| x.conjugate()).collect();
-        self.is_its_own(&conjugate)
+    pub fn is_real(&self, zero: &Zero) -> Option<bool> {
+        zero.is_same(&zero.image(|_| false, true))
+    }
+
+    /// Whether two solutions are the same, or mirror images of each other.
+    pub fn are_congruent(&self, a: &Zero, b: &Zero) -> Option<bool> {
+        match (a.is_same(b), a.is_same(&self.mirrored(b))) {
+            (Some(false), Some(false)) => Some(false),
+            (Some(true), _) | (_, Some(true)) => Some(true),
+            _ => None,
+        }
+    }
+
+    /// An enclosure of a number that a figure has in common with its mirror image: a sum of the real parts of first coordinates, each
+    /// multiplied by a number without pattern.
+    pub fn key(&self, zero: &Zero) -> Interval {
+        let mut factor = 0.5f64;
+        let mut sum = point(0.0);
+        for unknown in (0..self.is_first.len()).filter(|&u| self.is_first[u]) {
+            factor = (factor + 0.618_033_988_749_894_9).fract();
+            sum += point(0.25 + factor) * zero.part(unknown)[0];
+        }
+        sum
     }
 }

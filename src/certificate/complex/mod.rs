@@ -1,17 +1,22 @@
 //! The check of sets of complex solutions of distances: that each exists, that no two are congruent, which are real, and that
-//! there is no other, where their number meets the multi-homogeneous Bézout bound.
+//! there is no other, where their number meets the multi-homogeneous Bézout bound, with that of figures at infinity.
 //!
 //! No path is needed for that: how solutions were found does not matter once each is proved to be one, and a bound says
-//! how many there are at most. The equations, Krawczyk's test and the bound are made here from the problem alone; what
+//! how many there are at most. The equations, the test for one zero and the bound are made here from the problem alone; what
 //! is trusted is in this folder, and the intervals and the problem beside it.
 
 mod bezout;
 mod figure;
+mod infinity;
 mod numbers;
+mod zero;
 
 use crate::problem::Problem;
-use figure::{Equations, Proved};
+use figure::Equations;
+pub use infinity::Departure;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use zero::Zero;
 
 /// The first line of a file.
 pub const FIRST_LINE: &str = "krawl complex set 1";
@@ -23,10 +28,13 @@ pub struct ComplexSet {
     pub problem: String,
     /// The points that stand still, by name: two joined ones in the plane, three mutually joined ones in space.
     pub fixed: Vec<String>,
-    /// For each solution and each point (in the problem's order) real and imaginary part of each coordinate: the first
-    /// fixed point is at the origin, the second on the x axis at its positive distance, the third in the upper half of the
-    /// xy plane. In the problem's unit.
-    pub solutions: Vec<Vec<Vec<[f64; 2]>>>,
+    /// For each solution, each point (in the problem's order) and each coordinate its real and imaginary part, perhaps followed
+    /// by what these leave of them: the first fixed point is at the origin, the second on the x axis at its positive distance,
+    /// the third in the upper half of the xy plane. In the problem's unit.
+    pub solutions: Vec<Vec<Vec<Vec<f64>>>>,
+    /// Figures at infinity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at_infinity: Vec<Departure>,
     /// Whether the set is claimed to have all isolated solutions.
     pub complete: bool,
 }
@@ -48,7 +56,9 @@ pub struct ComplexVerdict {
     pub rotation: usize,
     /// How many of the former are real.
     pub real: usize,
-    /// The bound on those up to rotation.
+    /// Figures at infinity, no two congruent: for each departure the points that go there, and how many figures there are.
+    pub at_infinity: Vec<(Vec<usize>, usize)>,
+    /// The bound on those up to rotation, with those at infinity.
     pub bound: Option<u128>,
     /// Whether all was claimed.
     pub claims_all: bool,
@@ -68,7 +78,13 @@ pub enum ComplexFlaw {
 impl ComplexVerdict {
     /// Whether the solutions are proved to be all isolated ones.
     pub fn proves_all(&self) -> bool {
-        self.flaw.is_none() && self.bound == Some(self.rotation as u128)
+        let all = self.rotation + self.rotation_at_infinity();
+        self.flaw.is_none() && self.bound == Some(all as u128)
+    }
+
+    /// How many figures at infinity there are up to rotation: none is its own mirror image.
+    pub fn rotation_at_infinity(&self) -> usize {
+        2 * self.at_infinity.iter().map(|one| one.1).sum::<usize>()
     }
 
     /// Whether this is about the points and distances of a problem, whatever its sketch.
@@ -110,6 +126,7 @@ pub fn verify_complex_set(text: &str) -> Result<ComplexVerdict, ComplexSetError>
         isometry: 0,
         rotation: 0,
         real: 0,
+        at_infinity: Vec::new(),
         bound: None,
         claims_all: set.complete,
         flaw: None,
@@ -130,42 +147,79 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
     let fixed =
         fixed.ok_or_else(|| wrong("a fixed point is no point of the problem".to_owned()))?;
     let equations = Equations::new(problem, &fixed).map_err(doubt)?;
-    let mut proved: Vec<Proved> = Vec::new();
-    for (index, places) in set.solutions.iter().enumerate() {
+    let proved: Vec<Option<Zero>> = set
+        .solutions
+        .par_iter()
+        .map(|places| equations.prove(places))
+        .collect();
+    let mut zeros: Vec<Zero> = Vec::with_capacity(proved.len());
+    for (index, zero) in proved.into_iter().enumerate() {
         let number = index + 1;
-        let one = equations
-            .prove(places)
-            .ok_or_else(|| doubt(format!("solution {number} is not proved to exist")))?;
-        if let Some(other) = proved.iter().position(|other| !other.is_apart(&one)) {
-            return Err(wrong(format!(
-                "solutions {} and {number} are not two: their boxes are not apart, as they are or mirrored",
-                other + 1
-            )));
-        }
-        let flat = one
-            .is_its_own_mirror_image()
+        let zero =
+            zero.ok_or_else(|| doubt(format!("solution {number} is not proved to exist")))?;
+        let flat = equations
+            .is_its_own_mirror_image(&zero)
             .ok_or_else(|| doubt(format!("whether solution {number} is flat is not clear")))?;
-        let real = one
-            .is_real()
+        let real = equations
+            .is_real(&zero)
             .ok_or_else(|| doubt(format!("whether solution {number} is real is not clear")))?;
         verdict.isometry += 1;
         verdict.rotation += if flat { 1 } else { 2 };
         verdict.real += usize::from(real);
-        proved.push(one);
+        zeros.push(zero);
     }
+    are_apart(&equations, &zeros)?;
+    verdict.at_infinity = infinity::check(problem, &fixed, &set.at_infinity)?;
     verdict.bound = bezout::bound(problem, &fixed);
+    let all = (verdict.rotation + verdict.rotation_at_infinity()) as u128;
+    let counts = || match verdict.rotation_at_infinity() {
+        0 => format!("{} up to rotation", verdict.rotation),
+        away => format!("{} up to rotation and {away} at infinity", verdict.rotation),
+    };
     match verdict.bound {
-        Some(bound) if bound < verdict.rotation as u128 => Err(wrong(format!(
-            "{} solutions are proved and the bound is {bound}: this is a bug in krawl, please report it",
-            verdict.rotation
+        Some(bound) if bound < all => Err(wrong(format!(
+            "solutions are proved, {}, and the bound is {bound}: this is a bug in krawl, please report it",
+            counts()
         ))),
-        Some(bound) if set.complete && bound != verdict.rotation as u128 => Err(doubt(format!(
-            "all solutions are claimed, there are {} up to rotation, and the bound that is checked here is {bound}",
-            verdict.rotation
+        Some(bound) if set.complete && bound != all => Err(doubt(format!(
+            "all solutions are claimed, there are {}, and the bound that is checked here is {bound}",
+            counts()
         ))),
         None if set.complete => Err(doubt(
             "all solutions are claimed, and no bound is known".to_owned(),
         )),
         _ => Ok(()),
     }
+}
+
+/// Checks that no two solutions are congruent.
+fn are_apart(equations: &Equations, zeros: &[Zero]) -> Result<(), ComplexFlaw> {
+    // Solutions whose keys are disjoint are not congruent; those that meet come soon after each other.
+    let mut keys: Vec<(f64, f64, usize)> = zeros
+        .iter()
+        .map(|zero| equations.key(zero))
+        .enumerate()
+        .map(|(index, key)| (key.inf(), key.sup(), index))
+        .collect();
+    keys.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (k, &(_, high, one)) in keys.iter().enumerate() {
+        for &(_, _, other) in keys[k + 1..].iter().take_while(|key| key.0 <= high) {
+            let [a, b] = [one.min(other), one.max(other)];
+            let numbers = format!("solutions {} and {}", a + 1, b + 1);
+            match equations.are_congruent(&zeros[a], &zeros[b]) {
+                Some(false) => {}
+                Some(true) => {
+                    return Err(ComplexFlaw::False(format!(
+                        "{numbers} are not two: they are the same, or mirror images of each other"
+                    )));
+                }
+                None => {
+                    return Err(ComplexFlaw::NotProved(format!(
+                        "whether {numbers} are two is not clear"
+                    )));
+                }
+            }
+        }
+    }
+    Ok(())
 }
