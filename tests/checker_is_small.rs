@@ -123,18 +123,21 @@ fn the_checker_is_short() {
     }
 }
 
-/// The check of complex sets is short, too, and uses neither the search for them nor the tracker.
-#[test]
-fn the_check_of_complex_sets_is_short_and_its_own() {
+/// The lines of code of a folder, which uses these modules alone.
+fn lines_of(folder: &str, allowed: &[&str]) -> usize {
     let mut lines = 0;
-    for file in fs::read_dir("src/certificate/complex").unwrap() {
+    for file in fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
+        if path.is_dir() {
+            continue;
+        }
         let text = fs::read_to_string(&path).unwrap();
         let code = text.split("#[cfg(test)]").next().unwrap();
+        // Nor in comments.
         for part in code.split("crate::").skip(1) {
             let module: String = part.chars().take_while(|c| c.is_alphanumeric()).collect();
             assert!(
-                ["problem", "interval", "system"].contains(&module.as_str()),
+                allowed.contains(&module.as_str()),
                 "{}: crate::{module}",
                 path.display()
             );
@@ -143,6 +146,25 @@ fn the_check_of_complex_sets_is_short_and_its_own() {
         let is_code = |line: &&str| !line.trim().is_empty() && !line.trim().starts_with("//");
         lines += code.lines().filter(is_code).count();
     }
-    println!("{lines} lines");
-    assert!(lines <= 1000, "{lines} lines of code");
+    println!("{folder}: {lines} lines");
+    lines
+}
+
+/// The check of complex sets is short, too, and uses neither the search for them nor the tracker.
+#[test]
+fn the_check_of_complex_sets_is_short_and_its_own() {
+    let own = ["problem", "interval", "system"];
+    assert!(lines_of("src/certificate/complex", &own) <= 1000);
+}
+
+/// The checks of covers use nothing of the searches; that of coordinates has the kernel's equations and the test
+/// for one figure of the checker of certificates.
+#[test]
+fn the_checks_of_covers_are_short_and_their_own() {
+    let cover = "src/certificate/cover";
+    // An example runs the search.
+    assert!(lines_of(cover, &["problem", "constraint"]) <= 110);
+    assert!(lines_of(&format!("{cover}/plan"), &["problem", "interval"]) <= 1320);
+    let kernel = ["problem", "constraint", "interval", "system", "certificate"];
+    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 1000);
 }

@@ -133,7 +133,7 @@ fn the_template_serves_another_platform() {
     let solutions = solve(&lowered, &template, &FLOATS);
     assert_eq!(solutions.boxes.len(), 40);
     let real = solutions.real().count();
-    assert!(real < 40 && real % 2 == 0, "{real}");
+    assert!(real < 40 && real.is_multiple_of(2), "{real}");
     let is_settled = |nature: &Nature| matches!(nature, Nature::Real | Nature::Pair(_));
     assert!(solutions.natures.iter().all(is_settled));
 }

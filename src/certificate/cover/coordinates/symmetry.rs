@@ -34,7 +34,7 @@ pub fn changes(eq: &Equations, problem: &Problem, by: &Change) -> Option<Vec<boo
     let is_allowed = match symmetry(problem) {
         _ if by.axes.iter().any(|&axis| axis >= problem.dimension) => false,
         Symmetry::Isometries => true,
-        Symmetry::Motions => by.axes.len() % 2 == 0,
+        Symmetry::Motions => by.axes.len().is_multiple_of(2),
         Symmetry::Identity => by.axes.is_empty(),
     };
     let homotopy = &eq.homotopy;
