@@ -370,7 +370,8 @@ impl Random {
     }
 }
 
-/// Random problems: how many sets were complete, and of how many of these the cover proves it.
+/// Random problems: how many complete sets came with a cover, and of how many of these it proves that. (Where a length is
+/// longer than others allow nothing is searched, and there is no cover.)
 fn mixed(tries: usize, seed: u64, most_boxes: u64) -> [usize; 2] {
     let mut random = Random(seed);
     let (mut complete, mut verified) = (0, 0);
@@ -387,10 +388,10 @@ fn mixed(tries: usize, seed: u64, most_boxes: u64) -> [usize; 2] {
             Err(Unserved::Refused(_)) => continue,
             result => result.unwrap(),
         };
-        complete += usize::from(result.status == Status::Complete);
         let Some(bytes) = &result.cover else {
             continue;
         };
+        complete += usize::from(result.status == Status::Complete);
         let verdict = verify_cover(bytes).unwrap();
         assert_eq!(verdict.flaw, None, "{number}\n{}", problem.to_toml());
         assert_eq!(verdict.solutions, result.solutions.len());
@@ -406,7 +407,7 @@ fn mixed(tries: usize, seed: u64, most_boxes: u64) -> [usize; 2] {
 fn random_problems_verify() {
     let [complete, verified] = mixed(60, 17, 3000);
     println!("{verified} of {complete}");
-    assert!(verified > 10);
+    assert!(verified > 10 && 20 * verified >= 19 * complete);
 }
 
 #[test]
@@ -419,5 +420,5 @@ fn many_random_problems_verify() {
         20_000,
     );
     println!("{verified} of {complete}");
-    assert!(verified > complete / 2);
+    assert!(20 * verified >= 19 * complete);
 }

@@ -139,16 +139,19 @@ impl Place {
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
-        let near = curve.z[0].clone();
         let weights = || u.iter().map(|&u| point(u));
-        let low = || (0..near.len()).map(|i| curve.low_of(i));
+        let low = || (0..u.len()).map(|i| curve.low_of(i));
         let rest = weights().zip(low());
         let rest = rest.map(|(u, low)| low + around(proof.distance * u));
         Ok(Place {
-            middle: near.iter().zip(low()).map(|(&x, y)| exact(x) + y).collect(),
+            middle: curve.z[0]
+                .iter()
+                .zip(low())
+                .map(|(&x, y)| exact(x) + y)
+                .collect(),
             spot: Spot {
                 rest: rest.collect(),
-                near: near.clone(),
+                near: curve.z[0].clone(),
             },
             claimed,
             alone_within: weights().map(|u| (alone * u).inf()).collect(),
