@@ -4,7 +4,7 @@
 mod common;
 
 use common::mixed::Spec;
-use krawl::certificate::cover::coordinates::{Change, CoordinateCover, Half, Image, Mark};
+use krawl::certificate::cover::coordinates::{Block, Change, CoordinateCover, Half, Image, Mark};
 use krawl::certificate::cover::{CoverVerdict, verify_cover};
 use krawl::complete::{Complete, Options, Status, Unserved, all};
 use krawl::problem::Problem;
@@ -84,7 +84,7 @@ fn the_pentahedron_is_proved() {
     let pentahedron = Problem::read("problems/constraints/pentahedron.toml").unwrap();
     let cover = proved(&pentahedron);
     assert_eq!(cover.figures.len(), 9);
-    // Flat figures are their own mirror images, with auxiliary unknowns that are not.
+    // One symmetry reverses a coordinate that is 0 in all figures, so that some of them are met twice.
     assert!(!cover.images.is_empty());
 }
 
@@ -224,6 +224,12 @@ fn solutions_that_are_none_or_twice_there_are_noticed() {
     let mut figure = cover.clone();
     figure.figures.push(cover.others[0].clone());
     assert!(check(&figure).flaw.is_some());
+    let mut empty = cover.clone();
+    empty.blocks.push(Block {
+        equations: Vec::new(),
+        unknowns: Vec::new(),
+    });
+    assert!(check(&empty).flaw.is_some());
     let mut short = cover.clone();
     short.figures[0].pop();
     assert!(check(&short).flaw.is_some());
@@ -251,7 +257,7 @@ fn symmetries_that_are_none_are_refused() {
                     seen.images.push(Image { figure: 0, by });
                     assert!(is_harmless(&seen, &cover));
                     seen.images.push(Image {
-                        figure: 9,
+                        figure: usize::MAX,
                         by: Change::default(),
                     });
                     assert!(check(&seen).flaw.is_some());
@@ -345,6 +351,13 @@ fn the_commands_write_and_check_covers() {
         told.starts_with("VERIFIED: triangle has exactly 2 solutions"),
         "{told}"
     );
+    // A problem that has one constraint more is another one, and may have no figure.
+    let more = triangle()
+        .to_toml()
+        .replace("angles = [", "x = [[\"a\", 0], [\"b\", 7]]\nangles = [");
+    std::fs::write(at("more.toml"), more).unwrap();
+    let more = ["verify", "all.cover", "more.toml"];
+    krawl().args(more).assert().code(2);
     // The last mark is another one.
     let mut bytes = std::fs::read(at("all.cover")).unwrap();
     let cover = CoordinateCover::from_bytes(&bytes).unwrap();

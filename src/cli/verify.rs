@@ -46,20 +46,26 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let name = arguments.cert.display();
-    let read = |file: &PathBuf| {
-        let problem = input::load(file, arguments.sketch.as_deref())?.problem;
-        input::provable(file, &problem)
+    let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
+    let mut file = BufReader::new(file);
+    let is_cover = begins(&mut file, FIRST_WORDS);
+    let is_set = begins(&mut file, krawl::certificate::complex::FIRST_LINE);
+    let read = |path: &PathBuf| {
+        // Sets of solutions are of problem files as they are; paths, and sketches of other programs, of what can be proved.
+        if (is_cover || is_set) && !input::is_sketch(path) {
+            return Ok((input::read(path, arguments.sketch.as_deref())?, None));
+        }
+        let problem = input::load(path, arguments.sketch.as_deref())?.problem;
+        input::provable(path, &problem)
     };
     let problem = arguments.file.as_ref().map(read).transpose()?;
     let (problem, found) = problem.unzip();
     let found = found.flatten();
-    let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
-    let mut file = BufReader::new(file);
-    if begins(&mut file, FIRST_WORDS) {
-        return verify_the_cover(arguments, file, problem.as_ref());
+    if is_cover {
+        return verify_the_cover(arguments, file, problem.as_ref(), found.as_ref());
     }
-    if begins(&mut file, krawl::certificate::complex::FIRST_LINE) {
-        return verify_the_set(arguments, file, problem.as_ref());
+    if is_set {
+        return verify_the_set(arguments, file, problem.as_ref(), found.as_ref());
     }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
@@ -97,7 +103,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 
 /// That the problem of a certificate is that of a file, and what was made of that.
 fn about(file: &Path, found: Option<&Decomposition>) -> String {
-    let mut text = format!("The problem is the one in {}, exactly", file.display());
+    format!(
+        "The problem is the one in {}, exactly{}.\n",
+        file.display(),
+        held_and_left_out(found)
+    )
+}
+
+/// What was held and left out of a sketch that has not as many equations as unknowns.
+fn held_and_left_out(found: Option<&Decomposition>) -> String {
+    let mut text = String::new();
     if let Some(found) = found {
         if !found.free.is_empty() {
             let free = found.free.join(", ");
@@ -116,7 +131,7 @@ fn about(file: &Path, found: Option<&Decomposition>) -> String {
             );
         }
     }
-    text + ".\n"
+    text
 }
 
 /// Whether the file begins with these words.
@@ -126,13 +141,19 @@ fn begins(file: &mut BufReader<File>, words: &str) -> bool {
 }
 
 /// Prints what was proved of a set of solutions, and whether it is about the `same` points and constraints as the problem
-/// file, if there is one. False: it could not be printed.
-fn print_with_problem(arguments: &Arguments, mut text: String, same: bool) -> bool {
+/// file, if there is one, of which `found` was made. False: it could not be printed.
+fn print_with_problem(
+    arguments: &Arguments,
+    mut text: String,
+    same: bool,
+    found: Option<&Decomposition>,
+) -> bool {
     if let Some(file) = &arguments.file {
         text += &match same {
             true => format!(
-                "The points and constraints are those in {}, exactly.\n",
-                file.display()
+                "The points and constraints are those in {}, exactly{}.\n",
+                file.display(),
+                held_and_left_out(found)
             ),
             false => format!(
                 "REFUTED: the points or constraints are not those in {}.\n",
@@ -148,6 +169,7 @@ fn verify_the_set(
     arguments: &Arguments,
     mut file: BufReader<File>,
     problem: Option<&Problem>,
+    found: Option<&Decomposition>,
 ) -> Result<u8, String> {
     let name = arguments.cert.display();
     let mut text = String::new();
@@ -158,7 +180,7 @@ fn verify_the_set(
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, same) {
+    if !print_with_problem(arguments, text, same, found) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.flaw {
@@ -174,6 +196,7 @@ fn verify_the_cover(
     arguments: &Arguments,
     mut file: BufReader<File>,
     problem: Option<&Problem>,
+    found: Option<&Decomposition>,
 ) -> Result<u8, String> {
     let name = arguments.cert.display();
     let mut bytes = Vec::new();
@@ -183,7 +206,7 @@ fn verify_the_cover(
     let verdict = verify_cover(&bytes).map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, same) {
+    if !print_with_problem(arguments, text, same, found) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.proves_all() {

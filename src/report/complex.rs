@@ -454,7 +454,11 @@ fn verdict(lowered: &Lowered, result: &Solutions) -> String {
              if there are at most {}{up_to}, which is not proved here.",
             bound.count
         ),
-        (_, Some(bound)) if bound.is_cited && bound.count < result.counts.rotation as u128 => {
+        (_, Some(bound))
+            if bound.is_cited
+                && result.counts.certain
+                && bound.count < result.counts.rotation as u128 =>
+        {
             format!(
                 "The bound that you cite is wrong: at most {}{up_to}, and {counts} are proved.",
                 bound.count

@@ -128,8 +128,11 @@ impl Equations {
         for (place, unknowns) in places.iter().zip(&self.places) {
             for (parts, unknown) in place.iter().zip(unknowns) {
                 let number = number(parts)?;
-                if let Some(unknown) = *unknown {
-                    near[unknown] = number;
+                match *unknown {
+                    Some(unknown) => near[unknown] = number,
+                    // Where fixed points stand these coordinates are zero.
+                    None if parts.iter().any(|&part| part != 0.0) => return None,
+                    None => {}
                 }
             }
         }

@@ -54,6 +54,15 @@ impl<'a> Lines<'a> {
         text.map_err(|_| error("a line is not text"))
     }
 
+    /// The power of two that is the unit of length.
+    pub fn unit(&mut self) -> Result<i32, CoverError> {
+        let exponent = self.line()?.strip_prefix("unit ");
+        let exponent = exponent.and_then(|t| t.parse().ok());
+        exponent
+            .filter(|e: &i32| (-220..=220).contains(e))
+            .ok_or_else(|| error("the unit"))
+    }
+
     /// The problem: a line that says how long its text is, and the text.
     pub fn problem(&mut self) -> Result<String, CoverError> {
         let length = number(self.line()?.strip_prefix("problem "))?;

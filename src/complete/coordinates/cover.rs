@@ -46,7 +46,7 @@ pub struct Results<'a> {
 /// The cover, as a file; `None` where the check's test proves a figure less than the search's did.
 pub fn file(
     problem: &Problem,
-    system: &System,
+    (homotopy, system): (&Homotopy, &System),
     results: Results,
     stop: &AtomicBool,
 ) -> Option<Vec<u8>> {
@@ -55,6 +55,7 @@ pub fn file(
         unknowns: block.unknowns.clone(),
     };
     let mut cover = CoordinateCover {
+        unit_exponent: homotopy.unit.log2() as i32,
         problem: problem.to_toml(),
         halves: results.halves,
         blocks: results.blocks.iter().map(block).collect(),
@@ -63,10 +64,13 @@ pub fn file(
         others: results.others,
         marks: Vec::new(),
     };
+    let counts = [homotopy.equations, cover.figures.len(), cover.others.len()];
+    if counts.iter().any(|&count| count > Mark::MOST) {
+        return None;
+    }
     // As the check reads it.
     let problem = Problem::parse(&cover.problem, "").ok()?;
     let mut space = Space::new(&problem, &cover).ok()?;
-    let homotopy = Homotopy::new(&problem).ok()?;
     let blocks = results.blocks.iter().zip(&results.needs);
     let blocks = blocks.map(|(block, needs)| {
         let known: Vec<usize> = needs
@@ -80,8 +84,7 @@ pub fn file(
     });
     let whole = space.whole();
     let mut writer = Writer {
-        problem: &problem,
-        homotopy: &homotopy,
+        homotopy,
         space: &mut space,
         cover: &mut cover,
         blocks: blocks.collect(),
@@ -105,7 +108,6 @@ pub fn file(
 }
 
 struct Writer<'a> {
-    problem: &'a Problem,
     homotopy: &'a Homotopy,
     space: &'a mut Space,
     cover: &'a mut CoordinateCover,
@@ -232,7 +234,8 @@ impl Writer<'_> {
                         figure,
                         by: by.clone(),
                     };
-                    if self.space.see(self.problem, &image).is_ok() {
+                    let is_new = self.cover.images.len() < Mark::MOST;
+                    if is_new && self.space.see(&image).is_ok() {
                         self.cover.images.push(image);
                     }
                     // What was added is of use, or not.

@@ -347,7 +347,12 @@ impl<'a> Figures<'a> {
             needs: needs.map(|all| all.iter().copied().collect()).collect(),
             boxes: self.run.boxes.load(Ordering::Relaxed),
         };
-        cover::file(problem, self.system, results, self.run.stop)
+        cover::file(
+            problem,
+            (self.homotopy, self.system),
+            results,
+            self.run.stop,
+        )
     }
 
     /// The unknowns of a figure, and the number 0, if numbers of few digits in its box meet all equations exactly, without any

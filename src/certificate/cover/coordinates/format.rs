@@ -9,11 +9,13 @@ pub const FIRST_LINE: &str = "krawl cover of coordinates";
 /// The version of the format.
 const VERSION: u32 = 1;
 
-/// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0; numbers are in its unit.
+/// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CoordinateCover {
     /// The problem's text.
     pub problem: String,
+    /// Lengths are in units of two to the power of this.
+    pub unit_exponent: i32,
     /// The unknowns that are looked at where they are not negative, in order.
     pub halves: Vec<Half>,
     /// Equations that are taken together.
@@ -124,7 +126,8 @@ impl Change {
 impl CoordinateCover {
     /// The bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut out = format!("{FIRST_LINE}\nversion {VERSION}\n");
+        let unit = self.unit_exponent;
+        let mut out = format!("{FIRST_LINE}\nversion {VERSION}\nunit {unit}\n");
         // Writing to a string cannot fail.
         let _ = write!(out, "problem {}\n{}\n", self.problem.len(), self.problem);
         for half in &self.halves {
@@ -153,6 +156,7 @@ impl CoordinateCover {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CoverError> {
         let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
         let mut cover = CoordinateCover {
+            unit_exponent: lines.unit()?,
             problem: lines.problem()?,
             ..CoordinateCover::default()
         };
@@ -188,7 +192,11 @@ impl CoordinateCover {
 }
 
 impl Mark {
-    /// Appends the mark: a byte, and for all but the last kind a number in two more, the lower one first.
+    /// The greatest number in a mark.
+    pub const MOST: usize = u16::MAX as usize;
+
+    /// Appends the mark: a byte, and for all but the last kind a number, of at most [`Mark::MOST`], in two more, the lower
+    /// one first.
     pub fn put(self, out: &mut Vec<u8>) {
         let (tag, number) = match self {
             Mark::Block(k) => (1, k),

@@ -16,6 +16,7 @@ pub use space::{Empty, Part};
 use super::{CoverError, CoverVerdict};
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::checker::place::Place;
+use crate::constraint::{self, Symmetry};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -24,6 +25,7 @@ use space::Rows;
 /// What a cover is about, with all that it says but its marks proved.
 pub struct Space {
     eq: Equations,
+    allowed: Symmetry,
     rows: Rows,
     not_negative: Vec<usize>,
     blocks: Vec<Block>,
@@ -42,14 +44,16 @@ struct Seen {
 impl Space {
     /// Proves that the zeros listed exist, that the figures among them are figures and no two congruent, and the others none.
     pub fn new(problem: &Problem, cover: &CoordinateCover) -> Result<Space, String> {
-        let homotopy = Homotopy::new(problem).map_err(|error| error.to_string())?;
+        let unit = 2f64.powi(cover.unit_exponent);
+        let homotopy = Homotopy::with_unit(problem, unit).map_err(|error| error.to_string())?;
         let eq = Equations::new(homotopy);
         if let Some(name) = symmetry::directed(&eq, problem) {
             return Err(format!(
                 "the equations have both directions of {name}, and a figure has one of them"
             ));
         }
-        let not_negative = symmetry::not_negative(&eq, problem, &cover.halves)?;
+        let allowed = constraint::symmetry(problem);
+        let not_negative = symmetry::not_negative(&eq, allowed, &cover.halves)?;
         for block in &cover.blocks {
             let fits = |numbers: &[usize]| {
                 let mut sorted = numbers.to_vec();
@@ -57,12 +61,14 @@ impl Space {
                 sorted.dedup();
                 sorted.len() == numbers.len() && numbers.iter().all(|&i| i < eq.m)
             };
-            let is_square = block.equations.len() == block.unknowns.len();
+            let size = block.unknowns.len();
+            let is_square = size > 0 && block.equations.len() == size;
             if !(is_square && fits(&block.equations) && fits(&block.unknowns)) {
-                return Err("a block is none".to_owned());
+                return Err("a block has not as many equations as unknowns".to_owned());
             }
         }
         let mut space = Space {
+            allowed,
             rows: Rows::new(&eq),
             eq,
             not_negative,
@@ -86,7 +92,7 @@ impl Space {
             space.figures.push(place);
         }
         for image in &cover.images {
-            space.see(problem, image)?;
+            space.see(image)?;
         }
         for (index, at) in cover.others.iter().enumerate() {
             let place = space.zero(at).filter(|place| space.is_none(place, at));
@@ -162,9 +168,11 @@ impl Space {
     }
 
     /// Adds a zero that is an image of a solution.
-    pub fn see(&mut self, problem: &Problem, image: &Image) -> Result<(), String> {
-        let changes = symmetry::changes(&self.eq, problem, &image.by);
-        let changes = changes.filter(|_| image.figure < self.figures.len());
+    pub fn see(&mut self, image: &Image) -> Result<(), String> {
+        if image.figure >= self.figures.len() {
+            return Err("an image is one of no solution".to_owned());
+        }
+        let changes = symmetry::changes(&self.eq, self.allowed, &image.by);
         let unlike = || format!("an image of solution {} is not like it", image.figure + 1);
         self.images.push(Seen {
             figure: image.figure,

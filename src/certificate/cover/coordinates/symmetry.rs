@@ -2,19 +2,19 @@
 
 use super::format::{Change, Half};
 use crate::certificate::checker::equations::Equations;
-use crate::constraint::{Entry, Symmetry, symmetry};
+use crate::constraint::{Entry, Symmetry};
 use crate::problem::{Item, Problem, Shape};
 
 /// The unknowns that may be taken as not negative: each is changed by a symmetry that changes none before it, so that
 /// of the images of a figure under these symmetries one has none of them negative.
 pub fn not_negative(
     eq: &Equations,
-    problem: &Problem,
+    allowed: Symmetry,
     halves: &[Half],
 ) -> Result<Vec<usize>, String> {
     let mut done: Vec<usize> = Vec::new();
     for half in halves {
-        let fits = changes(eq, problem, &half.by).is_some_and(|changes| {
+        let fits = changes(eq, allowed, &half.by).is_some_and(|changes| {
             changes.get(half.unknown) == Some(&true) && done.iter().all(|&i| !changes[i])
         });
         if !fits {
@@ -30,14 +30,14 @@ pub fn not_negative(
 
 /// For each unknown whether a change of signs changes it; `None` where it is no symmetry: it has to be one that the problem
 /// has, to keep the equations, and to keep lengths and radii positive.
-pub fn changes(eq: &Equations, problem: &Problem, by: &Change) -> Option<Vec<bool>> {
-    let is_allowed = match symmetry(problem) {
-        _ if by.axes.iter().any(|&axis| axis >= problem.dimension) => false,
+pub fn changes(eq: &Equations, allowed: Symmetry, by: &Change) -> Option<Vec<bool>> {
+    let homotopy = &eq.homotopy;
+    let is_allowed = match allowed {
+        _ if by.axes.iter().any(|&axis| axis >= homotopy.dimension) => false,
         Symmetry::Isometries => true,
         Symmetry::Motions => by.axes.len().is_multiple_of(2),
         Symmetry::Identity => by.axes.is_empty(),
     };
-    let homotopy = &eq.homotopy;
     let first = homotopy.gauge.place.len();
     let mut twins = Vec::new();
     for &k in &by.twins {

@@ -127,12 +127,7 @@ impl Cover {
     /// Reads the bytes of a file.
     pub fn from_bytes(bytes: &[u8]) -> Result<Cover, CoverError> {
         let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
-        let unit_exponent: i32 = lines
-            .line()?
-            .strip_prefix("unit ")
-            .and_then(|t| t.parse().ok())
-            .filter(|e: &i32| e.abs() <= 220)
-            .ok_or_else(|| error("the unit"))?;
+        let unit_exponent = lines.unit()?;
         let problem = lines.problem()?;
         let mut cover = Cover {
             problem,
