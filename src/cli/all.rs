@@ -85,7 +85,14 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let problem = input::read(&arguments.file, arguments.sketch.as_deref())?;
+    let sketch = arguments.sketch.as_deref();
+    let (problem, made) = match input::is_sketch(&arguments.file) {
+        true => input::provable(
+            &arguments.file,
+            &input::load(&arguments.file, sketch)?.problem,
+        )?,
+        false => (input::read(&arguments.file, sketch)?, None),
+    };
     let json = arguments
         .json
         .as_deref()
@@ -160,7 +167,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
-        written &= output::print(&complete_to_table(&problem, &result));
+        let mut text = complete_to_table(&problem, &result);
+        let made = input::held_and_left_out(made.as_ref());
+        if !made.is_empty() {
+            text += &format!(
+                "\nThis is about the sketch as it was made one that can be searched{made}.\n"
+            );
+        }
+        written &= output::print(&text);
     }
     Ok(match result.status {
         _ if !written => BAD_INPUT,

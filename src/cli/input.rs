@@ -60,6 +60,30 @@ pub fn provable(
     Ok((completed(problem).map_err(in_file)?, Some(found)))
 }
 
+/// What was held and left out of a sketch that has not as many equations as unknowns.
+pub fn held_and_left_out(found: Option<&Decomposition>) -> String {
+    let mut text = String::new();
+    if let Some(found) = found {
+        if !found.free.is_empty() {
+            let free = found.free.join(", ");
+            text += &format!("; what nothing determines is held where the sketch has it: {free}");
+        }
+        let out: Vec<&str> = found
+            .redundant
+            .iter()
+            .chain(&found.follows)
+            .map(String::as_str)
+            .collect();
+        if !out.is_empty() {
+            text += &format!(
+                "; left out, and nothing is proved of it: {}",
+                out.join(", ")
+            );
+        }
+    }
+    text
+}
+
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.
 pub fn is_sketch(file: &Path) -> bool {
     let format = Format::of(&file.display().to_string());

@@ -106,32 +106,8 @@ fn about(file: &Path, found: Option<&Decomposition>) -> String {
     format!(
         "The problem is the one in {}, exactly{}.\n",
         file.display(),
-        held_and_left_out(found)
+        input::held_and_left_out(found)
     )
-}
-
-/// What was held and left out of a sketch that has not as many equations as unknowns.
-fn held_and_left_out(found: Option<&Decomposition>) -> String {
-    let mut text = String::new();
-    if let Some(found) = found {
-        if !found.free.is_empty() {
-            let free = found.free.join(", ");
-            text += &format!("; what nothing determines is held where the sketch has it: {free}");
-        }
-        let out: Vec<&str> = found
-            .redundant
-            .iter()
-            .chain(&found.follows)
-            .map(String::as_str)
-            .collect();
-        if !out.is_empty() {
-            text += &format!(
-                "; left out, and nothing is proved of it: {}",
-                out.join(", ")
-            );
-        }
-    }
-    text
 }
 
 /// Whether the file begins with these words.
@@ -153,7 +129,7 @@ fn print_with_problem(
             true => format!(
                 "The points and constraints are those in {}, exactly{}.\n",
                 file.display(),
-                held_and_left_out(found)
+                input::held_and_left_out(found)
             ),
             false => format!(
                 "REFUTED: the points or constraints are not those in {}.\n",

@@ -86,14 +86,10 @@ const SIGHT: f64 = 1.0;
 
 impl Place {
     /// Proves that a box holds exactly one solution of F(X, a(1)) = 0, in the precision of the tube that comes there.
-    pub fn solution(
-        eq: &Equations,
-        claim: &SolutionClaim,
-        tube: &TubeClaim,
-    ) -> Result<Place, Fault> {
+    pub fn solution(eq: &Equations, claim: &SolutionClaim, at: &TubeClaim) -> Result<Place, Fault> {
         let radius = around(point(claim.radius.into()));
         let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
-        let near = (&*claim.centre, !tube.low.is_empty());
+        let near = (&*claim.centre, !at.low.is_empty());
         let place = Place::at_target(eq, near, claimed.clone());
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
@@ -139,19 +135,16 @@ impl Place {
         let alone = 0.9 * (0.9 - test.stiff.sup()) / test.width.sup();
         let alone = point(if alone > 0.0 { alone.min(SIGHT) } else { SIGHT });
         let proof = test.within(alone)?;
+        let near = curve.z[0].clone();
         let weights = || u.iter().map(|&u| point(u));
-        let low = || (0..u.len()).map(|i| curve.low_of(i));
+        let low = || (0..near.len()).map(|i| curve.low_of(i));
         let rest = weights().zip(low());
         let rest = rest.map(|(u, low)| low + around(proof.distance * u));
         Ok(Place {
-            middle: curve.z[0]
-                .iter()
-                .zip(low())
-                .map(|(&x, y)| exact(x) + y)
-                .collect(),
+            middle: near.iter().zip(low()).map(|(&x, y)| exact(x) + y).collect(),
             spot: Spot {
                 rest: rest.collect(),
-                near: curve.z[0].clone(),
+                near: near.clone(),
             },
             claimed,
             alone_within: weights().map(|u| (alone * u).inf()).collect(),
