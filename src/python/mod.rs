@@ -182,11 +182,11 @@ fn verify(
     let bytes = fs::read(&path).map_err(|error| unwritten(&path, &error))?;
     let in_file = |error: &dyn std::fmt::Display| bad(format!("{}: {error}", path.display()));
     let begin = std::time::Instant::now();
-    if bytes.starts_with(cover::FIRST_LINE.as_bytes()) {
+    if bytes.starts_with(cover::FIRST_WORDS.as_bytes()) {
         let verdict = interruptible(py, |_| cover::verify_cover(&bytes))?;
         let verdict = verdict.map_err(|error| in_file(&error))?;
         let what = match verdict.proves_all() {
-            _ if verdict.flaw.is_some() => "refuted",
+            _ if verdict.flaw.is_some() => "not proved",
             true => "verified",
             false => "incomplete",
         };
