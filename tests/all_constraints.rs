@@ -3,7 +3,9 @@
 
 mod common;
 
+use common::edits::Random;
 use common::mixed::Spec;
+use common::sketches::{LEG, apollonius_text};
 use krawl::complete::{Complete, Method, Options, Status, Unserved, Why, all};
 use krawl::constraint::{Symmetry, symmetry};
 use krawl::problem::Problem;
@@ -76,27 +78,7 @@ fn a_double_solution_stays_undecided() {
 /// A circle that touches three given circles, all apart: one for each choice of sides.
 #[test]
 fn the_problem_of_apollonius_has_eight_solutions() {
-    let touching = |center: &str, radius: &str| {
-        count(&format!(
-            r#"
-            name = "apollonius"
-            dimension = 2
-            [points]
-            a = [0, 0]
-            b = [7, 0]
-            c = [2, 6]
-            m = {center}
-            [circles]
-            c1 = {{ center = "a", radius = 1 }}
-            c2 = {{ center = "b", radius = 1.5 }}
-            c3 = {{ center = "c", radius = 2 }}
-            k = {{ center = "m", radius = {radius} }}
-            [constraints]
-            fixed = ["c1", "c2", "c3"]
-            tangent = [["k", "c1"], ["k", "c2"], ["k", "c3"]]
-            "#
-        ))
-    };
+    let touching = |center: &str, radius: &str| count(&apollonius_text(center, radius));
     // Sides are those of the sketch: from outside all three, and round all three.
     let mut found = touching("[3, 2.2]", "2.3");
     assert_eq!(found, 1);
@@ -151,23 +133,7 @@ fn apollonius(signs: [f64; 3]) -> ([f64; 2], f64) {
 #[test]
 fn a_figure_without_a_leg_is_none() {
     // c is on the circle over a-b, and 3 from d, as a is.
-    let problem = parse(
-        r#"
-        name = "leg"
-        dimension = 2
-        [points]
-        a = [0, 0]
-        b = [4, 0]
-        d = [0.5, 2.9]
-        c = [1.5, 1.5]
-        [constraints]
-        fixed = ["a", "b"]
-        x = [["d", 0]]
-        y = [["d", 3]]
-        distances = [["c", "d", 3]]
-        angles = [["a", "c", "b", 90]]
-        "#,
-    );
+    let problem = parse(LEG);
     let result = searched(&problem);
     // c = a meets all equations, and so does one more place.
     for solution in &result.solutions {
@@ -258,19 +224,6 @@ fn holds_the_path(problem: &Problem, result: &Complete) -> Result<usize, String>
         return Err("more classes on the path than in the set".to_owned());
     }
     Ok(found)
-}
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
 }
 
 #[derive(Debug, Default)]

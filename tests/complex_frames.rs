@@ -31,20 +31,17 @@ const LEGS: [f64; 6] = [1.0, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071];
 
 const DIETMAIER: &str = "problems/mechanisms/dietmaier.toml";
 
-const FLOATS: Ways = Ways {
-    proved: false,
-    radius: 1000.0,
-    most_tubes: 20_000,
-    extended: true,
-    cancel: None,
-    deadline: None,
-    progress: None,
-};
+fn floats() -> Ways<'static> {
+    Ways {
+        proved: false,
+        ..Ways::default()
+    }
+}
 
 fn filled(lowered: &Lowered, patience: usize) -> Template {
     let filling = Filling {
         patience,
-        ways: FLOATS,
+        ways: floats(),
         ..Filling::default()
     };
     Template::new("test", fill(&lowered.system, &filling).unwrap())
@@ -69,7 +66,7 @@ fn dietmaier(bound: Option<u128>) -> (Lowered, Solutions) {
     }
     let text = std::fs::read_to_string("problems/mechanisms/dietmaier.krawl-template").unwrap();
     let template = Template::read(&text, &lowered.system).unwrap();
-    let solutions = solve(&lowered, &template, &FLOATS);
+    let solutions = solve(&lowered, &template, &floats());
     (lowered, solutions)
 }
 
@@ -130,7 +127,7 @@ fn the_template_serves_another_platform() {
     let lowered = lower(&Problem::parse(&text, "test.toml").unwrap()).unwrap();
     let shipped = std::fs::read_to_string("problems/mechanisms/dietmaier.krawl-template").unwrap();
     let template = Template::read(&shipped, &lowered.system).unwrap();
-    let solutions = solve(&lowered, &template, &FLOATS);
+    let solutions = solve(&lowered, &template, &floats());
     assert_eq!(solutions.boxes.len(), 40);
     let real = solutions.real().count();
     assert!(real < 40 && real.is_multiple_of(2), "{real}");

@@ -3,7 +3,9 @@
 
 mod common;
 
+use common::edits::Random;
 use common::mixed::Spec;
+use common::sketches::{LEG, apollonius_text};
 use krawl::certificate::cover::coordinates::{Block, Change, CoordinateCover, Half, Image, Mark};
 use krawl::certificate::cover::{CoverVerdict, verify_cover};
 use krawl::complete::{Complete, Options, Status, Unserved, all};
@@ -60,23 +62,7 @@ fn triangle() -> Problem {
 
 /// A right angle at c, of which a leg vanishes where c is at a: that is a zero of the equations, and no figure.
 fn leg() -> Problem {
-    parse(
-        r#"
-        name = "leg"
-        dimension = 2
-        [points]
-        a = [0, 0]
-        b = [4, 0]
-        d = [0.5, 2.9]
-        c = [1.5, 1.5]
-        [constraints]
-        fixed = ["a", "b"]
-        x = [["d", 0]]
-        y = [["d", 3]]
-        distances = [["c", "d", 3]]
-        angles = [["a", "c", "b", 90]]
-        "#,
-    )
+    parse(LEG)
 }
 
 #[test]
@@ -91,25 +77,7 @@ fn the_pentahedron_is_proved() {
 /// Cones without a bound of their own: a circle that touches three.
 #[test]
 fn a_circle_that_touches_three_is_proved() {
-    let cover = proved(&parse(
-        r#"
-        name = "apollonius"
-        dimension = 2
-        [points]
-        a = [0, 0]
-        b = [7, 0]
-        c = [2, 6]
-        m = [3, 2.2]
-        [circles]
-        c1 = { center = "a", radius = 1 }
-        c2 = { center = "b", radius = 1.5 }
-        c3 = { center = "c", radius = 2 }
-        k = { center = "m", radius = 2.3 }
-        [constraints]
-        fixed = ["c1", "c2", "c3"]
-        tangent = [["k", "c1"], ["k", "c2"], ["k", "c3"]]
-        "#,
-    ));
+    let cover = proved(&parse(&apollonius_text("[3, 2.2]", "2.3")));
     assert_eq!(cover.figures.len(), 1);
     assert!(
         marks(&cover)
@@ -368,19 +336,6 @@ fn the_commands_write_and_check_covers() {
     let assert = krawl().args(["verify", "damaged.cover"]).assert().code(3);
     let told = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
     assert!(told.starts_with("NOT PROVED: triangle"), "{told}");
-}
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
 }
 
 /// Random problems: how many complete sets came with a cover, and of how many of these it proves that. (Where a length is

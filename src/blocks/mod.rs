@@ -35,7 +35,6 @@ pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
 pub(crate) use cut::{Cut, Used, free_names, name};
 pub use decompose::{Block, Blocks};
-pub(crate) use figures::fixed_direction;
 pub use figures::{
     BlockAccount, Chosen, Comparison, Figures, First, LeftOut, Sense, Way, WithSenses,
 };

@@ -85,14 +85,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let sketch = arguments.sketch.as_deref();
-    let (problem, made) = match input::is_sketch(&arguments.file) {
-        true => input::provable(
-            &arguments.file,
-            &input::load(&arguments.file, sketch)?.problem,
-        )?,
-        false => (input::read(&arguments.file, sketch)?, None),
-    };
+    let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
     let json = arguments
         .json
         .as_deref()
@@ -170,9 +163,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let mut text = complete_to_table(&problem, &result);
         let made = input::held_and_left_out(made.as_ref());
         if !made.is_empty() {
-            text += &format!(
-                "\nThis is about the sketch as it was made one that can be searched{made}.\n"
-            );
+            text +=
+                &format!("\nThe sketch was searched with as many equations as unknowns{made}.\n");
         }
         written &= output::print(&text);
     }

@@ -84,6 +84,18 @@ pub fn held_and_left_out(found: Option<&Decomposition>) -> String {
     text
 }
 
+/// The problem of a file as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as
+/// [`provable`] makes it.
+pub fn whole(
+    file: &Path,
+    sketch: Option<&str>,
+) -> Result<(Problem, Option<Decomposition>), String> {
+    match is_sketch(file) {
+        true => provable(file, &load(file, sketch)?.problem),
+        false => Ok((read(file, sketch)?, None)),
+    }
+}
+
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.
 pub fn is_sketch(file: &Path) -> bool {
     let format = Format::of(&file.display().to_string());

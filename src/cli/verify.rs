@@ -51,11 +51,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let is_cover = begins(&mut file, FIRST_WORDS);
     let is_set = begins(&mut file, krawl::certificate::complex::FIRST_LINE);
     let read = |path: &PathBuf| {
-        // Sets of solutions are of problem files as they are; paths, and sketches of other programs, of what can be proved.
-        if (is_cover || is_set) && !input::is_sketch(path) {
-            return Ok((input::read(path, arguments.sketch.as_deref())?, None));
+        let sketch = arguments.sketch.as_deref();
+        if is_cover || is_set {
+            return input::whole(path, sketch);
         }
-        let problem = input::load(path, arguments.sketch.as_deref())?.problem;
+        let problem = input::load(path, sketch)?.problem;
         input::provable(path, &problem)
     };
     let problem = arguments.file.as_ref().map(read).transpose()?;

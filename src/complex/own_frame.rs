@@ -6,7 +6,6 @@
 
 use super::lower::Unserved;
 use super::system::{Equation, Kind, Signs, System, sign_of};
-use crate::blocks::fixed_direction;
 use crate::constraint::{self, Entry, Form};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -14,7 +13,8 @@ use crate::system::Homotopy;
 /// Refuses what zeros of the equations need not meet and figures do: directions that are told by a sign, vectors that must
 /// not vanish.
 pub fn check(problem: &Problem, homotopy: &Homotopy) -> Result<(), Unserved> {
-    if let Some(object) = fixed_direction(problem) {
+    if let Some(object) = problem.fixed_direction() {
+        let object = &problem.objects[object].name;
         return Err(Unserved::Other(format!(
             "`{object}` is fixed and has a direction of its own, of which one component is told by the length only (name two \
              fixed points of it instead)"
@@ -81,15 +81,22 @@ pub fn add_groups(
             "there are too many lines and planes with directions of their own".to_owned(),
         ));
     };
+    let keeps = |changes: &[bool], vanishes: &dyn Fn(&Equation) -> bool| {
+        let mut equations = system.equations.iter();
+        equations.all(|equation| match sign_of(equation, changes) {
+            Some(reversed) => !reversed || vanishes(equation),
+            None => false,
+        })
+    };
+    if let Some(object) = homotopy.directed(|changes| keeps(changes, &Equation::is_zero)) {
+        return Err(Unserved::Other(format!(
+            "constraints tell the two directions of `{}` apart, which has a direction of its own that a path keeps and the \
+             equations do not (name two points of it instead)",
+            problem.objects[object].name
+        )));
+    }
     let kept = |vanishes: &dyn Fn(&Equation) -> bool| -> Vec<Signs> {
-        let keeps = |changes: &[bool]| {
-            let mut equations = system.equations.iter();
-            equations.all(|equation| match sign_of(equation, changes) {
-                Some(reversed) => !reversed || vanishes(equation),
-                None => false,
-            })
-        };
-        let twins = twins.iter().filter(|changes| keeps(changes));
+        let twins = twins.iter().filter(|changes| keeps(changes, vanishes));
         let signs = twins.map(|changes| Signs {
             changes: changes.clone(),
             mirrors: false,
@@ -98,38 +105,6 @@ pub fn add_groups(
     };
     let of_all = kept(&|equation| matches!(&equation.right, Kind::Fixed(value) if value.is_zero()));
     let of_instance = kept(&Equation::is_zero);
-    if let Some(object) = directed(&of_instance, homotopy) {
-        return Err(Unserved::Other(format!(
-            "constraints tell the two directions of `{}` apart, which has a direction of its own that a path keeps and the \
-             equations do not (name two points of it instead)",
-            problem.objects[object].name
-        )));
-    }
     (system.group, system.group_of_instance) = (of_all, of_instance);
     Ok(())
-}
-
-/// A line or plane of its own that no change of the group reverses alone.
-fn directed(group: &[Signs], homotopy: &Homotopy) -> Option<usize> {
-    let (d, first) = (homotopy.dimension, homotopy.gauge.place.len());
-    let turns = |object: usize| -> &[Entry] {
-        let entries = &homotopy.tail.objects[object];
-        let split = homotopy.shapes[object].split_direction(entries, d);
-        split.map_or(&[], |[_, turn]| turn)
-    };
-    let reverses = |signs: &Signs, object: usize| {
-        turns(object).iter().any(|entry| match *entry {
-            Entry::Unknown(u) => signs.changes[first + u],
-            _ => false,
-        })
-    };
-    let objects = 0..homotopy.tail.objects.len();
-    let objects: Vec<usize> = objects.filter(|&o| !turns(o).is_empty()).collect();
-    let alone = |object: usize| {
-        group.iter().any(|signs| {
-            let reversed = objects.iter().filter(|&&other| reverses(signs, other));
-            reversed.eq([&object])
-        })
-    };
-    objects.iter().copied().find(|&object| !alone(object))
 }

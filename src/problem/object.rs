@@ -129,6 +129,22 @@ pub enum Item {
 pub const AXES: [&str; 3] = ["x-axis", "y-axis", "z-axis"];
 
 impl Problem {
+    /// A line or plane with a direction of its own, by number, that is to stay where it is: the equations hold all components of
+    /// the direction but one, of which they know the square, and zeros of them have both of its signs.
+    pub(crate) fn fixed_direction(&self) -> Option<usize> {
+        let fixed = self.constraints.iter().filter(|c| c.kind == "fixed");
+        let mut objects = fixed.filter_map(|c| match c.items.first() {
+            Some(&Item::Object(object)) => Some(object),
+            _ => None,
+        });
+        objects.find(|&object| {
+            matches!(
+                self.objects[object].shape,
+                Shape::FreeLine { .. } | Shape::FreePlane { .. }
+            )
+        })
+    }
+
     /// The name of an item.
     pub fn item_name(&self, item: Item) -> &str {
         match item {

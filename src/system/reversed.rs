@@ -49,4 +49,34 @@ impl Homotopy {
         let is_shown = |twin: &Vec<bool>| shown.iter().all(|&(i, reversed)| twin[i] == reversed);
         either || shown.iter().any(|shown| shown.1) && !twins.iter().any(is_shown)
     }
+
+    /// A line or plane of its own, by number, whose direction none of the known changes of sign (`twins`) that `keeps` accepts
+    /// reverses alone: constraints tell its two directions apart, a path keeps one of them by continuity, and zeros of
+    /// the equations may have either.
+    pub fn directed(&self, keeps: impl Fn(&[bool]) -> bool) -> Option<usize> {
+        let first = self.gauge.place.len();
+        // Objects with directions of their own, and the unknowns of these.
+        let mut own: Vec<(usize, Vec<usize>)> = Vec::new();
+        for (object, entries) in self.tail.objects.iter().enumerate() {
+            let split = self.shapes[object].split_direction(entries, self.dimension);
+            let turn = split.map_or(&[][..], |[_, turn]| turn);
+            if !turn.is_empty() {
+                let unknowns = turn.iter().filter_map(|entry| match *entry {
+                    Entry::Unknown(u) => Some(first + u),
+                    _ => None,
+                });
+                own.push((object, unknowns.collect()));
+            }
+        }
+        let twins = self.twins().unwrap_or_default();
+        let alone = |object: usize| {
+            twins.iter().any(|twin| {
+                let reverses = |own: &Vec<usize>| own.iter().any(|&i| twin[i]);
+                let mut reversed = own.iter().filter(|(_, own)| reverses(own));
+                let first = reversed.next().map(|one| one.0);
+                first == Some(object) && reversed.next().is_none() && keeps(twin)
+            })
+        };
+        own.iter().map(|one| one.0).find(|&object| !alone(object))
+    }
 }

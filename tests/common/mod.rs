@@ -11,6 +11,7 @@ pub mod hard;
 pub mod mixed;
 pub mod moves;
 pub mod random;
+pub mod sketches;
 
 use krawl::problem::Problem;
 use krawl::track::{self, Control, Mode, Options, Outcome, Solution, Space, Status};

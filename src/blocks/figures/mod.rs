@@ -23,7 +23,7 @@ mod senses;
 use super::cut::{Cut, free_names};
 use super::number::Number;
 use crate::interval::{Interval, point};
-use crate::problem::{Item, Problem, Shape};
+use crate::problem::Problem;
 use crate::track::{Control, Options};
 use parts::{is_met, may_be_reversed, parts_of, vanishes};
 use search::Search;
@@ -101,23 +101,6 @@ pub struct Figures {
     senses: Option<Vec<Sense>>,
 }
 
-/// A line or plane with a direction of its own that is to stay where it is: the equations hold all components of the
-/// direction but one, of which they know the square, and a block by itself would have both of its signs.
-pub(crate) fn fixed_direction(problem: &Problem) -> Option<&str> {
-    let fixed = problem.constraints.iter().filter(|c| c.kind == "fixed");
-    let objects = fixed.filter_map(|c| match c.items.first() {
-        Some(&Item::Object(o)) => Some(&problem.objects[o]),
-        _ => None,
-    });
-    let mut free = objects.filter(|object| {
-        matches!(
-            object.shape,
-            Shape::FreeLine { .. } | Shape::FreePlane { .. }
-        )
-    });
-    free.next().map(|object| &*object.name)
-}
-
 impl Figures {
     /// Looks for the figures of a problem in its own frame, which need not be well constrained.
     ///
@@ -149,7 +132,8 @@ impl Figures {
                     .to_owned(),
             );
         }
-        if let Some(object) = fixed_direction(problem) {
+        if let Some(object) = problem.fixed_direction() {
+            let object = &problem.objects[object].name;
             return Err(format!(
                 "`{object}` is fixed and has a direction of its own, of which one component is told by the length only; figures \
                  with such directions are not counted block by block (name two fixed points of it instead)"

@@ -4,24 +4,18 @@
 //! said of each part is what the check will find. The search before has found the figures, and says which unknown to halve.
 
 use super::newton::Square;
-use super::search::{Block as Searched, Choice, SMALL};
-use super::system::System;
+use super::search::{Block as Searched, COARSE, Choice, MANY, SMALL};
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::{
-    Block, Change, CoordinateCover, Half, Image, Mark, Part, Space,
+    Block, Change, CoordinateCover, Half, Mark, Part, Space,
 };
 use crate::interval::{Interval, ZERO};
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Where that many parts are undecided, parts are not halved any more below [`COARSE`].
-const MANY: usize = 300;
-/// How well all unknowns are known then.
-const COARSE: f64 = 1e-3;
 /// A block that narrows a part by less than this, in the logarithm of its volume, is not worth a mark.
 const WORTH: f64 = 0.7;
-
 /// The same where the block has one zero in the part.
 const SLOW: f64 = 0.01;
 /// Images by more changes of sign of lines and planes of their own, in all sums, are not looked for.
@@ -37,16 +31,16 @@ pub struct Results<'a> {
     pub halves: Vec<Half>,
     /// The blocks, each of which needs only blocks before it.
     pub blocks: &'a [Cut],
-    /// For each block those that it needs, directly or not.
-    pub needs: Vec<Vec<usize>>,
+    /// The same, as the search has them.
+    pub searched: Vec<Searched<'a>>,
     /// The parts of the search.
     pub boxes: u64,
 }
 
-/// The cover, as a file; `None` where the check's test proves a figure less than the search's did.
+/// The cover, as a file; `None` where the check's test is too coarse for a figure.
 pub fn file(
     problem: &Problem,
-    (homotopy, system): (&Homotopy, &System),
+    homotopy: &Homotopy,
     results: Results,
     stop: &AtomicBool,
 ) -> Option<Vec<u8>> {
@@ -71,39 +65,24 @@ pub fn file(
     // As the check reads it.
     let problem = Problem::parse(&cover.problem, "").ok()?;
     let mut space = Space::new(&problem, &cover).ok()?;
-    let blocks = results.blocks.iter().zip(&results.needs);
-    let blocks = blocks.map(|(block, needs)| {
-        let known: Vec<usize> = needs
-            .iter()
-            .flat_map(|&need| &results.blocks[need].unknowns)
-            .copied()
-            .collect();
-        Searched::new(system, &block.equations, &block.unknowns, |u| {
-            known.contains(&u) || u == system.unknowns
-        })
-    });
-    let whole = space.whole();
+    let mut stack = vec![(space.whole(), 0)];
     let mut writer = Writer {
         homotopy,
         space: &mut space,
         cover: &mut cover,
-        blocks: blocks.collect(),
-        marks: Vec::new(),
+        blocks: results.searched,
         left: 0,
         parts: 0,
         // The check's rules are about as strong as the search's.
         most: 4 * results.boxes + 10_000,
         stop,
     };
-    let mut stack = vec![(whole, 0)];
     while let Some((mut part, block)) = stack.pop() {
         writer.parts += 1;
         if writer.space.narrow(&mut part).is_ok() {
             writer.go(part, block, &mut stack);
         }
     }
-    let marks = writer.marks;
-    cover.marks = marks;
     Some(cover.to_bytes())
 }
 
@@ -112,7 +91,6 @@ struct Writer<'a> {
     space: &'a mut Space,
     cover: &'a mut CoordinateCover,
     blocks: Vec<Searched<'a>>,
-    marks: Vec<u8>,
     /// Parts undecided, and all.
     left: usize,
     parts: u64,
@@ -122,7 +100,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn put(&mut self, mark: Mark) {
-        mark.put(&mut self.marks);
+        mark.put(&mut self.cover.marks);
     }
 
     fn leave(&mut self) {
@@ -149,17 +127,17 @@ impl Writer<'_> {
             if !is_bounded(&before) {
                 let saved = part.clone();
                 if self.space.bound(b, &mut part).is_err() {
-                    return Mark::Bound(b).put(&mut self.marks);
+                    return Mark::Bound(b).put(&mut self.cover.marks);
                 }
                 if is_bounded(&ranges(&part)) {
-                    Mark::Bound(b).put(&mut self.marks);
+                    Mark::Bound(b).put(&mut self.cover.marks);
                     continue;
                 }
                 part = saved;
             }
             if is_bounded(&before) {
-                let (mark, saved) = (self.marks.len(), part.clone());
-                Mark::Block(b).put(&mut self.marks);
+                let (mark, saved) = (self.cover.marks.len(), part.clone());
+                Mark::Block(b).put(&mut self.cover.marks);
                 if self.space.narrow_together(b, &mut part).is_err() {
                     return;
                 }
@@ -170,7 +148,7 @@ impl Writer<'_> {
                     continue;
                 }
                 part = saved;
-                self.marks.truncate(mark);
+                self.cover.marks.truncate(mark);
                 if is_known {
                     b += 1;
                     continue;
@@ -191,61 +169,28 @@ impl Writer<'_> {
             return;
         }
     }
-}
 
-impl Writer<'_> {
     /// Lists the zero in a part as an image of a solution, if it is one.
     fn image_in(&mut self, part: &Part) -> Option<Mark> {
-        let m = self.homotopy.equations;
-        let first = self.homotopy.gauge.place.len();
-        let twins = &self.homotopy.tail.twins;
-        if twins.len() > MOST_TWINS {
+        let axes = self.homotopy.dimension;
+        let twins = self.homotopy.tail.twins.len();
+        let place = self.cover.images.len();
+        if twins > MOST_TWINS || place == Mark::MOST {
             return None;
         }
         let bits = |mask: usize, count: usize| -> Vec<usize> {
             (0..count).filter(|k| mask >> k & 1 == 1).collect()
         };
-        let near: Vec<f64> = part.ranges().iter().map(|x| x.mid()).collect();
-        let size = near.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-        for axes in 0..1usize << self.homotopy.dimension {
-            for mask in 0..1usize << twins.len() {
-                let by = Change {
-                    axes: bits(axes, self.homotopy.dimension),
-                    twins: bits(mask, twins.len()),
-                };
-                let turned = |i: usize| {
-                    let of_axes = by.axes.iter().filter(|&&k| self.homotopy.flips(i, k));
-                    let of_twins = by.twins.iter();
-                    let of_twins = of_twins.filter(|&&k| i >= first && twins[k][i - first]);
-                    (of_axes.count() + of_twins.count()) % 2 == 1
-                };
-                let image: Vec<f64> = (0..m)
-                    .map(|i| if turned(i) { -near[i] } else { near[i] })
-                    .collect();
-                let is_near = |at: &Vec<f64>| {
-                    let mut pairs = at.iter().zip(&image);
-                    pairs.all(|(a, b)| (a - b).abs() <= 1e-6 * size)
-                };
-                for figure in 0..self.cover.figures.len() {
-                    if !is_near(&self.cover.figures[figure]) {
-                        continue;
-                    }
-                    let image = Image {
-                        figure,
-                        by: by.clone(),
-                    };
-                    let is_new = self.cover.images.len() < Mark::MOST;
-                    if is_new && self.space.see(&image).is_ok() {
-                        self.cover.images.push(image);
-                    }
-                    // What was added is of use, or not.
-                    if let Some(mark) = self.space.zero_of(part) {
-                        return Some(mark);
-                    }
-                }
-            }
-        }
-        None
+        let image = (0..1usize << (axes + twins)).find_map(|mask| {
+            let by = Change {
+                axes: bits(mask, axes),
+                twins: bits(mask >> axes, twins),
+            };
+            self.space.image_in(&by, part)
+        })?;
+        self.space.see(&image).ok()?;
+        self.cover.images.push(image);
+        Some(Mark::Image(place))
     }
 }
 

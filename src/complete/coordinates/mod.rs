@@ -28,7 +28,7 @@ use super::pairs::Pairs;
 use super::search::Run as Watched;
 use super::targets::Targets;
 use super::{Complete, Options, Part, Status, Unserved, Why, emptiness};
-use crate::blocks::{Block as Cut, Blocks, fixed_direction};
+use crate::blocks::{Block as Cut, Blocks};
 use crate::certificate::cover::coordinates::Half;
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;
@@ -54,7 +54,8 @@ const FAR: f64 = 1e30;
 /// Searches for all figures of a problem, up to its symmetries.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
-    if let Some(object) = fixed_direction(problem) {
+    if let Some(object) = problem.fixed_direction() {
+        let object = &problem.objects[object].name;
         // A path keeps its sign; the equations have both, of which one is no figure.
         return Err(Unserved::Refused(format!(
             "not served: `{object}` is fixed and has a direction of its own, of which one component is told by the length \
@@ -64,7 +65,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let homotopy = Homotopy::new(problem)
         .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
     let system = System::new(&homotopy);
-    if let Some(object) = symmetry::directed(&homotopy, &system) {
+    if let Some(object) = homotopy.directed(|changes| symmetry::keeps(&system, changes)) {
         return Err(Unserved::Refused(format!(
             "not served: constraints tell the two directions of `{}` apart, which has a direction of its own that a path \
              keeps and the equations do not (name two points of it instead)",
@@ -259,6 +260,22 @@ impl<'a> Figures<'a> {
         }
     }
 
+    /// A block, with what those that it needs have determined.
+    fn block(&self, b: usize) -> Block<'a> {
+        let m = self.system.unknowns;
+        let mut is_known = vec![false; m + 1];
+        is_known[m] = true;
+        for &a in &self.ancestors[b] {
+            for &u in &self.blocks[a].unknowns {
+                is_known[u] = true;
+            }
+        }
+        let block = &self.blocks[b];
+        Block::new(self.system, &block.equations, &block.unknowns, |u| {
+            is_known[u]
+        })
+    }
+
     /// The zeros of a block with those before chosen.
     fn solve(&mut self, b: usize, chosen: &[(usize, usize)], x: &[Interval]) -> Rc<Found> {
         let before = chosen.iter().copied();
@@ -267,23 +284,12 @@ impl<'a> Figures<'a> {
         if let Some(found) = self.known.get(&key) {
             return Rc::clone(found);
         }
-        let block = &self.blocks[b];
-        let mut is_known = vec![false; x.len()];
-        for &a in &self.ancestors[b] {
-            self.blocks[a]
-                .unknowns
-                .iter()
-                .for_each(|&u| is_known[u] = true);
-        }
         let run = Run {
             stop: self.run.stop,
             boxes: &self.run.boxes,
             most_boxes: self.run.most_boxes,
         };
-        let searched = Block::new(self.system, &block.equations, &block.unknowns, |u| {
-            is_known[u] || u == self.system.unknowns
-        });
-        let found = Rc::new(searched.search(x.to_vec(), &run));
+        let found = Rc::new(self.block(b).search(x.to_vec(), &run));
         self.known.insert(key, Rc::clone(&found));
         found
     }
@@ -334,25 +340,16 @@ impl<'a> Figures<'a> {
 
     /// The cover of the space, for the check.
     fn cover(&self, problem: &Problem, halves: Vec<Half>) -> Option<Vec<u8>> {
-        let needs = self.ancestors.iter();
+        let figures = self.found.iter();
         let results = cover::Results {
-            figures: self
-                .found
-                .iter()
-                .map(|found| found.figure.centre.clone())
-                .collect(),
+            figures: figures.map(|found| found.figure.centre.clone()).collect(),
             others: self.others.clone(),
             halves,
             blocks: &self.blocks,
-            needs: needs.map(|all| all.iter().copied().collect()).collect(),
+            searched: (0..self.blocks.len()).map(|b| self.block(b)).collect(),
             boxes: self.run.boxes.load(Ordering::Relaxed),
         };
-        cover::file(
-            problem,
-            (self.homotopy, self.system),
-            results,
-            self.run.stop,
-        )
+        cover::file(problem, self.homotopy, results, self.run.stop)
     }
 
     /// The unknowns of a figure, and the number 0, if numbers of few digits in its box meet all equations exactly, without any

@@ -38,9 +38,9 @@ const PIECES: usize = 64;
 /// A part whose unknowns are all known to this much is not halved any more.
 pub const SMALL: f64 = 1e-9;
 /// The same once that many parts of a piece are undecided.
-const COARSE: f64 = 1e-3;
+pub const COARSE: f64 = 1e-3;
 /// How many that are.
-const MANY: usize = 300;
+pub const MANY: usize = 300;
 /// Where that many are undecided a piece is given up.
 const TOO_MANY: usize = 5000;
 /// An unknown that may be as large as this, and more, is not looked at any further.

@@ -6,7 +6,7 @@
 
 use super::system::{Form, System};
 use crate::certificate::cover::coordinates::{self, Half};
-use crate::constraint::{Entry, Symmetry, symmetry};
+use crate::constraint::{Symmetry, symmetry};
 use crate::interval::ZERO;
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -87,41 +87,9 @@ pub fn halves(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<Ha
         .collect()
 }
 
-/// A line or plane of its own whose direction cannot be reversed alone with all equations kept: constraints tell its two
-/// directions apart, a path keeps one of them by continuity, and zeros of the equations may have either.
-pub fn directed(homotopy: &Homotopy, system: &System) -> Option<usize> {
-    let (m, d, first) = (
-        system.unknowns,
-        homotopy.dimension,
-        homotopy.gauge.place.len(),
-    );
-    let own = |object: usize| {
-        let entries = &homotopy.tail.objects[object];
-        let split = homotopy.shapes[object].split_direction(entries, d);
-        split.map_or(&[][..], |[_, turn]| turn)
-    };
-    let reverses = |changes: &[bool], object: usize| {
-        own(object).iter().any(|entry| match *entry {
-            Entry::Unknown(u) => changes[first + u],
-            _ => false,
-        })
-    };
-    let objects: Vec<usize> = (0..homotopy.tail.objects.len())
-        .filter(|&object| !own(object).is_empty())
-        .collect();
-    let changes = homotopy.twins().unwrap_or_default();
-    let alone = |object: usize| {
-        changes.iter().any(|change| {
-            let reversed = objects.iter().filter(|&&other| reverses(change, other));
-            reversed.eq([&object]) && keeps(system, &change[..m])
-        })
-    };
-    objects.iter().copied().find(|&object| !alone(object))
-}
-
 /// Whether the equations hold with these signs changed wherever they hold without: every equation stays as it is, or
 /// changes its sign and has zero on the right.
-fn keeps(system: &System, changes: &[bool]) -> bool {
+pub fn keeps(system: &System, changes: &[bool]) -> bool {
     let zero = system.unknowns;
     // Both ends of a difference change together.
     let sign = |form: Form| match form {

@@ -96,7 +96,12 @@ impl Space {
         }
         for (index, at) in cover.others.iter().enumerate() {
             let place = space.zero(at).filter(|place| space.is_none(place, at));
-            let unproved = || format!("zero {} may be a figure", index + 1);
+            let unproved = || {
+                format!(
+                    "zero {} of those that are called no figures may be one",
+                    index + 1
+                )
+            };
             space.others.push(place.ok_or_else(unproved)?);
         }
         Ok(space)
@@ -167,13 +172,30 @@ impl Space {
         self.narrow(part)
     }
 
+    /// The solution that a change of signs takes the zero in a part to, if it is one.
+    pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
+        let changes = symmetry::changes(&self.eq, self.allowed, by)?;
+        let shows = |&figure: &usize| {
+            let changes = changes.clone();
+            self.shows(&Seen { figure, changes }, part)
+        };
+        let figure = (0..self.figures.len()).find(shows)?;
+        let by = by.clone();
+        Some(Image { figure, by })
+    }
+
     /// Adds a zero that is an image of a solution.
     pub fn see(&mut self, image: &Image) -> Result<(), String> {
         if image.figure >= self.figures.len() {
-            return Err("an image is one of no solution".to_owned());
+            return Err("an image is said to be of a solution that is not listed".to_owned());
         }
         let changes = symmetry::changes(&self.eq, self.allowed, &image.by);
-        let unlike = || format!("an image of solution {} is not like it", image.figure + 1);
+        let unlike = || {
+            format!(
+                "what is called an image of solution {} is not so by a symmetry of the problem",
+                image.figure + 1
+            )
+        };
         self.images.push(Seen {
             figure: image.figure,
             changes: changes.ok_or_else(unlike)?,

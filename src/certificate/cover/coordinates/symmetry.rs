@@ -1,9 +1,10 @@
 //! Changes of sign that take figures to congruent ones.
 
 use super::format::{Change, Half};
-use crate::certificate::checker::equations::Equations;
-use crate::constraint::{Entry, Symmetry};
-use crate::problem::{Item, Problem, Shape};
+use crate::certificate::checker::equations::{Equations, ZERO};
+use crate::constraint::Symmetry;
+use crate::interval::point;
+use crate::problem::Problem;
 
 /// The unknowns that may be taken as not negative: each is changed by a symmetry that changes none before it, so that
 /// of the images of a figure under these symmetries one has none of them negative.
@@ -19,7 +20,7 @@ pub fn not_negative(
         });
         if !fits {
             return Err(format!(
-                "unknown {} may be negative in figures that are like no other",
+                "unknown {} is looked at where it is not negative, and no symmetry of the problem allows that",
                 half.unknown
             ));
         }
@@ -59,10 +60,12 @@ pub fn changes(eq: &Equations, allowed: Symmetry, by: &Change) -> Option<Vec<boo
 /// Whether the equations hold with these signs changed wherever they hold without: each stays as it is, or changes its sign
 /// and has 0 on the right.
 fn keeps(eq: &Equations, changes: &[bool]) -> bool {
-    // The numbers 0 and 1 stand behind the unknowns, and 0 has both signs.
+    // Behind the unknowns and t stands the number 0, which has both signs, and behind that the number 1.
+    let zero = eq.m + 1;
     let sign = |[i, j]: [usize; 2]| match (changes.get(i), changes.get(j)) {
         (Some(a), Some(b)) => (a == b).then_some(*a),
-        (Some(a), None) | (None, Some(a)) => Some(*a),
+        (Some(a), None) => (j == zero).then_some(*a),
+        (None, Some(a)) => (i == zero).then_some(*a),
         (None, None) => Some(false),
     };
     let is_nothing = |form: usize| {
@@ -76,10 +79,10 @@ fn keeps(eq: &Equations, changes: &[bool]) -> bool {
         let Some(first) = all.next() else {
             return true;
         };
-        let zero = eq.right_at(e, crate::interval::point(1.0))[0] == crate::interval::ZERO;
+        let vanishes = eq.right_at(e, point(1.0))[0] == ZERO;
         match both(first) {
             None => false,
-            Some(change) => all.all(|p| both(p) == Some(change)) && (!change || zero),
+            Some(change) => all.all(|p| both(p) == Some(change)) && (!change || vanishes),
         }
     })
 }
@@ -87,47 +90,7 @@ fn keeps(eq: &Equations, changes: &[bool]) -> bool {
 /// A line or plane of its own whose two directions constraints tell apart, by name: a path keeps one of them, and the
 /// equations have both.
 pub fn directed<'a>(eq: &Equations, problem: &'a Problem) -> Option<&'a str> {
-    let homotopy = &eq.homotopy;
-    let first = homotopy.gauge.place.len();
-    let unknown = |entry: &Entry| match *entry {
-        Entry::Unknown(u) => Some(first + u),
-        _ => None,
-    };
-    // The unknowns of its direction.
-    let own = |object: usize| -> Vec<usize> {
-        let entries = &homotopy.tail.objects[object];
-        let split = homotopy.shapes[object].split_direction(entries, homotopy.dimension);
-        split.map_or(Vec::new(), |[_, turn]| {
-            turn.iter().filter_map(unknown).collect()
-        })
-    };
-    let objects = 0..homotopy.tail.objects.len();
-    let objects: Vec<(usize, Vec<usize>)> = objects
-        .map(|object| (object, own(object)))
-        .filter(|(_, own)| !own.is_empty())
-        .collect();
-    let twins = homotopy.twins().unwrap_or_default();
-    let turns_alone = |object: usize| {
-        twins.iter().any(|twin| {
-            let turned = objects
-                .iter()
-                .filter(|(_, own)| own.iter().any(|&i| twin[i]));
-            turned.map(|(other, _)| other).eq([&object]) && keeps(eq, twin)
-        })
-    };
-    let is_fixed = |object: usize| {
-        problem.constraints.iter().any(|constraint| {
-            constraint.kind == "fixed" && constraint.items.first() == Some(&Item::Object(object))
-        })
-    };
-    let free = problem.objects.iter().enumerate().filter(|(_, object)| {
-        matches!(
-            object.shape,
-            Shape::FreeLine { .. } | Shape::FreePlane { .. }
-        )
-    });
-    let fixed = free.map(|(object, _)| object).find(|&o| is_fixed(o));
-    let told_apart = objects.iter().map(|(object, _)| *object);
-    let found = fixed.or_else(|| told_apart.clone().find(|&object| !turns_alone(object)));
-    found.map(|object| problem.objects[object].name.as_str())
+    let told_apart = || eq.homotopy.directed(|changes| keeps(eq, changes));
+    let object = problem.fixed_direction().or_else(told_apart)?;
+    Some(&problem.objects[object].name)
 }
