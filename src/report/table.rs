@@ -36,7 +36,8 @@ pub fn to_summary(problem: &Problem, outcome: &Outcome) -> String {
     let status = match (&outcome.status, outcome.mode) {
         (Status::Closed, Mode::Certified) => "closed, proved",
         (Status::Closed, Mode::Float) => "closed, observed",
-        (Status::Open(_), _) => "open, proved",
+        (Status::Open(_), Mode::Certified) => "open, proved",
+        (Status::Open(_), Mode::Float) => "open, observed",
         (Status::Stopped(_), _) => "stopped",
     };
     let count = outcome.solutions.len();
@@ -193,24 +194,35 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
             };
             format!("Closed, proved: {text}.{different}")
         }
-        (_, Status::Open(ends)) => {
+        (mode, Status::Open(ends)) => {
             let place = |end: &PathEnd| {
                 let t = 0.5 * (end.t.0 + end.t.1);
                 format!("at t = {t:.6}, {}", without_stop(&end.reason))
             };
-            let text = match count {
-                0 => "between them it has no point with t = 1".to_owned(),
-                1 => "the solution listed is exactly its one point between them with t = 1"
-                    .to_owned(),
-                n => format!(
+            let both = format!(
+                "\n  One end: {}.\n  The other: {}.",
+                place(&ends[0]),
+                place(&ends[1])
+            );
+            let text = match (mode, count) {
+                (Mode::Float, n) => {
+                    return format!(
+                        "Open, observed: the path through the sketch seems to have two ends, and between them it met \
+                         {} (floating-point tracking, not a proof).{different}{both}",
+                        solutions(n)
+                    );
+                }
+                (Mode::Certified, 0) => "between them it has no point with t = 1".to_owned(),
+                (Mode::Certified, 1) => {
+                    "the solution listed is exactly its one point between them with t = 1"
+                        .to_owned()
+                }
+                (Mode::Certified, n) => format!(
                     "the {n} solutions listed are exactly its points between them with t = 1"
                 ),
             };
             format!(
-                "Open, proved: the path through the sketch has two ends, and {text}.{different}\n  One end: \
-                 {}.\n  The other: {}.",
-                place(&ends[0]),
-                place(&ends[1])
+                "Open, proved: the path through the sketch has two ends, and {text}.{different}{both}"
             )
         }
         (Mode::Certified, Status::Stopped(reason)) => {

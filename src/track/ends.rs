@@ -4,14 +4,15 @@ use crate::constraint::Tail;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::Homotopy;
 
-/// One end of an open path: as far as it was proved.
+/// One end of an open path: as far as it was proved, or, in float mode, followed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathEnd {
-    /// t at the last point proved, between these.
+    /// t at the last point proved, between these. In float mode that of the last point seen, or, where something
+    /// vanishes, those of the last point before that and of the first behind it.
     pub t: (f64, f64),
     /// What happens there.
     pub kind: EndKind,
-    /// In words what the figure does there, and what stopped the proof.
+    /// In words what the figure does there, and what stopped the proof or the run.
     pub reason: String,
     /// At an end at infinity: which point goes there, and how far it was followed.
     pub away: Option<Away>,
@@ -63,6 +64,10 @@ pub const SETTLED: f64 = 1e-2;
 
 /// A length or radius has nearly vanished where it is this part of what it was in the sketch.
 pub const SMALL: f64 = 1e-3;
+
+/// Where the Jacobian with the normal has a larger condition, in floats, a run that is stuck is near a place
+/// where it loses rank: where branches meet.
+pub const SINGULAR: f64 = 1e7;
 
 /// Planes are called parallel, and points on one line, where the sine of the angle is below this.
 const NEARLY: f64 = 1e-2;
@@ -157,6 +162,29 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i] * b[j] - a[j] * b[i]
     })
+}
+
+/// The point with the largest coordinate, and that. `z` are all unknowns.
+pub fn farthest(homotopy: &Homotopy, z: &[f64]) -> Option<(usize, f64)> {
+    let unknowns =
+        |p: usize| (0..homotopy.dimension).filter_map(move |k| homotopy.coordinate(p, k));
+    let sizes = (0..homotopy.points).flat_map(|p| unknowns(p).map(move |i| (p, z[i].abs())));
+    sizes.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The largest coordinate of a figure, or 1 if that is more.
+pub fn size_of(homotopy: &Homotopy, figure: &[f64]) -> f64 {
+    farthest(homotopy, figure).map_or(1.0, |(_, size)| size.max(1.0))
+}
+
+/// The places of all points, in the problem's unit.
+pub fn places(homotopy: &Homotopy, z: &[f64]) -> Vec<[f64; 3]> {
+    let coordinate = |p: usize, axis: usize| {
+        let at = homotopy.coordinate(p, axis);
+        at.map_or(0.0, |i| z[i] * homotopy.unit)
+    };
+    let place = |p: usize| std::array::from_fn(|axis| coordinate(p, axis));
+    (0..homotopy.points).map(place).collect()
 }
 
 /// The name of a vector that must not vanish and has nearly done so: all its coordinates are small beside `size`.

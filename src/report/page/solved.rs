@@ -14,6 +14,10 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         ("certified", false) if open => ("proved · between the ends of the path", Tone::Proved),
         ("certified", true) => ("proved · complete for this path", Tone::Proved),
         (_, true) => ("observed, not proved", Tone::Observed),
+        (_, false) if open => (
+            "observed between the ends of the path, not proved",
+            Tone::Observed,
+        ),
         (_, false) => ("stopped", Tone::Stopped),
     };
     (page.badge, page.tone) = (badge.into(), tone);

@@ -22,7 +22,7 @@ use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::arc::Figure;
-use crate::track::ends::{Away, EndKind, PathEnd};
+use crate::track::ends::{Away, EndKind, PathEnd, size_of};
 use crate::track::full::{Equations, InverseMaker};
 use crate::track::{
     Control, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind, TubeSeen,
@@ -45,10 +45,6 @@ const EXIT: f64 = 0.97;
 /// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
-/// Where the Jacobian with the normal has a larger condition, in floats, a run that is stuck is near a place
-/// where it loses rank: where branches meet.
-const SINGULAR: f64 = 1e7;
-
 /// Follows the path and proves every step by a test.
 pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
     homotopy: &Homotopy,
@@ -182,11 +178,6 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     /// h |z_ORDER|^(1/(ORDER − 1)) of the last tube, which is nearly the same for all; NaN where h was cut
     /// short, where the test does not foresee it, and after the first attempt: what is foreseen may be wrong.
     typical: f64,
-}
-
-/// The largest coordinate of a figure, or 1 if that is more.
-fn size_of(homotopy: &Homotopy, figure: &[f64]) -> f64 {
-    open::farthest(homotopy, figure).map_or(1.0, |(_, size)| size.max(1.0))
 }
 
 impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {

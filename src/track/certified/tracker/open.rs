@@ -5,17 +5,10 @@ use super::{EndKind, PathEnd, Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
-use crate::system::Homotopy;
-use crate::track::ends::{Away, FAR, SETTLED, SMALL, vanishing, vanishing_vector};
+use crate::track::ends::{
+    Away, FAR, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
+};
 use crate::track::{Control, Options, Status, Stop, StopKind};
-
-/// The point with the largest coordinate, and that.
-pub(super) fn farthest(homotopy: &Homotopy, z: &[f64]) -> Option<(usize, f64)> {
-    let unknowns =
-        |p: usize| (0..homotopy.dimension).filter_map(move |k| homotopy.coordinate(p, k));
-    let sizes = (0..homotopy.points).flat_map(|p| unknowns(p).map(move |i| (p, z[i].abs())));
-    sizes.max_by(|a, b| a.1.total_cmp(&b.1))
-}
 
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// The point that goes away, if one is far from the others, moves away at the last point that is proved, and t
@@ -148,18 +141,12 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         } else {
             return Err(reason);
         };
-        let homotopy = &self.homotopy;
-        let coordinate = |p: usize, axis: usize| {
-            let at = homotopy.coordinate(p, axis);
-            at.map_or(0.0, |i| z[i] * homotopy.unit)
-        };
-        let points = (0..homotopy.points).map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
         Ok(PathEnd {
             t,
             kind,
             reason,
             away: self.away,
-            points: points.collect(),
+            points: places(&self.homotopy, z),
         })
     }
 

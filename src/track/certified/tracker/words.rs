@@ -1,10 +1,11 @@
 //! Why a run ended, and what was switched on in it, in words.
 
 use super::crossing::Crossing;
-use super::{POINT_TOLERANCE, SINGULAR, Test, Tracker};
+use super::{POINT_TOLERANCE, Test, Tracker};
 use crate::track::certified::reasons::{
     Doubt, Rejection, precision, undecided, unlinked, unproved, unrefined,
 };
+use crate::track::ends::SINGULAR;
 use crate::track::flexible;
 use crate::track::full::condition;
 use crate::track::{Stop, StopKind};

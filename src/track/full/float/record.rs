@@ -83,6 +83,21 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
         is_new
     }
 
+    /// Joins what was seen the other way from the sketch: its solutions come first, the last one foremost.
+    pub fn go_on_from(&mut self, back: Self, m: usize) {
+        let ahead = std::mem::replace(&mut self.found, back.found);
+        self.found.reverse();
+        for x in ahead {
+            self.keep(x, m);
+        }
+        self.flat.extend(back.flat);
+        self.steps += back.steps;
+        self.rejected += back.rejected;
+        self.length += back.length;
+        let ((low, high), behind) = (self.t_range, back.t_range);
+        self.t_range = (low.min(behind.0), high.max(behind.1));
+    }
+
     /// Takes note of a t that was met.
     pub fn meet(&mut self, t: f64) {
         self.t_range = (self.t_range.0.min(t), self.t_range.1.max(t));

@@ -2,13 +2,14 @@
 
 use super::Record;
 use super::crossing::Crossing as FlatCrossing;
-use crate::linalg::Vector;
+use super::open::{Ends, Halt, follow_both_ways};
+use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
 use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{
     CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
 };
-use crate::track::{Control, Options, Outcome, Progress, Status, Stop, StopKind};
+use crate::track::{Control, Options, Outcome, Progress, Stop, StopKind};
 use std::time::Instant;
 
 /// Points of the path are corrected until the last correction is below this, in the homotopy's
@@ -38,29 +39,20 @@ pub fn track<const D: usize>(
 ) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
-    let mut record = Record::<D>::new(&equations);
     let mut maker = equations.inverter();
-    let status = match follow(
-        homotopy,
-        (&equations, &mut maker),
-        options,
-        control,
-        &mut record,
-    ) {
-        Ok(()) => Status::Closed,
-        Err(reason) => Status::Stopped(reason),
-    };
+    let system = (&equations, &mut maker);
+    let (status, record) = follow_both_ways::<D, Matrix>(homotopy, system, options, control);
     record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
 }
 
-/// Follows the path with any preconditioner. The error: where and why it stopped.
+/// Follows the path one way with any preconditioner. The error: where and why it ended before it was back.
 pub fn follow<const D: usize, Y: Preconditioner<D>>(
     homotopy: &Homotopy,
     (equations, inverter): (&Equations<D>, &mut Y::Maker),
     options: &Options,
     control: &mut Control,
     record: &mut Record<D, Y>,
-) -> Result<(), Stop> {
+) -> Result<(), Halt> {
     let (m, n) = (equations.m, equations.n());
     let tolerance = options
         .tolerance_in(homotopy.unit)
@@ -83,7 +75,9 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
     now.expand(equations);
     let direction = now.normal.clone();
 
-    let positive = homotopy.positive_unknowns();
+    let ends = Ends::new(homotopy, &sketch);
+    // Where something vanishes is known to that.
+    let located = tolerance.max(2.0 * SMALLEST_STEP);
     let longest = options.step_in(homotopy.unit).unwrap_or(f64::INFINITY);
     let mut previous: Option<Vector> = None;
     let mut events = Events::new(equations, tolerance);
@@ -101,7 +95,11 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
                 place(record, &now),
                 homotopy.remark_on_lengths(now.z[0][m])
             );
-            return Err(Stop::new(StopKind::NoStep, words));
+            let stop = Stop::new(StopKind::NoStep, words);
+            return Err(match &ends {
+                Some(ends) => ends.stuck(equations, (&now.z[0], &now.normal), stop),
+                None => stop.into(),
+            });
         }
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
         let refined = next.refine(equations, inverter, tolerance, 6).is_ok()
@@ -111,17 +109,27 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             next.expand(equations);
         }
         let turned = dot(&now.normal[..n], &next.normal[..n]) < LEAST_COSINE;
+        // Beyond zero there is no figure.
+        let passed = match &ends {
+            Some(ends) if refined => ends.passed(&now.z[0], &next.z[0]),
+            _ => None,
+        };
+        if let (Some(ends), Some(name)) = (&ends, passed)
+            && step <= located
+        {
+            let words = format!("{name} goes to zero {}", place(record, &now));
+            let end = ends.undefined(&now.z[0], &next.z[0], &words);
+            return Err(Halt {
+                stop: Stop::new(StopKind::Undefined, words),
+                end: Some(Box::new(end)),
+            });
+        }
         let seen = match refined {
             false => Err("the corrector fails"),
+            true if passed.is_some() => Err("something goes to zero"),
             true if turned => Err("the path turns too much"),
             true => events.between(equations, inverter, &now, &next, step, record),
         };
-        // Beyond zero there is no figure.
-        if let (Ok(()), Some(&i)) = (seen, positive.iter().find(|&&i| next.z[0][i] <= 0.0)) {
-            let name = &homotopy.tail.unknowns[i - homotopy.gauge.place.len()].name;
-            let words = format!("{name} goes to zero {}", place(record, &now));
-            return Err(Stop::new(StopKind::Undefined, words));
-        }
         if let Err(reason) = seen {
             failure = reason;
             record.rejected += 1;
@@ -159,13 +167,18 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             step = crossed.advance.min(longest);
             std::mem::swap(&mut now, &mut next);
         }
+        if let Some(ends) = &ends
+            && let Some(away) = ends.away(&now.z[0], &now.z[1])
+        {
+            return Err(ends.infinite(&now.z[0], away, &place(record, &now)));
+        }
         if record.steps >= options.max_steps {
             let words = format!(
                 "the limit of {} steps was reached {}",
                 options.max_steps,
                 place(record, &now)
             );
-            return Err(Stop::new(StopKind::Limit, words));
+            return Err(Stop::new(StopKind::Limit, words).into());
         }
         let progress = Progress {
             t: now.z[0][m],
@@ -175,7 +188,7 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
         };
         if control.is_cancelled(progress) {
             let words = format!("interrupted {}", place(record, &now));
-            return Err(Stop::new(StopKind::Interrupted, words));
+            return Err(Stop::new(StopKind::Interrupted, words).into());
         }
     }
 }

@@ -4,11 +4,11 @@
 
 use crate::linalg::{Singular, Vector};
 use crate::system::Homotopy;
-use crate::track::full::float::{Record, follow};
+use crate::track::full::float::follow_both_ways;
 use crate::track::full::{Differences, Equations, Lengths, Preconditioner};
 use crate::track::reduced::structure::elimination::{Elimination, Maker};
 use crate::track::reduced::structure::layout::{Layout, Order};
-use crate::track::{Control, Driving, Options, Outcome, Space, Status};
+use crate::track::{Control, Driving, Options, Outcome, Space};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -20,7 +20,6 @@ pub fn track<const D: usize>(
 ) -> Outcome {
     let clock = Instant::now();
     let equations = Equations::<D>::new(homotopy);
-    let mut record = Record::<D, Structured<D>>::new(&equations);
     let mut plans = Plans {
         maker: Maker::new(Order::new(homotopy, &equations), options.alpha),
         last: None,
@@ -30,10 +29,7 @@ pub fn track<const D: usize>(
         most: 0,
     };
     let given = (&equations, &mut plans);
-    let status = match follow(homotopy, given, options, control, &mut record) {
-        Ok(()) => Status::Closed,
-        Err(reason) => Status::Stopped(reason),
-    };
+    let (status, record) = follow_both_ways::<D, Structured<D>>(homotopy, given, options, control);
     let outcome = record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64());
     Outcome {
         space: Space::Reduced,

@@ -1,0 +1,217 @@
+//! Paths that do not come back to the sketch, in floats: both ways from it to their two ends. Nothing is proved.
+
+use super::{Record, follow};
+use crate::system::Homotopy;
+use crate::track::ends::{
+    Away, EndKind, FAR, PathEnd, SETTLED, SINGULAR, farthest, places, size_of, vanishing,
+    vanishing_vector,
+};
+use crate::track::full::{Equations, Preconditioner, condition};
+use crate::track::{Control, LARGEST_SQUARE, Options, Status, Stop, StopKind};
+
+/// Why a run ended before it came back to the sketch.
+#[derive(Debug)]
+pub struct Halt {
+    /// In general.
+    pub stop: Stop,
+    /// The end of the path, if that is what it came to.
+    pub end: Option<Box<PathEnd>>,
+}
+
+impl From<Stop> for Halt {
+    fn from(stop: Stop) -> Self {
+        Halt { stop, end: None }
+    }
+}
+
+/// Follows the path, and where it comes to an end the other way from the sketch as well.
+pub fn follow_both_ways<const D: usize, Y: Preconditioner<D>>(
+    homotopy: &Homotopy,
+    (equations, maker): (&Equations<D>, &mut Y::Maker),
+    options: &Options,
+    control: &mut Control,
+) -> (Status, Record<D, Y>) {
+    let mut record = Record::<D, Y>::new(equations);
+    let ahead = follow(
+        homotopy,
+        (equations, &mut *maker),
+        options,
+        control,
+        &mut record,
+    );
+    let end = match ahead {
+        Ok(()) => return (Status::Closed, record),
+        Err(Halt { stop, end: None }) => return (Status::Stopped(stop), record),
+        Err(Halt { end: Some(end), .. }) => end,
+    };
+    let reversed = Options {
+        reverse: !options.reverse,
+        ..options.clone()
+    };
+    let mut back = Record::<D, Y>::new(equations);
+    let result = follow(homotopy, (equations, maker), &reversed, control, &mut back);
+    let Err(halt) = result else {
+        // It came back to the sketch after all.
+        back.steps += record.steps;
+        back.rejected += record.rejected;
+        return (Status::Closed, back);
+    };
+    record.go_on_from(back, equations.m);
+    // Both ways begin there.
+    record.meet(0.0);
+    let status = match halt.end {
+        Some(other) => Status::Open(Box::new([*other, *end])),
+        None => {
+            let words = format!(
+                "one way from the sketch the path has an end ({}); the other way {}",
+                end.reason, halt.stop
+            );
+            Status::Stopped(halt.stop.in_words(words))
+        }
+    };
+    (status, record)
+}
+
+/// Watches for the ends of a path. Distances alone have none: they cannot let a figure grow beyond bounds while t does
+/// not, and there is nothing in them that must not vanish.
+pub struct Ends<'h> {
+    homotopy: &'h Homotopy,
+    /// All unknowns in the sketch.
+    sketch: Vec<f64>,
+    size_of_sketch: f64,
+    positive: Vec<usize>,
+    vectors: Vec<Vec<[usize; 2]>>,
+}
+
+impl<'h> Ends<'h> {
+    /// For the path through this sketch (all unknowns); `None` for a problem of distances.
+    pub fn new(homotopy: &'h Homotopy, sketch: &[f64]) -> Option<Self> {
+        (!homotopy.tail.is_empty()).then(|| Ends {
+            homotopy,
+            sketch: sketch.to_vec(),
+            size_of_sketch: size_of(homotopy, sketch),
+            positive: homotopy.positive_unknowns(),
+            vectors: homotopy.nonzero_vectors(),
+        })
+    }
+
+    /// What has gone through zero from one point to the next, the points being (X, t): a length or radius, or a vector
+    /// that must not vanish. Beyond there is no figure. A vector may also turn by more than a right angle from one point
+    /// to the next; if these are near enough to each other it cannot, but near zero.
+    pub fn passed(&self, now: &[f64], next: &[f64]) -> Option<&str> {
+        let (homotopy, m) = (self.homotopy, self.homotopy.equations);
+        let first = homotopy.gauge.place.len();
+        if let Some(&i) = self.positive.iter().find(|&&i| next[i] <= 0.0) {
+            return Some(&homotopy.tail.unknowns[i - first].name);
+        }
+        let mut lengths = homotopy.lengths.iter().zip(&homotopy.names);
+        if let Some((_, name)) = lengths.find(|(length, _)| length.value(next[m]) <= 0.0) {
+            return Some(name);
+        }
+        let is_reversed = |vector: &Vec<[usize; 2]>| {
+            let along = |z: &[f64], [i, j]: [usize; 2]| {
+                let at = |i: usize| if i < m { z[i] } else { 0.0 };
+                at(i) - at(j)
+            };
+            let products = vector.iter().map(|&d| along(now, d) * along(next, d));
+            products.sum::<f64>() <= 0.0
+        };
+        let k = self.vectors.iter().position(is_reversed)?;
+        Some(&homotopy.tail.nonzero[k].name)
+    }
+
+    /// The end of a path on which something goes through zero between two points.
+    pub fn undefined(&self, now: &[f64], next: &[f64], reason: &str) -> PathEnd {
+        let m = self.homotopy.equations;
+        PathEnd {
+            t: (now[m].min(next[m]), now[m].max(next[m])),
+            ..self.end(now, EndKind::Undefined, reason.to_owned())
+        }
+    }
+
+    /// The point that goes away, if at this point of the path, with this direction there, one is far from the others and
+    /// moves away, and t settles.
+    pub fn away(&self, z: &[f64], slope: &[f64]) -> Option<Away> {
+        let (homotopy, m) = (self.homotopy, self.homotopy.equations);
+        let (p, size) = farthest(homotopy, z)?;
+        if size.is_nan() || size <= FAR * self.size_of_sketch {
+            return None;
+        }
+        let (mut square, mut outward) = (0.0, 0.0);
+        for i in (0..homotopy.dimension).filter_map(|axis| homotopy.coordinate(p, axis)) {
+            square += z[i] * z[i];
+            outward += z[i] * slope[i];
+        }
+        let change = slope[m].abs() * square / outward;
+        let settles = outward > 0.0 && change < SETTLED && (z[m] - 1.0).abs() > 10.0 * change;
+        let distance = square.sqrt() * homotopy.unit;
+        settles.then_some(Away {
+            point: p,
+            distance: (distance, distance),
+        })
+    }
+
+    /// The end of a path on which a point goes away; `place` says where, in words.
+    pub fn infinite(&self, z: &[f64], away: Away, place: &str) -> Halt {
+        let name = self.homotopy.point_names.get(away.point);
+        let words = format!(
+            "{} is {:.4} away and moves away, ever farther as far as one can see, {place}",
+            name.map_or("a point", String::as_str),
+            away.distance.0
+        );
+        let end = PathEnd {
+            away: Some(away),
+            ..self.end(z, EndKind::Infinite, words.clone())
+        };
+        Halt {
+            stop: Stop::new(StopKind::Infinite, words),
+            end: Some(Box::new(end)),
+        }
+    }
+
+    /// What a run has come to that cannot go on at this point of the path, with this normal: the end of the path if
+    /// something has nearly vanished there, or if the equations have become dependent.
+    pub fn stuck<const D: usize>(
+        &self,
+        equations: &Equations<D>,
+        (z, normal): (&[f64], &[f64]),
+        stop: Stop,
+    ) -> Halt {
+        let (homotopy, m) = (self.homotopy, self.homotopy.equations);
+        let first = homotopy.gauge.place.len();
+        let leg = homotopy.remark_on_lengths(z[m]);
+        let small = vanishing(&homotopy.tail, &z[first..m], &self.sketch[first..m])
+            .or_else(|| vanishing_vector(homotopy, z, self.size_of_sketch));
+        // Where matrices would be too large nothing is said of the condition.
+        let is_singular = || {
+            equations.n() <= LARGEST_SQUARE
+                && condition(equations, z, normal).is_none_or(|condition| condition > SINGULAR)
+        };
+        let (kind, words) = if let Some(name) = small {
+            (EndKind::Undefined, format!("{name} goes to zero: {stop}"))
+        } else if !leg.is_empty() {
+            (EndKind::Undefined, stop.text.clone())
+        } else if is_singular() {
+            let what = "the figure becomes degenerate, its constraints dependent on each other";
+            (EndKind::Degenerate, format!("{what}: {stop}"))
+        } else {
+            return stop.into();
+        };
+        let end = self.end(z, kind, words);
+        Halt {
+            stop,
+            end: Some(Box::new(end)),
+        }
+    }
+
+    fn end(&self, z: &[f64], kind: EndKind, reason: String) -> PathEnd {
+        let t = z[self.homotopy.equations];
+        PathEnd {
+            t: (t, t),
+            kind,
+            reason,
+            away: None,
+            points: places(self.homotopy, z),
+        }
+    }
+}
