@@ -544,3 +544,75 @@ fn what_was_switched_on_is_said() {
     }
     assert_eq!(extended, 1);
 }
+
+/// The table of a comparison of one file, and its JSON.
+fn compared(file: &str) -> (String, Value) {
+    let folder = tempfile::tempdir().unwrap();
+    let json = folder.path().join("out.json");
+    let run = krawl()
+        .args([file, "--repeat", "1", "--json"])
+        .arg(&json)
+        .assert()
+        .code(0);
+    let text = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    let document: Value = serde_json::from_str(&fs::read_to_string(json).unwrap()).unwrap();
+    let schema = fs::read_to_string("docs/schema/comparison.schema.json").unwrap();
+    let schema: Value = serde_json::from_str(&schema).unwrap();
+    assert!(
+        jsonschema::validator_for(&schema)
+            .unwrap()
+            .is_valid(&document)
+    );
+    (text, document["problems"][0].clone())
+}
+
+/// Certified and float runs, in both spaces: all but the paper's.
+fn rows(problem: &Value) -> Vec<&Value> {
+    let rows = problem["rows"].as_array().unwrap().iter();
+    let rows: Vec<&Value> = rows.filter(|row| row["mode"] != "paper").collect();
+    assert_eq!(rows.len(), 4);
+    rows
+}
+
+/// Solutions that differ in lines alone were once taken for one: all ways were called wrong.
+#[test]
+fn figures_are_matched_by_their_lines_too() {
+    for name in ["3p3l", "3p3l-orthogonal"] {
+        let (text, problem) = compared(&format!("problems/constraints/{name}.toml"));
+        assert!(!text.contains("WRONG"), "{text}");
+        assert_eq!(
+            (&problem["reference"], &problem["reference_is_arc"]),
+            (&true.into(), &false.into())
+        );
+        for row in rows(&problem) {
+            assert_eq!(row["verdict"], "right", "{row}");
+            // Over all constraints: more than the three distances of points have.
+            let residual = row["residual"].as_f64().unwrap();
+            assert!(residual > 0.0 && residual < 1e-12, "{row}");
+        }
+    }
+}
+
+/// A certified run that ends open proves the solutions of its arc, and others are judged by these.
+#[test]
+fn an_open_certified_run_is_a_reference() {
+    for (name, solutions) in [("infinite", 2), ("undefined", 0)] {
+        let (text, problem) = compared(&format!("problems/constraints/6p7d3a2c-{name}.toml"));
+        assert!(
+            text.contains("judged by the solutions on the arc that it proved"),
+            "{text}"
+        );
+        assert!(!text.contains("WRONG"), "{text}");
+        assert_eq!(
+            (&problem["reference"], &problem["reference_is_arc"]),
+            (&true.into(), &true.into())
+        );
+        for row in rows(&problem) {
+            assert_eq!(
+                (&row["status"], &row["verdict"]),
+                (&"open".into(), &"right".into())
+            );
+            assert_eq!(row["solutions"], solutions);
+        }
+    }
+}

@@ -200,6 +200,7 @@ fn holds_newtons(problem: &Problem, result: &Complete, starts: usize) -> Result<
                 .map(|p| p.map(krawl::interval::point))
                 .collect(),
             objects: Vec::new(),
+            auxiliary: Vec::new(),
             class: 0,
             width: 0.0,
             place: None,

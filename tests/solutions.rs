@@ -60,6 +60,7 @@ fn through_the_program(name: &str, way: &Options) -> (Value, Vec<Solution>) {
             })
             .collect(),
         objects: Vec::new(),
+        auxiliary: Vec::new(),
         class: solution["class"].as_u64().unwrap() as usize,
         width: solution["width"].as_f64().unwrap(),
         place: solution["arc"].as_f64().map(|arc| Place {

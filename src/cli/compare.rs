@@ -20,7 +20,7 @@ Examples:
   krawl compare problems/*.toml --repeat 9 --csv out.csv
   krawl compare sketch.toml --sweep --output pictures
 
-Exit codes: 0 all ran and the certified runs closed, 1 one stopped, or interrupted, 2 bad input.")]
+Exit codes: 0 all ran and the certified runs closed or ended open, 1 one stopped, or interrupted, 2 bad input.")]
 pub struct Arguments {
     /// The problem files (TOML)
     #[arg(required = true, value_name = "FILE")]
@@ -149,7 +149,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     Ok(match written {
         false => BAD_INPUT,
-        true if is_cancelled() || !all.iter().all(|c| is_closed(&c.comparison)) => STOPPED,
+        true if is_cancelled() || !all.iter().all(|c| came_to_an_end(&c.comparison)) => STOPPED,
         true => CLOSED,
     })
 }
@@ -162,14 +162,14 @@ fn read(file: &Path) -> Result<Subject, String> {
     Ok(Subject { problem, published })
 }
 
-/// Whether all certified runs closed.
-fn is_closed(comparison: &Comparison) -> bool {
+/// Whether all certified runs closed or ended open.
+fn came_to_an_end(comparison: &Comparison) -> bool {
     let mut certified = comparison
         .rows
         .iter()
         .filter(|row| row.way.method == Method::Certified)
         .filter_map(|row| row.measured());
-    certified.all(|measured| measured.is_closed())
+    certified.all(|measured| measured.came_to_an_end())
 }
 
 /// What the pictures of a file are called: its stem, with a number where others have the same.

@@ -45,7 +45,7 @@ whole where a path is asked for: --cert, --animation, --samples, --space, --reve
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
 found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
-proved.")]
+proved (with --mode float: observed).")]
 pub struct Arguments {
     /// The problem files (TOML), `-` is standard input; or sketches (.slvs, .FCStd) and molecules (.xyz, .mol, .sdf)
     #[arg(required = true, value_name = "FILE")]

@@ -1,35 +1,38 @@
 //! Whether a run is right, judged against the certified run: solution by solution, each of which
 //! has to be in the place of one of the proved boxes, not just by counting.
+//!
+//! A certified run that closed proves all solutions of the path, one that ended open those of an arc of it.
 
+use super::matching::Matching;
 use super::{Measured, Method, Row};
-use crate::interval::Interval;
-use crate::track::{Mode, Outcome, Solution};
+use crate::track::{Mode, Outcome, Status};
 use std::fmt;
 
 /// What a run is worth.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// It closed, and its solutions are those of the certified run, in the same order. For the
-    /// certified run itself: it is proved.
+    /// It ended as the certified run did, closed or open, and its solutions are those of that run, in the same order.
+    /// For a certified run itself: it is proved.
     Right,
     /// It stopped, and nothing that it says up to there is wrong.
     Stopped,
     /// It is wrong in these ways.
     Wrong(Vec<Fault>),
-    /// No certified run closed, so that nothing can be judged.
+    /// No certified run closed or ended open, so that nothing can be judged. Or one proved an arc, on which this run
+    /// is not wrong, but has figures beside those that are on it: they may be on the path beyond the ends of the arc.
     Unjudged,
 }
 
 /// A way of being wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault {
-    /// It closed without this many of the solutions on the path, or passed over them before it
-    /// stopped.
+    /// It closed, or ended open, without this many of the solutions on the path (or the proved arc), or passed over them
+    /// before it stopped.
     Lost(usize),
-    /// This many figures meet the dimensions, but are not on the path through the sketch: the
+    /// This many figures meet all constraints, but are not on the path through the sketch: the
     /// run jumped to another one.
     Jumped(usize),
-    /// This many figures do not even meet the dimensions, or were reported twice.
+    /// This many figures do not even meet the constraints, or were reported twice.
     Invented(usize),
     /// It met the solutions in another order than the path does: it jumped from one part of the
     /// path to another, or took one solution for another.
@@ -39,6 +42,10 @@ pub enum Fault {
     Length(f64),
     /// It went on for this many times the path's length and did not notice the sketch.
     NotClosed(f64),
+    /// It closed, though the path has two ends.
+    Closed,
+    /// It ended open, though the path is closed.
+    Open,
 }
 
 impl fmt::Display for Fault {
@@ -50,92 +57,124 @@ impl fmt::Display for Fault {
             Fault::Order => write!(f, "another order"),
             Fault::Length(x) => write!(f, "closed at {x:.2} times the length"),
             Fault::NotClosed(x) => write!(f, "not closed at {x:.2} times the length"),
+            Fault::Closed => write!(f, "closed, and the path has two ends"),
+            Fault::Open => write!(f, "open, and the path is closed"),
         }
     }
 }
 
-/// A solution is in the place of a box if no coordinate is further away than this, relative to
+/// A solution is in the place of a box if no number of it is further away than this, relative to
 /// the figure's size. Float runs correct their solutions to about 1e-15 times a condition number,
 /// so that it leaves room for conditions up to a billion; of several boxes the nearest counts.
 const PLACE: f64 = 1e-6;
-/// Figures meet the dimensions if their residual (see [`super::residual_bound`]) is below this.
+/// Figures meet the constraints if their residual (see [`super::residual_bound`]) is below this.
 const MEETS: f64 = 1e-8;
 /// The lengths of a path that two runs measure agree to this. Chords are shorter than arcs, by the part
 /// δ²/24 where steps turn by δ: less than a quarter even if all of them turn by 2 radians.
 const LENGTHS: std::ops::RangeInclusive<f64> = 0.75..=1.01;
 
-/// A closed certified run.
-pub(super) struct Reference {
-    outcome: Outcome,
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ending {
+    Closed,
+    Open,
+    Stopped,
 }
 
-impl Reference {
-    pub fn new(row: &Row) -> Option<Self> {
-        let measured = row.measured()?;
-        let fits = row.way.method == Method::Certified && measured.is_closed();
-        debug_assert!(measured.outcome.mode == Mode::Certified || !fits);
-        fits.then_some(Reference {
-            outcome: measured.outcome.clone(),
+impl Ending {
+    fn of(outcome: &Outcome) -> Self {
+        match outcome.status {
+            Status::Closed => Ending::Closed,
+            Status::Open(_) => Ending::Open,
+            Status::Stopped(_) => Ending::Stopped,
+        }
+    }
+}
+
+/// A certified run that closed or ended open.
+pub(super) struct Reference<'m> {
+    outcome: Outcome,
+    matching: &'m Matching,
+}
+
+impl<'m> Reference<'m> {
+    /// Of all rows the first certified run that closed, or else, of those that ended open, the one with the most solutions.
+    pub fn among(rows: &[Row], matching: &'m Matching) -> Option<Self> {
+        let certified = rows
+            .iter()
+            .filter(|row| row.way.method == Method::Certified)
+            .filter_map(Row::measured)
+            .map(|measured| &measured.outcome)
+            .filter(|outcome| outcome.mode == Mode::Certified);
+        let mut best: Option<&Outcome> = None;
+        for outcome in certified {
+            let is_better = match (Ending::of(outcome), best) {
+                (Ending::Stopped, _) => false,
+                (_, None) => true,
+                (Ending::Closed, Some(best)) => Ending::of(best) == Ending::Open,
+                (Ending::Open, Some(best)) => {
+                    Ending::of(best) == Ending::Open
+                        && outcome.solutions.len() > best.solutions.len()
+                }
+            };
+            if is_better {
+                best = Some(outcome);
+            }
+        }
+        best.map(|outcome| Reference {
+            outcome: outcome.clone(),
+            matching,
         })
     }
 
-    pub fn length(&self) -> f64 {
-        self.outcome.length
-    }
-
-    /// The box in whose place a figure is.
-    fn place_of(&self, figure: &Solution) -> Option<usize> {
-        let boxes = self.outcome.solutions.iter().enumerate();
-        let (index, away) = boxes
-            .map(|(k, b)| (k, distance(&b.points, &figure.points)))
-            .min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let size = self.outcome.solutions[index]
-            .points
-            .iter()
-            .flatten()
-            .fold(0.0, |max: f64, x| max.max(x.mag()));
-        (away <= PLACE * size).then_some(index)
+    /// The length of the path, if all of it is proved.
+    pub fn length(&self) -> Option<f64> {
+        (Ending::of(&self.outcome) == Ending::Closed).then_some(self.outcome.length)
     }
 
     fn judge(&self, measured: &Measured) -> Verdict {
-        let (outcome, closed) = (&measured.outcome, measured.is_closed());
+        let outcome = &measured.outcome;
+        let (known, ending) = (Ending::of(&self.outcome), Ending::of(outcome));
         let all = self.outcome.solutions.len();
         let mut places: Vec<usize> = Vec::new();
-        let mut unplaced = 0;
-        let mut repeated = 0;
-        for solution in &outcome.solutions {
-            match self.place_of(solution) {
+        let (mut jumped, mut invented, mut repeated) = (0, 0, 0);
+        for (k, solution) in outcome.solutions.iter().enumerate() {
+            let boxes = &self.outcome.solutions;
+            match self.matching.place_of(boxes, solution, PLACE) {
                 Some(place) if places.contains(&place) => repeated += 1,
                 Some(place) => places.push(place),
-                None => unplaced += 1,
+                None if measured.residuals.get(k).is_some_and(|r| *r <= MEETS) => jumped += 1,
+                None => invented += 1,
             }
         }
         let mut faults = Vec::new();
         // The path may be followed either way where the sketch is at a fold of t.
         let forth: Vec<usize> = (0..all).collect();
         let back: Vec<usize> = (0..all).rev().collect();
-        let lost = if closed {
-            all - places.len()
-        } else {
-            [&forth, &back]
+        // What is proved of an arc does not say that the path has no more: another proof may have got less far.
+        let is_piece = ending == Ending::Open && outcome.mode == Mode::Certified;
+        let lost = match known {
+            _ if ending != Ending::Stopped && !is_piece => all - places.len(),
+            Ending::Open => self.passed_over_on_arc(&places),
+            _ => [&forth, &back]
                 .map(|way| passed_over(way, &places))
                 .into_iter()
                 .min()
-                .unwrap_or(0)
+                .unwrap_or(0),
         };
         if lost > 0 {
             faults.push(Fault::Lost(lost));
         }
-        if unplaced > 0 {
-            let meets = measured.residual.is_some_and(|r| r <= MEETS);
-            faults.push(if meets {
-                Fault::Jumped(unplaced)
-            } else {
-                Fault::Invented(unplaced)
-            });
+        // Beyond the ends of an arc the path may have more.
+        let beyond = match known {
+            Ending::Open => std::mem::take(&mut jumped),
+            _ => 0,
+        };
+        if jumped > 0 {
+            faults.push(Fault::Jumped(jumped));
         }
-        if repeated > 0 {
-            faults.push(Fault::Invented(repeated));
+        if invented + repeated > 0 {
+            faults.push(Fault::Invented(invented + repeated));
         }
         if ![&forth, &back]
             .into_iter()
@@ -143,22 +182,46 @@ impl Reference {
         {
             faults.push(Fault::Order);
         }
-        let part = outcome.length / self.length();
-        if closed && !LENGTHS.contains(&part) {
-            faults.push(Fault::Length(part));
-        } else if !closed && part > *LENGTHS.end() {
-            faults.push(Fault::NotClosed(part));
+        let part = outcome.length / self.outcome.length;
+        match (known, ending) {
+            (Ending::Closed, Ending::Closed) if !LENGTHS.contains(&part) => {
+                faults.push(Fault::Length(part));
+            }
+            (Ending::Closed, Ending::Stopped) if part > *LENGTHS.end() => {
+                faults.push(Fault::NotClosed(part));
+            }
+            (Ending::Open, Ending::Closed) => faults.push(Fault::Closed),
+            (Ending::Closed, Ending::Open) => faults.push(Fault::Open),
+            _ => {}
         }
-        match (faults.is_empty(), closed) {
+        match (faults.is_empty(), ending) {
             (false, _) => Verdict::Wrong(faults),
-            (true, true) => Verdict::Right,
-            (true, false) => Verdict::Stopped,
+            _ if beyond > 0 => Verdict::Unjudged,
+            (true, Ending::Stopped) => Verdict::Stopped,
+            (true, _) => Verdict::Right,
         }
+    }
+
+    /// How many solutions of the arc between the sketch and those met, on either side of it, were not met: a run that goes
+    /// both ways from the sketch has seen one stretch of the path.
+    fn passed_over_on_arc(&self, places: &[usize]) -> usize {
+        let solutions = &self.outcome.solutions;
+        let is_behind = |k: &usize| solutions[*k].place.is_some_and(|place| place.arc < 0.0);
+        let behind = (0..solutions.len()).take_while(is_behind).count();
+        let ways: [Vec<usize>; 2] = [
+            (behind..solutions.len()).collect(),
+            (0..behind).rev().collect(),
+        ];
+        let over = ways.iter().map(|way| {
+            let met: Vec<usize> = places.iter().copied().filter(|k| way.contains(k)).collect();
+            passed_over(way, &met)
+        });
+        over.sum()
     }
 }
 
 /// Judges all rows, if there is something to judge them against.
-pub(super) fn all(rows: &mut [Row], reference: Option<&Reference>) {
+pub(super) fn all(rows: &mut [Row], reference: Option<&Reference<'_>>) {
     let judged: Vec<Verdict> = rows
         .iter()
         .map(|row| match (reference, row.measured()) {
@@ -184,30 +247,17 @@ fn is_in_order(way: &[usize], places: &[usize]) -> bool {
     places.iter().all(|place| way.any(|k| k == place))
 }
 
-/// The largest distance of a coordinate's middle from a box.
-fn distance(boxes: &[[Interval; 3]], figure: &[[Interval; 3]]) -> f64 {
-    let pairs = boxes.iter().flatten().zip(figure.iter().flatten());
-    pairs.fold(0.0, |max: f64, (b, x)| {
-        let x = x.mid();
-        let away = (b.inf() - x).max(x - b.sup());
-        // A NaN is far away.
-        if away.is_nan() {
-            f64::INFINITY
-        } else {
-            max.max(away)
-        }
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{Row, Way};
     use super::*;
     use crate::interval::{hull, point};
-    use crate::track::{Driving, Space, Status, Stop, StopKind};
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
+    use crate::track::{Driving, EndKind, PathEnd, Place, Solution, Space, Status, Stop, StopKind};
 
     /// A run that met figures of one moving point, and how far it went.
-    fn measured(mode: Mode, met: &[f64], length: f64, closed: bool, residual: f64) -> Measured {
+    fn measured(mode: Mode, met: &[f64], length: f64, ending: Ending, residual: f64) -> Measured {
         let radius = if mode == Mode::Certified { 1e-12 } else { 0.0 };
         let solution = |&x: &f64| Solution {
             points: vec![
@@ -215,19 +265,33 @@ mod tests {
                 [hull(x - radius, x + radius), point(1.0), point(0.0)],
             ],
             objects: Vec::new(),
+            auxiliary: Vec::new(),
             class: 0,
             width: 2.0 * radius,
-            place: None,
+            // The sketch is at 0.25.
+            place: (mode == Mode::Certified).then_some(Place {
+                arc: x - 0.25,
+                rising: true,
+                folds: None,
+            }),
             mirror_of: None,
             is_degenerate: false,
+        };
+        let end = || PathEnd {
+            t: (2.0, 2.0),
+            kind: EndKind::Infinite,
+            reason: "somehow".into(),
+            away: None,
+            points: Vec::new(),
         };
         Measured {
             outcome: Outcome {
                 mode,
                 space: Space::Full,
-                status: match closed {
-                    true => Status::Closed,
-                    false => Status::Stopped(Stop::new(StopKind::NoStep, "somewhere")),
+                status: match ending {
+                    Ending::Closed => Status::Closed,
+                    Ending::Open => Status::Open(Box::new([end(), end()])),
+                    Ending::Stopped => Status::Stopped(Stop::new(StopKind::NoStep, "somewhere")),
                 },
                 solutions: met.iter().map(solution).collect(),
                 steps: 1,
@@ -242,23 +306,102 @@ mod tests {
             seconds: vec![1.0],
             median: 1.0,
             residual: Some(residual),
+            residuals: vec![residual; met.len()],
         }
     }
 
     const PROVED: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
 
-    fn verdict(met: &[f64], length: f64, closed: bool, residual: f64) -> Verdict {
-        let row = Row {
+    fn certified(met: &[f64], ending: Ending) -> Row {
+        Row {
             way: Way {
                 method: Method::Certified,
                 space: Space::Full,
             },
             setting: None,
-            result: Ok(measured(Mode::Certified, &PROVED, 10.0, true, 1e-12)),
+            result: Ok(measured(Mode::Certified, met, 10.0, ending, 1e-12)),
             verdict: Verdict::Unjudged,
+        }
+    }
+
+    fn matching() -> Matching {
+        let problem = Problem::read("problems/k33.toml").unwrap();
+        Matching::new(&Homotopy::new(&problem).unwrap())
+    }
+
+    fn verdict(met: &[f64], length: f64, closed: bool, residual: f64) -> Verdict {
+        let matching = matching();
+        let rows = [certified(&PROVED, Ending::Closed)];
+        let reference = Reference::among(&rows, &matching).unwrap();
+        let ending = if closed {
+            Ending::Closed
+        } else {
+            Ending::Stopped
         };
-        let reference = Reference::new(&row).unwrap();
-        reference.judge(&measured(Mode::Float, met, length, closed, residual))
+        reference.judge(&measured(Mode::Float, met, length, ending, residual))
+    }
+
+    /// Beside an arc with two solutions behind the sketch and two ahead.
+    fn on_arc(mode: Mode, met: &[f64], ending: Ending, residual: f64) -> Verdict {
+        let matching = matching();
+        let rows = [certified(&PROVED, Ending::Open)];
+        let reference = Reference::among(&rows, &matching).unwrap();
+        reference.judge(&measured(mode, met, 30.0, ending, residual))
+    }
+
+    #[test]
+    fn an_arc_is_a_reference() {
+        use Verdict::{Right, Stopped, Unjudged, Wrong};
+        let float = |met: &[f64], ending| on_arc(Mode::Float, met, ending, 1e-15);
+        assert_eq!(float(&PROVED, Ending::Open), Right);
+        assert_eq!(float(&[0.4, 0.3, 0.2, 0.1], Ending::Open), Right);
+        assert_eq!(
+            float(&[0.2, 0.3, 0.4], Ending::Open),
+            Wrong(vec![Fault::Lost(1)])
+        );
+        assert_eq!(
+            float(&[0.1, 0.3, 0.2, 0.4], Ending::Open),
+            Wrong(vec![Fault::Order])
+        );
+        assert_eq!(float(&PROVED, Ending::Closed), Wrong(vec![Fault::Closed]));
+        // One that stopped has seen one stretch, with the sketch in it.
+        for met in [
+            &[][..],
+            &[0.3],
+            &[0.2],
+            &[0.2, 0.1],
+            &[0.2, 0.3],
+            &[0.1, 0.2, 0.3],
+        ] {
+            assert_eq!(float(met, Ending::Stopped), Stopped, "{met:?}");
+        }
+        for met in [&[0.4][..], &[0.1], &[0.1, 0.3], &[0.2, 0.4]] {
+            assert_eq!(
+                float(met, Ending::Stopped),
+                Wrong(vec![Fault::Lost(1)]),
+                "{met:?}"
+            );
+        }
+        // Figures beyond the ends are nothing that can be told; what does not meet the constraints is.
+        assert_eq!(float(&[0.1, 0.2, 0.3, 0.4, 0.5], Ending::Open), Unjudged);
+        assert_eq!(
+            on_arc(Mode::Float, &[0.1, 0.2, 0.3, 0.4, 0.5], Ending::Open, 1e-3),
+            Wrong(vec![Fault::Invented(1)])
+        );
+        // Another proof may get less far, and does not pass over anything.
+        let proved = |met: &[f64]| on_arc(Mode::Certified, met, Ending::Open, 1e-12);
+        assert_eq!(proved(&[0.2, 0.3]), Right);
+        assert_eq!(proved(&[0.1, 0.3]), Wrong(vec![Fault::Lost(1)]));
+        // A closed path is not open.
+        let matching = matching();
+        let rows = [
+            certified(&PROVED, Ending::Open),
+            certified(&PROVED, Ending::Closed),
+        ];
+        let reference = Reference::among(&rows, &matching).unwrap();
+        assert_eq!(reference.length(), Some(10.0));
+        let open = measured(Mode::Float, &PROVED, 10.0, Ending::Open, 1e-15);
+        assert_eq!(reference.judge(&open), Wrong(vec![Fault::Open]));
     }
 
     #[test]
@@ -318,15 +461,7 @@ mod tests {
 
     #[test]
     fn a_stopped_run_is_no_reference() {
-        let row = Row {
-            way: Way {
-                method: Method::Certified,
-                space: Space::Full,
-            },
-            setting: None,
-            result: Ok(measured(Mode::Certified, &PROVED, 10.0, false, 1e-12)),
-            verdict: Verdict::Unjudged,
-        };
-        assert!(Reference::new(&row).is_none());
+        let rows = [certified(&PROVED, Ending::Stopped)];
+        assert!(Reference::among(&rows, &matching()).is_none());
     }
 }

@@ -1,7 +1,9 @@
 //! Runs taking turns, so that ratios of their times hold on a machine whose speed drifts.
 
-use super::{Row, Setting, Verdict, Way, residual_bound};
+use super::{Row, Setting, Verdict, Way, residual::residuals};
+use crate::interval::rounding::largest;
 use crate::problem::Problem;
+use crate::system::Homotopy;
 use crate::track::{Control, Limit, Options, Outcome, Progress, Status, Stop, StopKind, solve};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -51,14 +53,21 @@ pub struct Measured {
     pub seconds: Vec<f64>,
     /// The median of these.
     pub median: f64,
-    /// See [`residual_bound`]; none where there is no solution.
+    /// See [`residual_bound`](super::residual_bound); none where there is no solution.
     pub residual: Option<f64>,
+    /// The same of each solution by itself.
+    pub residuals: Vec<f64>,
 }
 
 impl Measured {
     /// Whether the run closed.
     pub fn is_closed(&self) -> bool {
         self.outcome.status == Status::Closed
+    }
+
+    /// Whether the run closed or ended open, so that it has all of what there is to follow.
+    pub fn came_to_an_end(&self) -> bool {
+        !matches!(self.outcome.status, Status::Stopped(_))
     }
 
     /// The largest and the smallest relative width of a solution's box.
@@ -79,14 +88,16 @@ const TOO_FAR: f64 = 16.0;
 /// The runs on one problem.
 pub(super) struct Session<'a> {
     problem: &'a Problem,
+    homotopy: &'a Homotopy,
     effort: &'a Effort,
     length: f64,
 }
 
 impl<'a> Session<'a> {
-    pub fn new(problem: &'a Problem, effort: &'a Effort) -> Self {
+    pub fn new((problem, homotopy): (&'a Problem, &'a Homotopy), effort: &'a Effort) -> Self {
         Session {
             problem,
+            homotopy,
             effort,
             length: f64::INFINITY,
         }
@@ -111,11 +122,15 @@ impl<'a> Session<'a> {
             let Some(result) = self.once(&options_of(way, setting), hooks) else {
                 break;
             };
-            let result = result.map(|outcome| Measured {
-                seconds: vec![outcome.seconds],
-                median: 0.0,
-                residual: residual_bound(self.problem, &outcome.solutions),
-                outcome,
+            let result = result.map(|outcome| {
+                let residuals = residuals(self.problem, self.homotopy, &outcome.solutions);
+                Measured {
+                    seconds: vec![outcome.seconds],
+                    median: 0.0,
+                    residual: residuals.iter().copied().reduce(largest),
+                    residuals,
+                    outcome,
+                }
             });
             rows.push(Row {
                 way,

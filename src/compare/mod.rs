@@ -16,10 +16,12 @@
 //! - `ways`: the modes and spaces that there are, and the settings of a sweep
 //! - `measure`: runs taking turns, medians
 //! - `judge`: the solutions of a run beside the boxes of the certified one
-//! - `residual`: how well reported figures meet the dimensions
+//! - `matching`: whether two runs report the same figure
+//! - `residual`: how well reported figures meet the constraints
 //! - `path`: the path as the certified run sees it, for pictures
 
 mod judge;
+mod matching;
 mod measure;
 mod path;
 mod residual;
@@ -34,6 +36,7 @@ pub use ways::{Knob, Method, Setting, Way};
 use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};
 use judge::Reference;
+use matching::Matching;
 use measure::Session;
 
 /// One line of a comparison: a way, at its usual settings or at one of a sweep.
@@ -72,19 +75,29 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The least median among the rows that closed, or, where none did, among all.
+    /// The least median among the rows that closed or ended open, or, where none did, among all.
     pub fn fastest(&self) -> Option<f64> {
         let least = |only_closed: bool| {
             let measured = self.rows.iter().filter_map(Row::measured);
             measured
-                .filter(|m| m.is_closed() || !only_closed)
+                .filter(|m| m.came_to_an_end() || !only_closed)
                 .map(|m| m.median)
                 .min_by(f64::total_cmp)
         };
         least(true).or_else(|| least(false))
     }
 
-    /// Whether the certified run closed, so that others can be judged.
+    /// Whether what others are judged by is the arc between two ends of a path that a certified run proved, not a closed
+    /// path.
+    pub fn reference_is_arc(&self) -> bool {
+        let mut certified = self
+            .rows
+            .iter()
+            .filter(|row| row.way.method == Method::Certified && row.verdict == Verdict::Right);
+        self.has_reference() && certified.all(|row| row.measured().is_some_and(|m| !m.is_closed()))
+    }
+
+    /// Whether a certified run closed or ended open, so that others can be judged.
     pub fn has_reference(&self) -> bool {
         self.rows
             .iter()
@@ -101,14 +114,16 @@ pub fn compare(
     effort: &Effort,
     hooks: &mut Hooks,
 ) -> Result<Comparison, GaugeError> {
-    let typical_length = Homotopy::new(problem)?.unit;
-    let mut session = Session::new(problem, effort);
+    let homotopy = Homotopy::new(problem)?;
+    let typical_length = homotopy.unit;
+    let matching = Matching::new(&homotopy);
+    let mut session = Session::new((problem, &homotopy), effort);
     let mut rows = session.run(Way::all().map(|way| (way, None)), hooks);
-    let reference = rows.iter().find_map(Reference::new);
+    let reference = Reference::among(&rows, &matching);
     judge::all(&mut rows, reference.as_ref());
     let mut sweep = Vec::new();
     if effort.sweep && !hooks.is_cancelled() {
-        session.limit_length(reference.as_ref().map(Reference::length));
+        session.limit_length(reference.as_ref().and_then(Reference::length));
         let settings = rows
             .iter()
             .filter(|row| row.result.is_ok())

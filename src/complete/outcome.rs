@@ -454,6 +454,7 @@ fn in_gauge(
     Some(Solution {
         points,
         objects: Vec::new(),
+        auxiliary: Vec::new(),
         class: 0,
         width,
         place: None,

@@ -127,6 +127,7 @@ fn put_together(
         let solution = Solution {
             points,
             objects: Vec::new(),
+            auxiliary: Vec::new(),
             class: number as usize,
             width,
             place: None,

@@ -76,6 +76,7 @@ mod tests {
         let solution = |y: Interval, class| Solution {
             points: vec![[zero; 3], [point(1.0), zero, zero], [third, y, zero]],
             objects: Vec::new(),
+            auxiliary: Vec::new(),
             class,
             width: 1.2e-16,
             place: None,

@@ -360,6 +360,11 @@ impl Homotopy {
         })
     }
 
+    /// The numbers of the auxiliary unknowns among all.
+    pub fn auxiliary_unknowns(&self) -> std::ops::Range<usize> {
+        self.gauge.place.len()..self.equations
+    }
+
     /// An enclosure of each unknown in the sketch.
     pub fn sketch_of_unknowns(&self) -> impl Iterator<Item = Interval> + '_ {
         let coordinates = self.gauge.place.iter().map(|&p| self.sketch_box[p]);

@@ -16,6 +16,7 @@ pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<So
     let thin = |((figure, class), mirror_of): ((Vec<[f64; 3]>, usize), Option<usize>)| Solution {
         points: figure.into_iter().map(|p| p.map(point)).collect(),
         objects: Vec::new(),
+        auxiliary: Vec::new(),
         class,
         width: 0.0,
         place: None,

@@ -143,6 +143,7 @@ fn solution(homotopy: &Homotopy, figure: &Figure, arc: f64) -> Solution {
     };
     Solution {
         objects: homotopy.locate(&points, unknown),
+        auxiliary: homotopy.auxiliary_unknowns().map(unknown).collect(),
         points,
         class: 0,
         width: if largest > 0.0 { widest / largest } else { 0.0 },

@@ -75,6 +75,9 @@ pub struct Solution {
     pub points: Vec<[Interval; 3]>,
     /// Where the problem's lines, planes, circles, spheres and arcs are, in their order and in the same coordinates.
     pub objects: Vec<Located>,
+    /// With other constraints than distances: the unknowns of the equations beside the points' coordinates, in the order
+    /// and the units of [`Homotopy::new`](crate::system::Homotopy::new); of runs along a path, otherwise none.
+    pub auxiliary: Vec<Interval>,
     /// Solutions with the same class are congruent up to reflection.
     pub class: usize,
     /// The widest coordinate's width, divided by the size (largest coordinate) of the figure.

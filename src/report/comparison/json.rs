@@ -11,7 +11,7 @@ use serde::Serialize;
 ///
 /// ```json
 /// {"version": 1, "verb": "compare", "program": "krawl 0.1.0", "problems": [
-///   {"problem": "...", "typical_length": 1.0, "interrupted": false, "reference": true,
+///   {"problem": "...", "typical_length": 1.0, "interrupted": false, "reference": true, "reference_is_arc": false,
 ///    "rows": [{"mode": "certified", "space": "full", "setting": null, "value": null,
 ///      "relative": null, "status": "closed", "reason": null, "steps": 0, "rejected": 0,
 ///      "runs": [0.0], "seconds": 0.0, "ratio": 1.0, "solutions": 0, "widest": 0.0,
@@ -23,9 +23,10 @@ use serde::Serialize;
 ///
 /// `sweep` has rows of the same form, with the name of the option that was set and its value in the
 /// problem's lengths and in typical lengths. `seconds` is the median of `runs`. `status` is
-/// `closed`, `stopped` or `unsupported`; `verdict` is `right`, `wrong`, `stopped` or `unjudged`,
+/// `closed`, `open`, `stopped` or `unsupported`; `verdict` is `right`, `wrong`, `stopped` or `unjudged`,
 /// and `faults` has entries like `{"fault": "lost", "amount": 3.0}` with `lost`, `jumped`,
-/// `invented`, `order`, `length`, `not_closed`. Where there is nothing to say stands `null`.
+/// `invented`, `order`, `length`, `not_closed`, `closed`, `open`. Where `reference_is_arc` the certified run that the
+/// others are judged by ended open, and what it proves is the arc between its ends. Where there is nothing to say stands `null`.
 pub fn comparisons_to_json(compared: &[Compared]) -> String {
     let document = Document {
         version: JSON_VERSION,
@@ -50,6 +51,7 @@ struct ProblemEntry<'a> {
     typical_length: f64,
     interrupted: bool,
     reference: bool,
+    reference_is_arc: bool,
     rows: Vec<RowEntry<'a>>,
     sweep: Vec<RowEntry<'a>>,
     published: Vec<PublishedEntry<'a>>,
@@ -102,6 +104,7 @@ fn problem(compared: &Compared) -> ProblemEntry<'_> {
         typical_length: comparison.typical_length,
         interrupted: comparison.interrupted,
         reference: comparison.has_reference(),
+        reference_is_arc: comparison.reference_is_arc(),
         rows: comparison
             .rows
             .iter()
@@ -158,6 +161,8 @@ fn fault(fault: &Fault) -> FaultEntry {
         Fault::Order => ("order", None),
         Fault::Length(x) => ("length", Some(x)),
         Fault::NotClosed(x) => ("not_closed", Some(x)),
+        Fault::Closed => ("closed", None),
+        Fault::Open => ("open", None),
     };
     FaultEntry { fault, amount }
 }

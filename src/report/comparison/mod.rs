@@ -43,7 +43,7 @@ impl Compared {
     }
 }
 
-/// `closed`, `stopped` or `unsupported`, the reason, and what it is for programs.
+/// `closed`, `open`, `stopped` or `unsupported`, the reason, and what it is for programs.
 fn status(row: &Row) -> (&'static str, Option<&str>, Option<StopKind>) {
     match &row.result {
         Err(reason) => ("unsupported", Some(reason), None),

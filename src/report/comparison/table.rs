@@ -2,6 +2,7 @@
 
 use super::{Compared, faults, status, switched_on};
 use crate::compare::{Knob, Row, Verdict, Way};
+use crate::track::Status;
 use std::fmt::Write;
 
 /// The comparison as lines of text, at most about 120 wide.
@@ -57,8 +58,25 @@ pub fn comparison_to_table(compared: &Compared) -> String {
             ));
         }
         let place = format!("{}, {}", row.way.method.name(), row.way.space.name());
+        if let Some(Status::Open(ends)) = row.measured().map(|m| &m.outcome.status) {
+            let [one, other] = [&ends[0], &ends[1]].map(|end| {
+                let t = 0.5 * (end.t.0 + end.t.1);
+                format!("t = {t:.6} ({})", end.kind.name())
+            });
+            remarks.push(format!(
+                "{place}: open: the path ends at {one} and at {other}"
+            ));
+        }
         if let Some(reason) = reason {
             remarks.push(format!("{place}: {word}: {reason}"));
+        }
+        if row.verdict == Verdict::Unjudged
+            && row.measured().is_some()
+            && comparison.has_reference()
+        {
+            remarks.push(format!(
+                "{place}: it lists figures that are not on the arc proved; they may be beyond its ends"
+            ));
         }
         if wrong {
             remarks.push(format!("{place}: WRONG: {}", faults(&row.verdict)));
@@ -69,6 +87,12 @@ pub fn comparison_to_table(compared: &Compared) -> String {
         grid.push(cells);
     }
     out += &grid.render("  ");
+    if comparison.reference_is_arc() {
+        remarks.push(
+            "The certified run ended open: what the others list is judged by the solutions on the arc that it proved."
+                .to_owned(),
+        );
+    }
     for remark in remarks {
         let _ = writeln!(out, "  {remark}");
     }
@@ -96,7 +120,7 @@ fn sweep(compared: &Compared) -> String {
         comparison.typical_length
     );
     if !comparison.has_reference() {
-        out += "  No certified run closed, so that nothing can be said of what is right.\n";
+        out += "  No certified run closed or ended open, so that nothing can be said of what is right.\n";
     }
     let heading = [
         "mode",
@@ -136,7 +160,11 @@ fn sweep(compared: &Compared) -> String {
         cells.push(match &row.verdict {
             Verdict::Right => "right".into(),
             Verdict::Wrong(_) => format!("WRONG: {}", faults(&row.verdict)),
-            Verdict::Stopped | Verdict::Unjudged => word.into(),
+            Verdict::Stopped => word.into(),
+            Verdict::Unjudged if comparison.has_reference() => {
+                format!("{word}, with figures that are not on the arc")
+            }
+            Verdict::Unjudged => word.into(),
         });
         grid.push(cells);
     }

@@ -30,7 +30,7 @@ fn draw<'a>(area: &super::style::Area<'a>, comparison: &Comparison) -> Result<()
         .collect();
     let right = match comparison.has_reference() {
         true => "right (as the certified run)",
-        false => "closed, but there is no certified run to judge it by",
+        false => "closed or open, but there is no certified run to judge it by",
     };
     for (sign, text) in [
         (Sign::Disc(GREY), right),
@@ -119,10 +119,10 @@ fn points(
     })
 }
 
-/// Whether a row closed, and rightly, as far as that is known.
+/// Whether a row closed or ended open, and rightly, as far as that is known.
 fn is_good(row: &Row) -> bool {
-    let closed = row.measured().is_some_and(|m| m.is_closed());
-    closed && !matches!(row.verdict, Verdict::Wrong(_))
+    let whole = row.measured().is_some_and(|m| m.came_to_an_end());
+    whole && !matches!(row.verdict, Verdict::Wrong(_))
 }
 
 fn milliseconds(row: &Row) -> Option<f64> {

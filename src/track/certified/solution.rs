@@ -364,6 +364,12 @@ impl SolutionBox {
         hull(lo, hi)
     }
 
+    /// The unknowns beside the points' coordinates, in the homotopy's unit.
+    pub fn auxiliary(&self, homotopy: &Homotopy) -> Vec<Interval> {
+        let unknowns = homotopy.auxiliary_unknowns();
+        unknowns.map(|i| self.entry(i)).collect()
+    }
+
     /// Where the problem's objects are, given all points in the problem's units.
     pub fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
         homotopy.locate(points, |i| self.entry(i))

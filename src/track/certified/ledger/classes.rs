@@ -54,6 +54,7 @@ impl<const D: usize> Ledger<D> {
                 let width = relative_width(&points);
                 Solution {
                     objects: found.objects(homotopy, &points),
+                    auxiliary: found.auxiliary(homotopy),
                     points,
                     class,
                     width,

@@ -126,6 +126,8 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
         let mut solutions = observed_solutions(figures, SAME_LENGTH);
         for (solution, x) in solutions.iter_mut().zip(&self.found) {
             solution.objects = homotopy.locate(&solution.points, |i| point(x[i]));
+            let auxiliary = homotopy.auxiliary_unknowns();
+            solution.auxiliary = auxiliary.map(|i| point(x[i])).collect();
         }
         if !homotopy.tail.is_empty() {
             let classes = classes(homotopy, &self.found);
