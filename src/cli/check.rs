@@ -203,9 +203,12 @@ impl Loose {
                     true => "",
                     false => " at the figure to which the sketch leads",
                 };
-                // Distances are called otherwise there.
-                let distance = format!("the distance {}", name.trim_matches('`'));
-                match message.contains(name) || message.contains(&distance) {
+                // Distances stand there without quotes.
+                let plain = name.trim_matches('`');
+                let is_listed = [",", " "]
+                    .iter()
+                    .any(|end| message.contains(&format!(" {plain}{end}")));
+                match is_listed || message.contains(name) {
                     true => message.replacen(DEPENDS, &format!("contradicts the others{at}"), 1),
                     false => format!("{message}; {name} contradicts the others{at}"),
                 }

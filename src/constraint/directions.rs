@@ -144,7 +144,8 @@ mod tests {
             z("[planes]\np = [\"a\", \"b\", \"c\"]\nq = [\"d\", \"e\", \"f\"]\n"),
         );
         let problem = Problem::parse_loosely(&text, "d.toml").unwrap();
-        let index = problem.constraints.len() - 1;
+        let mut kinds = problem.constraints.iter().map(|c| c.kind == "distances");
+        let index = kinds.rposition(|is_it| is_it).unwrap();
         let mut directions = Directions::before(&problem, index);
         let mut items = Arguments::new(&problem, &problem.constraints[index].items);
         let [Thing::Flat(a), Thing::Flat(b)] = items.two_things().unwrap() else {
