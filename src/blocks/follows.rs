@@ -241,6 +241,30 @@ impl Combination {
             is_zero(at_power)
         })
     }
+
+    /// Whether with these right-hand sides, numbers for all t, it is certain that the equation does not hold where the given
+    /// ones do. `before`: see [`Combination::holds`].
+    pub fn fails<'r>(
+        &self,
+        right: &[Real],
+        of: impl Fn(usize) -> Vec<Real>,
+        before: impl Fn(usize) -> Option<&'r BigRational>,
+    ) -> bool {
+        let is_kept = |&k: &usize| constant(&of(k)).as_ref() == before(k);
+        if !self.kept.iter().all(is_kept) {
+            return false;
+        }
+        let number = |right: &[Real]| right.iter().fold(Real::zero(), |sum, c| &sum + c);
+        let terms = self.sum.iter();
+        let sum = terms.fold(Real::zero(), |sum, (i, factor)| {
+            &sum + &(&Real::from(factor.clone()) * &number(&of(*i)))
+        });
+        let off = &number(right) - &sum;
+        match off.as_rational() {
+            Some(off) => !off.is_zero(),
+            None => !off.enclose().contains(0.0),
+        }
+    }
 }
 
 /// Whether a sum of multiples of numbers is zero; numbers that are no ratios are told apart by how they are written.
@@ -304,6 +328,12 @@ mod tests {
         let before = |k: usize| given[k].constant();
         assert!(found.holds(&whole(7), of(rights.clone()), before));
         assert!(!found.holds(&whole(8), of(rights.clone()), before));
+        assert!(found.fails(&whole(8), of(rights.clone()), before));
+        assert!(!found.fails(&whole(7), of(rights.clone()), before));
+        let root = vec![Real::whole(49).sqrt()];
+        assert!(!found.fails(&root, of(rights.clone()), before));
+        let root = vec![Real::whole(50).sqrt()];
+        assert!(found.fails(&root, of(rights.clone()), before));
         // Both move, and the sum with them.
         let moving = |from: i64, by: i64| vec![Real::whole(from), Real::whole(by)];
         let rights = [moving(3, 1), moving(4, 2)];

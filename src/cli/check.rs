@@ -2,10 +2,10 @@
 
 use super::{BAD_INPUT, CLOSED, input, output};
 use krawl::blocks::{MOST_POINTS, clusters, pinned};
-use krawl::edit::Decomposition;
+use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
-use krawl::problem::{Object, Problem, Shape, Target};
+use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target};
 use krawl::remarks::{in_words, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
@@ -58,8 +58,13 @@ pub fn run(arguments: &Arguments) -> u8 {
     let problem = match input::read(&arguments.file, arguments.sketch.as_deref()) {
         Ok(problem) => problem,
         Err(message) => {
-            output::complain(&message);
-            output::print(&loose_in_words(&arguments.file));
+            match Loose::of(&arguments.file) {
+                None => output::complain(&message),
+                Some(loose) => {
+                    output::complain(&loose.decide(&message));
+                    output::print(&loose.in_words());
+                }
+            }
             return BAD_INPUT;
         }
     };
@@ -159,23 +164,86 @@ fn blocks_in_words(found: &Result<Decomposition, String>) -> String {
     }
 }
 
-/// What is free in a problem file that has not as many constraints as it needs, and its blocks; nothing of any other file
-/// that cannot be read.
-fn loose_in_words(file: &Path) -> String {
-    if file == Path::new("-") || Format::of(&file.display().to_string()).is_some() {
-        return String::new();
+/// A problem file that is in order but has not as many constraints as it needs, or has them in other places.
+struct Loose {
+    problem: Problem,
+    /// What is wrong, without the place in the file.
+    fault: String,
+    found: Decomposition,
+    standing: Standing,
+}
+
+impl Loose {
+    /// None of any other file that cannot be read.
+    fn of(file: &Path) -> Option<Self> {
+        if file == Path::new("-") || Format::of(&file.display().to_string()).is_some() {
+            return None;
+        }
+        let error = Problem::read(file).err()?;
+        let FileFault::Problem { error: fault, .. } = &*error.fault else {
+            return None;
+        };
+        let problem = input::load(file, None).ok()?.problem;
+        let (found, standing) = Decomposition::led(&problem).ok()?;
+        Some(Loose {
+            fault: fault.to_string(),
+            problem,
+            found,
+            standing,
+        })
     }
-    let Ok(loaded) = input::load(file, None) else {
-        return String::new();
-    };
-    match Decomposition::of(&loaded.problem) {
-        Ok(found) => format!(
-            "{}: {}; `krawl edit` takes it as it is\n{}",
-            loaded.problem.name,
-            freedom_of_sketch_in_words(&found),
-            decomposition_in_words(&found)
-        ),
-        Err(_) => String::new(),
+
+    /// A message about constraints that depend on each other, with what is known of them.
+    fn decide(&self, message: &str) -> String {
+        match &self.standing.too_many {
+            TooMany::None | TooMany::Undecided => message.to_owned(),
+            TooMany::Follow => message.replacen(DEPENDS, "follows from the others", 1),
+            TooMany::Contradict { name, is_proved } => {
+                let at = match is_proved {
+                    true => "",
+                    false => " at the figure to which the sketch leads",
+                };
+                // Distances stand there without quotes.
+                let plain = name.trim_matches('`');
+                let is_listed = [",", " "]
+                    .iter()
+                    .any(|end| message.contains(&format!(" {plain}{end}")));
+                match is_listed || message.contains(name) {
+                    true => message.replacen(DEPENDS, &format!("contradicts the others{at}"), 1),
+                    false => format!("{message}; {name} contradicts the others{at}"),
+                }
+            }
+        }
+    }
+
+    /// What is wrong, what was understood, what is free, and the blocks.
+    fn in_words(&self) -> String {
+        let taken = match self.standing.is_taken {
+            true => "; `krawl edit` takes it as it is",
+            false => "",
+        };
+        let fault = self.decide(&self.fault);
+        let mut text = format!("{}: not in order: {fault}{taken}\n", self.problem.name);
+        text += &in_rows(&understood(&self.problem));
+        let (left_out, follows) = (&self.found.redundant, &self.found.follows);
+        text += &decomposition_in_words(&Decomposition {
+            redundant: Vec::new(),
+            follows: Vec::new(),
+            ..self.found.clone()
+        });
+        for (names, why) in [
+            (follows, "as they follow from the others"),
+            (left_out, "as they say nothing new at the sketch"),
+        ] {
+            if !names.is_empty() {
+                let _ = writeln!(
+                    text,
+                    "  left out of the blocks, {why}: {}",
+                    names.join(", ")
+                );
+            }
+        }
+        text
     }
 }
 
@@ -272,8 +340,16 @@ fn pattern(problem: &Problem, homotopy: &Homotopy, plan: &Plan) -> String {
         .render(&jacobian.equations, &distances, &coordinates)
 }
 
-/// What is in a problem; with `blocks` of one that has not been checked, of which is said first what is free.
-fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -> String {
+/// Rows of labels and what stands beside them, as lines of text.
+fn in_rows(rows: &[(&str, String)]) -> String {
+    let lines = rows.iter();
+    lines
+        .map(|(label, value)| format!("  {label:<20}{value}\n"))
+        .collect()
+}
+
+/// What a problem consists of, as it was understood.
+fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
     let mut rows: Vec<(&str, String)> = Vec::new();
     if !problem.source.is_empty() {
         rows.push(("source", problem.source.clone()));
@@ -306,7 +382,13 @@ fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -
         let name = problem.constraint_name(index);
         rows.push(("constraint", format!("{name} ({})", kind.meaning())));
     }
-    let free = problem.free_coordinates();
+    rows
+}
+
+/// What is in a problem; with `blocks` of one that has not been checked, of which is said first what is free.
+fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -> String {
+    let mut rows = understood(problem);
+    let (free, distances) = (problem.free_coordinates(), problem.distances.len());
     rows.push(("free coordinates", free.to_string()));
     if problem.is_distances_only() {
         rows.push((
@@ -337,20 +419,12 @@ fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -
         rows.push(("bend", format!("{bend}, c = {c}{remark}")));
     }
 
-    let mut text = format!(
-        "{}: {}\n",
-        problem.name,
-        match blocks {
-            None => "the input is in order".to_owned(),
-            Some(Ok(found)) => freedom_of_sketch_in_words(found),
-            Some(Err(fault)) => format!("not in order: {fault}"),
-        }
-    );
-    for (label, value) in rows {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "  {label:<20}{value}");
-    }
-    text
+    let state = match blocks {
+        None => "the input is in order".to_owned(),
+        Some(Ok(found)) => freedom_of_sketch_in_words(found),
+        Some(Err(fault)) => format!("not in order: {fault}"),
+    };
+    format!("{}: {state}\n{}", problem.name, in_rows(&rows))
 }
 
 /// Where coordinates are counted from.

@@ -24,6 +24,67 @@ pub enum PlaneName {
     Free(usize),
 }
 
+/// A line or a plane in a constraint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flat {
+    /// A line.
+    Line(LineName),
+    /// A plane.
+    Plane(PlaneName),
+}
+
+/// Anything in a constraint that is somewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Thing {
+    /// A point.
+    Point(usize),
+    /// A line or a plane.
+    Flat(Flat),
+    /// A circle, sphere or arc, by index of the object.
+    Round(usize),
+}
+
+impl Flat {
+    /// The points through which it goes by its name, in order of their indices.
+    pub fn points(self) -> Vec<usize> {
+        let mut points = match self {
+            Flat::Line(LineName::Points(points)) => points.to_vec(),
+            Flat::Plane(PlaneName::Points(points)) => points.to_vec(),
+            _ => Vec::new(),
+        };
+        points.sort_unstable();
+        points
+    }
+
+    /// Whether both are one and the same whatever the figure is, by their names.
+    pub fn is(self, other: Flat) -> bool {
+        let kind = |flat| matches!(flat, Flat::Line(_));
+        let (mine, theirs) = (self.points(), other.points());
+        self == other || kind(self) == kind(other) && !mine.is_empty() && mine == theirs
+    }
+
+    /// What is wrong with a constraint on the directions of two lines or planes that are not two, or of which one lies in
+    /// the other.
+    pub fn are_apart(self, other: Flat, problem: &Problem) -> Result<(), Fault> {
+        if self.is(other) {
+            return Err("the two are one and the same: name another one".to_owned());
+        }
+        let (line, plane) = match (self, other) {
+            (Flat::Line(_), Flat::Plane(_)) => (self.points(), other.points()),
+            (Flat::Plane(_), Flat::Line(_)) => (other.points(), self.points()),
+            _ => return Ok(()),
+        };
+        if line.is_empty() || !line.iter().all(|point| plane.contains(point)) {
+            return Ok(());
+        }
+        let names: Vec<&str> = line.iter().map(|&p| &*problem.points[p].name).collect();
+        Err(format!(
+            "the line lies in the plane, as {} are points of both: name another line or plane",
+            names.join(" and ")
+        ))
+    }
+}
+
 /// What a kind of constraint takes, item by item.
 #[derive(Clone)]
 pub struct Arguments<'a> {
@@ -202,6 +263,52 @@ impl<'a> Arguments<'a> {
             }
             _ => Err(self.wanted("a plane, or three points,")),
         }
+    }
+
+    /// A line or a plane. Three points before anything else are a plane, and six are two; otherwise two are a line.
+    pub fn flat(&mut self) -> Result<Flat, Fault> {
+        let is_plane = match self.next() {
+            Sort::Plane => true,
+            Sort::Point => self.problem.dimension == 3 && matches!(self.points_ahead(), 3 | 6),
+            _ => false,
+        };
+        Ok(match is_plane {
+            true => Flat::Plane(self.plane()?),
+            false => Flat::Line(self.line()?),
+        })
+    }
+
+    /// Two things, and nothing more. Points before a name, and those behind it, are one thing: a point, a line or a plane.
+    /// Of points alone three are a point and a line, four a point and a plane (in the plane two lines), five a line
+    /// and a plane, six two planes.
+    pub fn two_things(&mut self) -> Result<[Thing; 2], Fault> {
+        let (ahead, space) = (self.points_ahead(), self.problem.dimension);
+        let first = match ahead {
+            _ if self.left() > ahead => ahead.min(space),
+            4 if space == 2 => 2,
+            5 => 2,
+            6 => space,
+            _ => 1,
+        };
+        let first = self.thing(first)?;
+        let second = self.thing(self.points_ahead().min(space))?;
+        self.end()?;
+        Ok([first, second])
+    }
+
+    /// Something that has a name, or is made of so many points.
+    fn thing(&mut self, points: usize) -> Result<Thing, Fault> {
+        Ok(match (self.next(), points) {
+            (Sort::Round, _) => Thing::Round(self.round()?),
+            (Sort::Line | Sort::Axis, _) | (Sort::Point, 2) => {
+                Thing::Flat(Flat::Line(self.line()?))
+            }
+            (Sort::Plane, _) | (Sort::Point, 3) => Thing::Flat(Flat::Plane(self.plane()?)),
+            (Sort::Point, _) => Thing::Point(self.point()?),
+            (Sort::Body | Sort::End, _) => {
+                return Err(self.wanted("a point, a line, a plane, a circle or a sphere"));
+            }
+        })
     }
 
     /// A circle, sphere or arc: the index of the object.

@@ -22,6 +22,7 @@
 //! the values are then `δ t (1 − t)`.
 
 mod arguments;
+mod directions;
 #[cfg(test)]
 mod floats;
 mod frame;
@@ -52,7 +53,7 @@ pub use structure::{size, size_in_edits};
 
 use crate::interval::Interval;
 use crate::problem::Problem;
-pub(crate) use arguments::{Arguments, LineName, Sort};
+pub(crate) use arguments::{Arguments, Flat, LineName, Sort, Thing};
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
 use lowering::{Lowering, Start};

@@ -3,7 +3,7 @@
 
 use super::arguments::{LineName, PlaneName};
 use super::frame::{
-    Vector, cross, cross_in_plane, dot, is_zero, length, minus, times, vector, zero,
+    Vector, cross, cross_in_plane, dot, is_zero, length, minus, plus, times, vector, zero,
 };
 use super::lowering::{Arrow, Fault, Lowering, Parity, Place};
 use super::polynomial::multiply;
@@ -169,6 +169,31 @@ impl Lowering<'_> {
         Ok(plane)
     }
 
+    /// A place in a plane: a point of it, or of a plane of its own the nearest one to the origin, f with `|n|² f = l n`, where
+    /// l is the level, `n·f`.
+    pub fn place_in(&mut self, plane: &Plane) -> Place {
+        let (level, at) = match &plane.level {
+            Level::Through(base) => return base.clone(),
+            Level::Offset(level, at) => (*level, at.clone()),
+        };
+        let (normal, name) = (&plane.normal, format!("the foot of {}", plane.normal.name));
+        let square = dot(&normal.at, &normal.at);
+        let from_origin = times(&(at / &square), &normal.at);
+        let at = plus(&self.frame.origin, &from_origin);
+        let seen = std::array::from_fn(|k| self.frame.coordinate(&at, k));
+        let entries = self.coordinates(&name, 1, false, seen);
+        let what = format!("{name}, |n|²");
+        let square = self.coefficient(&what, 0, Parity::Even, vec![square.into()]);
+        for (entry, form) in entries.iter().zip(normal.forms) {
+            let products = vec![
+                product(1, value(square), value(*entry)),
+                product(-1, value(level), form),
+            ];
+            self.equate(&name, products, vec![Real::zero()], 1);
+        }
+        Place { entries, at }
+    }
+
     /// A circle, sphere or arc.
     pub fn round(&self, object: usize) -> Round {
         let squared = match &self.problem.objects[object].shape {
@@ -179,16 +204,21 @@ impl Lowering<'_> {
             }
             _ => unreachable!("only circles, spheres and arcs are asked for"),
         };
+        Round {
+            center: self.place(self.center(object)),
+            radius: self.objects[&object][0],
+            squared,
+        }
+    }
+
+    /// The centre of a circle, sphere or arc.
+    pub fn center(&self, object: usize) -> usize {
         let (Shape::Round { center, .. } | Shape::Arc { center, .. }) =
             &self.problem.objects[object].shape
         else {
             unreachable!("only circles, spheres and arcs are asked for")
         };
-        Round {
-            center: self.place(*center),
-            radius: self.objects[&object][0],
-            squared,
-        }
+        *center
     }
 
     /// The unknowns of an object that has some of its own.

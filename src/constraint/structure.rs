@@ -11,7 +11,7 @@ use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower, try_lower_editable};
 use crate::problem::echelon::Echelon;
 use crate::problem::field::{PRIME, Residues, add, mul, sub};
-use crate::problem::{Problem, counted, list};
+use crate::problem::{DEPENDS, Problem, counted, list};
 
 /// Most names in one list of a message.
 const LISTED: usize = 8;
@@ -188,7 +188,7 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
         parts.push(match names.as_slice() {
             [one] => format!("over-constrained: {one} says the same twice"),
             _ => format!(
-                "over-constrained: any of {} follows from the others, remove one of them{}",
+                "over-constrained: any of {} {DEPENDS}, remove one of them{}",
                 list(&names, LISTED),
                 match to_spare {
                     1 => String::new(),

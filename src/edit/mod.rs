@@ -50,7 +50,7 @@ mod write;
 pub use ending::{Dimension, Edited, Ending, Limit, Lost, Orientations};
 pub use limits::{End, Range};
 pub use open::{Moved, OpenError};
-pub use session::{Decomposition, Session, completed};
+pub use session::{Decomposition, Session, Standing, TooMany, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use write::{WriteError, rewrite};

@@ -207,7 +207,51 @@ pub struct Decomposition {
     pub follows: Vec<String>,
 }
 
+/// What becomes of a sketch's constraints where it is led to its dimensions, which may be too many.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Standing {
+    /// Whether [`Session::open`] takes the sketch.
+    pub is_taken: bool,
+    /// What is said of those that were left out.
+    pub too_many: TooMany,
+}
+
+/// What is said of constraints that were left out, as at the sketch they say nothing new.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TooMany {
+    /// There are none.
+    None,
+    /// They are proved to follow from the others.
+    Follow,
+    /// One contradicts the others.
+    Contradict {
+        /// Its name.
+        name: String,
+        /// Whether that is proved of all figures. Otherwise it is so at the one to which the sketch leads.
+        is_proved: bool,
+    },
+    /// Either may be.
+    Undecided,
+}
+
 impl Decomposition {
+    /// The same as [`Decomposition::of`], and what becomes of the constraints where the sketch is led to its dimensions, as
+    /// edits begin. Longer paths than some thousand tubes are not followed.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn led(problem: &Problem) -> Result<(Self, Standing), String> {
+        const MOST_TUBES: usize = 3000;
+        let options = Options {
+            max_steps: MOST_TUBES,
+            ..Options::certified()
+        };
+        let (mut parts, rights) = Parts::assemble(problem, &options)?;
+        let found = parts.decomposition();
+        let standing = parts.standing(&rights, &mut Control::default());
+        Ok((found, standing))
+    }
+
     /// How a problem in its own frame falls apart, as its sketch shows it; it need not be well constrained.
     ///
     /// # Errors

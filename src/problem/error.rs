@@ -253,6 +253,9 @@ pub enum ProblemError {
 
 crate::debug_in_words!(ProblemError);
 
+/// What is said of any one of constraints that depend on each other, as long as it is not known which of the two it is.
+pub const DEPENDS: &str = "follows from the others or contradicts them";
+
 /// Most points that are read.
 ///
 /// Large enough for structures of ten thousand free coordinates; small enough that the checks, which

@@ -26,7 +26,7 @@ pub use check::{Rigidity, rigidity};
 pub(crate) use check::{echelon, field};
 pub use decimal::{Decimal, DecimalError};
 pub(crate) use error::counted;
-pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
+pub use error::{DEPENDS, MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};
 pub(crate) use names::list;
 pub use object::{AXES, Constraint, Item, Object, Shape};

@@ -442,7 +442,9 @@ function otherConstraints(P, edit = null) {
       else if (list.length === 2 && (pts[0] >= 0) !== (pts[1] >= 0)) { x = Math.max(...pts); o = objects.get(list[pts[0] < 0 ? 0 : 1]) || refuse(kind); }
       else if (pts[0] >= 0 || !named) refuse(kind);
       else {                                           // two lines
-        const [a, b] = items(list); if (D === 2 || a.kind !== 'line' || b.kind !== 'line') refuse(kind);
+        if (list.some(s => (objects.get(s) || {}).kind === 'round')) unsupported('distances from circles and spheres');
+        const [a, b] = items(list); if (D === 2 || a.kind !== 'line' || b.kind !== 'line') unsupported('distances of what is parallel because of them');
+        const sorted = l => String(l.slice().sort()); if (P.more.some(([k, o]) => k === 'parallel' && sorted(o) === sorted(list))) unsupported('distances of lines in space that are parallel');
         const w = crossOf(a.dir, b.dir), g = diff(b.base.f, b.base.v, a.base), p = { prods: r.map(i => [1, w.f[i], g.f[i]]), lins: [], val: rdot(w.v, g.v), k: w.k + 1, rev: w.rev };
         if (rdot(w.v, w.v).n === 0n) refuse('lines that are parallel in the sketch');
         times(p, [w], signed(y, p.val), 1); return;

@@ -8,7 +8,7 @@
 
 use crate::blocks::cut::{Cut, name};
 use crate::blocks::number::Number;
-use crate::constraint::{Arguments, LineName, Sort};
+use crate::constraint::{Arguments, Flat, LineName, Sort, Thing};
 use crate::interval::{Interval, point};
 use crate::problem::Shape;
 use crate::system::simplices;
@@ -285,6 +285,18 @@ fn of_constraint(cut: &Cut, kind: &str, mut items: Arguments) -> Option<Vec<Quan
             }
             let [u, v] = both(&mut items)?;
             vec![Quantity::Direction(u, v)]
+        }
+        "distances" => {
+            use Thing::Flat as Lies;
+            match items.clone().two_things().ok()? {
+                // Parallel lines and planes.
+                [Lies(Flat::Line(_)), Lies(Flat::Line(_))] if flat => {
+                    let [u, v] = both(&mut items)?;
+                    vec![Quantity::Direction(u, v)]
+                }
+                [Lies(Flat::Plane(_)), Lies(Flat::Plane(_))] => return None,
+                _ => Vec::new(),
+            }
         }
         "equal_distances" if flat => {
             // The second point is then on its side too.

@@ -35,7 +35,7 @@ impl Kind for Angles {
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let degrees = of.number().value().clone();
-        if of.items.next() == Sort::Point && of.items.left() == 3 {
+        if of.items.points_ahead() == 3 && of.items.left() == 3 {
             let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
             if a == c {
                 return Err("both legs are one and the same: name another point".to_owned());
@@ -95,37 +95,21 @@ pub fn directions(
     items: &mut Arguments,
     low: &mut Lowering,
 ) -> Result<((Arrow, bool), (Arrow, bool)), Fault> {
-    let before = items.clone();
-    let is_axis = items.next() == Sort::Axis;
-    let first = direction(items, low)?;
-    let one = items.taken_since(&before);
-    let between = items.clone();
-    if is_axis && items.next() == Sort::Axis {
+    let (first, second) = (items.flat()?, items.flat()?);
+    if let (Flat::Line(LineName::Axis(_)), Flat::Line(LineName::Axis(_))) = (first, second) {
         return Err("axes lie as they do: name a line or a plane".to_owned());
     }
-    let second = direction(items, low)?;
-    let other = items.taken_since(&between);
-    if one == other || one.iter().eq(other.iter().rev()) {
-        return Err("the two are one and the same: name another one".to_owned());
-    }
     items.end()?;
-    Ok((first, second))
+    first.are_apart(second, low.problem)?;
+    Ok((direction(first, low)?, direction(second, low)?))
 }
 
 /// The direction of a line or the normal of a plane, and whether it is a plane's.
-fn direction(items: &mut Arguments, low: &mut Lowering) -> Result<(Arrow, bool), Fault> {
-    // Four points are two lines, six are two planes.
-    let plane = match items.next() {
-        Sort::Plane => true,
-        Sort::Point => low.dimension() == 3 && matches!(items.points_ahead(), 3 | 6),
-        _ => false,
-    };
-    if plane {
-        let plane = items.plane()?;
-        return Ok((low.proper_plane(plane)?.normal, true));
-    }
-    let line = items.line()?;
-    Ok((low.line(line)?.along, false))
+fn direction(flat: Flat, low: &mut Lowering) -> Result<(Arrow, bool), Fault> {
+    Ok(match flat {
+        Flat::Line(line) => (low.line(line)?.along, false),
+        Flat::Plane(plane) => (low.proper_plane(plane)?.normal, true),
+    })
 }
 
 /// Leads the cosine between two vectors to `target`, or, with `either`, to that or the opposite number,

@@ -56,7 +56,7 @@ pub const KINDS: &[&dyn Kind] = &[
 
 /// What all of them use.
 mod prelude {
-    pub use super::super::arguments::{Arguments, LineName, PlaneName, Sort};
+    pub use super::super::arguments::{Arguments, Flat, LineName, PlaneName, Sort, Thing};
     pub use super::super::frame::{cross, cross_in_plane, dot, is_zero, length, minus, plus};
     pub use super::super::kind::{Fixes, Given, Kind, Measure};
     pub use super::super::lowering::{Arrow, Fault, Lowering, Measured, Parity, Place};

@@ -1,10 +1,11 @@
-//! `tangent`: a line and a circle or arc, two circles or arcs, a plane and a sphere, two spheres.
+//! `tangent`: a line and a circle, arc or sphere, two circles or arcs, a plane and a sphere, two spheres.
 //!
 //! A line that meets an arc at an end which both share is perpendicular to the radius there; two arcs that share
 //! an end have their centres in line with it. Otherwise the centre's signed distance from the line or plane is
-//! `± r`, and two centres are `r₁ + r₂` apart (from outside) or `|r₁ − r₂|` (from inside); which of these is
+//! `± r` (in space a centre's distance from a line is r, which has no sign), and two centres are `r₁ + r₂` apart (from outside) or `|r₁ − r₂|` (from inside); which of these is
 //! read off the sketch. An arc is then as good as its whole circle.
 
+use super::distance::{CENTRE, off_line};
 use super::prelude::*;
 use crate::problem::Shape;
 
@@ -17,12 +18,12 @@ impl Kind for Tangent {
     }
 
     fn meaning(&self) -> &'static str {
-        "a line and a circle or arc, two circles or arcs, a plane and a sphere, or two spheres touch; at an end \
+        "a line and a circle, arc or sphere, two circles or arcs, a plane and a sphere, or two spheres touch; at an end \
          that both share, if there is one, and otherwise from the side where the sketch has them"
     }
 
     fn takes(&self) -> &'static str {
-        "a circle, arc or sphere, and another one, a line (in the plane) or a plane"
+        "a circle, arc or sphere, and another one, a line or a plane"
     }
 
     fn example(&self) -> &'static str {
@@ -35,9 +36,9 @@ impl Kind for Tangent {
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let (first, other) = if of.items.next() == Sort::Round {
-            (Some(of.items.round()?), flat_or_round(&mut of.items, low)?)
+            (Some(of.items.round()?), flat_or_round(&mut of.items)?)
         } else {
-            let flat = flat_or_round(&mut of.items, low)?;
+            let flat = flat_or_round(&mut of.items)?;
             (None, flat)
         };
         let (object, other) = match first {
@@ -58,6 +59,14 @@ impl Kind for Tangent {
                     let products = low.dot(1, &line.along.forms, &radius.forms);
                     let start = Real::from(dot(&line.along.at, &radius.at));
                     low.vanish(of.name, products, start, line.along.power + 1);
+                    return Ok(());
+                }
+                if low.dimension() == 3 {
+                    let (mut products, square) =
+                        off_line(of.name, low, &round.center, &line).ok_or(CENTRE)?;
+                    products.push(product(-1, value(round.radius), value(round.radius)));
+                    let start = Real::from(square - &round.squared);
+                    low.vanish(of.name, products, start, 2);
                     return Ok(());
                 }
                 let across = low.between(&line.base, &round.center);
@@ -98,18 +107,13 @@ enum Other {
     Round(usize),
 }
 
-fn flat_or_round(items: &mut Arguments, low: &Lowering) -> Result<Other, Fault> {
-    Ok(match (items.next(), low.dimension()) {
-        (Sort::Round, _) => Other::Round(items.round()?),
-        (_, 2) => Other::Line(items.line()?),
-        (Sort::Line, _) => {
-            return Err(
-                "a line and a sphere touch where the distance of the centre from the line is the radius: \
-                 say that with `distances`"
-                    .to_owned(),
-            );
-        }
-        _ => Other::Plane(items.plane()?),
+fn flat_or_round(items: &mut Arguments) -> Result<Other, Fault> {
+    Ok(match items.next() {
+        Sort::Round => Other::Round(items.round()?),
+        _ => match items.flat()? {
+            Flat::Line(line) => Other::Line(line),
+            Flat::Plane(plane) => Other::Plane(plane),
+        },
     })
 }
 
@@ -123,16 +127,8 @@ fn ends(low: &Lowering, object: usize) -> Vec<usize> {
 
 /// A point of either list, if they are one and the same or a `coincident` puts them in one place.
 fn shared_end(low: &Lowering, one: &[usize], other: &[usize]) -> Option<(usize, usize)> {
-    let together = |a: usize, b: usize| {
-        a == b
-            || low.problem.constraints.iter().any(|c| {
-                c.kind == "coincident"
-                    && c.items.contains(&Item::Point(a))
-                    && c.items.contains(&Item::Point(b))
-            })
-    };
     let mut pairs = one.iter().flat_map(|&a| other.iter().map(move |&b| (a, b)));
-    pairs.find(|&(a, b)| together(a, b))
+    pairs.find(|&(a, b)| low.are_together(a, b))
 }
 
 /// Leads `products` ∓ r |along| to zero, where products are |along| times a signed distance.
@@ -149,10 +145,7 @@ fn touch(
         Some(one) if one.as_rational().is_some_and(Signed::is_negative) => -1,
         Some(_) => 1,
         None => {
-            return Err(
-                "the centre is on it in the sketch: move one of them to the side where it is wanted"
-                    .to_owned(),
-            );
+            return Err(CENTRE.to_owned());
         }
     };
     let scale = low.length(along);

@@ -14,7 +14,7 @@ use super::quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, product, value,
 };
 use crate::interval::Real;
-use crate::problem::{Problem, Target};
+use crate::problem::{Item, Problem, Target};
 use num_traits::Zero;
 use std::collections::HashMap;
 
@@ -126,6 +126,21 @@ impl<'a> Lowering<'a> {
     /// From here on equations belong to this object or constraint.
     pub fn begin(&mut self, owner: usize) {
         self.owner = owner;
+    }
+
+    /// The index of the constraint to which equations belong.
+    pub fn constraint(&self) -> usize {
+        self.owner - self.problem.objects.len()
+    }
+
+    /// Whether two points are one and the same, or a `coincident` puts them in one place.
+    pub fn are_together(&self, a: usize, b: usize) -> bool {
+        a == b
+            || self.problem.constraints.iter().any(|c| {
+                c.kind == "coincident"
+                    && c.items.contains(&Item::Point(a))
+                    && c.items.contains(&Item::Point(b))
+            })
     }
 
     /// The result.

@@ -68,14 +68,14 @@ impl Parts {
         self.proved = now;
     }
 
-    /// An equation that was left out, is not proved to follow, and does not hold at the figure.
+    /// An equation that was left out, by its place among these, is not proved to follow, and does not hold at the figure.
     /// `end`: where the figure is a limit's, t there, and otherwise nothing.
     pub(super) fn broken(
         &self,
         figure: &[Known],
         rights: &[Vec<Real>],
         end: Option<Interval>,
-    ) -> Option<Stop> {
+    ) -> Option<(usize, Stop)> {
         let side = |form: Form| match form {
             Form::One => point(1.0),
             Form::Difference(a, b) => {
@@ -107,7 +107,7 @@ impl Parts {
                     "{} seemed to follow from the other constraints, but contradicts them",
                     self.name(*index)
                 );
-                return Some(Stop::new(StopKind::Contradiction, words));
+                return Some((k, Stop::new(StopKind::Contradiction, words)));
             }
         }
         None

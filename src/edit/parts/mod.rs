@@ -10,6 +10,7 @@ mod exact;
 mod follow;
 mod left_out;
 pub(super) mod senses;
+mod standing;
 mod words;
 
 use crate::blocks::{Blocks, Combination, Cut, Given, System, Used};
@@ -224,6 +225,7 @@ impl Parts {
         self.figure = figure;
         match self
             .broken(&self.figure, &at_rest_all(rights), None)
+            .map(|(_, stop)| stop)
             .or_else(|| self.vanished(&self.figure))
         {
             Some(stop) => {
@@ -336,10 +338,11 @@ impl Parts {
                 let broken = match &run.end {
                     End::Reached(reached) => self
                         .broken(reached, &rights, None)
+                        .map(|(_, stop)| stop)
                         .or_else(|| self.vanished(reached)),
-                    End::Limit(there, _) => {
-                        self.broken(there, &rights, Some(hull(run.t.0, run.t.1)))
-                    }
+                    End::Limit(there, _) => self
+                        .broken(there, &rights, Some(hull(run.t.0, run.t.1)))
+                        .map(|(_, stop)| stop),
                     _ => None,
                 };
                 if let Some(what) = broken {

@@ -10,7 +10,7 @@ pub use rigidity::{Rigidity, rigidity};
 pub(super) use sketch::{coincide, collinear};
 
 use super::names::list;
-use super::{Distance, Point, ProblemError, free_coordinates};
+use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates};
 
 /// Most names in one list of a message.
 const LISTED: usize = 12;
@@ -68,8 +68,7 @@ fn over_constrained(found: &Rigidity, points: &[Point], edges: &[[usize; 2]]) ->
         n => format!(" ({n} distances in all are to spare)"),
     };
     Some(format!(
-        "over-constrained among the points {}: any of the {} distances {} follows from the \
-         others, remove one of them{in_all}",
+        "over-constrained among the points {}: any of the {} distances {} {DEPENDS}, remove one of them{in_all}",
         list(&ends, LISTED),
         names.len(),
         list(&names, LISTED),

@@ -1,0 +1,73 @@
+//! `distances` between any two of points, lines, planes, circles, arcs and spheres, but for two points.
+//!
+//! Sides and senses are read off the sketch, as CAD programs do: on which side of a line in the plane, or of a plane, a
+//! point is, which of two lines in space passes on which side of the other, and whether a point or circle is
+//! inside another circle. What has a distance only where it is parallel (lines in the plane, planes, a line and a
+//! plane) is parallel because of it, unless other constraints say so ([`Directions`]).
+
+mod flat;
+mod place;
+mod round;
+
+use super::prelude::*;
+pub use place::off_line;
+
+/// What is said where a centre is on the line or plane from which its circle or sphere is to be apart.
+pub const CENTRE: &str =
+    "the centre is on it in the sketch: move one of them to the side where it is wanted";
+
+/// See the module.
+pub struct Distances;
+
+impl Kind for Distances {
+    fn key(&self) -> &'static str {
+        "distances"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "how far apart two of points, lines, planes, circles, arcs and spheres are where they are nearest, on the side where \
+         the sketch has it; two lines in the plane, two planes, and a line and a plane are parallel then"
+    }
+
+    fn takes(&self) -> &'static str {
+        "two of points, lines, planes, circles, arcs and spheres; a line may be two points, and a plane three"
+    }
+
+    fn example(&self) -> &'static str {
+        r#"["p1", "l1", 2]"#
+    }
+
+    fn measure(&self) -> Measure {
+        Measure::Length
+    }
+
+    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
+        Fixes::beside_axis(items)
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        let then = Real::from(of.number().value().clone());
+        let things = of.items.two_things()?;
+        match things {
+            [Thing::Point(_), Thing::Point(_)] => Err(
+                "the distance of two points is not one of these: it belongs to `Problem::distances`"
+                    .to_owned(),
+            ),
+            [Thing::Point(point), Thing::Flat(flat)] | [Thing::Flat(flat), Thing::Point(point)] => {
+                let place = low.place(point);
+                place::from_flat(of.name, low, &place, flat, then)
+            }
+            [Thing::Flat(one), Thing::Flat(other)] => flat::between(of.name, low, one, other, then),
+            [Thing::Point(point), Thing::Round(round)]
+            | [Thing::Round(round), Thing::Point(point)] => {
+                round::from_point(of.name, low, round, point, then)
+            }
+            [Thing::Round(round), Thing::Flat(flat)] | [Thing::Flat(flat), Thing::Round(round)] => {
+                round::from_flat(of.name, low, round, flat, then)
+            }
+            [Thing::Round(one), Thing::Round(other)] => {
+                round::between(of.name, low, one, other, then)
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What `krawl check` says of files that have more constraints than they need: whether these follow from the others or
+//! contradict them, the same on both streams, and what was understood.
+
+use std::process::Command;
+
+/// A rectangle with a circle and a line that touches it, and one constraint more than it needs.
+fn rectangle(extra: &str) -> String {
+    let text = "name = \"rectangle\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4.1, 0.1]\nc = [4, 3.1]\nd = [0.1, 3]\n\
+                m = [2, 1.4]\n[lines]\nl1 = [\"a\", \"b\"]\nl2 = [\"b\", \"c\"]\nl3 = [\"c\", \"d\"]\nl4 = [\"d\", \"a\"]\n\
+                f = { point = [0, 1], direction = [2, 1] }\n[circles]\nk = { center = \"m\", radius = 1 }\n[constraints]\n\
+                fixed = [\"a\"]\nhorizontal = [\"l1\", \"l3\"]\nvertical = [\"l2\", \"l4\"]\n\
+                distances = [[\"a\", \"b\", 4], [\"a\", \"d\", 3], [\"m\", \"l1\", 1.5], [\"m\", \"l4\", 2]]\n\
+                tangent = [[\"k\", \"f\"]]\nradii = [[\"k\", 0.8]]\nangles = [[\"f\", \"l1\", 30]]\n";
+    format!("{text}{extra}\n")
+}
+
+/// What is said of a file, on the one and the other stream.
+fn check(name: &str, text: &str) -> [String; 2] {
+    let folder = std::env::temp_dir().join(format!("krawl-miscounted-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join(format!("{name}.toml"));
+    std::fs::write(&file, text).unwrap();
+    let mut krawl = Command::new(env!("CARGO_BIN_EXE_krawl"));
+    let output = krawl.arg("check").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{name}");
+    [output.stderr, output.stdout].map(|text| String::from_utf8(text).unwrap())
+}
+
+/// Both streams say the same of the file: what is wrong, without the place in it.
+fn both_say(streams: &[String; 2], words: &str) {
+    for stream in streams {
+        assert!(stream.contains(words), "{words}\n{streams:?}");
+    }
+    let [message, text] = streams;
+    let fault = &message[message.find("there are").unwrap()..];
+    assert!(text.contains(fault.trim_end()), "{streams:?}");
+    assert!(!text.contains("the input is in order"), "{text}");
+}
+
+const EDIT: &str = "`krawl edit` takes it as it is";
+
+#[test]
+fn contradictions_are_called_so() {
+    let streams = check("place", &rectangle("x = [[\"a\", 5]]"));
+    let words = "any of `x: a, 5`, `fixed: a` contradicts the others, remove one of them";
+    both_say(&streams, words);
+    assert!(!streams[1].contains(EDIT), "{}", streams[1]);
+    // Of a rectangle's sides of 4 and 3.
+    let streams = check("equal", &rectangle("equal = [[\"l1\", \"l2\"]]"));
+    both_say(
+        &streams,
+        "`equal: l1, l2` contradicts the others, remove one of them",
+    );
+    assert!(!streams[1].contains(EDIT), "{}", streams[1]);
+    // These need the figure.
+    for (name, extra) in [
+        ("parallel", "parallel = [[\"l1\", \"l2\"]]"),
+        ("coincident", "coincident = [[\"a\", \"b\"]]"),
+    ] {
+        let streams = check(name, &rectangle(extra));
+        both_say(
+            &streams,
+            "contradicts the others at the figure to which the sketch leads",
+        );
+        for stream in &streams {
+            assert!(!stream.contains("follows from"), "{stream}");
+        }
+        assert!(!streams[1].contains(EDIT), "{}", streams[1]);
+    }
+    // Distances alone, by another count.
+    let four = "name = \"four\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n[constraints]\n\
+                distances = [[\"a\", \"b\", 4], [\"b\", \"c\", 3], [\"c\", \"d\", 4], [\"a\", \"d\", 3], [\"a\", \"c\", 5], [\"b\", \"d\", 6]]\n";
+    let [message, text] = check("four", four);
+    for stream in [&message, &text] {
+        assert!(stream.contains("contradicts the others at"), "{stream}");
+        assert!(!stream.contains("follows from"), "{stream}");
+    }
+}
+
+#[test]
+fn what_follows_is_called_so() {
+    let streams = check("follows", &rectangle("parallel = [[\"l1\", \"l3\"]]"));
+    both_say(
+        &streams,
+        "`parallel: l1, l3` follows from the others, remove one of them",
+    );
+    assert!(streams[1].contains(EDIT), "{}", streams[1]);
+    // Bars of 3 and 4 at a right angle, and the third one: as far as floats tell.
+    let streams = check(
+        "seems",
+        &rectangle("equal_distances = [[\"c\", \"l1\", \"b\", \"a\", \"d\"]]")
+            .replace("[\"a\", \"d\", 3]", "[\"a\", \"d\", 4]"),
+    );
+    both_say(&streams, "follows from the others or contradicts them");
+}
+
+/// Which constraints were understood is told of files that are not in order, too.
+#[test]
+fn what_was_understood_is_listed() {
+    let [_, text] = check("listed", &rectangle("x = [[\"a\", 5]]"));
+    for line in [
+        "  points              5\n",
+        "  object              l1, the line through a, b\n",
+        "  constraint          x: a, 5 (a coordinate of a point is that number)\n",
+        "  constraint          angles: f, l1, 30 (",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    let missing = rectangle("").replace("radii = [[\"k\", 0.8]]\n", "");
+    let [message, text] = check("missing", &missing);
+    assert!(message.contains("under-constrained"), "{message}");
+    assert!(
+        text.contains("  constraint          tangent: k, f ("),
+        "{text}"
+    );
+    assert!(text.contains(EDIT), "{text}");
+}
+
+#[test]
+fn no_contradiction_is_seen_where_there_is_none() {
+    let streams = check("twice", &rectangle("dx = [[\"d\", \"c\", 4]]"));
+    for stream in &streams {
+        assert!(!stream.contains("contradicts the others"), "{stream}");
+    }
+}
