@@ -6,7 +6,7 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Status, Template, Ways, solve, to_certificate};
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -24,7 +24,7 @@ Examples:
   krawl complex problems/mechanisms/dietmaier.toml --float --bound 40     all assembly modes of a robot
 
 Exit codes: 0 complete, by a proved bound or one that you cite, 4 all paths were followed, and that there are no other solutions is
-not proved, 1 paths stopped, 2 bad input.")]
+not proved, 1 paths stopped, 2 bad input, or no certificate where one is asked for.")]
 pub struct Arguments {
     /// The problem file (TOML)
     file: PathBuf,
@@ -139,9 +139,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                     ));
                 }
             }
-            None => output::complain(&format!(
-                "{file}: no certificate is written: they are defined for distances in a figure with a proper reference only"
-            )),
+            None => {
+                written = false;
+                let why = no_certificate(&problem, &lowered);
+                let out = arguments.cert.as_deref().unwrap_or(Path::new("")).display();
+                output::complain(&format!(
+                    "{file}: no certificate is written ({out} is left as it was): {why}"
+                ));
+            }
         }
     }
     if let Some(json) = &json {
@@ -161,4 +166,21 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Status::Found => INCOMPLETE,
         Status::Partial => STOPPED,
     })
+}
+
+/// Why there is no certificate of a problem's solutions.
+fn no_certificate(problem: &Problem, lowered: &Lowered) -> String {
+    if !problem.is_distances_only() || problem.is_absolute() {
+        return "they are defined for distances between points, and this problem has other constraints".to_owned();
+    }
+    let fixed = lowered.bound.as_ref().map(|bound| bound.fixed.as_slice());
+    let names: Vec<&str> = fixed
+        .unwrap_or_default()
+        .iter()
+        .map(|&p| problem.points[p].name.as_str())
+        .collect();
+    format!(
+        "the figures stand on the reference that gives the best bound ({}), and its lengths are those of no real triangle",
+        names.join(", ")
+    )
 }

@@ -247,7 +247,7 @@ pub(super) fn commit(
     };
     match beside.commit(writer.finish().map(|_| ())) {
         false => Ok((false, None)),
-        true => Ok((true, check_written(path, quiet)?)),
+        true => Ok((true, check_written(path, false, quiet)?)),
     }
 }
 

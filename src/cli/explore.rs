@@ -327,7 +327,7 @@ fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String
             return Ok(well);
         }
         let whole = writer.finish().map(|_| ());
-        well &= beside.commit(whole) && check_written(Some(&cert), quiet)?.is_none();
+        well &= beside.commit(whole) && check_written(Some(&cert), false, quiet)?.is_none();
     }
     Ok(well)
 }

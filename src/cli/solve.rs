@@ -720,7 +720,8 @@ fn follow(
         if written && !arguments.no_verify {
             let path = arguments.cert.as_deref();
             let path = path.filter(|_| !cancel.load(Ordering::Relaxed));
-            verdict = check_written(path, arguments.quiet)?;
+            let closed = matches!(outcome.status, Status::Closed);
+            verdict = check_written(path, closed, arguments.quiet)?;
         }
     }
     Ok((outcome, written, verdict))

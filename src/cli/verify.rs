@@ -195,7 +195,13 @@ fn verify_the_cover(
 
 /// Checks a certificate that was just written, on all processors, and says on standard error whether it does
 /// not pass: then the result is the exit code for that.
-pub(super) fn check_written(path: Option<&Path>, quiet: bool) -> Result<Option<u8>, String> {
+///
+/// A certificate of a run that is `closed` has to prove all of it.
+pub(super) fn check_written(
+    path: Option<&Path>,
+    closed: bool,
+    quiet: bool,
+) -> Result<Option<u8>, String> {
     let Some(path) = path else {
         return Ok(None);
     };
@@ -207,6 +213,7 @@ pub(super) fn check_written(path: Option<&Path>, quiet: bool) -> Result<Option<u
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
     let (what, code) = match &verdict.outcome {
+        Outcome::Partial(why) if closed => (format!("INCOMPLETE: {why}"), INCOMPLETE),
         Outcome::Verified | Outcome::Partial(_) => return Ok(None),
         Outcome::NotProved(flaw) => (format!("NOT PROVED: {flaw}"), NOT_PROVED),
         Outcome::Refuted(flaw) => (format!("REFUTED, please report this: {flaw}"), REFUTED),

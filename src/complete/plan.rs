@@ -91,6 +91,20 @@ impl Kind {
             Kind::Meet { centres, .. } => centres.clone(),
         }
     }
+
+    /// The driving parameters that the place depends on by itself.
+    pub fn parameters(&self) -> impl Iterator<Item = usize> {
+        let (own, radii) = match self {
+            Kind::Arm { parameter, .. } | Kind::Hinge { parameter, .. } => (Some(*parameter), None),
+            Kind::Meet { radii, .. } => (None, Some(radii)),
+        };
+        let driven = |radius: &Radius| match radius {
+            Radius::Edge(_) => None,
+            Radius::Parameter(parameter) => Some(*parameter),
+        };
+        own.into_iter()
+            .chain(radii.into_iter().flatten().filter_map(driven))
+    }
 }
 
 impl Plan {

@@ -7,7 +7,7 @@ use super::pairs::Pairs;
 use super::place::{Known, Squares};
 use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
-use super::visit::{Found, Why, visit};
+use super::visit::{Found, Rooms, Why, visit};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -167,6 +167,7 @@ impl Search {
     /// All below a node, one part after the other.
     fn subtree(&self, run: &Run, node: Node, found: &mut Found) {
         let (mut stack, mut children) = (vec![node], Vec::new());
+        let mut rooms = Rooms::default();
         let mut count = 0;
         let mut ended = false;
         while let Some(node) = stack.pop() {
@@ -181,7 +182,7 @@ impl Search {
                 found.leave(share, Why::Unfinished);
                 continue;
             }
-            self.look_at(node, run, found, &mut children);
+            self.look_at(node, run, &mut rooms, found, &mut children);
             stack.extend(children.drain(..).rev());
         }
         run.boxes.fetch_add(count, Ordering::Relaxed);
@@ -198,7 +199,7 @@ impl Search {
         if run.cover {
             found.marks.bytes = Some(Vec::new());
         }
-        self.look_at(node, run, &mut found, &mut children);
+        self.look_at(node, run, &mut Rooms::default(), &mut found, &mut children);
         run.boxes.fetch_add(1, Ordering::Relaxed);
         (found, children)
     }
@@ -208,12 +209,19 @@ impl Search {
             let share = node.share;
             return found.leave(share, Why::Unfinished);
         }
-        self.look_at(node, run, found, children);
+        self.look_at(node, run, &mut Rooms::default(), found, children);
     }
 
-    fn look_at(&self, node: Node, run: &Run, found: &mut Found, children: &mut Vec<Node>) {
+    fn look_at(
+        &self,
+        node: Node,
+        run: &Run,
+        rooms: &mut Rooms,
+        found: &mut Found,
+        children: &mut Vec<Node>,
+    ) {
         let share = node.share;
-        visit(self, node, found, children);
+        visit(self, node, rooms, found, children);
         let open: f64 = children.iter().map(|c| c.share).sum();
         run.add_done((share - open).max(0.0));
     }
@@ -232,7 +240,7 @@ impl Search {
             (state >> 33) as usize % count
         };
         let mut found = Found::default();
-        let mut children = Vec::new();
+        let (mut children, mut rooms) = (Vec::new(), Rooms::default());
         let mut largest = 0.0f64;
         for _ in 0..4 {
             let mut total = 0.0;
@@ -245,7 +253,7 @@ impl Search {
                     total += weight;
                     looked += 1;
                     children.clear();
-                    visit(self, node, &mut found, &mut children);
+                    visit(self, node, &mut rooms, &mut found, &mut children);
                     if children.is_empty() || looked > most {
                         break;
                     }

@@ -10,6 +10,7 @@ use super::place::{Place, Placed, place, squared_distance};
 use super::search::Search;
 use crate::certificate::cover::Mark;
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 
 /// Why a part stays undecided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -103,92 +104,160 @@ impl Found {
     }
 }
 
-/// Room for visits, kept from one to the next.
+/// What visits keep from one to the next: for each number of symbols the part that was looked at last, with the points
+/// that stand in it.
+///
+/// Parts that are looked at one after the other have much in common: where one is halved in the symbol of a later
+/// step, the points before stand as they did. Where a point stands depends on the ranges of the symbols and the signs that
+/// its step and those before use, and on nothing else, so that what is kept is what would be computed again.
+#[derive(Default)]
+pub struct Rooms([Option<Box<dyn Any + Send>>; MAX_SYMBOLS + 1]);
+
+/// What is kept of parts with S symbols.
+struct Room<const D: usize, const S: usize, const M: usize> {
+    /// The part.
+    node: Node,
+    /// So many steps of the plan stand in it, each in one place, and excluded nothing.
+    standing: usize,
+    points: Vec<Place<D, S, M>>,
+    /// The equations of the steps that stand.
+    equations: Vec<Model<S, M>>,
+    /// How many of them come before each step.
+    before: Vec<usize>,
+    /// Room for the elimination.
+    rows: Vec<Model<S, M>>,
+}
+
+impl<const D: usize, const S: usize, const M: usize> Room<D, S, M> {
+    fn new(search: &Search, node: &Node) -> Self {
+        let zero: Place<D, S, M> = [Model::ZERO; D];
+        let mut points = vec![zero; search.targets.points];
+        for (&p, place) in search.plan.base.iter().zip(&search.base) {
+            points[p] = std::array::from_fn(|k| Model::constant(place[k]));
+        }
+        Room {
+            node: node.clone(),
+            standing: 0,
+            points,
+            equations: Vec::with_capacity(8),
+            before: vec![0; search.plan.steps.len() + 1],
+            rows: Vec::new(),
+        }
+    }
+
+    /// How many steps put their points in this part where they stand already.
+    fn shared(&self, search: &Search, node: &Node) -> usize {
+        let symbol = |i: usize| {
+            let half = |node: &Node| (node.halves >> i) & 1;
+            let old = &self.node;
+            (old.lo[i], old.hi[i], half(old)) == (node.lo[i], node.hi[i], half(node))
+        };
+        let same = |step: &usize| {
+            let driven = search.plan.steps[*step].kind.parameters().all(symbol);
+            let index = search.signed[*step];
+            let sided = index == usize::MAX || {
+                let sign = node.sign(index);
+                let folded = || symbol(node.fold_symbol(search.plan.parameters(), index));
+                sign == self.node.sign(index) && (sign != Some(Sign::Fold) || folded())
+            };
+            driven && sided
+        };
+        (0..self.standing).take_while(same).count()
+    }
+}
+
+/// A part being looked at.
 struct Visit<'a, const D: usize, const S: usize, const M: usize> {
     search: &'a Search,
     node: Node,
-    points: Vec<Place<D, S, M>>,
-    /// The equations so far, each with whose closing it is.
-    equations: Vec<Model<S, M>>,
-    rows: Vec<Model<S, M>>,
+    room: &'a mut Room<D, S, M>,
+    /// Whether a point has two places at present.
+    branched: bool,
     found: &'a mut Found,
     children: &'a mut Vec<Node>,
 }
 
-/// Looks at a part and adds to `children` those that it is parted into.
-pub fn visit(search: &Search, node: Node, found: &mut Found, children: &mut Vec<Node>) {
+/// Looks at a part and adds to `children` those that it is parted into. The `rooms` are of the same search.
+pub fn visit(
+    search: &Search,
+    node: Node,
+    rooms: &mut Rooms,
+    found: &mut Found,
+    children: &mut Vec<Node>,
+) {
     found.boxes += 1;
-    match (search.targets.dimension, node.symbols) {
-        (2, 0) => Visit::<2, 0, 1>::run(search, node, found, children),
-        (2, 1) => Visit::<2, 1, 3>::run(search, node, found, children),
-        (2, 2) => Visit::<2, 2, 6>::run(search, node, found, children),
-        (2, 3) => Visit::<2, 3, 10>::run(search, node, found, children),
-        (2, 4) => Visit::<2, 4, 15>::run(search, node, found, children),
-        (2, 5) => Visit::<2, 5, 21>::run(search, node, found, children),
-        (2, _) => Visit::<2, 6, 28>::run(search, node, found, children),
-        (_, 0) => Visit::<3, 0, 1>::run(search, node, found, children),
-        (_, 1) => Visit::<3, 1, 3>::run(search, node, found, children),
-        (_, 2) => Visit::<3, 2, 6>::run(search, node, found, children),
-        (_, 3) => Visit::<3, 3, 10>::run(search, node, found, children),
-        (_, 4) => Visit::<3, 4, 15>::run(search, node, found, children),
-        (_, 5) => Visit::<3, 5, 21>::run(search, node, found, children),
-        (_, _) => Visit::<3, 6, 28>::run(search, node, found, children),
-    }
+    let run = match (search.targets.dimension, node.symbols) {
+        (2, 0) => Visit::<2, 0, 1>::run,
+        (2, 1) => Visit::<2, 1, 3>::run,
+        (2, 2) => Visit::<2, 2, 6>::run,
+        (2, 3) => Visit::<2, 3, 10>::run,
+        (2, 4) => Visit::<2, 4, 15>::run,
+        (2, 5) => Visit::<2, 5, 21>::run,
+        (2, _) => Visit::<2, 6, 28>::run,
+        (_, 0) => Visit::<3, 0, 1>::run,
+        (_, 1) => Visit::<3, 1, 3>::run,
+        (_, 2) => Visit::<3, 2, 6>::run,
+        (_, 3) => Visit::<3, 3, 10>::run,
+        (_, 4) => Visit::<3, 4, 15>::run,
+        (_, 5) => Visit::<3, 5, 21>::run,
+        (_, _) => Visit::<3, 6, 28>::run,
+    };
+    run(search, node, rooms, found, children);
 }
 
 impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
-    fn run(search: &'a Search, node: Node, found: &'a mut Found, children: &'a mut Vec<Node>) {
-        let zero: Place<D, S, M> = [Model::ZERO; D];
+    fn run(
+        search: &'a Search,
+        node: Node,
+        rooms: &'a mut Rooms,
+        found: &'a mut Found,
+        children: &'a mut Vec<Node>,
+    ) {
+        let room = rooms.0[S].get_or_insert_with(|| Box::new(Room::<D, S, M>::new(search, &node)));
+        let room: &mut Room<D, S, M> = room.downcast_mut().expect("one dimension to a search");
+        room.standing = room.shared(search, &node);
+        room.node = node.clone();
+        let step = room.standing;
         let mut visit = Visit::<D, S, M> {
             search,
-            points: vec![zero; search.targets.points],
-            equations: Vec::with_capacity(8),
-            rows: Vec::new(),
+            node,
+            room,
+            branched: false,
             found,
             children,
-            node,
         };
-        for (&p, place) in search.plan.base.iter().zip(&search.base) {
-            visit.points[p] = std::array::from_fn(|k| Model::constant(place[k]));
-        }
-        visit.go(0);
+        visit.go(step);
     }
 
     /// Places the points from `step` on, the signs of the steps before being decided.
     fn go(&mut self, step: usize) {
         let search = self.search;
+        if !self.branched {
+            self.room.standing = step;
+        }
         if step == search.plan.steps.len() {
             return self.finish();
         }
-        let point = search.plan.steps[step].point;
         let known = &search.known[step];
-        let placed = place(&search.plan, &self.node, (step, known), &self.points);
+        let placed = place(&search.plan, &self.node, (step, known), &self.room.points);
         match placed {
-            Placed::Here(here) => {
-                self.points[point] = here;
-                self.stand(step);
-            }
-            Placed::Folded(here, equation) => {
-                self.points[point] = here;
-                self.equations.push(equation);
-                self.stand(step);
-                self.equations.pop();
-            }
+            Placed::Here(here) => self.stand(step, here, None),
+            Placed::Folded(here, equation) => self.stand(step, here, Some(equation)),
             Placed::None => self.found.marks.put(Mark::NoPlace(step), S),
             Placed::Either { middle, off } => {
                 self.found.marks.put(Mark::Sides(step), S);
                 self.node.share *= 0.5;
+                let already = std::mem::replace(&mut self.branched, true);
                 for sign in [Sign::Plus, Sign::Minus] {
-                    let before = self.equations.len();
                     self.node.decide(sign);
-                    self.points[point] = std::array::from_fn(|k| match sign {
+                    let here = std::array::from_fn(|k| match sign {
                         Sign::Plus => middle[k].plus(&off[k]),
                         _ => middle[k].minus(&off[k]),
                     });
-                    self.stand(step);
+                    self.stand(step, here, None);
                     self.node.forget();
-                    self.equations.truncate(before);
                 }
+                self.branched = already;
                 self.node.share *= 2.0;
             }
             Placed::Near {
@@ -215,11 +284,10 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         }
     }
 
-    /// Looks at what the point of `step`, which stands now, means for the equations.
-    fn stand(&mut self, step: usize) {
+    /// Puts the point of `step` in its place, with the equation of its fold, and looks at what that means for the equations.
+    fn stand(&mut self, step: usize, here: Place<D, S, M>, fold: Option<Model<S, M>>) {
         let search = self.search;
         let now = &search.plan.steps[step];
-        let here = self.points[now.point];
         let blur = here
             .iter()
             .map(|x| x.r)
@@ -227,46 +295,42 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         if !(blur <= BLURRED) {
             return self.part(step, true, movers(&here));
         }
-        let before = self.equations.len();
+        let room = &mut *self.room;
+        room.points[now.point] = here;
+        let before = room.before[step];
+        room.equations.truncate(before);
+        room.equations.extend(fold);
         for (place, &e) in now.closing.iter().enumerate() {
             let [a, b] = search.targets.edges[e];
             let equation =
-                squared_distance(&self.points[a], &self.points[b]).shifted(search.minus_squares[e]);
+                squared_distance(&room.points[a], &room.points[b]).shifted(search.minus_squares[e]);
             if equation.range().misses_zero(1.0) {
-                self.found.marks.put(Mark::WrongDistance(step, place), S);
-                self.equations.truncate(before);
-                return;
+                return self.found.marks.put(Mark::WrongDistance(step, place), S);
             }
-            self.equations.push(equation);
+            room.equations.push(equation);
         }
+        room.before[step + 1] = room.equations.len();
         if let Some(other) = self.wrong_pair(step) {
-            self.found.marks.put(Mark::WrongPair(step, other), S);
-            self.equations.truncate(before);
-            return;
+            return self.found.marks.put(Mark::WrongPair(step, other), S);
         }
-        let folded = self.node.sign(search.signed[step]) == Some(Sign::Fold);
-        if self.equations.len() > before || folded {
+        if self.room.equations.len() > before {
             let mut u = [Range { lo: -1.0, hi: 1.0 }; S];
-            if contract(&self.equations, &mut self.rows, &mut u).is_err() {
-                self.found.marks.put(Mark::Excluded(step), S);
-                self.equations.truncate(before);
-                return;
+            if contract(&self.room.equations, &mut self.room.rows, &mut u).is_err() {
+                return self.found.marks.put(Mark::Excluded(step), S);
             }
             let last = step + 1 == search.plan.steps.len();
             if self.shrink(step, &u, if last { 0.5 } else { SHRUNK }, last) {
-                self.equations.truncate(before);
                 return;
             }
         }
         self.go(step + 1);
-        self.equations.truncate(before);
     }
 
     /// A point that all over the part is nearer to or farther from the one of `step` than they are in any figure.
     fn wrong_pair(&self, step: usize) -> Option<usize> {
-        let here = &self.points[self.search.plan.steps[step].point];
+        let here = &self.room.points[self.search.plan.steps[step].point];
         let wrong = |&&(other, [least, most]): &&(usize, [f64; 2])| {
-            let there = &self.points[other];
+            let there = &self.room.points[other];
             // Where the middle of the part is in order, the whole is not wrong.
             let middle: f64 = (0..D).map(|k| (here[k].c[0] - there[k].c[0]).powi(2)).sum();
             if least <= middle && middle <= most {
@@ -305,7 +369,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
 
     /// How far any coordinate may be from the middle of the models.
     fn reach(&self) -> f64 {
-        let all = self.points.iter().flatten().map(|x| x.reach());
+        let all = self.room.points.iter().flatten().map(|x| x.reach());
         all.fold(0.0, crate::interval::rounding::largest)
     }
 
@@ -316,6 +380,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         let reach = self.reach();
         if reach < NEAR || S == 0 {
             let guess: Vec<[f64; 3]> = self
+                .room
                 .points
                 .iter()
                 .map(|p| std::array::from_fn(|k| if k < D { p[k].c[0] } else { 0.0 }))
@@ -335,15 +400,15 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 _ => {}
             }
         }
-        let weights = movers_of(self.points.iter().flatten());
+        let weights = movers_of(self.room.points.iter().flatten());
         self.part(step, true, weights);
     }
 
     /// Whether all figures of this part lie where this one is alone.
     fn is_alone(&self, figure: &Figure) -> bool {
         let limit = figure.alone * (1.0 - 1e-6);
-        self.points
-            .iter()
+        let points = self.room.points.iter();
+        points
             .zip(&figure.centre)
             .all(|(p, at)| (0..D).all(|k| (p[k].c[0] - at[k]).abs() + p[k].reach() < limit))
     }

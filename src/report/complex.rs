@@ -174,11 +174,13 @@ fn write_table(
             "no two agree up to signs of axes in points and auxiliary unknowns together (in points alone they may)"
         }
     };
-    writeln!(
-        out,
-        "Each box holds exactly one solution; {different}. {}",
-        natures(lowered, result)
-    )?;
+    if !result.natures.is_empty() {
+        writeln!(
+            out,
+            "Each box holds exactly one solution; {different}. {}",
+            natures(lowered, result)
+        )?;
+    }
     if !result.infinite.is_empty() {
         let paths = counted(result.infinite.len(), "path");
         let where_to = match result.at_infinity() {
@@ -431,7 +433,8 @@ fn natures(lowered: &Lowered, result: &Solutions) -> String {
         true => ("", "equal to their conjugates with directions reversed"),
         false => ("Up to isometry ", "congruent to their conjugates"),
     };
-    let mut text = format!("{up_to}{real} are real, {pairs} in pairs of conjugates");
+    let are = if real == 1 { "is" } else { "are" };
+    let mut text = format!("{up_to}{real} {are} real, {pairs} in pairs of conjugates");
     if own > 0 {
         text += &format!(", {own} {congruent} without being real");
     }
@@ -481,9 +484,11 @@ fn verdict(lowered: &Lowered, result: &Solutions) -> String {
             format!("Found, each proved: {counts}. That there are no others is not proved{bound}.")
         }
         (Status::Partial, _) => {
-            format!(
-                "Partial: {counts}, each proved; some paths could not be followed, and there may be more."
-            )
+            let found = match result.natures.is_empty() {
+                true => "no complex solution was found".to_owned(),
+                false => format!("{counts}, each proved"),
+            };
+            format!("Partial: {found}; some paths could not be followed, and there may be more.")
         }
     }
 }
