@@ -525,3 +525,50 @@ fn shells_and_man_are_told() {
     let solve = fs::read_to_string(folder.path().join("krawl-solve.1")).unwrap();
     assert!(solve.contains("Examples:"));
 }
+
+/// Whoever asks for a proof on disk learns from the exit code that there is none, or only of a part.
+#[test]
+fn proofs_that_are_not_there_are_no_success() {
+    let folder = tempfile::tempdir().unwrap();
+    let cert = folder.path().join("hexahedron.krawl");
+    let run = krawl()
+        .args([
+            "solve",
+            "problems/constraints/hexahedron.toml",
+            "--quiet",
+            "--cert",
+        ])
+        .arg(&cert)
+        .assert()
+        .code(4)
+        .get_output()
+        .clone();
+    let told = String::from_utf8(run.stderr).unwrap();
+    assert!(told.contains("INCOMPLETE: "), "{told}");
+
+    let set = folder.path().join("pentahedron.set");
+    fs::write(&set, "old").unwrap();
+    let run = krawl()
+        .args([
+            "complex",
+            "problems/constraints/pentahedron.toml",
+            "--float",
+            "--quiet",
+        ])
+        .args([
+            "--template",
+            "problems/constraints/pentahedron.krawl-template",
+            "--cert",
+        ])
+        .arg(&set)
+        .assert()
+        .code(2)
+        .get_output()
+        .clone();
+    let told = String::from_utf8(run.stderr).unwrap();
+    assert!(
+        told.contains("is left as it was): they are defined for distances"),
+        "{told}"
+    );
+    assert_eq!(fs::read_to_string(&set).unwrap(), "old");
+}
