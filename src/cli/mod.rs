@@ -30,7 +30,7 @@ use std::process::ExitCode;
 /// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
 /// is verified.
 pub const CLOSED: u8 = 0;
-/// Exit code of a run whose path has two ends: what lies between them is proved.
+/// Exit code of a run whose path came to an end both ways: what lies between is proved.
 pub const OPEN: u8 = 5;
 /// Exit code of a run that stopped before.
 pub const STOPPED: u8 = 1;
@@ -68,7 +68,7 @@ Examples:
 
 Exit codes: 0 closed, complete, verified or reached, 1 stopped or refuted, 2 bad input or results that
 could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's branches meet or
-an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore, 5 open: a path with two ends, proved between them."
+an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore, 5 open: a path that came to an end both ways, proved between."
 )]
 struct Arguments {
     #[command(subcommand)]

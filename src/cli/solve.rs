@@ -44,7 +44,7 @@ its own frame that stops as a whole, and one of distances that falls apart (docs
 whole where a path is asked for: --cert, --animation, --samples, --space, --reverse, --mode float.
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
-found), 2 bad input or results that could not be written, 5 open: a path has two ends, and all between them is
+found), 2 bad input or results that could not be written, 5 open: a path came to an end both ways, and all between is
 proved (with --mode float: observed).")]
 pub struct Arguments {
     /// The problem files (TOML), `-` is standard input; or sketches (.slvs, .FCStd) and molecules (.xyz, .mol, .sdf)
@@ -408,6 +408,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             _ if first.is_some() => worst,
             _ if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
+            // Float runs do not tell which of their solutions is reached without a fold.
+            (Status::Open(_), _) if arguments.mode == Mode::Float => OPEN,
             // The path comes back, or ends, and has no such solution.
             _ if arguments.first => LIMIT,
             (Status::Open(_), _) => OPEN,

@@ -42,7 +42,7 @@ pub enum Fault {
     Length(f64),
     /// It went on for this many times the path's length and did not notice the sketch.
     NotClosed(f64),
-    /// It closed, though the path has two ends.
+    /// It closed, though the reference came to two ends of the path.
     Closed,
     /// It ended open, though the path is closed.
     Open,
@@ -57,7 +57,7 @@ impl fmt::Display for Fault {
             Fault::Order => write!(f, "another order"),
             Fault::Length(x) => write!(f, "closed at {x:.2} times the length"),
             Fault::NotClosed(x) => write!(f, "not closed at {x:.2} times the length"),
-            Fault::Closed => write!(f, "closed, and the path has two ends"),
+            Fault::Closed => write!(f, "closed, and the path seems to have two ends"),
             Fault::Open => write!(f, "open, and the path is closed"),
         }
     }

@@ -212,17 +212,18 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
                         solutions(n)
                     );
                 }
-                (Mode::Certified, 0) => "between them it has no point with t = 1".to_owned(),
+                (Mode::Certified, 0) => "no point with t = 1".to_owned(),
                 (Mode::Certified, 1) => {
-                    "the solution listed is exactly its one point between them with t = 1"
-                        .to_owned()
+                    "exactly one point with t = 1, the solution listed".to_owned()
                 }
-                (Mode::Certified, n) => format!(
-                    "the {n} solutions listed are exactly its points between them with t = 1"
-                ),
+                (Mode::Certified, n) => {
+                    format!("exactly {n} points with t = 1, the solutions listed")
+                }
             };
+            // That it does not go on there after all is not proved.
             format!(
-                "Open, proved: the path through the sketch has two ends, and {text}.{different}{both}"
+                "Open, proved: between the two places below the path through the sketch has {text}. It seems to end at both, \
+                 and was not followed beyond.{different}{both}"
             )
         }
         (Mode::Certified, Status::Stopped(reason)) => {

@@ -59,9 +59,9 @@ impl Space {
 pub enum Status {
     /// The path came back to the sketch. In certified mode that is proved.
     Closed,
-    /// The path has two ends, and the run went both ways from the sketch to them: the end behind the sketch, in
-    /// the direction of travel, first. In certified mode the arc between is proved, and the solutions are
-    /// exactly those on it.
+    /// The path came to an end both ways from the sketch: the end behind the sketch, in the direction of travel,
+    /// first. In certified mode the arc between is proved, and the solutions are exactly those on it; that the path does
+    /// not go on beyond is not.
     Open(Box<[PathEnd; 2]>),
     /// The run ended before: where and why.
     Stopped(Stop),

@@ -225,8 +225,8 @@ fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
             ));
         }
         ("certified", false) if open => out.push(paragraph(
-            "The path has two ends. What is proved is about the arc between them: it is regular, no step jumped, and \
-             the solutions listed are exactly those on it, each alone within the digits shown.",
+            "The path seems to have two ends, beyond which it was not followed. What is proved is about the arc between them: it is \
+             regular, no step jumped, and the solutions listed are exactly those on it, each alone within the digits shown.",
         )),
         ("certified", false) => out.push(paragraph(
             "The run stopped before it came back to the sketch. The solutions listed are proved, each alone \
