@@ -123,3 +123,31 @@ fn no_contradiction_is_seen_where_there_is_none() {
         assert!(!stream.contains("contradicts the others"), "{stream}");
     }
 }
+
+/// Of two groups of constraints that depend on each other the one that is listed need not be the one with the contradiction.
+#[test]
+fn a_contradiction_is_not_laid_to_others() {
+    let text = "name = \"two\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4.1, 0.3]\nc = [3, 2]\n[constraints]\nfixed = [\"a\"]\n\
+                x = [[\"b\", 4], [\"c\", 3]]\ny = [[\"b\", 1], [\"c\", 2]]\ndx = [[\"b\", \"c\", -1], [\"a\", \"c\", 5]]\n";
+    let streams = check("two", text);
+    both_say(
+        &streams,
+        "`dx: b, c, -1` follows from the others or contradicts them",
+    );
+    for stream in &streams {
+        assert_eq!(stream.matches("contradicts the others").count(), 1);
+        assert!(
+            stream.contains("; `x: c, 3` contradicts the others")
+                || stream.contains("; `dx: a, c, 5` contradicts the others"),
+            "{stream}"
+        );
+    }
+    // The sketch has p above the axis.
+    let text = "name = \"side\"\ndimension = 2\n[points]\na = [0, 0]\np = [2, 3]\n[constraints]\nfixed = [\"a\"]\n\
+                x = [[\"p\", 2]]\ny = [[\"p\", -3]]\ndistances = [[\"p\", \"x-axis\", 3]]\n";
+    let streams = check("side", text);
+    both_say(
+        &streams,
+        "contradicts the others, with all on the side where the sketch has it",
+    );
+}

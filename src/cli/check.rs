@@ -208,9 +208,20 @@ impl Loose {
                 let is_listed = [",", " "]
                     .iter()
                     .any(|end| message.contains(&format!(" {plain}{end}")));
-                match is_listed || message.contains(name) {
-                    true => message.replacen(DEPENDS, &format!("contradicts the others{at}"), 1),
-                    false => format!("{message}; {name} contradicts the others{at}"),
+                // Of several that depend on each other in different ways the message lists those of one.
+                let is_one = self.found.redundant.len() + self.found.follows.len() == 1;
+                let is_sided = ["`distances:", "`tangent:"]
+                    .iter()
+                    .any(|kind| message.contains(kind));
+                let sides = match *is_proved && is_sided {
+                    true => ", with all on the side where the sketch has it",
+                    false => "",
+                };
+                match is_one && (is_listed || message.contains(name)) {
+                    true => {
+                        message.replacen(DEPENDS, &format!("contradicts the others{at}{sides}"), 1)
+                    }
+                    false => format!("{message}; {name} contradicts the others{at}{sides}"),
                 }
             }
         }
