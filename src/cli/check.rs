@@ -9,6 +9,7 @@ use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target};
 use krawl::remarks::{in_words, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -209,7 +210,8 @@ impl Loose {
                     .iter()
                     .any(|end| message.contains(&format!(" {plain}{end}")));
                 // Of several that depend on each other in different ways the message lists those of one.
-                let is_one = self.found.redundant.len() + self.found.follows.len() == 1;
+                let left_out = self.found.redundant.iter().chain(&self.found.follows);
+                let is_one = left_out.collect::<BTreeSet<_>>().len() == 1;
                 let is_sided = ["`distances:", "`tangent:"]
                     .iter()
                     .any(|kind| message.contains(kind));
