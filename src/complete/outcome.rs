@@ -11,6 +11,7 @@ use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::Solution;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::Thread;
 use std::time::{Duration, Instant};
 
 /// What is proved of the solutions listed.
@@ -193,12 +194,13 @@ impl Default for Options<'_> {
     }
 }
 
-/// Sets what it holds when it is dropped.
-struct AtTheEnd<'a>(&'a AtomicBool);
+/// Tells a thread that it is over when it is dropped, and wakes it up.
+struct AtTheEnd<'a>(&'a AtomicBool, Thread);
 
 impl Drop for AtTheEnd<'_> {
     fn drop(&mut self) {
         self.0.store(true, Ordering::Relaxed);
+        self.1.unpark();
     }
 }
 
@@ -227,7 +229,7 @@ impl Options<'_> {
         }
         let ended = AtomicBool::new(false);
         std::thread::scope(|scope| {
-            scope.spawn(|| {
+            let watch = scope.spawn(|| {
                 while !ended.load(Ordering::Relaxed) {
                     std::thread::park_timeout(Duration::from_millis(20));
                     let cancelled = self.cancel.is_some_and(|c| c.load(Ordering::Relaxed));
@@ -244,7 +246,7 @@ impl Options<'_> {
                 }
             });
             // Also where the search panics: else the thread above would never end.
-            let _at_the_end = AtTheEnd(&ended);
+            let _at_the_end = AtTheEnd(&ended, watch.thread().clone());
             pooled()
         })
     }
