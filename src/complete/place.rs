@@ -1,6 +1,6 @@
 //! Where one step puts its point, as Taylor models.
 
-use super::model::{Model, Number, combined, rotation, weighted};
+use super::model::{Factor, Model, Number, combined, rotation, weighted};
 use super::node::{Node, Sign};
 use super::plan::{Drive, HingeNumbers, Kind, MeetNumbers, Meeting, Plan, Radius};
 use super::targets::Targets;
@@ -145,19 +145,54 @@ pub fn angle<const S: usize, const M: usize>(node: &Node, parameter: usize) -> [
     }
 }
 
+/// A place, coordinate by coordinate. (`std::array::from_fn` is not inlined here, and copies every model twice.)
+#[inline(always)]
+fn each<const D: usize, const S: usize, const M: usize>(
+    mut coordinate: impl FnMut(usize) -> Model<S, M>,
+) -> Place<D, S, M> {
+    let mut out = [Model::ZERO; D];
+    for (k, model) in out.iter_mut().enumerate() {
+        *model = coordinate(k);
+    }
+    out
+}
+
+/// The coordinates as factors of products.
+#[inline(always)]
+fn factors<const D: usize, const S: usize, const M: usize>(
+    a: &Place<D, S, M>,
+) -> [Factor<'_, S, M>; D] {
+    let mut out = [a[0].factor(); D];
+    for k in 1..D {
+        out[k] = a[k].factor();
+    }
+    out
+}
+
 fn minus<const D: usize, const S: usize, const M: usize>(
     a: &Place<D, S, M>,
     b: &Place<D, S, M>,
 ) -> Place<D, S, M> {
-    std::array::from_fn(|k| a[k].minus(&b[k]))
+    each(|k| a[k].minus(&b[k]))
+}
+
+#[inline(always)]
+fn product<const D: usize, const S: usize, const M: usize>(
+    a: &[Factor<S, M>; D],
+    b: &[Factor<S, M>; D],
+) -> Model<S, M> {
+    let mut terms = [(1.0, a[0], b[0]); D];
+    for k in 1..D {
+        terms[k] = (1.0, a[k], b[k]);
+    }
+    combined::<D, S, M>(&Model::ZERO, terms)
 }
 
 fn dot<const D: usize, const S: usize, const M: usize>(
     a: &Place<D, S, M>,
     b: &Place<D, S, M>,
 ) -> Model<S, M> {
-    let terms = std::array::from_fn(|k| (1.0, a[k].factor(), b[k].factor()));
-    combined::<D, S, M>(&Model::ZERO, terms)
+    product(&factors(a), &factors(b))
 }
 
 /// |a − b|².
@@ -166,7 +201,8 @@ pub fn squared_distance<const D: usize, const S: usize, const M: usize>(
     b: &Place<D, S, M>,
 ) -> Model<S, M> {
     let d = minus(a, b);
-    dot(&d, &d)
+    let d = factors(&d);
+    product(&d, &d)
 }
 
 /// a turned by a right angle in the plane, a × b in space.
@@ -174,17 +210,13 @@ fn normal<const D: usize, const S: usize, const M: usize>(
     a: &Place<D, S, M>,
     b: &Place<D, S, M>,
 ) -> Place<D, S, M> {
-    std::array::from_fn(|k| {
-        if D == 2 {
-            if k == 0 { a[1].scaled(-1.0) } else { a[0] }
-        } else {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let terms = [
-                (1.0, a[i].factor(), b[j].factor()),
-                (-1.0, a[j].factor(), b[i].factor()),
-            ];
-            combined(&Model::ZERO, terms)
-        }
+    if D == 2 {
+        return each(|k| if k == 0 { a[1].scaled(-1.0) } else { a[0] });
+    }
+    let (a, b) = (factors(a), factors(b));
+    each(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        combined(&Model::ZERO, [(1.0, a[i], b[j]), (-1.0, a[j], b[i])])
     })
 }
 
@@ -198,7 +230,7 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
     match (&plan.steps[step].kind, known) {
         (&Kind::Arm { centre, parameter }, &Known::Length(length)) => {
             let direction = angle(node, parameter);
-            Placed::Here(std::array::from_fn(|k| {
+            Placed::Here(each(|k| {
                 weighted(&points[centre][k], [(length, &direction[k])])
             }))
         }
@@ -213,14 +245,13 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
                 mid: -numbers.foot.mid,
                 ..numbers.foot
             };
-            let v: Place<D, S, M> = std::array::from_fn(|k| {
-                weighted(&q[k], [(minus_one, &c1[k]), (minus_foot, &a[k])])
-            });
+            let v: Place<D, S, M> =
+                each(|k| weighted(&q[k], [(minus_one, &c1[k]), (minus_foot, &a[k])]));
             let [cos, sin] = angle(node, parameter);
             let (cos, sin) = (cos.by(numbers.side), sin.by(numbers.up));
             let (cos, sin) = (cos.factor(), sin.factor());
             let up = normal(&a, &v);
-            Placed::Here(std::array::from_fn(|k| {
+            Placed::Here(each(|k| {
                 let foot = weighted(&c1[k], [(numbers.along, &a[k])]);
                 let terms = [(1.0, v[k].factor(), cos), (1.0, up[k].factor(), sin)];
                 combined(&foot, terms)
@@ -250,13 +281,14 @@ fn rigid<const D: usize, const S: usize, const M: usize>(
     c1: &Place<D, S, M>,
     (a, b): (&Place<D, S, M>, &Place<D, S, M>),
 ) -> Placed<D, S, M> {
-    let middle = std::array::from_fn(|k| match D {
+    let middle = each(|k| match D {
         2 => weighted(&c1[k], [(numbers.first, &a[k])]),
         _ => weighted(&c1[k], [(numbers.first, &a[k]), (numbers.second, &b[k])]),
     });
-    let off = normal(a, b).map(|x| x.by(numbers.over));
+    let normal = normal(a, b);
+    let off = each(|k| normal[k].by(numbers.over));
     match node.sign(index) {
-        Some(Sign::Plus) => Placed::Here(std::array::from_fn(|k| middle[k].plus(&off[k]))),
+        Some(Sign::Plus) => Placed::Here(each(|k| middle[k].plus(&off[k]))),
         Some(Sign::Minus) => Placed::Here(minus(&middle, &off)),
         _ => Placed::Either { middle, off },
     }
@@ -324,20 +356,23 @@ fn moving<const D: usize, const S: usize, const M: usize>(
         let over = delta.reciprocal(width);
         let along = first.times(&Moving(over)).model();
         let middle: Place<D, S, M> = if D == 2 {
-            std::array::from_fn(|k| combined(&c1[k], [(1.0, a[k].factor(), along.factor())]))
+            each(|k| combined(&c1[k], [(1.0, a[k].factor(), along.factor())]))
         } else {
             let across = second.times(&Moving(over)).model();
             let (along, across) = (along.factor(), across.factor());
-            std::array::from_fn(|k| {
+            each(|k| {
                 let terms = [(1.0, a[k].factor(), along), (1.0, b[k].factor(), across)];
                 combined(&c1[k], terms)
             })
         };
         let out = over.factor();
-        let normal = normal(a, b).map(|x| combined(&Model::ZERO, [(1.0, x.factor(), out)]));
+        let normal = normal(a, b);
+        let normal: Place<D, S, M> =
+            each(|k| combined(&Model::ZERO, [(1.0, normal[k].factor(), out)]));
+        let normal = factors(&normal);
         let beside = |sign: f64, height: &Model<S, M>| -> Place<D, S, M> {
             let height = height.factor();
-            std::array::from_fn(|k| combined(&middle[k], [(sign, normal[k].factor(), height)]))
+            each(|k| combined(&middle[k], [(sign, normal[k], height)]))
         };
         if sign == Some(Sign::Fold) {
             let symbol = node.fold_symbol(plan.parameters(), index);
@@ -350,8 +385,8 @@ fn moving<const D: usize, const S: usize, const M: usize>(
             Some(Sign::Plus) => Placed::Here(beside(1.0, &root)),
             Some(Sign::Minus) => Placed::Here(beside(-1.0, &root)),
             _ => {
-                let root = root.factor();
-                let off = normal.map(|x| combined(&Model::ZERO, [(1.0, x.factor(), root)]));
+                let height = root.factor();
+                let off = each(|k| combined(&Model::ZERO, [(1.0, normal[k], height)]));
                 Placed::Either { middle, off }
             }
         };
