@@ -44,7 +44,7 @@ pub struct Part {
     pub why: Why,
     /// How many parts.
     pub count: u64,
-    /// Their share of the parameter space, as far as parts are kept.
+    /// Their share of the parameter space.
     pub share: f64,
 }
 
@@ -297,9 +297,19 @@ impl Complete {
             }
         }
         undecided.sort_by_key(|part| part.why);
-        if let Some(last) = undecided.last_mut() {
-            // Those that were not kept are counted with the last reason.
-            last.count += found.undecided_count - found.undecided.len() as u64;
+        let mut kept = 0;
+        for part in &mut undecided {
+            if part.why == Why::Unfinished {
+                part.count = found.unfinished;
+            }
+            kept += part.count;
+        }
+        // Those that were not kept one by one are counted with the first other reason that there is.
+        if let Some(other) = undecided
+            .iter_mut()
+            .find(|part| part.why != Why::Unfinished)
+        {
+            other.count += found.undecided_count.saturating_sub(kept);
         }
         let figures = different(&found.figures, dimension);
         let apart = figures.is_err();

@@ -43,7 +43,7 @@ pub struct Undecided {
 pub struct Found {
     /// Figures proved, maybe several times.
     pub figures: Vec<Figure>,
-    /// Parts undecided, not more than a few thousand.
+    /// Parts undecided. Of more than a few thousand, several that have the same reason are one here, with the share of all.
     pub undecided: Vec<Undecided>,
     /// How many they are.
     pub undecided_count: u64,
@@ -57,7 +57,7 @@ pub struct Found {
     pub marks: Marks,
 }
 
-/// Most undecided parts that are kept.
+/// Most undecided parts that are kept one by one.
 const KEPT: usize = 4096;
 /// Coordinates must be known to this much of the unit of length before figures are looked for.
 const NEAR: f64 = 3e-3;
@@ -75,8 +75,16 @@ impl Found {
         self.undecided_count += 1;
         self.undecided_share += share;
         self.unfinished += u64::from(why == Why::Unfinished);
-        if self.undecided.len() < KEPT {
-            self.undecided.push(Undecided { why, share });
+        self.keep(Undecided { why, share });
+    }
+
+    /// Keeps a part that stays undecided: no share is lost, and no reason.
+    fn keep(&mut self, part: Undecided) {
+        let full = self.undecided.len() >= KEPT;
+        let alike = |kept: &&mut Undecided| full && kept.why == part.why;
+        match self.undecided.iter_mut().find(alike) {
+            Some(kept) => kept.share += part.share,
+            None => self.undecided.push(part),
         }
     }
 
@@ -91,9 +99,9 @@ impl Found {
     /// Adds what was found in parts that come after.
     pub fn append(&mut self, mut other: Found) {
         self.figures.append(&mut other.figures);
-        let room = KEPT - self.undecided.len().min(KEPT);
-        other.undecided.truncate(room);
-        self.undecided.append(&mut other.undecided);
+        for part in other.undecided {
+            self.keep(part);
+        }
         self.undecided_count += other.undecided_count;
         self.undecided_share += other.undecided_share;
         self.unfinished += other.unfinished;
@@ -491,5 +499,25 @@ mod tests {
             assert_eq!((found.undecided.len(), found.undecided_share), (1, 0.5));
             assert_eq!(found.marks.bytes.unwrap().len(), 3);
         }
+    }
+
+    /// What a search that is ended leaves comes after thousands of small parts, and is nearly all of the space.
+    #[test]
+    fn no_share_and_no_reason_is_lost_among_thousands_of_parts() {
+        let mut found = Found::default();
+        for _ in 0..3 * KEPT {
+            found.leave(1e-9, Why::Small);
+        }
+        found.leave(0.5, Why::Unfinished);
+        let mut more = Found::default();
+        more.leave(0.25, Why::Unfinished);
+        found.append(more);
+        let share = |why: Why| -> f64 {
+            let alike = found.undecided.iter().filter(|part| part.why == why);
+            alike.map(|part| part.share).sum()
+        };
+        assert_eq!(share(Why::Unfinished), 0.75);
+        assert!((share(Why::Small) - 3e-9 * KEPT as f64).abs() < 1e-12);
+        assert_eq!(found.undecided_count, 3 * KEPT as u64 + 2);
     }
 }
