@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 ///
 /// The sketch's path plays no part: every figure that meets the dimensions is listed, up to rigid motions and
 /// reflections where constraints do not say otherwise. "Complete" claims that these are all; "partial" and "flexible" say
-/// what is undecided. Stores are for distances between points alone.
+/// what is undecided.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

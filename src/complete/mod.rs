@@ -70,19 +70,14 @@ use visit::Found;
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let wants_one_search = options.cover || options.store.is_some();
     if !problem.is_distances_only() {
-        return match options.store {
-            Some(_) => Err(Unserved::Constraints),
-            None => coordinates::all(problem, options),
-        };
+        return coordinates::all(problem, options);
     }
     if !wants_one_search && let Some(result) = parts::searched(problem, options) {
         return Ok(result);
     }
     match by_plan(problem, options) {
         // Where no plan serves.
-        Err(Unserved::NoBase | Unserved::TooManyParameters) if options.store.is_none() => {
-            coordinates::all(problem, options)
-        }
+        Err(Unserved::NoBase | Unserved::TooManyParameters) => coordinates::all(problem, options),
         result => result,
     }
 }
@@ -127,6 +122,7 @@ fn by_plan(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
             if result.status == Status::Complete && in_words.is_some() {
                 result.reason = in_words;
             }
+            result.share_before = run.share_before();
             Ok(result)
         }
         Err(Unfit::Empty(point)) => {
@@ -145,14 +141,16 @@ fn kept(
     (targets, pairs, plans): (&Targets, &Pairs, Vec<Plan>),
     run: &Run,
     keep: &Keep,
-    mut store: Store,
+    mut store: Store<Found>,
 ) -> Result<Result<(Search, Found), Unfit>, String> {
     let search = match &store.head {
         // The plan that the parts were made by.
-        Some(head) if !head.plan.serves(targets, pairs) => {
-            return Err(store.at("its plan is not one of this problem; name another folder"));
-        }
-        Some(head) => Search::new(targets, pairs, head.plan.clone()),
+        Some(head) => match head.plan.clone().filter(|plan| plan.serves(targets, pairs)) {
+            Some(plan) => Search::new(targets, pairs, plan),
+            None => {
+                return Err(store.at("its plan is not one of this problem; name another folder"));
+            }
+        },
         None => chosen(targets, pairs, plans, run).map(|(search, _)| search),
     };
     let search = match search {
@@ -166,16 +164,8 @@ fn kept(
     }
     let outline = Outline::new(&search, run);
     let digest = outline.digest();
-    match &store.head {
-        Some(head) if head.pieces != digest => {
-            return Err(store.at(
-                "it was begun by another version of krawl or on another kind of processor, which parts the search \
-                 otherwise; name another folder",
-            ));
-        }
-        Some(_) => {}
-        None => store.begin(Head::new(problem, &search.plan, run.cover, digest))?,
-    }
+    let plan = Some(&search.plan);
+    store.begin(Head::new(problem, plan, run.cover, digest))?;
     let found = search.kept(run, outline, keep, store)?;
     Ok(Ok((search, found)))
 }

@@ -10,6 +10,7 @@ use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::Solution;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
 use std::time::{Duration, Instant};
@@ -38,7 +39,7 @@ impl Status {
 }
 
 /// Parts of the parameter space that are undecided for one reason.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// Why.
     pub why: Why,
@@ -80,6 +81,8 @@ pub struct Complete {
     pub plan: Vec<usize>,
     /// Wall-clock seconds.
     pub seconds: f64,
+    /// The share of the search space that a store had already.
+    pub share_before: f64,
     /// The cover of the search space, if it was wanted and there was a search.
     pub cover: Option<Vec<u8>>,
 }
@@ -87,12 +90,6 @@ pub struct Complete {
 /// Why a problem cannot be searched.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Unserved {
-    /// Other constraints.
-    #[error(
-        "not served yet: stores of all solutions are for distances between points alone, and there are other \
-         constraints"
-    )]
-    Constraints,
     /// No base.
     #[error(
         "not served yet: the search begins with two joined points in the plane, or three mutually joined \
@@ -253,6 +250,15 @@ impl Options<'_> {
 }
 
 impl Complete {
+    /// Of a search that was ended: how many seconds the rest of it may take, if it goes on as it did.
+    pub fn seconds_left(&self) -> Option<f64> {
+        let open = self.undecided.iter().find(|p| p.why == Why::Unfinished)?;
+        let done = 1.0 - open.share - self.share_before;
+        let seconds = self.seconds * open.share / done;
+        // Shares add up but for roundings.
+        (done > 1e-12 && seconds.is_finite()).then_some(seconds)
+    }
+
     /// No solution, for a reason that needs no search.
     pub(super) fn empty(problem: &Problem, reason: String, begin: Instant) -> Self {
         Complete {
@@ -269,6 +275,7 @@ impl Complete {
             driving: 0,
             plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
+            share_before: 0.0,
             cover: None,
         }
     }
@@ -377,6 +384,7 @@ impl Complete {
                 .chain(search.plan.steps.iter().map(|s| s.point))
                 .collect(),
             seconds: begin.elapsed().as_secs_f64(),
+            share_before: 0.0,
             cover,
         }
     }

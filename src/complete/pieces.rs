@@ -5,7 +5,7 @@
 
 use super::node::Node;
 use super::search::{Run, Search};
-use super::store::{Keep, Store};
+use super::store::{Keep, Piece, Store};
 use super::visit::{Found, Why};
 use crate::hexadecimal::hexadecimal;
 use rayon::prelude::*;
@@ -109,6 +109,15 @@ impl Outline {
     }
 }
 
+impl Piece for Found {
+    /// Its place in the order of the search.
+    type Name = usize;
+
+    fn is_done(&self) -> bool {
+        self.unfinished == 0
+    }
+}
+
 impl Search {
     /// Searches what a store does not have yet, and puts each piece into it as soon as it is done.
     pub(super) fn kept(
@@ -116,7 +125,7 @@ impl Search {
         run: &Run,
         outline: Outline,
         keep: &Keep,
-        mut store: Store,
+        mut store: Store<Found>,
     ) -> Result<Found, String> {
         for other in &keep.merge {
             store.merge(other)?;
@@ -141,8 +150,8 @@ impl Search {
             .into_par_iter()
             .map(|(piece, node)| {
                 let found = self.below(run, node.clone());
-                let put = match (found.unfinished, store.lock()) {
-                    (0, Ok(mut store)) => store.put(piece, &found),
+                let put = match (found.is_done(), store.lock()) {
+                    (true, Ok(mut store)) => store.put(&piece, &found),
                     _ => Ok(()),
                 };
                 // A disk that is full ends the search.

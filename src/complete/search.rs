@@ -403,6 +403,13 @@ impl Run<'_> {
         self.done.fetch_add(units, Ordering::Relaxed);
     }
 
+    /// Notes that an earlier run has done a share of the parameter space.
+    pub fn add_done_before(&self, share: f64) {
+        self.add_done(share);
+        let units = (share * SHARE_UNIT) as u64;
+        self.before.fetch_add(units, Ordering::Relaxed);
+    }
+
     /// The share that was done before this run.
     pub fn share_before(&self) -> f64 {
         self.before.load(Ordering::Relaxed) as f64 / SHARE_UNIT

@@ -1,14 +1,14 @@
 //! Finished parts of a search on disk, so that a search that is ended at any moment goes on where it was, and machines
 //! that share a search can bring together what each has done.
 //!
-//! One file in the store's folder: a line that says of what search it is (problem, plan, and a digest of the pieces
-//! that the parameter space is cut into), and a line for every piece that is done, each with a checksum. Lines are only
+//! One file in the store's folder: a line that says of what search it is (problem, plan if there is one, and a digest of what
+//! the search begins with), and a line for every piece that is done, each with a checksum. Lines are only
 //! ever appended, each at once: a process that is killed leaves at most one line that is cut off, which is no line.
 
 use super::plan::Plan;
-use super::visit::Found;
 use crate::hexadecimal::hexadecimal;
 use crate::problem::Problem;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ const NAME: &str = "parts.krawl-all";
 const KIND: &str = "parts of a search for all solutions";
 /// The format of the file, and of what its parts rest on: to be raised with every change of what a search proves, as
 /// parts that were done before are believed.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Where parts of a search are kept, and which this process works on.
 #[derive(Debug, Clone, Default)]
@@ -41,22 +41,34 @@ pub(super) struct Head {
     krawl: String,
     version: u32,
     problem: String,
-    /// By which plan.
-    pub(super) plan: Plan,
+    /// By which plan; `None` where it goes over all coordinates.
+    pub(super) plan: Option<Plan>,
     cover: bool,
-    /// A digest of the pieces, which lines know by number alone: another processor or build of krawl may round
-    /// otherwise, and so cut the space otherwise.
+    /// A digest of the pieces, which lines may know by number alone, or of the space that is searched: another processor or
+    /// build of krawl may round otherwise, and so cut the space otherwise.
     pub(super) pieces: String,
 }
 
-#[derive(Serialize, Deserialize)]
-struct Line {
-    piece: usize,
-    found: Found,
+/// What was found in a piece, as a store keeps it.
+pub(super) trait Piece: Serialize + DeserializeOwned {
+    /// What tells the pieces of a search apart.
+    type Name: Serialize + DeserializeOwned + Ord + Clone;
+
+    /// Whether the piece was searched to its end.
+    fn is_done(&self) -> bool;
 }
 
+#[derive(Serialize, Deserialize)]
+struct Line<N, F> {
+    piece: N,
+    found: F,
+}
+
+/// What is whole in a file: the first line, the pieces, and how long all that is.
+type Whole<F> = (Head, BTreeMap<<F as Piece>::Name, F>, u64);
+
 /// An open store.
-pub(super) struct Store {
+pub(super) struct Store<F: Piece> {
     file: File,
     path: PathBuf,
     /// How much of the file is whole. What is behind is cut off when the first line is written, not before: what is refused
@@ -65,17 +77,17 @@ pub(super) struct Store {
     /// What search it is about, once that is known.
     pub(super) head: Option<Head>,
     /// The pieces that are done.
-    pub(super) done: BTreeMap<usize, Found>,
+    pub(super) done: BTreeMap<F::Name, F>,
 }
 
 impl Head {
-    /// Of a search by a plan, cut into pieces with this digest.
-    pub(super) fn new(problem: &Problem, plan: &Plan, cover: bool, pieces: String) -> Head {
+    /// Of a search, cut into pieces with this digest.
+    pub(super) fn new(problem: &Problem, plan: Option<&Plan>, cover: bool, pieces: String) -> Head {
         Head {
             krawl: KIND.to_owned(),
             version: VERSION,
             problem: problem.to_toml(),
-            plan: plan.clone(),
+            plan: plan.cloned(),
             cover,
             pieces,
         }
@@ -109,8 +121,8 @@ fn checksum(head: &str, text: &str) -> String {
     hexadecimal(&digest.finalize())
 }
 
-/// Reads what is whole: the first line, the pieces, and how long all that is.
-fn read(file: &mut File) -> std::io::Result<Option<(Head, BTreeMap<usize, Found>, u64)>> {
+/// Reads what is whole.
+fn read<F: Piece>(file: &mut File) -> std::io::Result<Option<Whole<F>>> {
     let mut bytes = Vec::new();
     file.seek(SeekFrom::Start(0))?;
     file.read_to_end(&mut bytes)?;
@@ -146,7 +158,7 @@ fn read(file: &mut File) -> std::io::Result<Option<(Head, BTreeMap<usize, Found>
     let (mut done, mut length) = (BTreeMap::new(), first.len());
     // What lines were written behind, however the first one is spelled.
     let bound = json(&head);
-    let line_of = |line: &[u8]| -> Option<Line> {
+    let line_of = |line: &[u8]| -> Option<Line<F::Name, F>> {
         let text = whole(line)?;
         let (sum, rest) = text.split_once(' ')?;
         let right = checksum(&bound, rest) == sum;
@@ -156,16 +168,16 @@ fn read(file: &mut File) -> std::io::Result<Option<(Head, BTreeMap<usize, Found>
         // From a line on that is damaged nothing is taken: what it was about is searched again.
         let Some(one) = line_of(line) else { break };
         length += line.len();
-        if one.found.unfinished == 0 {
+        if one.found.is_done() {
             done.insert(one.piece, one.found);
         }
     }
     Ok(Some((head, done, length as u64)))
 }
 
-impl Store {
+impl<F: Piece> Store<F> {
     /// Opens a store, or makes one, and takes what is whole in it.
-    pub(super) fn open(keep: &Keep, problem: &Problem, cover: bool) -> Result<Store, String> {
+    pub(super) fn open(keep: &Keep, problem: &Problem, cover: bool) -> Result<Self, String> {
         let path = keep.folder.join(NAME);
         let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         std::fs::create_dir_all(&keep.folder).map_err(|e| at(&e))?;
@@ -186,7 +198,7 @@ impl Store {
             }
             Err(TryLockError::Error(error)) => return Err(at(&error)),
         }
-        let known = read(&mut file).map_err(|e| at(&e))?;
+        let known = read::<F>(&mut file).map_err(|e| at(&e))?;
         let (head, done, length) = match known {
             Some((head, done, length)) => (Some(head), done, length),
             None => (None, BTreeMap::new(), 0),
@@ -208,12 +220,21 @@ impl Store {
         format!("{}: {what}", self.path.display())
     }
 
-    /// Writes what search it is about, if it is new.
+    /// Says what search it is about: that is written if the store is new, and has to agree if it is not.
     pub(super) fn begin(&mut self, head: Head) -> Result<(), String> {
-        if self.head.is_none() {
-            let text = json(&head);
-            self.append(&format!("{text} {}", checksum("", &text)))?;
-            self.head = Some(head);
+        match &self.head {
+            Some(known) if *known == head => {}
+            Some(_) => {
+                return Err(self.at(
+                    "it was begun by another version of krawl or on another kind of processor, which parts the search \
+                     otherwise; name another folder",
+                ));
+            }
+            None => {
+                let text = json(&head);
+                self.append(&format!("{text} {}", checksum("", &text)))?;
+                self.head = Some(head);
+            }
         }
         Ok(())
     }
@@ -226,7 +247,7 @@ impl Store {
         };
         let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let mut file = File::open(&path).map_err(|e| at(&e))?;
-        let (head, done, _) = read(&mut file)
+        let (head, done, _) = read::<F>(&mut file)
             .map_err(|e| at(&e))?
             .ok_or_else(|| at(&"nothing is in this store"))?;
         if Some(&head) != self.head.as_ref() {
@@ -237,7 +258,7 @@ impl Store {
         }
         for (piece, found) in done {
             if !self.done.contains_key(&piece) {
-                self.put(piece, &found)?;
+                self.put(&piece, &found)?;
                 self.done.insert(piece, found);
             }
         }
@@ -245,12 +266,11 @@ impl Store {
     }
 
     /// Writes what was found in a piece that is done.
-    pub(super) fn put(&mut self, piece: usize, found: &Found) -> Result<(), String> {
+    pub(super) fn put(&mut self, piece: &F::Name, found: &F) -> Result<(), String> {
         let head = self
             .head
             .as_ref()
             .expect("a store is begun before it is filled");
-        let found = found.clone();
         let text = json(&Line { piece, found });
         let sum = checksum(&json(head), &text);
         self.append(&format!("{sum} {text}"))

@@ -21,6 +21,8 @@ pub enum Why {
     Small,
     /// The search was ended before.
     Unfinished,
+    /// Too many parts near it stay undecided.
+    GivenUp,
     /// Figures in it are not told apart.
     Apart,
     /// It goes on without an end: an unknown may be as large as it likes.

@@ -20,7 +20,8 @@ use std::fmt::Write;
 ///  "reference": ["p1", "p2", "p3"],
 ///  "solutions": [{"points": {"p1": [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]}, "class": 0, "width": 1e-14}],
 ///  "undecided": [{"reason": "...", "parts": 1, "share": 1e-9}],
-///  "method": "plan", "count": 4, "boxes": 101, "seconds": 0.0, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
+///  "method": "plan", "count": 4, "boxes": 101, "seconds": 0.0,
+///  "seconds_left": null, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
 /// ```
 ///
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
@@ -81,6 +82,7 @@ impl<'a> Document<'a> {
                 .collect(),
             boxes: result.boxes,
             seconds: result.seconds,
+            seconds_left: result.seconds_left(),
             driving: result.driving,
             plan: names(problem, &result.plan),
         }
@@ -102,6 +104,7 @@ struct Document<'a> {
     undecided: Vec<Undecided>,
     boxes: u64,
     seconds: f64,
+    seconds_left: Option<f64>,
     driving: usize,
     plan: Vec<&'a str>,
 }
@@ -136,6 +139,7 @@ fn why(why: Why) -> &'static str {
         Why::Flexible => "a curve of solutions seems to go through here",
         Why::Small => "a solution that is singular or nearly so, or centres of a step in line",
         Why::Unfinished => "the search was ended before",
+        Why::GivenUp => "given up, as too many parts there stay undecided",
         Why::Unbounded => "unknowns that may be as large as they like",
         Why::Vanishing => {
             "whether a vector that must not vanish has a length, or a length is positive, is not certain"
@@ -159,7 +163,8 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
         let share = 100.0 * part.share;
         writeln!(
             out,
-            "  undecided: {parts} ({share:.1e} % of {}): {}",
+            "  undecided: {parts} ({} % of {}): {}",
+            percent(share),
             match result.method {
                 Method::Coordinates => "the space of coordinates",
                 _ => "the parameter space",
@@ -213,7 +218,44 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
         _ => writeln!(out, "driving parameters  {}", result.driving)?,
     }
     writeln!(out, "boxes               {}", result.boxes)?;
-    writeln!(out, "seconds             {:.4}", result.seconds)
+    writeln!(out, "seconds             {:.4}", result.seconds)?;
+    if let Some(left) = result.seconds_left() {
+        let left = span(left);
+        writeln!(
+            out,
+            "left                perhaps {left}, if it goes on as it did"
+        )?;
+    }
+    Ok(())
+}
+
+/// A share in percent: small ones by their size, others to two places that are never rounded to nothing or to all.
+fn percent(share: f64) -> String {
+    match share {
+        0.0 => "0".to_owned(),
+        _ if share < 0.01 => format!("{share:.1e}"),
+        _ if share < 100.0 => format!("{:.2}", share.min(99.99)),
+        _ => "100".to_owned(),
+    }
+}
+
+/// A time, as people say it.
+fn span(seconds: f64) -> String {
+    const UNITS: [(&str, f64); 4] = [
+        ("years", 3.156e7),
+        ("days", 86400.0),
+        ("hours", 3600.0),
+        ("minutes", 60.0),
+    ];
+    let unit = UNITS
+        .into_iter()
+        .find(|(_, length)| seconds >= 2.0 * length);
+    let (name, length) = unit.unwrap_or(("seconds", 1.0));
+    match seconds / length {
+        count if count < 10.0 => format!("{count:.1} {name}"),
+        count if count < 1e6 => format!("{count:.0} {name}"),
+        count => format!("{count:.0e} {name}"),
+    }
 }
 
 /// What was found, in words that claim no more than was proved.
@@ -308,5 +350,38 @@ pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> Strin
              cover. Any other solution lies there. Checked in {seconds:.2} s.\n",
             verdict.undecided
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_never_rounded_to_nothing_or_all() {
+        for (share, text) in [
+            (0.0, "0"),
+            (4.25e-34, "4.3e-34"),
+            (0.5, "0.50"),
+            (99.3444, "99.34"),
+            (99.9999, "99.99"),
+            (100.0, "100"),
+        ] {
+            assert_eq!(percent(share), text);
+        }
+    }
+
+    #[test]
+    fn times_are_in_units_that_fit() {
+        for (seconds, text) in [
+            (3.21, "3.2 seconds"),
+            (100.0, "100 seconds"),
+            (150.0, "2.5 minutes"),
+            (91_500.0, "25 hours"),
+            (1e7, "116 days"),
+            (1e20, "3e12 years"),
+        ] {
+            assert_eq!(span(seconds), text);
+        }
     }
 }

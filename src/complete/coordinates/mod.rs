@@ -18,6 +18,7 @@
 mod bound;
 mod contract;
 mod cover;
+mod kept;
 mod newton;
 mod search;
 mod symmetry;
@@ -26,6 +27,7 @@ mod system;
 use super::outcome::{Method, too_long};
 use super::pairs::Pairs;
 use super::search::Run as Watched;
+use super::store::{Keep, Store};
 use super::targets::Targets;
 use super::{Complete, Options, Part, Status, Unserved, Why, emptiness};
 use crate::blocks::{Block as Cut, Blocks};
@@ -36,6 +38,7 @@ use crate::system::Homotopy;
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
 use contract::{contract, entire, upper_half};
+use kept::Kept;
 pub(super) use search::leave;
 use search::{Block, Found, Run, ranges};
 use std::collections::{BTreeSet, HashMap};
@@ -81,18 +84,32 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         before: AtomicU64::new(0),
         cover: false,
     };
-    Ok(options.watched(&run, begin, || {
-        searched(problem, (&homotopy, system), &run, options.cover, begin)
-    }))
+    let store = match &options.store {
+        Some(keep) => {
+            let opened = Store::open(keep, problem, false);
+            Some((keep, opened.map_err(Unserved::Store)?))
+        }
+        None => None,
+    };
+    let result = options.watched(&run, begin, || {
+        searched(
+            problem,
+            (&homotopy, system),
+            (&run, store),
+            options.cover,
+            begin,
+        )
+    });
+    result.map_err(Unserved::Store)
 }
 
 fn searched(
     problem: &Problem,
     (homotopy, mut system): (&Homotopy, System),
-    run: &Watched,
+    (run, store): (&Watched, Option<(&Keep, Store<Found>)>),
     cover: bool,
     begin: Instant,
-) -> Complete {
+) -> Result<Complete, String> {
     let mut reason = None;
     if !problem.distances.is_empty() && problem.points.len() <= MOST_POINTS {
         let targets = Targets::new(problem);
@@ -105,7 +122,7 @@ fn searched(
     result.driving = homotopy.equations;
     result.symmetry = crate::constraint::symmetry(problem);
     if reason.is_some() {
-        return result;
+        return Ok(result);
     }
     let m = system.unknowns;
     let mut x = vec![entire(); m + 1];
@@ -118,8 +135,13 @@ fn searched(
     let mut is_free = vec![true; m + 1];
     is_free[m] = false;
     let rows: Vec<_> = system.rows.iter().collect();
-    let mut figures = Figures::new(homotopy, &system, run);
-    if contract(&rows, &is_free, &mut x).is_ok() {
+    let space = contract(&rows, &is_free, &mut x);
+    let kept = match store {
+        Some((keep, store)) => Some(Kept::new(store, keep, (problem, &x), run.stop)?),
+        None => None,
+    };
+    let mut figures = Figures::new(homotopy, &system, run, kept.as_ref());
+    if space.is_ok() {
         figures.go(0, &mut Vec::new(), &x, 1.0);
     }
     result.solutions = solutions(homotopy, &figures.found);
@@ -135,7 +157,7 @@ fn searched(
     };
     result.undecided = undecided;
     for part in &mut result.undecided {
-        // A part of a block counts for all that could come of it, beside what did.
+        // But for roundings.
         part.share = part.share.min(1.0);
     }
     result.undecided.sort_by_key(|part| part.why);
@@ -146,8 +168,10 @@ fn searched(
         );
     }
     result.count = Some(result.solutions.len() as u64);
+    result.share_before = run.share_before();
+    kept.map_or(Ok(()), Kept::end)?;
     result.seconds = begin.elapsed().as_secs_f64();
-    result
+    Ok(result)
 }
 
 /// Adds the bounds of the distances of all pairs that follow from the distances given.
@@ -180,6 +204,8 @@ struct Figures<'a> {
     homotopy: &'a Homotopy,
     system: &'a System,
     run: &'a Watched<'a>,
+    /// Where pieces of the search are kept.
+    kept: Option<&'a Kept<'a>>,
     blocks: Vec<Cut>,
     /// For each block those that it needs, directly or not.
     ancestors: Vec<BTreeSet<usize>>,
@@ -192,7 +218,12 @@ struct Figures<'a> {
 }
 
 impl<'a> Figures<'a> {
-    fn new(homotopy: &'a Homotopy, system: &'a System, run: &'a Watched<'a>) -> Self {
+    fn new(
+        homotopy: &'a Homotopy,
+        system: &'a System,
+        run: &'a Watched<'a>,
+        kept: Option<&'a Kept<'a>>,
+    ) -> Self {
         let m = system.unknowns;
         let equations: Vec<Vec<usize>> = system.rows[..m]
             .iter()
@@ -219,6 +250,7 @@ impl<'a> Figures<'a> {
             homotopy,
             system,
             run,
+            kept,
             blocks,
             ancestors,
             known: HashMap::new(),
@@ -231,7 +263,7 @@ impl<'a> Figures<'a> {
     /// All figures of the blocks from this one on, with those before where they are. `share`: of what is searched.
     fn go(&mut self, b: usize, chosen: &mut Vec<(usize, usize)>, x: &[Interval], share: f64) {
         if self.found.len() >= MOST_FIGURES {
-            leave(&mut self.undecided, Why::Unfinished, 1, share);
+            leave(&mut self.undecided, Why::GivenUp, 1, share);
             return;
         }
         let Some(block) = self.blocks.get(b) else {
@@ -239,7 +271,7 @@ impl<'a> Figures<'a> {
             return;
         };
         let own = block.unknowns.clone();
-        let found = self.solve(b, chosen, x);
+        let found = self.solve(b, chosen, x, share);
         for part in &found.undecided {
             leave(
                 &mut self.undecided,
@@ -248,7 +280,15 @@ impl<'a> Figures<'a> {
                 share * part.share,
             );
         }
-        let each = share / found.zeros.len().max(1) as f64;
+        let open: f64 = found.undecided.iter().map(|part| part.share).sum();
+        let decided = share * (1.0 - open).max(0.0);
+        if found.zeros.is_empty() {
+            // Nor is anything to be searched after.
+            let after = self.blocks[b + 1..].iter().map(|block| self.weight(block));
+            self.run.add_done(decided * after.sum::<f64>());
+        }
+        // What is decided comes to the zeros, in equal parts.
+        let each = decided / found.zeros.len().max(1) as f64;
         for (k, zero) in found.zeros.iter().enumerate() {
             let mut x = x.to_vec();
             for (&u, range) in own.iter().zip(ranges(zero)) {
@@ -276,22 +316,68 @@ impl<'a> Figures<'a> {
         })
     }
 
-    /// The zeros of a block with those before chosen.
-    fn solve(&mut self, b: usize, chosen: &[(usize, usize)], x: &[Interval]) -> Rc<Found> {
+    /// What a block is of all searching, about.
+    fn weight(&self, block: &Cut) -> f64 {
+        block.unknowns.len() as f64 / self.system.unknowns as f64
+    }
+
+    /// The zeros of a block with those before chosen. `share`: of what is searched.
+    fn solve(
+        &mut self,
+        b: usize,
+        chosen: &[(usize, usize)],
+        x: &[Interval],
+        share: f64,
+    ) -> Rc<Found> {
+        let weight = share * self.weight(&self.blocks[b]);
         let before = chosen.iter().copied();
-        let before = before.filter(|(c, _)| self.ancestors[b].contains(c));
-        let key = (b, before.collect());
+        let before: Vec<(usize, usize)> = before
+            .filter(|(c, _)| self.ancestors[b].contains(c))
+            .collect();
+        let key = (b, before);
         if let Some(found) = self.known.get(&key) {
+            self.run.add_done(weight);
             return Rc::clone(found);
         }
-        let run = Run {
-            stop: self.run.stop,
-            boxes: &self.run.boxes,
-            most_boxes: self.run.most_boxes,
+        let found = match self.whose(&key.1) {
+            Some(is_whole) => {
+                let run = Run {
+                    watched: self.run,
+                    weight,
+                    kept: self.kept,
+                    is_whole,
+                };
+                let mut found = self.block(b).search(x.to_vec(), &run);
+                if is_whole {
+                    found.pieces.fill(None);
+                }
+                found
+            }
+            None => Found::missing(1.0),
         };
-        let found = Rc::new(self.block(b).search(x.to_vec(), &run));
+        let found = Rc::new(found);
         self.known.insert(key, Rc::clone(&found));
         found
+    }
+
+    /// How a block that needs these zeros is searched where others share the search: all of it, if a piece of this share had one of
+    /// them; the pieces of this share, if all who share the search find them; not at all (`None`), if others do it.
+    fn whose(&self, before: &[(usize, usize)]) -> Option<bool> {
+        let mut is_whole = false;
+        for (k, &(c, zero)) in before.iter().enumerate() {
+            // What a block needs comes before it, and is needed by all that need it.
+            let needed = before[..k].iter().copied();
+            let needed: Vec<(usize, usize)> = needed
+                .filter(|(a, _)| self.ancestors[c].contains(a))
+                .collect();
+            let found = self.known.get(&(c, needed))?;
+            match (found.pieces[zero], self.kept) {
+                (Some(piece), Some(kept)) if kept.is_mine(piece) => is_whole = true,
+                (Some(_), Some(_)) => return None,
+                _ => {}
+            }
+        }
+        Some(is_whole)
     }
 
     /// The box of one zero of all equations: what figure it is.

@@ -5,6 +5,7 @@ use super::system::Row;
 use crate::complete::krawczyk::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
+use serde::{Deserialize, Serialize};
 
 /// A block: as many equations as unknowns, all other entries being known.
 #[derive(Debug)]
@@ -21,7 +22,7 @@ pub struct Square<'a> {
 pub const KNOWN: usize = usize::MAX;
 
 /// A zero of a block.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Zero {
     /// The middle of its box, unknown by unknown.
     pub centre: Vec<f64>,

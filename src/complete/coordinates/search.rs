@@ -7,34 +7,49 @@
 
 use super::bound::bounds;
 use super::contract::{Empty, contract};
+use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
 use super::system::{Row, System};
+use crate::complete::search::Run as Watched;
 use crate::complete::{Part, Why};
 use crate::interval::Interval;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::sync::atomic::Ordering;
 
-/// What all searches of a run share.
+/// A search of a block among those of a run.
 pub struct Run<'a> {
-    /// Set from outside to end the search.
-    pub stop: &'a AtomicBool,
-    /// Parts looked at.
-    pub boxes: &'a AtomicU64,
-    /// No more parts than this.
-    pub most_boxes: u64,
+    /// What all share.
+    pub watched: &'a Watched<'a>,
+    /// The share of all searching that it is.
+    pub weight: f64,
+    /// Where its pieces are kept.
+    pub kept: Option<&'a Kept<'a>>,
+    /// Whether all pieces are worked on, or those of the share alone.
+    pub is_whole: bool,
 }
 
 /// What a search found.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Found {
     /// Zeros, no two the same.
     pub zeros: Vec<Zero>,
     /// What stays undecided, with its share of what was searched.
     pub undecided: Vec<Part>,
+    /// Parts looked at.
+    pub boxes: u64,
+    /// Whether it was ended before all was looked at.
+    pub is_broken_off: bool,
+    /// For each zero the piece it was found in, if the search was cut into pieces.
+    #[serde(skip)]
+    pub pieces: Vec<Option<usize>>,
 }
 
 /// Parts that are searched each by itself.
 const PIECES: usize = 64;
+/// Parts that are looked at, one after the other, to make the pieces.
+const LOOKED: u64 = 300;
 /// A part whose unknowns are all known to this much is not halved any more.
 pub const SMALL: f64 = 1e-9;
 /// The same once that many parts of a piece are undecided.
@@ -95,6 +110,7 @@ impl<'a> Block<'a> {
             for (&u, range) in self.square.own.iter().zip(ranges) {
                 let both = x[u].intersection(range);
                 if both.is_empty() {
+                    run.watched.add_done(run.weight);
                     return Found::default();
                 }
                 x[u] = both;
@@ -102,48 +118,85 @@ impl<'a> Block<'a> {
         }
         let mut first = Piece::new(self, run);
         let mut nodes: Vec<Node> = vec![(x, 1.0)];
-        // Breadth first until there are enough pieces.
-        while !nodes.is_empty() && nodes.len() < PIECES {
+        // Breadth first until there are enough pieces, or few remain however far it goes.
+        while !nodes.is_empty() && nodes.len() < PIECES && first.found.boxes < LOOKED {
             let mut next = Vec::new();
             for node in nodes {
                 first.visit(node, &mut next);
             }
             nodes = next;
-            if run.boxes.load(Ordering::Relaxed) >= run.most_boxes {
+            if run.watched.boxes.load(Ordering::Relaxed) >= run.watched.most_boxes {
                 break;
             }
         }
-        let searched: Vec<Found> = nodes
+        let first = first.found;
+        let own = self.square.own.iter();
+        let mut all = Together {
+            ranges: nodes
+                .iter()
+                .map(|(x, _)| own.clone().map(|&u| x[u]).collect())
+                .collect(),
+            zeros: Vec::new(),
+        };
+        let mut found: Vec<Found> = nodes
             .into_par_iter()
-            .map(|node| {
-                let mut piece = Piece::new(self, run);
-                piece.found.zeros.clone_from(&first.found.zeros);
-                let mut stack = vec![node];
-                while let Some(node) = stack.pop() {
-                    piece.visit(node, &mut stack);
-                }
-                piece.found
-            })
+            .enumerate()
+            .map(|(piece, node)| self.piece(piece, node, &first.zeros, run))
             .collect();
-        let mut all = first.found;
-        for found in searched {
-            for zero in found.zeros {
-                add(&mut all.zeros, zero);
+        all.add(first.zeros, None);
+        all.find(&mut found);
+        let mut whole = Found {
+            undecided: first.undecided,
+            boxes: first.boxes,
+            is_broken_off: first.is_broken_off,
+            ..Found::default()
+        };
+        for one in found {
+            for part in one.undecided {
+                leave(&mut whole.undecided, part.why, part.count, part.share);
             }
-            for part in found.undecided {
-                leave(&mut all.undecided, part.why, part.count, part.share);
-            }
+            whole.boxes += one.boxes;
+            whole.is_broken_off |= one.is_broken_off;
         }
-        // Zeros that are neither the same nor apart stay, and are told apart, or not, as figures.
-        all.zeros.sort_by(|a, b| {
-            let pairs = a.centre.iter().zip(&b.centre);
-            let order = pairs.map(|(x, y)| x.total_cmp(y));
-            order
-                .into_iter()
-                .find(|o| o.is_ne())
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
-        all
+        (whole.zeros, whole.pieces) = all.in_order();
+        whole
+    }
+
+    /// Searches one of the pieces, or takes what was found in it before.
+    fn piece(&self, number: usize, node: Node, zeros: &[Zero], run: &Run) -> Found {
+        let searched = |node: Node| {
+            let mut piece = Piece::new(self, run);
+            piece.found.zeros.extend_from_slice(zeros);
+            let mut stack = vec![node];
+            while let Some(node) = stack.pop() {
+                piece.visit(node, &mut stack);
+            }
+            piece.found
+        };
+        let Some(kept) = run.kept else {
+            return searched(node);
+        };
+        let share = node.1;
+        let name = self.name(&node.0, zeros);
+        if let Some(found) = kept.known(&name) {
+            run.watched.boxes.fetch_add(found.boxes, Ordering::Relaxed);
+            run.watched.add_done_before(run.weight * share);
+            return found;
+        }
+        if !run.is_whole && !kept.is_mine(number) {
+            return Found::missing(share);
+        }
+        let found = searched(node);
+        kept.put(&name, &found);
+        found
+    }
+
+    /// The name of a piece in a store: a digest of all that its search depends on.
+    fn name(&self, x: &[Interval], zeros: &[Zero]) -> String {
+        let entries = self.rows.iter().flat_map(|row| row.entries.iter().copied());
+        let entries: BTreeSet<usize> = entries.collect();
+        let ranges: Vec<Interval> = entries.iter().map(|&e| x[e]).collect();
+        digest(self.square.own.iter().copied(), ranges, zeros)
     }
 
     /// The logarithm of the product of all widths.
@@ -216,9 +269,80 @@ impl<'a> Block<'a> {
     }
 }
 
+impl Found {
+    /// Nothing was looked at.
+    pub fn missing(share: f64) -> Found {
+        let mut found = Found {
+            is_broken_off: true,
+            ..Found::default()
+        };
+        leave(&mut found.undecided, Why::Unfinished, 1, share);
+        found
+    }
+}
+
 fn add(zeros: &mut Vec<Zero>, zero: Zero) {
     if !zeros.iter().any(|known| known.is_same(&zero)) {
         zeros.push(zero);
+    }
+}
+
+/// The zeros that were found in pieces, put together.
+struct Together {
+    /// The ranges of the pieces.
+    ranges: Vec<Vec<Interval>>,
+    /// The zeros, with the piece that each is of.
+    zeros: Vec<(Zero, Option<usize>)>,
+}
+
+impl Together {
+    /// Adds zeros that are new. `finder`: the piece they were found in. One that is not of that piece but of another is of that other.
+    fn add(&mut self, zeros: Vec<Zero>, finder: Option<usize>) {
+        for zero in zeros {
+            if self.zeros.iter().any(|(known, _)| known.is_same(&zero)) {
+                continue;
+            }
+            let place = self.zeros.len();
+            let is_in = |k: &usize| self.has(*k, &zero);
+            let piece = (0..self.ranges.len()).find(is_in).or(finder);
+            // What was found before there were pieces is shared by its place.
+            let is_cut = !self.ranges.is_empty();
+            self.zeros.push((zero, piece.or(is_cut.then_some(place))));
+        }
+    }
+
+    fn has(&self, piece: usize, zero: &Zero) -> bool {
+        let mut pairs = self.ranges[piece].iter().zip(&zero.centre);
+        pairs.all(|(range, &x)| range.contains(x))
+    }
+
+    /// Adds what was found in pieces: first what each found in its own ranges. Of a zero that several found, that of the piece it
+    /// is in stays, however many of the others are there.
+    fn find(&mut self, found: &mut [Found]) {
+        for inside in [true, false] {
+            for (piece, one) in found.iter_mut().enumerate() {
+                let zeros = std::mem::take(&mut one.zeros);
+                let (now, later) = zeros
+                    .into_iter()
+                    .partition(|zero| self.has(piece, zero) == inside);
+                one.zeros = later;
+                self.add(now, Some(piece));
+            }
+        }
+    }
+
+    /// In an order that does not depend on who found them. Zeros that are neither the same nor apart stay, and are told apart, or
+    /// not, as figures.
+    fn in_order(mut self) -> (Vec<Zero>, Vec<Option<usize>>) {
+        self.zeros.sort_by(|(a, _), (b, _)| {
+            let pairs = a.centre.iter().zip(&b.centre);
+            let order = pairs.map(|(x, y)| x.total_cmp(y));
+            order
+                .into_iter()
+                .find(|o| o.is_ne())
+                .unwrap_or(std::cmp::Ordering::Equal)
+        });
+        self.zeros.into_iter().unzip()
     }
 }
 
@@ -255,20 +379,34 @@ impl<'s, 'a> Piece<'s, 'a> {
 
     fn leave(&mut self, why: Why, share: f64) {
         self.left += 1;
+        if why != Why::Unfinished {
+            self.done(share);
+        }
         leave(&mut self.found.undecided, why, 1, share);
+    }
+
+    /// Notes that a part is not looked at any more.
+    fn done(&self, share: f64) {
+        self.run.watched.add_done(self.run.weight * share);
     }
 
     /// Looks at a part: it is given up, decided, left undecided, or its halves come to the others.
     fn visit(&mut self, (mut x, share): Node, others: &mut Vec<Node>) {
-        let run = self.run;
-        if run.stop.load(Ordering::Relaxed)
-            || self.left > TOO_MANY
-            || run.boxes.fetch_add(1, Ordering::Relaxed) >= run.most_boxes
+        let watched = self.run.watched;
+        self.found.boxes += 1;
+        if watched.stop.load(Ordering::Relaxed)
+            || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
         {
+            self.found.is_broken_off = true;
             self.leave(Why::Unfinished, share);
             return;
         }
+        if self.left > TOO_MANY {
+            self.leave(Why::GivenUp, share);
+            return;
+        }
         if self.decided(&mut x) {
+            self.done(share);
             return;
         }
         let own = &self.block.square.own;

@@ -1,0 +1,116 @@
+//! Pieces of blocks that are done, kept in a store.
+//!
+//! What is found in a piece depends on its block, on the ranges that it begins with and on the zeros found before the block was
+//! cut into pieces, and on nothing else: a digest of these is the name of a piece. So a search that is ended at any
+//! moment goes on where it was, with as many blocks as there are.
+
+use super::newton::Zero;
+use super::search::Found;
+use crate::complete::store::{Head, Keep, Piece, Store};
+use crate::hexadecimal::hexadecimal;
+use crate::interval::Interval;
+use crate::problem::Problem;
+use sha2::{Digest, Sha256};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+impl Piece for Found {
+    /// A digest of all that it depends on.
+    type Name = String;
+
+    fn is_done(&self) -> bool {
+        !self.is_broken_off
+    }
+}
+
+/// A store in use.
+pub struct Kept<'a> {
+    store: Mutex<Store<Found>>,
+    /// The k-th of n shares alone, counted from 1.
+    share: [usize; 2],
+    stop: &'a AtomicBool,
+    /// Why the store could not be written.
+    failed: Mutex<Option<String>>,
+}
+
+impl<'a> Kept<'a> {
+    /// Uses an open store, with what others have, for the search of a space. `stop` is set where the disk is full.
+    pub fn new(
+        mut store: Store<Found>,
+        keep: &Keep,
+        (problem, space): (&Problem, &[Interval]),
+        stop: &'a AtomicBool,
+    ) -> Result<Self, String> {
+        // The cover is made after the search, so that the pieces are the same with and without.
+        store.begin(Head::new(problem, None, false, digest([], space, &[])))?;
+        for other in &keep.merge {
+            store.merge(other)?;
+        }
+        Ok(Kept {
+            store: Mutex::new(store),
+            share: keep.share.unwrap_or([1, 1]),
+            stop,
+            failed: Mutex::new(None),
+        })
+    }
+
+    /// Whether a piece, by number, is of the share that is worked on.
+    pub fn is_mine(&self, piece: usize) -> bool {
+        let [which, of] = self.share;
+        piece % of + 1 == which
+    }
+
+    /// What was found in a piece before, once.
+    pub fn known(&self, name: &str) -> Option<Found> {
+        self.store.lock().ok()?.done.remove(name)
+    }
+
+    /// Keeps what was found in a piece, if that is done.
+    pub fn put(&self, name: &String, found: &Found) {
+        if !found.is_done() {
+            return;
+        }
+        let Ok(mut store) = self.store.lock() else {
+            return;
+        };
+        if let Err(what) = store.put(name, found) {
+            // A disk that is full ends the search.
+            self.stop.store(true, Ordering::Relaxed);
+            if let Ok(mut failed) = self.failed.lock() {
+                failed.get_or_insert(what);
+            }
+        }
+    }
+
+    /// Whether everything could be written.
+    pub fn end(self) -> Result<(), String> {
+        let failed = self.failed.into_inner().unwrap_or_else(|e| e.into_inner());
+        failed.map_or(Ok(()), Err)
+    }
+}
+
+/// A digest of unknowns, ranges and zeros, to the last bit.
+pub fn digest(
+    unknowns: impl IntoIterator<Item = usize>,
+    ranges: impl IntoIterator<Item = impl std::borrow::Borrow<Interval>>,
+    zeros: &[Zero],
+) -> String {
+    let mut digest = Sha256::new();
+    for unknown in unknowns {
+        digest.update((unknown as u64).to_le_bytes());
+    }
+    // What follows is no unknown.
+    digest.update(u64::MAX.to_le_bytes());
+    for range in ranges {
+        let range = range.borrow();
+        for end in [range.inf(), range.sup()] {
+            digest.update(end.to_bits().to_le_bytes());
+        }
+    }
+    for zero in zeros {
+        for x in zero.centre.iter().chain([&zero.radius, &zero.alone]) {
+            digest.update(x.to_bits().to_le_bytes());
+        }
+    }
+    hexadecimal(&digest.finalize())
+}
