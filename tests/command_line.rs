@@ -317,6 +317,17 @@ fn a_certificate_that_ends_early_says_so() {
         text.contains("INCOMPLETE. The certificate ends early: the Krawczyk test fails"),
         "{text}"
     );
+    // It could not even set out.
+    let text = verify(&["--no-extended", "--tube-radius", "1e-30"], 1, 4);
+    assert!(
+        text.contains("INCOMPLETE. The certificate ends before its first tube: at the sketch"),
+        "{text}"
+    );
+    assert!(text.contains("Nothing was verified"), "{text}");
+    assert!(
+        !text.contains("inf") && text.contains("tubes checked 0, 0"),
+        "{text}"
+    );
 }
 
 /// Two points on the line between two others, all lengths being as they should be: nothing tells in which

@@ -222,3 +222,28 @@ fn limits_are_no_ends() {
         assert_eq!(text.contains("the path has an end"), seen_end, "{text}");
     }
 }
+
+/// Circles about one centre, as they should be: t goes on without end, and floats do not follow it to the limit of steps.
+#[test]
+fn where_nothing_moves_t_goes_on() {
+    let problem = Problem::parse(
+        "dimension = 2\n[points]\na = [0, 0]\n[circles]\nc = { center = \"a\", radius = 3 }\nd = { center = \"a\", radius = 4 }\n\
+         [constraints]\nfixed = [\"a\"]\nradii = [[\"c\", 3]]\ndistances = [[\"c\", \"d\", 1]]\n",
+        "rings.toml",
+    )
+    .unwrap();
+    for space in SPACES {
+        let outcome = run(&problem, &Options::float(space));
+        let [behind, ahead] = ends(&outcome);
+        assert_eq!(
+            (behind.kind, ahead.kind),
+            (EndKind::Infinite, EndKind::Infinite)
+        );
+        assert!(
+            behind.t.1 < -1e10 && ahead.t.0 > 1e10,
+            "{behind:?} {ahead:?}"
+        );
+        assert_eq!(outcome.solutions.len(), 1);
+        assert!(outcome.steps < 1000, "{}", outcome.steps);
+    }
+}

@@ -2,10 +2,13 @@
 
 mod common;
 
-use common::QUADRANGLE;
+use common::{QUADRANGLE, certificate};
+use krawl::certificate::Outcome::Verified;
+use krawl::certificate::{Settings, verify};
 use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
-use krawl::track::{Control, EndKind, Options, Outcome, Space, Status, solve};
+use krawl::system::Located;
+use krawl::track::{Control, EndKind, Options, Outcome, Space, Status, StopKind, solve};
 
 fn parse(text: &str) -> Problem {
     Problem::parse(text, "test.toml").unwrap()
@@ -51,6 +54,87 @@ fn a_path_whose_angle_loses_its_leg_is_open_both_ways() {
         let d = solution.points[3];
         assert!((d[0].mid() - 2.9 * cos).abs() < 1e-12 && (d[1].mid() - 2.9 * sin).abs() < 1e-12);
     }
+}
+
+/// Two circles about one centre, their radii given, and whatever is said of b.
+fn rings(b: &str, radius: &str, said_of_b: &str) -> Problem {
+    parse(&format!(
+        "dimension = 2\n[points]\na = [0, 0]\n{b}[circles]\nc = {{ center = \"a\", radius = {radius} }}\n\
+         d = {{ center = \"a\", radius = 4.3 }}\n[constraints]\nfixed = [\"a\"]\nradii = [[\"c\", 3.3]]\n\
+         distances = [[\"c\", \"d\", 1]{said_of_b}\n"
+    ))
+}
+
+/// The path is straight, so that powers of its tubes' length are all that bounds them. It was said to stop at the sketch.
+#[test]
+fn a_sketch_that_meets_everything_stays_as_it_is() {
+    let alone = rings("", "3.3", "]");
+    let beside = rings(
+        "b = [5.3, 0]\n",
+        "3.3",
+        ", [\"d\", \"b\", 1]]\nhorizontal = [[\"a\", \"b\"]]",
+    );
+    for (problem, reverse) in [(&alone, false), (&alone, true), (&beside, false)] {
+        let options = Options {
+            reverse,
+            ..Options::certified()
+        };
+        let outcome = run(problem, &options);
+        let Status::Open(ends) = &outcome.status else {
+            panic!("{:?}", outcome.status);
+        };
+        let [behind, ahead] = match reverse {
+            false => [&ends[0], &ends[1]],
+            true => [&ends[1], &ends[0]],
+        };
+        assert!(behind.t.1 < -1e10 && ahead.t.0 > 1e10, "{ends:?}");
+        for end in &**ends {
+            assert_eq!((end.kind, end.away), (EndKind::Infinite, None));
+            assert!(end.reason.contains("t goes on"), "{}", end.reason);
+        }
+        let [solution] = &outcome.solutions[..] else {
+            panic!("{} solutions", outcome.solutions.len());
+        };
+        let Some(Located::Round { radius, .. }) = solution.object(problem, "d") else {
+            panic!("d is a circle");
+        };
+        assert!(radius.contains(4.3) && radius.wid() < 1e-12, "{radius:?}");
+        let (_, bytes) = certificate::of(problem, &options);
+        let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
+        assert_eq!(verdict.outcome, Verified);
+        assert!(verdict.is_open && verdict.solutions.len() == 1 && verdict.tubes > 1);
+    }
+}
+
+#[test]
+fn circles_about_one_centre_vanish_one_after_the_other() {
+    // The radii are 3 + 0.3 t and that with 1.3 − 0.3 t: 4.3.
+    let problem = rings("", "3", "]");
+    let outcome = run(&problem, &Options::certified());
+    let Status::Open(ends) = &outcome.status else {
+        panic!("{:?}", outcome.status);
+    };
+    assert_eq!(outcome.solutions.len(), 1);
+    assert!((ends[0].t.0 + 10.0).abs() < 1e-9, "{ends:?}");
+    assert_eq!(ends[0].kind, EndKind::Undefined);
+    assert!(ends[0].reason.contains("the radius of c goes to zero"));
+    assert_eq!(ends[1].kind, EndKind::Infinite);
+    assert!(ends[1].t.0 > 1e10);
+}
+
+/// Distances alone, met by the sketch, and nothing that makes the path turn back.
+#[test]
+fn a_figure_as_it_should_be_is_found() {
+    let problem = parse(
+        "dimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nc = [0, 4]\n[constraints]\n\
+         distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 5], [\"c\", \"a\", 4]]\n[homotopy]\nbend_coefficient = 0\n",
+    );
+    let outcome = run(&problem, &Options::certified());
+    let Status::Stopped(stop) = &outcome.status else {
+        panic!("{:?}", outcome.status);
+    };
+    assert_eq!(stop.kind, StopKind::Infinite, "{stop}");
+    assert_eq!(outcome.solutions.len(), 1);
 }
 
 /// b is on the line a-e and sees a and c under a right angle: at the foot of c, but where b falls on a the equation

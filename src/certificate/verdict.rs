@@ -28,7 +28,7 @@ pub struct Verdict {
     pub classes: Vec<u32>,
     /// The smallest margin 1 − q − η/r of a Krawczyk test: 0 would fail, 1 is the most.
     pub margin: f64,
-    /// An enclosure of the t along the chain.
+    /// An enclosure of the t along the chain; (∞, −∞) where there is no tube.
     pub t_range: (f64, f64),
 }
 

@@ -57,6 +57,11 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
             )?;
             write_edits(out, verdict)?;
         }
+        Outcome::Partial(reason) if verdict.tubes == 0 => writeln!(
+            out,
+            "{name}: INCOMPLETE. The certificate ends before its first tube: {reason}.\n\
+             Nothing was verified, and nothing is claimed of the curve through the sketch."
+        )?,
         Outcome::Partial(reason) => writeln!(
             out,
             "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
@@ -78,11 +83,14 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
             write_figure(out, verdict, solution)?;
         }
     }
+    let margin = match verdict.tubes {
+        0 => String::new(),
+        _ => format!(", smallest margin of a Krawczyk test {:.4}", verdict.margin),
+    };
     writeln!(
         out,
-        "tubes checked {}, smallest margin of a Krawczyk test {:.4}, {:.3} s, written by {}",
+        "tubes checked {}{margin}, {:.3} s, written by {}",
         verdict.tubes,
-        verdict.margin,
         time.as_secs_f64(),
         verdict.program.escape_debug()
     )

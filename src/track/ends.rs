@@ -14,7 +14,7 @@ pub struct PathEnd {
     pub kind: EndKind,
     /// In words what the figure does there, and what stopped the proof or the run.
     pub reason: String,
-    /// At an end at infinity: which point goes there, and how far it was followed.
+    /// At an end at infinity where a point goes there: which, and how far it was followed.
     pub away: Option<Away>,
     /// The figure near the end, point by point, in floats and in the problem's unit.
     pub points: Vec<[f64; 3]>,
@@ -34,7 +34,7 @@ pub struct Away {
 /// What happens to the figure where a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndKind {
-    /// Points go away, ever farther as far as one can see: see [`PathEnd::away`].
+    /// Points go away, ever farther as far as one can see: see [`PathEnd::away`]. Or t does.
     Infinite,
     /// A length that must be positive goes to zero: an angle loses its leg, a radius its circle.
     Undefined,
@@ -61,6 +61,10 @@ pub const FAR: f64 = 30.0;
 /// t settles: it changes by less than this while the distance grows by a factor of e, and 1 is ten times as far as
 /// that. (Where t has a limit at infinity it nears that like a negative power of the distance.)
 pub const SETTLED: f64 = 1e-2;
+
+/// Beyond this t is taken to go on without end, if it moves away from 0 there: a path that comes back from there is not
+/// followed that far. Certificates hold no numbers much larger.
+pub const ENDLESS: f64 = (1u64 << 36) as f64;
 
 /// A length or radius has nearly vanished where it is this part of what it was in the sketch.
 pub const SMALL: f64 = 1e-3;

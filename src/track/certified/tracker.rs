@@ -161,6 +161,8 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     is_singular: bool,
     /// The point that goes to infinity, if the run ended because of one.
     away: Option<Away>,
+    /// Whether it ended because t goes on without end.
+    endless: bool,
     /// Whether it ended because a length goes to zero.
     loses: bool,
     /// Whether it ended because no step could be proved, however short.
@@ -211,6 +213,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             has_set_out: false,
             is_singular: false,
             away: None,
+            endless: false,
             loses: false,
             is_stuck: false,
             at_start: None,
@@ -313,6 +316,14 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     "{what}{} is {:.4} away and moves away, ever farther as far as one can see, {}",
                     name.map_or("a point", String::as_str),
                     distance.0,
+                    self.place()
+                );
+                return Err(Stop::new(StopKind::Infinite, words));
+            }
+            if self.is_endless() {
+                self.endless = true;
+                let words = format!(
+                    "t goes on moving away from 0, ever farther as far as one can see, {}",
                     self.place()
                 );
                 return Err(Stop::new(StopKind::Infinite, words));
@@ -424,7 +435,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
         (self.steps, self.rejected, self.shortened) = (0, 0, 0);
         (self.has_previous, self.has_set_out) = (false, false);
         (self.is_singular, self.is_stuck) = (false, false);
-        (self.away, self.loses) = (None, false);
+        (self.away, self.endless, self.loses) = (None, false, false);
         self.typical = f64::NAN;
     }
 

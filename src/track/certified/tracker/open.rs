@@ -6,7 +6,7 @@ use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
 use crate::track::ends::{
-    Away, FAR, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
+    Away, ENDLESS, FAR, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
 };
 use crate::track::{Control, Options, Status, Stop, StopKind};
 
@@ -52,6 +52,21 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             point: p,
             distance: (distance.inf(), distance.sup()),
         })
+    }
+
+    /// Whether t is far from 0 and moves away at the last point that is proved. So it goes on where nothing depends on t, as
+    /// from a sketch that meets all constraints, or all that does is in proportion to it.
+    pub(super) fn is_endless(&self) -> bool {
+        if self.arc.is_some() {
+            return false;
+        }
+        let (least, most) = self.reached();
+        if least <= ENDLESS && most >= -ENDLESS {
+            return false;
+        }
+        let (from, to) = self.now.exit_between;
+        let (_, (low, high)) = self.now.time().bounds(from, to);
+        if least > 0.0 { low > 0.0 } else { high < 0.0 }
     }
 
     /// A length or radius that goes to zero, in words, if one is small beside what it was in the sketch, proved to shrink
@@ -115,7 +130,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let first = self.homotopy.gauge.place.len();
         let (values, before) = (&z[first..], &self.sketch.centre[first..]);
         let leg = self.homotopy.remark_on_lengths(t.0);
-        let (kind, reason) = if self.away.is_some() {
+        let (kind, reason) = if self.away.is_some() || self.endless {
             (EndKind::Infinite, reason.text)
         } else if self.loses {
             (EndKind::Undefined, reason.text)

@@ -35,6 +35,13 @@ use crate::track::{Driving, Options, Space};
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
 
+/// No tube is tried that is longer than this to either side: far more than any path needs that is not straight, and
+/// what a certificate can hold.
+const LONGEST: f64 = (1u64 << 36) as f64;
+
+/// Where bounds are out of range for tubes so long, as on a straight path, they are taken for tubes shorter by this.
+const SHORTER: f64 = 1.0 / 16.0;
+
 /// Where |I − Y [J₀; c]|_u is more than this and nothing could be proved, Y is made anew.
 const STALE: f64 = 0.1;
 
@@ -156,9 +163,6 @@ impl<const D: usize> KrawczykTest<D> {
     ) -> Option<Norms> {
         let (m, n) = (equations.m, equations.n());
         self.u.copy_from_slice(weights);
-        // Differences, sums over a column, and the powers of t(s): fewer roundings than this. An entry of the
-        // tail's is a sum of at most twice as many terms as there are products.
-        let per_entry = gamma(equations.roundings_of_entry(m + 120));
         let [a, a2, square, r0] = self.products(equations, local);
         self.staleness = r0;
         let a = round_up(a, n + 2);
@@ -167,7 +171,34 @@ impl<const D: usize> KrawczykTest<D> {
         if !(in_range(a) && in_range(a2) && in_range(square)) {
             return None;
         }
-        let h = max_h.min((MAX_CONTRACTION / square.max(f64::MIN_POSITIVE)).sqrt());
+        let mut h = max_h
+            .min(LONGEST)
+            .min((MAX_CONTRACTION / square.max(f64::MIN_POSITIVE)).sqrt());
+        loop {
+            let norms = self.norms_within(equations, local, [a, a2, square, r0], h);
+            if norms.is_in_range() {
+                return Some(norms);
+            }
+            // Where |A² − A₂| does not say how long tubes may be, powers of h can be more than floats hold.
+            if h.is_nan() || h <= 1.0 {
+                return None;
+            }
+            h *= SHORTER;
+        }
+    }
+
+    /// The same with the largest h given.
+    fn norms_within(
+        &mut self,
+        equations: &Equations<D>,
+        local: &Local<D>,
+        [a, a2, square, r0]: [f64; 4],
+        h: f64,
+    ) -> Norms {
+        let (m, n) = (equations.m, equations.n());
+        // Differences, sums over a column, and the powers of t(s): fewer roundings than this. An entry of the
+        // tail's is a sum of at most twice as many terms as there are products.
+        let per_entry = gamma(equations.roundings_of_entry(m + 120));
         let hs = powers_of(h);
         self.bound_equations(equations, local, &hs, per_entry);
 
@@ -201,7 +232,7 @@ impl<const D: usize> KrawczykTest<D> {
             .zip(&u[..n])
             .map(|(c, u)| c.abs() * u)
             .sum();
-        let norms = Norms {
+        Norms {
             a,
             a2,
             square,
@@ -216,8 +247,7 @@ impl<const D: usize> KrawczykTest<D> {
             normal,
             h,
             radius: self.radius,
-        };
-        norms.is_in_range().then_some(norms)
+        }
     }
 
     /// Makes A ≈ Y J₁.

@@ -215,3 +215,11 @@ impl<'h> Ends<'h> {
         }
     }
 }
+
+/// Where t goes on without end: an end of the path if it has any, see [`Ends`].
+pub fn endless(ends: Option<&Ends<'_>>, z: &[f64], words: String) -> Halt {
+    Halt {
+        end: ends.map(|ends| Box::new(ends.end(z, EndKind::Infinite, words.clone()))),
+        stop: Stop::new(StopKind::Infinite, words),
+    }
+}

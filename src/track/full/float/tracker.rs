@@ -2,9 +2,10 @@
 
 use super::Record;
 use super::crossing::Crossing as FlatCrossing;
-use super::open::{Ends, Halt, follow_both_ways};
+use super::open::{Ends, Halt, endless, follow_both_ways};
 use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
+use crate::track::ends::ENDLESS;
 use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{
     CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
@@ -171,6 +172,13 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
             && let Some(away) = ends.away(&now.z[0], &now.z[1])
         {
             return Err(ends.infinite(&now.z[0], away, &place(record, &now)));
+        }
+        if now.z[0][m].abs() > ENDLESS && now.z[0][m] * now.z[1][m] > 0.0 {
+            let words = format!(
+                "t goes on moving away from 0, ever farther as far as one can see, {}",
+                place(record, &now)
+            );
+            return Err(endless(ends.as_ref(), &now.z[0], words));
         }
         if record.steps >= options.max_steps {
             let words = format!(
