@@ -404,3 +404,104 @@ fn what_cannot_be_apart_is_said() {
         assert!(message.contains(words), "{constraints}: {message}");
     }
 }
+
+#[test]
+fn a_distance_of_zero_is_said_in_another_way() {
+    let message = |names: &str, is_flat: bool| {
+        let (start, more, known) = match is_flat {
+            true => (
+                PLANE,
+                "l = [\"a\", \"b\"]\nm = [\"c\", \"d\"]\n[circles]\nk = { center = \"c\", radius = 1 }\nn = { center = \"d\", radius = 1 }\n",
+                KNOWN,
+            ),
+            false => (
+                SPACE,
+                "l = [\"a\", \"b\"]\nm = [\"c\", \"d\"]\n[planes]\np = [\"a\", \"b\", \"c\"]\nq = { point = [0, 0, 3], normal = [0, 0, 1] }\n\
+                 [spheres]\nk = { center = \"d\", radius = 1 }\n",
+                "",
+            ),
+        };
+        refused(&format!(
+            "{start}[lines]\n{more}[constraints]\n{known}distances = [[{names}, 0.0]]\n"
+        ))
+    };
+    for (names, is_flat, word) in [
+        ("\"a\", \"d\"", true, "`coincident`"),
+        ("\"a\", \"m\"", true, "`on`"),
+        ("\"a\", \"k\"", true, "`on`"),
+        ("\"l\", \"k\"", true, "`tangent`"),
+        ("\"k\", \"n\"", true, "`tangent`"),
+        ("\"l\", \"m\"", true, "`collinear`"),
+        ("\"l\", \"x-axis\"", true, "a line on an axis"),
+        ("\"d\", \"p\"", false, "`on`"),
+        ("\"p\", \"k\"", false, "`tangent`"),
+        ("\"m\", \"q\"", false, "a line in a plane"),
+        ("\"p\", \"q\"", false, "`coplanar`"),
+        ("\"l\", \"m\"", false, "lines that meet"),
+    ] {
+        let message = message(names, is_flat);
+        assert!(
+            message.contains("greater than zero") && message.contains(word),
+            "{names}: {message}"
+        );
+    }
+    // Where the number is less than zero nothing else is meant.
+    let text = format!("{PLANE}[constraints]\ndistances = [[\"a\", \"d\", -1]]\n");
+    assert!(!refused(&text).contains("coincident"));
+}
+
+#[test]
+fn rows_of_points_are_said_back() {
+    let flat = |row: &str| format!("{PLANE}[lines]\nl = [\"a\", \"b\"]\n[constraints]\n{row}\n");
+    let solid = |row: &str| {
+        format!("{SPACE}{MORE}[planes]\np = [\"a\", \"b\", \"c\"]\n[constraints]\n{row}\n")
+    };
+    for (text, words) in [
+        (
+            flat("distances = [[\"d\", \"a\", \"b\", 2]]"),
+            Some("the point d, and the line through a and b"),
+        ),
+        (
+            flat("distances = [[\"a\", \"b\", \"c\", \"d\", 2]]"),
+            Some("the line through a and b, and the line through c and d"),
+        ),
+        (
+            flat("distances = [[\"c\", \"d\", \"l\", 2]]"),
+            Some("the line through c and d, and the line through a and b"),
+        ),
+        (flat("angles = [[\"a\", \"b\", \"c\", 20]]"), None),
+        (
+            flat("angles = [[\"x-axis\", \"c\", \"d\", 20]]"),
+            Some("the x-axis, and the line through c and d"),
+        ),
+        (flat("distances = [[\"c\", \"l\", 2]]"), None),
+        (
+            solid("distances = [[\"a\", \"b\", \"c\", \"d\", 2]]"),
+            Some("the point a, and the plane through b, c and d"),
+        ),
+        (
+            solid("distances = [[\"d\", \"e\", \"a\", \"b\", \"c\", 2]]"),
+            Some("the line through d and e, and the plane through a, b and c"),
+        ),
+        (
+            solid("distances = [[\"d\", \"e\", \"f\", \"a\", \"b\", \"c\", 2]]"),
+            Some("the plane through d, e and f, and the plane through a, b and c"),
+        ),
+        (
+            solid("parallel = [[\"d\", \"e\", \"a\", \"b\"]]"),
+            Some("the line through d and e, and the line through a and b"),
+        ),
+        (
+            solid("perpendicular = [[\"d\", \"e\", \"a\", \"b\", \"c\"]]"),
+            Some("the line through d and e, and the plane through a, b and c"),
+        ),
+        (
+            solid("parallel = [[\"d\", \"e\", \"f\", \"p\"]]"),
+            Some("the plane through d, e and f, and the plane through a, b and c"),
+        ),
+    ] {
+        let problem = Problem::parse_loosely(&text, "test.toml").unwrap();
+        let read = krawl::constraint::read_as(&problem, 0);
+        assert_eq!(read.as_deref(), words, "{text}");
+    }
+}

@@ -393,7 +393,10 @@ fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
     for (index, constraint) in problem.constraints.iter().enumerate() {
         let kind = krawl::constraint::kind(&constraint.kind).expect("the problem was checked");
         let name = problem.constraint_name(index);
-        rows.push(("constraint", format!("{name} ({})", kind.meaning())));
+        let read = krawl::constraint::read_as(problem, index);
+        let read = read.map_or_else(String::new, |read| format!("here of {read}: "));
+        let meaning = kind.meaning();
+        rows.push(("constraint", format!("{name} ({read}{meaning})")));
     }
     rows
 }

@@ -122,6 +122,11 @@ impl<'a> Arguments<'a> {
         &before.items[..before.items.len() - self.items.len()]
     }
 
+    /// The dimension of the problem.
+    pub fn dimension(&self) -> usize {
+        self.problem.dimension
+    }
+
     /// How many are left.
     pub fn left(&self) -> usize {
         self.items.len()
@@ -276,6 +281,40 @@ impl<'a> Arguments<'a> {
             true => Flat::Plane(self.plane()?),
             false => Flat::Line(self.line()?),
         })
+    }
+
+    /// Two lines or planes, and nothing more.
+    pub fn two_flats(&mut self) -> Result<[Flat; 2], Fault> {
+        let flats = [self.flat()?, self.flat()?];
+        self.end()?;
+        Ok(flats)
+    }
+
+    /// What two things are, in words: `the line through d and e, and the plane through a, b and c`.
+    pub fn in_words(&self, things: [Thing; 2]) -> String {
+        let [one, other] = things.map(|thing| self.thing_in_words(thing));
+        format!("{one}, and {other}")
+    }
+
+    fn thing_in_words(&self, thing: Thing) -> String {
+        let point = |p: usize| &*self.problem.points[p].name;
+        let object = |o: usize| &*self.problem.objects[o].name;
+        match thing {
+            Thing::Point(p) => format!("the point {}", point(p)),
+            Thing::Flat(Flat::Line(LineName::Points([a, b]))) => {
+                format!("the line through {} and {}", point(a), point(b))
+            }
+            Thing::Flat(Flat::Line(LineName::Axis(k))) => format!("the {}", AXES[k]),
+            Thing::Flat(Flat::Plane(PlaneName::Points([a, b, c]))) => format!(
+                "the plane through {}, {} and {}",
+                point(a),
+                point(b),
+                point(c)
+            ),
+            Thing::Flat(Flat::Line(LineName::Free(o))) => format!("the line {}", object(o)),
+            Thing::Flat(Flat::Plane(PlaneName::Free(o))) => format!("the plane {}", object(o)),
+            Thing::Round(o) => object(o).to_owned(),
+        }
     }
 
     /// Two things, and nothing more. Points before a name, and those behind it, are one thing: a point, a line or a plane.

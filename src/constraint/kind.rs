@@ -70,6 +70,16 @@ pub trait Kind: Sync {
         }
     }
 
+    /// What to say in place of an entry whose number is zero, where it cannot be: a hint for messages.
+    fn instead_of_zero(&self, _items: Arguments) -> Option<&'static str> {
+        None
+    }
+
+    /// What lines and planes an entry is read as being of, where points stand for them; for people.
+    fn read_as(&self, _items: Arguments) -> Option<String> {
+        None
+    }
+
     /// Its unknowns and equations.
     fn lower(&self, of: Given, low: &mut Lowering) -> Result<(), Fault>;
 }

@@ -57,10 +57,22 @@ pub(crate) use arguments::{Arguments, Flat, LineName, Sort, Thing};
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
 use lowering::{Lowering, Start};
+use num_traits::Zero;
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {
     KINDS.iter().copied().find(|kind| kind.key() == key)
+}
+
+/// What a constraint of a problem is read as being of, where points in it stand for lines or planes: `the line
+/// through d and e, and the plane through a, b and c`. `None`: each of its names is one thing, or it cannot be read.
+pub fn read_as(problem: &Problem, index: usize) -> Option<String> {
+    let constraint = &problem.constraints[index];
+    let items = Arguments::new(problem, &constraint.items);
+    match items.left() > 2 {
+        true => kind(&constraint.kind)?.read_as(items),
+        false => None,
+    }
 }
 
 /// The auxiliary unknowns and the equations of all constraints of a problem that are not distances
@@ -243,10 +255,13 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
             if in_range {
                 return Ok(());
             }
+            let items = Arguments::new(problem, &problem.constraints[index].items);
             let hint = match kind.measure() {
-                Measure::Degrees => ": for 0 and 180 degrees say `parallel` or `collinear`",
-                _ => "",
+                Measure::Degrees => Some("for 0 and 180 degrees say `parallel` or `collinear`"),
+                _ if number.is_zero() => kind.instead_of_zero(items),
+                _ => None,
             };
+            let hint = hint.map(|hint| format!(": {hint}")).unwrap_or_default();
             Err(format!("the number is {value}, but must be {wanted}{hint}"))
         }
     }

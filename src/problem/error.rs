@@ -98,7 +98,7 @@ pub enum ProblemError {
         name: String,
     },
     /// A length that no two different points have.
-    #[error("the {kind} {name} is {value}, but must be greater than zero")]
+    #[error("the {kind} {name} is {value}, but must be greater than zero{}", instead_of_zero(.value))]
     NotPositive {
         /// Which distance.
         index: usize,
@@ -355,6 +355,16 @@ pub(crate) fn counted(n: usize, what: &str) -> String {
         _ if n == 1 => format!("1 {what}"),
         _ if what.ends_with('x') => format!("{n} {what}es"),
         _ => format!("{n} {what}s"),
+    }
+}
+
+/// What to say in place of a distance of two points that is zero.
+fn instead_of_zero(value: &str) -> &'static str {
+    match value.parse::<super::Decimal>() {
+        Ok(number) if num_traits::Zero::is_zero(number.value()) => {
+            ": for two points in one place say `coincident`"
+        }
+        _ => "",
     }
 }
 

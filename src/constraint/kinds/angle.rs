@@ -33,6 +33,15 @@ impl Kind for Angles {
         Measure::Degrees
     }
 
+    fn read_as(&self, mut items: Arguments) -> Option<String> {
+        if items.points_ahead() == 3 && items.left() == 3 {
+            return None;
+        }
+        let names = items.clone();
+        let things = items.two_flats().ok()?;
+        Some(names.in_words(things.map(Thing::Flat)))
+    }
+
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let degrees = of.number().value().clone();
         if of.items.points_ahead() == 3 && of.items.left() == 3 {

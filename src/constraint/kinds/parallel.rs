@@ -39,6 +39,12 @@ impl Kind for Parallel {
         "two lines, two planes, or a line and a plane"
     }
 
+    fn read_as(&self, mut items: Arguments) -> Option<String> {
+        let names = items.clone();
+        let things = items.two_flats().ok()?;
+        Some(names.in_words(things.map(Thing::Flat)))
+    }
+
     fn example(&self) -> &'static str {
         r#"["l1", "l2"]"#
     }

@@ -41,6 +41,35 @@ impl Kind for Distances {
         Measure::Length
     }
 
+    fn instead_of_zero(&self, mut items: Arguments) -> Option<&'static str> {
+        use LineName::Axis;
+        Some(match items.two_things().ok()? {
+            [Thing::Point(_), Thing::Point(_)] => "for two points in one place say `coincident`",
+            [Thing::Point(_), _] | [_, Thing::Point(_)] => "for a point on it say `on`",
+            [Thing::Round(_), _] | [_, Thing::Round(_)] => {
+                "where they are to touch say `tangent`, or `equal` of two about one centre"
+            }
+            [Thing::Flat(Flat::Plane(_)), Thing::Flat(Flat::Plane(_))] => {
+                "for one plane in the other say `on` of three points of the one and the other, or `coplanar` of the points"
+            }
+            [Thing::Flat(Flat::Plane(_)), _] | [_, Thing::Flat(Flat::Plane(_))] => {
+                "for a line in a plane say `on` of two points of the line and the plane"
+            }
+            [Thing::Flat(Flat::Line(Axis(_))), _] | [_, Thing::Flat(Flat::Line(Axis(_)))] => {
+                "for a line on an axis say `on` of two points of the line and the axis"
+            }
+            _ if items.dimension() == 2 => {
+                "for one line on the other say `on` of two points of the one and the other, or `collinear` of the points"
+            }
+            _ => "for lines that meet say `on` of one point and both",
+        })
+    }
+
+    fn read_as(&self, mut items: Arguments) -> Option<String> {
+        let names = items.clone();
+        items.two_things().ok().map(|things| names.in_words(things))
+    }
+
     fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
         Fixes::beside_axis(items)
     }
