@@ -19,7 +19,8 @@ pub enum Verdict {
     /// It is wrong in these ways.
     Wrong(Vec<Fault>),
     /// No certified run closed or ended open, so that nothing can be judged. Or one proved an arc, on which this run
-    /// is not wrong, but has figures beside those that are on it: they may be on the path beyond the ends of the arc.
+    /// is not wrong, but it says more than can be told from that: it closed, or has figures beside those that are on the arc.
+    /// The path may be closed beyond the ends of the arc, and the figures may be on it there.
     Unjudged,
 }
 
@@ -42,8 +43,6 @@ pub enum Fault {
     Length(f64),
     /// It went on for this many times the path's length and did not notice the sketch.
     NotClosed(f64),
-    /// It closed, though the reference came to two ends of the path.
-    Closed,
     /// It ended open, though the path is closed.
     Open,
 }
@@ -57,7 +56,6 @@ impl fmt::Display for Fault {
             Fault::Order => write!(f, "another order"),
             Fault::Length(x) => write!(f, "closed at {x:.2} times the length"),
             Fault::NotClosed(x) => write!(f, "not closed at {x:.2} times the length"),
-            Fault::Closed => write!(f, "closed, and the path seems to have two ends"),
             Fault::Open => write!(f, "open, and the path is closed"),
         }
     }
@@ -148,9 +146,14 @@ impl<'m> Reference<'m> {
             }
         }
         let mut faults = Vec::new();
-        // The path may be followed either way where the sketch is at a fold of t.
-        let forth: Vec<usize> = (0..all).collect();
-        let back: Vec<usize> = (0..all).rev().collect();
+        // The path may be followed either way where the sketch is at a fold of t. A run that closed goes from the sketch to the
+        // one end of a proved arc, and comes back by the other.
+        let first = match (known, ending) {
+            (Ending::Open, Ending::Closed) => self.solutions_behind(),
+            _ => 0,
+        };
+        let forth: Vec<usize> = (first..all).chain(0..first).collect();
+        let back: Vec<usize> = forth.iter().rev().copied().collect();
         // What is proved of an arc does not say that the path has no more: another proof may have got less far.
         let is_piece = ending == Ending::Open && outcome.mode == Mode::Certified;
         let lost = match known {
@@ -190,13 +193,14 @@ impl<'m> Reference<'m> {
             (Ending::Closed, Ending::Stopped) if part > *LENGTHS.end() => {
                 faults.push(Fault::NotClosed(part));
             }
-            (Ending::Open, Ending::Closed) => faults.push(Fault::Closed),
             (Ending::Closed, Ending::Open) => faults.push(Fault::Open),
             _ => {}
         }
         match (faults.is_empty(), ending) {
             (false, _) => Verdict::Wrong(faults),
             _ if beyond > 0 => Verdict::Unjudged,
+            // That the arc's ends are those of the path is not proved.
+            (true, Ending::Closed) if known == Ending::Open => Verdict::Unjudged,
             (true, Ending::Stopped) => Verdict::Stopped,
             (true, _) => Verdict::Right,
         }
@@ -205,11 +209,9 @@ impl<'m> Reference<'m> {
     /// How many solutions of the arc between the sketch and those met, on either side of it, were not met: a run that goes
     /// both ways from the sketch has seen one stretch of the path.
     fn passed_over_on_arc(&self, places: &[usize]) -> usize {
-        let solutions = &self.outcome.solutions;
-        let is_behind = |k: &usize| solutions[*k].place.is_some_and(|place| place.arc < 0.0);
-        let behind = (0..solutions.len()).take_while(is_behind).count();
+        let behind = self.solutions_behind();
         let ways: [Vec<usize>; 2] = [
-            (behind..solutions.len()).collect(),
+            (behind..self.outcome.solutions.len()).collect(),
             (0..behind).rev().collect(),
         ];
         let over = ways.iter().map(|way| {
@@ -217,6 +219,14 @@ impl<'m> Reference<'m> {
             passed_over(way, &met)
         });
         over.sum()
+    }
+
+    /// How many solutions of the arc, the first ones, are behind the sketch.
+    fn solutions_behind(&self) -> usize {
+        let solutions = self.outcome.solutions.iter();
+        solutions
+            .take_while(|solution| solution.place.is_some_and(|place| place.arc < 0.0))
+            .count()
     }
 }
 
@@ -363,7 +373,29 @@ mod tests {
             float(&[0.1, 0.3, 0.2, 0.4], Ending::Open),
             Wrong(vec![Fault::Order])
         );
-        assert_eq!(float(&PROVED, Ending::Closed), Wrong(vec![Fault::Closed]));
+        // That the path is closed beyond its ends may be. A run that says so goes from the sketch, at 0.25, to the one end of
+        // the arc and comes back by the other.
+        for met in [
+            &[0.3, 0.4, 0.1, 0.2][..],
+            &[0.2, 0.1, 0.4, 0.3],
+            &[0.3, 0.4, 0.5, 0.1, 0.2],
+        ] {
+            assert_eq!(float(met, Ending::Closed), Unjudged, "{met:?}");
+        }
+        assert_eq!(float(&PROVED, Ending::Closed), Wrong(vec![Fault::Order]));
+        assert_eq!(
+            float(&[0.3, 0.4, 0.2], Ending::Closed),
+            Wrong(vec![Fault::Lost(1)])
+        );
+        assert_eq!(
+            on_arc(
+                Mode::Float,
+                &[0.3, 0.4, 0.5, 0.1, 0.2],
+                Ending::Closed,
+                1e-3
+            ),
+            Wrong(vec![Fault::Invented(1)])
+        );
         // One that stopped has seen one stretch, with the sketch in it.
         for met in [
             &[][..],

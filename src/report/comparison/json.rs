@@ -25,7 +25,7 @@ use serde::Serialize;
 /// problem's lengths and in typical lengths. `seconds` is the median of `runs`. `status` is
 /// `closed`, `open`, `stopped` or `unsupported`; `verdict` is `right`, `wrong`, `stopped` or `unjudged`,
 /// and `faults` has entries like `{"fault": "lost", "amount": 3.0}` with `lost`, `jumped`,
-/// `invented`, `order`, `length`, `not_closed`, `closed`, `open`. Where `reference_is_arc` the certified run that the
+/// `invented`, `order`, `length`, `not_closed`, `open`. Where `reference_is_arc` the certified run that the
 /// others are judged by ended open, and what it proves is the arc between its ends. Where there is nothing to say stands `null`.
 pub fn comparisons_to_json(compared: &[Compared]) -> String {
     let document = Document {
@@ -161,7 +161,6 @@ fn fault(fault: &Fault) -> FaultEntry {
         Fault::Order => ("order", None),
         Fault::Length(x) => ("length", Some(x)),
         Fault::NotClosed(x) => ("not_closed", Some(x)),
-        Fault::Closed => ("closed", None),
         Fault::Open => ("open", None),
     };
     FaultEntry { fault, amount }

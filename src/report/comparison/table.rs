@@ -75,7 +75,14 @@ pub fn comparison_to_table(compared: &Compared) -> String {
             && comparison.has_reference()
         {
             remarks.push(format!(
-                "{place}: it lists figures that are not on the arc proved; they may be beyond its ends"
+                "{place}: {}",
+                match closed(row) {
+                    true =>
+                        "it closed, with all solutions of the arc proved; whether the path closes beyond the ends of that is \
+                         not proved",
+                    false =>
+                        "it lists figures that are not on the arc proved; they may be beyond its ends",
+                }
             ));
         }
         if wrong {
@@ -161,6 +168,9 @@ fn sweep(compared: &Compared) -> String {
             Verdict::Right => "right".into(),
             Verdict::Wrong(_) => format!("WRONG: {}", faults(&row.verdict)),
             Verdict::Stopped => word.into(),
+            Verdict::Unjudged if comparison.has_reference() && closed(row) => {
+                format!("{word}, beyond the arc")
+            }
             Verdict::Unjudged if comparison.has_reference() => {
                 format!("{word}, with figures that are not on the arc")
             }
@@ -186,6 +196,11 @@ fn sweep(compared: &Compared) -> String {
 }
 
 /// The largest and the smallest width of a certified run's boxes.
+fn closed(row: &Row) -> bool {
+    row.measured()
+        .is_some_and(|measured| measured.outcome.status == Status::Closed)
+}
+
 fn widths(row: &Row) -> String {
     match row.measured().and_then(|m| m.widths()) {
         Some((largest, smallest)) if largest > 0.0 => format!("{largest:.1e}, {smallest:.1e}"),
