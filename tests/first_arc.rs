@@ -119,4 +119,9 @@ fn the_program_ends_there() {
     assert_eq!(json["solutions"].as_array().unwrap().len(), 1);
     assert_eq!(json["solutions"][0]["folds"], 0);
     assert_eq!(json["solutions"][0]["signs"], serde_json::json!([1]));
+    // Floats know no folds, and say what does.
+    let (code, text) = run(&["solve", "problems/k33.toml", "--first", "--mode", "float"]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("leave out `--mode float`"), "{text}");
+    assert!(!text.contains("turns back"), "{text}");
 }

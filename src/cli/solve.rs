@@ -54,7 +54,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
     /// Only the solution to which the sketch moves without a fold; exit code 0 if there is one, 3 if the path turns
-    /// back before, 1 if that could not be proved. Of a sketch of another program: the figure nearest to it in which
+    /// back before, 1 if that could not be proved, as in float mode. Of a sketch of another program: the figure nearest to it in which
     /// angles, parallels, tangents and joined points turn as there; 3 if no figure found is such
     #[arg(long, conflicts_with_all = ["all", "summary", "cert", "reverse"])]
     first: bool,
@@ -409,7 +409,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             _ if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
             // Float runs do not tell which of their solutions is reached without a fold.
-            (Status::Open(_), _) if arguments.mode == Mode::Float => OPEN,
+            _ if arguments.first && arguments.mode == Mode::Float => STOPPED,
             // The path comes back, or ends, and has no such solution.
             _ if arguments.first => LIMIT,
             (Status::Open(_), _) => OPEN,
@@ -433,6 +433,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let text = match (first, arguments.first) {
                 (Some(text), _) => text,
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
+                (None, true) if arguments.mode == Mode::Float => format!(
+                    "{}: which solution is reached without a fold, if any, is told by certified mode alone: leave out \
+                     `--mode float`, or without `--first` see all that floats find ({})\n",
+                    problem.name,
+                    to_summary(problem, &outcome).trim_end()
+                ),
                 (None, true) => format!(
                     "{}: no solution without a fold: the path turns back before, or could not be followed that far ({})\n",
                     problem.name,
