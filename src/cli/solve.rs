@@ -16,7 +16,9 @@ use krawl::report::{
     figures_to_value, first_in_words, to_first_table, to_no_first, to_short_table, to_summary,
     to_table,
 };
-use krawl::track::{self, Control, First, Options, Outcome, Progress, Status, Trace, Witness};
+use krawl::track::{
+    self, Control, EndKind, First, Options, Outcome, PathEnd, Progress, Status, Trace, Witness,
+};
 use serde_json::Value;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
@@ -327,11 +329,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             )?
         };
         written &= well;
-        if let Status::Stopped(reason) = &outcome.status
+        let has_no_end = without_end(&outcome.status);
+        let reason = match &outcome.status {
+            Status::Stopped(reason) => Some(&*reason.text),
+            _ => has_no_end.filter(|_| problem.is_absolute()),
+        };
+        if let Some(reason) = reason
             && arguments.can_be_cut(cancel)
         {
             if problem.is_absolute()
-                && let Some((mut text, value, code)) = arguments.instead(problem, reason)
+                && let Some((mut text, value, code)) =
+                    arguments.instead(problem, reason, has_no_end.is_some())
             {
                 if arguments.cert.is_some() {
                     // What the certificate is about.
@@ -366,6 +374,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let blocks = match arguments.cert {
                 // What is asked for is a certificate of the whole.
                 Some(_) => Vec::new(),
+                None if has_no_end.is_some() => Vec::new(),
                 None => clusters(problem),
             };
             if !blocks.is_empty() {
@@ -472,6 +481,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= json.write(&lines);
     }
     Ok(if written { worst } else { BAD_INPUT })
+}
+
+/// Why the path goes on both ways without an end that one can see, if it does: as from a sketch that meets all constraints,
+/// where nothing depends on t.
+fn without_end(status: &Status) -> Option<&str> {
+    let Status::Open(ends) = status else {
+        return None;
+    };
+    let runs_on = |end: &PathEnd| end.kind == EndKind::Infinite && end.away.is_none();
+    ends.iter().all(runs_on).then(|| ends[1].reason.as_str())
 }
 
 /// The graver of two exit codes.
@@ -627,7 +646,8 @@ impl Arguments {
 
     /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole: as text, as a
     /// value for JSON, and the exit code. `None`: its blocks do not come to an end either, and no certificate is asked for.
-    fn instead(&self, problem: &Problem, reason: &str) -> Option<(String, Value, u8)> {
+    /// `open`: its path is one without end that one can see.
+    fn instead(&self, problem: &Problem, reason: &str, open: bool) -> Option<(String, Value, u8)> {
         let (text, value, code) = self.by_blocks(problem).ok()?;
         let certificate = match self.cert {
             Some(_) => {
@@ -636,16 +656,21 @@ impl Arguments {
             None => "",
         };
         let reason = reason.trim_end_matches('.');
+        let how = match open {
+            true => "its path has no end either way",
+            false => "it stops",
+        };
         let introduction = match self.summary {
             true => String::new(),
             false => format!(
-                "{}: followed as a whole it stops ({reason}). Its equations fall apart into blocks, and these are solved \
+                "{}: followed as a whole {how} ({reason}). Its equations fall apart into blocks, and these are solved \
                  one by one.{certificate}\n\n",
                 problem.name
             ),
         };
-        // A certificate of a path that stopped proves no more for it.
+        // A certificate of a path that stopped, or is open, proves no more for it.
         let worth = match self.cert {
+            Some(_) if open => OPEN,
             Some(_) => STOPPED,
             None => code,
         };

@@ -161,7 +161,7 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     is_singular: bool,
     /// The point that goes to infinity, if the run ended because of one.
     away: Option<Away>,
-    /// Whether it ended because t goes on without end.
+    /// Whether it ended because t or another unknown goes on without end.
     endless: bool,
     /// Whether it ended because a length goes to zero.
     loses: bool,
@@ -320,10 +320,10 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                 );
                 return Err(Stop::new(StopKind::Infinite, words));
             }
-            if self.is_endless() {
+            if let Some(what) = self.runs_on() {
                 self.endless = true;
                 let words = format!(
-                    "t goes on moving away from 0, ever farther as far as one can see, {}",
+                    "{what}, ever farther as far as one can see, {}",
                     self.place()
                 );
                 return Err(Stop::new(StopKind::Infinite, words));

@@ -54,19 +54,33 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         })
     }
 
-    /// Whether t is far from 0 and moves away at the last point that is proved. So it goes on where nothing depends on t, as
-    /// from a sketch that meets all constraints, or all that does is in proportion to it.
-    pub(super) fn is_endless(&self) -> bool {
+    /// What goes on without end, in words, if t or another unknown is far from 0 and moves away at the last point that is proved.
+    /// So t goes on where nothing depends on it, as from a sketch that meets all constraints, or all that does is in
+    /// proportion to it.
+    pub(super) fn runs_on(&self) -> Option<&'static str> {
         if self.arc.is_some() {
-            return false;
+            return None;
         }
-        let (least, most) = self.reached();
-        if least <= ENDLESS && most >= -ENDLESS {
-            return false;
+        let (tube, m) = (&self.now, self.equations.m);
+        let (from, to) = tube.exit_between;
+        let moves_away = |i: usize| {
+            let (at, room) = (
+                tube.exit.centre[i],
+                tube.exit.radius[i] + tube.exit.low[i].abs(),
+            );
+            let (_, (low, high)) = match i == m {
+                true => tube.time().bounds(from, to),
+                false => tube.entry_along(i).bounds(from, to),
+            };
+            let is_far = at.abs() > ENDLESS && room < 0.5 * ENDLESS;
+            is_far && if at > 0.0 { low > 0.0 } else { high < 0.0 }
+        };
+        if moves_away(m) {
+            return Some("t goes on moving away from 0");
         }
-        let (from, to) = self.now.exit_between;
-        let (_, (low, high)) = self.now.time().bounds(from, to);
-        if least > 0.0 { low > 0.0 } else { high < 0.0 }
+        (0..m)
+            .any(moves_away)
+            .then_some("the figure goes on growing")
     }
 
     /// A length or radius that goes to zero, in words, if one is small beside what it was in the sketch, proved to shrink

@@ -36,8 +36,8 @@ use crate::track::{Driving, Options, Space};
 const MIN_WEIGHT: f64 = 0.1;
 
 /// No tube is tried that is longer than this to either side: far more than any path needs that is not straight, and
-/// what a certificate can hold.
-const LONGEST: f64 = (1u64 << 36) as f64;
+/// so that the next point of one that has not come to [`ENDLESS`](crate::track::ends::ENDLESS) fits into a certificate.
+const LONGEST: f64 = (1u64 << 33) as f64;
 
 /// Where bounds are out of range for tubes so long, as on a straight path, they are taken for tubes shorter by this.
 const SHORTER: f64 = 1.0 / 16.0;
