@@ -195,6 +195,11 @@ fn pairs(solution: &Solution) -> Vec<[f64; 2]> {
         .collect()
 }
 
+/// Where a point is, in the middle of its box.
+fn place(solution: &Solution, point: usize) -> [f64; 2] {
+    std::array::from_fn(|k| solution.points[point][k].mid())
+}
+
 /// Every solution on the path is in a complete set.
 fn holds_the_path(problem: &Problem, result: &Complete) -> Result<usize, String> {
     let options = PathOptions {
@@ -394,9 +399,9 @@ fn the_pentahedron_is_complete() {
 }
 
 /// A fixed line of its own: the equations know the square of one component of its direction, and with the other sign it is
-/// another line. So were they counted before.
+/// another line.
 #[test]
-fn a_fixed_direction_is_not_served() {
+fn a_fixed_direction_has_the_sign_of_the_sketch() {
     let problem = parse(
         r#"
         name = "line"
@@ -412,14 +417,34 @@ fn a_fixed_direction_is_not_served() {
         on = [["b", "l"]]
         "#,
     );
-    let refused = all(&problem, &Options::default()).unwrap_err();
-    assert!(refused.to_string().contains("`l` is fixed"), "{refused}");
+    let result = searched(&problem);
+    assert_eq!(result.status, Status::Complete);
+    assert!(result.both_ways.is_empty());
+    // Where the line meets the circle of radius 3 about a.
+    let (p, d) = ([1.24, -0.59], [-3.3f64, 1.02]);
+    let size = (d[0] * d[0] + d[1] * d[1]).sqrt();
+    let d = d.map(|x| x / size);
+    let from = [p[0], p[1] - 1.0];
+    let along = from[0] * d[0] + from[1] * d[1];
+    let root = (along * along - from[0] * from[0] - from[1] * from[1] + 9.0).sqrt();
+    let mut wanted = [-1.0, 1.0].map(|sign| {
+        let s = sign * root - along;
+        [p[0] + s * d[0], p[1] + s * d[1]]
+    });
+    wanted.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut found: Vec<[f64; 2]> = result.solutions.iter().map(|s| place(s, 1)).collect();
+    found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    assert_eq!(found.len(), 2);
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found[0] - wanted[0]).hypot(found[1] - wanted[1]) < 1e-9);
+    }
 }
 
 /// A line of its own whose direction is known up to its sign, and a circle that it touches on one side; and one whose reversal is
-/// another zero of equal angles that both are right. The equations have figures with both directions, the path has one.
+/// another zero of equal angles that both are right: figures with both directions are counted, those that differ in nothing
+/// but the direction once.
 #[test]
-fn directions_that_the_equations_do_not_keep_are_not_served() {
+fn directions_that_constraints_tell_apart_are_both_counted() {
     let touches = r#"
         name = "touches"
         dimension = 2
@@ -456,9 +481,27 @@ fn directions_that_the_equations_do_not_keep_are_not_served() {
         equal_angles = [["l", "a", "b", "a", "b", "b", "d"]]
         angles = [["b", "a", "c", 80]]
     "#;
-    for text in [touches, right] {
-        let refused = all(&parse(text), &Options::default()).unwrap_err();
-        let said = refused.to_string();
-        assert!(said.contains("the two directions of `l`"), "{said}");
+    let result = searched(&parse(touches));
+    assert_eq!((result.status, result.count), (Status::Complete, Some(4)));
+    assert_eq!(result.both_ways, ["l"]);
+    // The line is a unit above or below m, and c on it and 3 from n.
+    let mut found: Vec<[f64; 2]> = result.solutions.iter().map(|s| place(s, 2)).collect();
+    found.sort_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
+    let root = |y: f64| (9.0 - (y - 2.5) * (y - 2.5)).sqrt();
+    let wanted = [
+        [5.0 - root(1.0), 1.0],
+        [5.0 + root(1.0), 1.0],
+        [5.0 - root(3.0), 3.0],
+        [5.0 + root(3.0), 3.0],
+    ];
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found[0] - wanted[0]).hypot(found[1] - wanted[1]) < 1e-9);
     }
+    // d on the side of c, and on the other; the line is the same with either direction.
+    let result = searched(&parse(right));
+    assert_eq!((result.status, result.count), (Status::Complete, Some(2)));
+    assert!(result.both_ways.is_empty());
+    let side = |solution: &Solution| place(solution, 3)[1] * place(solution, 2)[1] > 0.0;
+    let sides: Vec<bool> = result.solutions.iter().map(side).collect();
+    assert!(sides.contains(&true) && sides.contains(&false), "{sides:?}");
 }

@@ -258,25 +258,47 @@ fn another_problem_is_noticed() {
     assert!(!verdict.is_about(&angle));
 }
 
-/// A constraint that tells two directions of a line of its own apart: the equations have figures that a path has not.
+/// A fixed line with a direction of its own has the sign that the sketch has; a line that something is on one side of has both.
 #[test]
-fn a_fixed_direction_is_refused_by_the_check_too() {
-    let mut cover = proved(&triangle());
-    cover.problem = r#"
+fn directions_have_the_signs_that_figures_have() {
+    let fixed = |direction: &str, held: &str, more: &str| {
+        parse(&format!(
+            r#"
         name = "fixed"
         dimension = 2
         [points]
         p = [1, 2]
         q = [3, 1]
         [lines]
-        l = { point = [0, 0], direction = [1, 0.5] }
+        l = {{ point = [0, 0], direction = {direction} }}
         [constraints]
-        fixed = ["l", "q"]
+        fixed = [{held}]
+        {more}
         distances = [["p", "l", 1], ["p", "q", 2]]
         "#
-    .to_owned();
-    let verdict = check(&cover);
-    assert!(verdict.flaw.unwrap().contains("l"));
+        ))
+    };
+    let problem = fixed("[1, 0.5]", r#""l", "q""#, "");
+    let cover = proved(&problem);
+    assert_eq!(cover.figures.len(), 2);
+    // The same line the other way is not where the cover looked.
+    let mut turned = cover.clone();
+    turned.problem = fixed("[-1, -0.5]", r#""l", "q""#, "").to_toml();
+    assert!(check(&turned).flaw.is_some());
+    let mut fewer = cover.clone();
+    fewer.figures.pop();
+    assert!(check(&fewer).flaw.is_some());
+    // Level through q, with p above and below, and each of these left and right of q.
+    let level = fixed(
+        "[1, 0]",
+        r#""q""#,
+        "horizontal = [\"l\"]\non = [[\"q\", \"l\"]]",
+    );
+    let cover = proved(&level);
+    assert_eq!(cover.figures.len(), 4);
+    let mut fewer = cover.clone();
+    fewer.figures.pop();
+    assert!(check(&fewer).flaw.is_some());
 }
 
 #[test]

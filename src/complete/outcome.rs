@@ -61,6 +61,9 @@ pub struct Complete {
     /// How many figures are proved, which may be more than are listed as solutions; `None` where that has no place in 64
     /// bits.
     pub count: Option<u64>,
+    /// Lines and planes of their own, by name, whose two directions constraints tell apart: figures with either are counted, so
+    /// that what is on one side of them may be on the other.
+    pub both_ways: Vec<String>,
     /// The parts of a problem that falls apart, each with what was found of it; otherwise none.
     pub parts: Vec<Searched>,
     /// The solutions in the problem's gauge and units (where `count` is more, only the first of them, whose boxes were not
@@ -267,6 +270,7 @@ impl Complete {
             symmetry: Symmetry::Isometries,
             count: Some(0),
             parts: Vec::new(),
+            both_ways: Vec::new(),
             solutions: Vec::new(),
             reference: problem.homotopy.reference.clone(),
             undecided: Vec::new(),
@@ -374,6 +378,7 @@ impl Complete {
             symmetry: Symmetry::Isometries,
             count: Some(solutions.len() as u64),
             parts: Vec::new(),
+            both_ways: Vec::new(),
             solutions,
             reference,
             undecided,

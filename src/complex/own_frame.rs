@@ -13,7 +13,7 @@ use crate::system::Homotopy;
 /// Refuses what zeros of the equations need not meet and figures do: directions that are told by a sign, vectors that must
 /// not vanish.
 pub fn check(problem: &Problem, homotopy: &Homotopy) -> Result<(), Unserved> {
-    if let Some(object) = problem.fixed_direction() {
+    if let Some(object) = problem.fixed_directions().next() {
         let object = &problem.objects[object].name;
         return Err(Unserved::Other(format!(
             "`{object}` is fixed and has a direction of its own, of which one component is told by the length only (name two \
@@ -88,7 +88,8 @@ pub fn add_groups(
             None => false,
         })
     };
-    if let Some(object) = homotopy.directed(|changes| keeps(changes, &Equation::is_zero)) {
+    let directed = homotopy.directed(|changes| keeps(changes, &Equation::is_zero));
+    if let Some(&object) = directed.first() {
         return Err(Unserved::Other(format!(
             "constraints tell the two directions of `{}` apart, which has a direction of its own that a path keeps and the \
              equations do not (name two points of it instead)",

@@ -29,6 +29,7 @@ pub(crate) use error::counted;
 pub use error::{DEPENDS, MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};
 pub(crate) use names::list;
+pub(crate) use object::most_along;
 pub use object::{AXES, Constraint, Item, Object, Shape};
 pub use published::Published;
 

@@ -2,6 +2,7 @@
 //! [`crate::constraint`].
 
 use super::{Decimal, Problem};
+use num_traits::Signed;
 
 /// A line, plane, circle, sphere, arc or rigid body.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +41,15 @@ impl Object {
 }
 
 impl Shape {
+    /// The direction in the sketch of a line or plane of its own.
+    pub(crate) fn own_direction(&self) -> Option<&[Decimal; 3]> {
+        match self {
+            Shape::FreeLine { direction, .. } => Some(direction),
+            Shape::FreePlane { normal, .. } => Some(normal),
+            _ => None,
+        }
+    }
+
     /// Of the numbers that say where a line or plane of its own is those that stay where its direction is reversed, and those
     /// that change their signs then. `None` for all other objects.
     pub(crate) fn split_direction<'a, T>(
@@ -55,6 +65,13 @@ impl Shape {
         let (stay, turn) = numbers.split_at(stay);
         Some([stay, turn])
     }
+}
+
+/// The axis along which a vector goes most.
+pub(crate) fn most_along(vector: &[Decimal; 3]) -> usize {
+    (0..3)
+        .max_by_key(|&k| vector[k].value().abs())
+        .expect("there are three axes")
 }
 
 /// What an object is, and where it is in the sketch. Points are indices into [`Problem::points`].
@@ -129,20 +146,16 @@ pub enum Item {
 pub const AXES: [&str; 3] = ["x-axis", "y-axis", "z-axis"];
 
 impl Problem {
-    /// A line or plane with a direction of its own, by number, that is to stay where it is: the equations hold all components of
-    /// the direction but one, of which they know the square, and zeros of them have both of its signs.
-    pub(crate) fn fixed_direction(&self) -> Option<usize> {
+    /// Lines and planes with directions of their own, by number, that are to stay where they are: the equations hold all components
+    /// of such a direction but the greatest, of which they know the square, and zeros of them have both of its signs.
+    pub(crate) fn fixed_directions(&self) -> impl Iterator<Item = usize> + '_ {
         let fixed = self.constraints.iter().filter(|c| c.kind == "fixed");
-        let mut objects = fixed.filter_map(|c| match c.items.first() {
-            Some(&Item::Object(object)) => Some(object),
-            _ => None,
-        });
-        objects.find(|&object| {
-            matches!(
-                self.objects[object].shape,
-                Shape::FreeLine { .. } | Shape::FreePlane { .. }
-            )
-        })
+        fixed
+            .filter_map(|c| match c.items.first() {
+                Some(&Item::Object(object)) => Some(object),
+                _ => None,
+            })
+            .filter(|&object| self.objects[object].shape.own_direction().is_some())
     }
 
     /// The name of an item.

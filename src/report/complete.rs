@@ -260,6 +260,27 @@ fn span(seconds: f64) -> String {
 
 /// What was found, in words that claim no more than was proved.
 fn verdict(result: &Complete) -> String {
+    let names: Vec<String> = result
+        .both_ways
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect();
+    let mut words = without_sides(result);
+    if !names.is_empty() && result.count != Some(0) {
+        let (of, them) = match names.len() {
+            1 => ("", "it"),
+            _ => ("each of ", "them"),
+        };
+        words += &format!(
+            " Both directions of {of}{} are counted: what is on one side of {them} may be on the other.",
+            names.join(", ")
+        );
+    }
+    words
+}
+
+/// The same but for what is said of sides.
+fn without_sides(result: &Complete) -> String {
     let count = match result.count {
         Some(count) => counted(count as usize, "solution"),
         None => "more than 2^64 solutions".to_owned(),

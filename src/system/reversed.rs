@@ -2,6 +2,7 @@
 
 use super::Homotopy;
 use crate::constraint::Entry;
+use crate::problem::{Problem, most_along};
 
 impl Homotopy {
     /// Whether two different solutions may be one figure: with the same points and radii, and with lines and planes of
@@ -50,10 +51,10 @@ impl Homotopy {
         either || shown.iter().any(|shown| shown.1) && !twins.iter().any(is_shown)
     }
 
-    /// A line or plane of its own, by number, whose direction none of the known changes of sign (`twins`) that `keeps` accepts
-    /// reverses alone: constraints tell its two directions apart, a path keeps one of them by continuity, and zeros of
+    /// Lines and planes of their own, by number, whose direction none of the known changes of sign (`twins`) that `keeps` accepts
+    /// reverses alone: constraints tell the two directions of each apart, a path keeps one of them by continuity, and zeros of
     /// the equations may have either.
-    pub fn directed(&self, keeps: impl Fn(&[bool]) -> bool) -> Option<usize> {
+    pub fn directed(&self, keeps: impl Fn(&[bool]) -> bool) -> Vec<usize> {
         let first = self.gauge.place.len();
         // Objects with directions of their own, and the unknowns of these.
         let mut own: Vec<(usize, Vec<usize>)> = Vec::new();
@@ -77,6 +78,35 @@ impl Homotopy {
                 first == Some(object) && reversed.next().is_none() && keeps(twin)
             })
         };
-        own.iter().map(|one| one.0).find(|&object| !alone(object))
+        let objects = own.iter().map(|one| one.0);
+        objects.filter(|&object| !alone(object)).collect()
+    }
+
+    /// The unknowns that have the sign that they have in the sketch, and whether that is negative: of each line or plane of its own
+    /// that is fixed the component of its direction of which the equations know the square only. `Err`: the object of one
+    /// whose sign in the sketch is not certain.
+    pub fn fixed_signs(&self, problem: &Problem) -> Result<Vec<(usize, bool)>, usize> {
+        let first = self.gauge.place.len();
+        let mut signs = Vec::new();
+        for object in problem.fixed_directions() {
+            let shape = &problem.objects[object].shape;
+            let split = shape.split_direction(&self.tail.objects[object], self.dimension);
+            let component = shape
+                .own_direction()
+                .zip(split)
+                .and_then(|(direction, [_, turn])| turn.get(most_along(direction)));
+            let Some(&Entry::Unknown(u)) = component else {
+                return Err(object);
+            };
+            let Some(sketch) = self.sketch_of_unknowns().nth(first + u) else {
+                return Err(object);
+            };
+            match (sketch.inf() > 0.0, sketch.sup() < 0.0) {
+                (true, _) => signs.push((first + u, false)),
+                (_, true) => signs.push((first + u, true)),
+                _ => return Err(object),
+            }
+        }
+        Ok(signs)
     }
 }

@@ -132,7 +132,7 @@ impl Figures {
                     .to_owned(),
             );
         }
-        if let Some(object) = problem.fixed_direction() {
+        if let Some(object) = problem.fixed_directions().next() {
             let object = &problem.objects[object].name;
             return Err(format!(
                 "`{object}` is fixed and has a direction of its own, of which one component is told by the length only; figures \

@@ -57,24 +57,15 @@ const FAR: f64 = 1e30;
 /// Searches for all figures of a problem, up to its symmetries.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
-    if let Some(object) = problem.fixed_direction() {
-        let object = &problem.objects[object].name;
-        // A path keeps its sign; the equations have both, of which one is no figure.
-        return Err(Unserved::Refused(format!(
-            "not served: `{object}` is fixed and has a direction of its own, of which one component is told by the length \
-             only (name two fixed points of it instead)"
-        )));
-    }
     let homotopy = Homotopy::new(problem)
         .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
     let system = System::new(&homotopy);
-    if let Some(object) = homotopy.directed(|changes| symmetry::keeps(&system, changes)) {
-        return Err(Unserved::Refused(format!(
-            "not served: constraints tell the two directions of `{}` apart, which has a direction of its own that a path \
-             keeps and the equations do not (name two points of it instead)",
+    let signs = homotopy.fixed_signs(problem).map_err(|object| {
+        Unserved::Refused(format!(
+            "not served: in which direction `{}` is fixed is not certain (name two fixed points of it instead)",
             problem.objects[object].name
-        )));
-    }
+        ))
+    })?;
     let stop = AtomicBool::new(false);
     let run = Watched {
         stop: &stop,
@@ -94,7 +85,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let result = options.watched(&run, begin, || {
         searched(
             problem,
-            (&homotopy, system),
+            (&homotopy, system, signs),
             (&run, store),
             options.cover,
             begin,
@@ -105,7 +96,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
 
 fn searched(
     problem: &Problem,
-    (homotopy, mut system): (&Homotopy, System),
+    (homotopy, mut system, signs): (&Homotopy, System, Vec<(usize, bool)>),
     (run, store): (&Watched, Option<(&Keep, Store<Found>)>),
     cover: bool,
     begin: Instant,
@@ -121,16 +112,30 @@ fn searched(
     result.method = Method::Coordinates;
     result.driving = homotopy.equations;
     result.symmetry = crate::constraint::symmetry(problem);
+    let directed = homotopy.directed(|_| true);
+    let is_fixed = |object| problem.fixed_directions().any(|fixed| fixed == object);
+    result.both_ways = directed
+        .into_iter()
+        .filter(|&object| !is_fixed(object))
+        .map(|object| problem.objects[object].name.clone())
+        .collect();
     if reason.is_some() {
         return Ok(result);
     }
     let m = system.unknowns;
     let mut x = vec![entire(); m + 1];
     x[m] = ZERO;
-    let halves = symmetry::halves(problem, homotopy, &system);
+    let halves = symmetry::halves(problem, (homotopy, &signs), &system);
     let pivots = halves.iter().map(|half| half.unknown);
     for i in pivots.chain(homotopy.positive_unknowns()) {
         x[i] = upper_half();
+    }
+    for &(i, negative) in &signs {
+        x[i] = if negative {
+            -upper_half()
+        } else {
+            upper_half()
+        };
     }
     let mut is_free = vec![true; m + 1];
     is_free[m] = false;
@@ -140,7 +145,7 @@ fn searched(
         Some((keep, store)) => Some(Kept::new(store, keep, (problem, &x), run.stop)?),
         None => None,
     };
-    let mut figures = Figures::new(homotopy, &system, run, kept.as_ref());
+    let mut figures = Figures::new((homotopy, signs), &system, run, kept.as_ref());
     if space.is_ok() {
         figures.go(0, &mut Vec::new(), &x, 1.0);
     }
@@ -202,6 +207,8 @@ fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
 /// The figures, block by block.
 struct Figures<'a> {
     homotopy: &'a Homotopy,
+    /// The unknowns whose sign figures have from the sketch, and whether it is negative.
+    signs: Vec<(usize, bool)>,
     system: &'a System,
     run: &'a Watched<'a>,
     /// Where pieces of the search are kept.
@@ -219,7 +226,7 @@ struct Figures<'a> {
 
 impl<'a> Figures<'a> {
     fn new(
-        homotopy: &'a Homotopy,
+        (homotopy, signs): (&'a Homotopy, Vec<(usize, bool)>),
         system: &'a System,
         run: &'a Watched<'a>,
         kept: Option<&'a Kept<'a>>,
@@ -248,6 +255,7 @@ impl<'a> Figures<'a> {
         }
         Figures {
             homotopy,
+            signs,
             system,
             run,
             kept,
@@ -454,13 +462,20 @@ impl<'a> Figures<'a> {
         rows.all(|row| row.value(&at) == ZERO).then_some(near)
     }
 
-    /// Whether lengths and radii are positive and no vector vanishes that must not, if that is certain.
+    /// Whether lengths and radii are positive, what is fixed has its sign and no vector vanishes that must not, if that is certain.
     fn is_proper(&self, figure: &FigureBox) -> Option<bool> {
         let at = |i: usize| match i < self.system.unknowns {
             true => entry(figure, i),
             false => ZERO,
         };
         let mut is_certain = true;
+        for &(i, negative) in &self.signs {
+            let x = if negative { -at(i) } else { at(i) };
+            if x.sup() <= 0.0 {
+                return Some(false);
+            }
+            is_certain &= x.inf() > 0.0;
+        }
         for i in self.homotopy.positive_unknowns() {
             if at(i).sup() <= 0.0 {
                 return Some(false);
@@ -476,7 +491,10 @@ impl<'a> Figures<'a> {
                 let end = |i: usize| i.min(self.system.unknowns);
                 vector.iter().any(|&[i, j]| at(end(i)) != at(end(j)))
             };
-            return Some(positive.iter().all(|&i| at(i) > 0.0) && vectors.iter().all(is_there));
+            let mut signs = self.signs.iter();
+            let is_signed = signs.all(|&(i, negative)| at(i) != 0.0 && (at(i) < 0.0) == negative);
+            let is_positive = positive.iter().all(|&i| at(i) > 0.0);
+            return Some(is_signed && is_positive && vectors.iter().all(is_there));
         }
         for vector in self.homotopy.nonzero_vectors() {
             let coordinates = || {

@@ -33,7 +33,11 @@ impl Change {
 }
 
 /// The unknowns that may be taken as not negative, each with the symmetry that changes it and none of the others.
-pub fn halves(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<Half> {
+pub fn halves(
+    problem: &Problem,
+    (homotopy, signs): (&Homotopy, &[(usize, bool)]),
+    system: &System,
+) -> Vec<Half> {
     let m = system.unknowns;
     let d = homotopy.dimension;
     let first = homotopy.gauge.place.len();
@@ -56,7 +60,8 @@ pub fn halves(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<Ha
         change.twins[k] = true;
         generators.push(change);
     }
-    let positive = homotopy.positive_unknowns();
+    let mut positive = homotopy.positive_unknowns();
+    positive.extend(signs.iter().map(|(i, _)| i));
     generators.retain(|g| keeps(system, &g.unknowns) && positive.iter().all(|&i| !g.unknowns[i]));
     let mut pivots: Vec<usize> = Vec::new();
     for column in 0..m {
@@ -89,7 +94,7 @@ pub fn halves(problem: &Problem, homotopy: &Homotopy, system: &System) -> Vec<Ha
 
 /// Whether the equations hold with these signs changed wherever they hold without: every equation stays as it is, or
 /// changes its sign and has zero on the right.
-pub fn keeps(system: &System, changes: &[bool]) -> bool {
+fn keeps(system: &System, changes: &[bool]) -> bool {
     let zero = system.unknowns;
     // Both ends of a difference change together.
     let sign = |form: Form| match form {

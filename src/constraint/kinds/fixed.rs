@@ -5,17 +5,10 @@
 //! plane of its own likewise those of its normal, and its level; of a circle the centre and the radius.
 
 use super::prelude::*;
-use crate::problem::{Decimal, Shape};
+use crate::problem::{Shape, most_along};
 
 /// See the module.
 pub struct Fixed;
-
-/// The axis along which a vector goes most.
-fn most_along(vector: &[Decimal; 3]) -> usize {
-    (0..3)
-        .max_by_key(|&k| vector[k].value().abs())
-        .expect("there are three axes")
-}
 
 impl Kind for Fixed {
     fn key(&self) -> &'static str {

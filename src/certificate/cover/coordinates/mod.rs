@@ -26,6 +26,8 @@ use space::Rows;
 pub struct Space {
     eq: Equations,
     allowed: Symmetry,
+    /// The unknowns whose sign figures have from the sketch, and whether it is negative.
+    signs: Vec<(usize, bool)>,
     rows: Rows,
     not_negative: Vec<usize>,
     blocks: Vec<Block>,
@@ -47,13 +49,12 @@ impl Space {
         let unit = 2f64.powi(cover.unit_exponent);
         let homotopy = Homotopy::with_unit(problem, unit).map_err(|error| error.to_string())?;
         let eq = Equations::new(homotopy);
-        if let Some(name) = symmetry::directed(&eq, problem) {
-            return Err(format!(
-                "the equations have both directions of {name}, and a figure has one of them"
-            ));
-        }
+        let signs = eq.homotopy.fixed_signs(problem).map_err(|object| {
+            let name = &problem.objects[object].name;
+            format!("in which direction {name} is fixed is not certain")
+        })?;
         let allowed = constraint::symmetry(problem);
-        let not_negative = symmetry::not_negative(&eq, allowed, &cover.halves)?;
+        let not_negative = symmetry::not_negative(&eq, (allowed, &signs), &cover.halves)?;
         for block in &cover.blocks {
             let fits = |numbers: &[usize]| {
                 let mut sorted = numbers.to_vec();
@@ -69,6 +70,7 @@ impl Space {
         }
         let mut space = Space {
             allowed,
+            signs,
             rows: Rows::new(&eq),
             eq,
             not_negative,
@@ -121,7 +123,7 @@ impl Space {
         (0..self.eq.m).any(apart) && one.is_congruent(other, &self.eq) == Some(false)
     }
 
-    /// Whether lengths and radii are positive at a zero, and no vector vanishes that must not.
+    /// Whether lengths and radii are positive at a zero, what is fixed has its sign, and no vector vanishes that must not.
     fn is_figure(&self, place: &Place) -> bool {
         let at = |i: usize| match i < self.eq.m {
             true => place.spot.at(i),
@@ -131,7 +133,13 @@ impl Space {
             let mut coordinates = vector.iter();
             coordinates.any(|&[i, j]| i != j && !(at(i) - at(j)).contains(0.0))
         };
-        self.eq.positive.iter().all(|&i| at(i).inf() > 0.0) && self.eq.nonzero.iter().all(is_there)
+        let is_signed = |&(i, negative): &(usize, bool)| match negative {
+            true => at(i).sup() < 0.0,
+            false => at(i).inf() > 0.0,
+        };
+        self.eq.positive.iter().all(|&i| at(i).inf() > 0.0)
+            && self.signs.iter().all(is_signed)
+            && self.eq.nonzero.iter().all(is_there)
     }
 
     /// Whether a zero is exactly at these numbers, and no figure.
@@ -144,11 +152,13 @@ impl Space {
         is_improper && place.covers(&exact) && self.rows.hold_exactly(&self.eq, numbers)
     }
 
-    /// All of the space that has to be looked at: lengths and radii are positive in figures.
+    /// All of the space that has to be looked at: lengths and radii are positive in figures, and what is fixed has its sign.
     pub fn whole(&self) -> Part {
-        let positive = self.eq.positive.iter();
-        let halved: Vec<usize> = self.not_negative.iter().chain(positive).copied().collect();
-        Part::whole(&self.eq, &halved)
+        let positive = self.not_negative.iter().chain(&self.eq.positive);
+        let signs = positive
+            .map(|&i| (i, false))
+            .chain(self.signs.iter().copied());
+        Part::whole(&self.eq, signs)
     }
 
     /// Narrows a part by the equations one by one.
@@ -174,7 +184,7 @@ impl Space {
 
     /// The solution that a change of signs takes the zero in a part to, if it is one.
     pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
-        let changes = symmetry::changes(&self.eq, self.allowed, by)?;
+        let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), by)?;
         let shows = |&figure: &usize| {
             let changes = changes.clone();
             self.shows(&Seen { figure, changes }, part)
@@ -189,7 +199,7 @@ impl Space {
         if image.figure >= self.figures.len() {
             return Err("an image is said to be of a solution that is not listed".to_owned());
         }
-        let changes = symmetry::changes(&self.eq, self.allowed, &image.by);
+        let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), &image.by);
         let unlike = || {
             format!(
                 "what is called an image of solution {} is not so by a symmetry of the problem",

@@ -52,10 +52,13 @@ fn upper_half() -> Interval {
 }
 
 impl Part {
-    /// All of the space where some unknowns are not negative.
-    pub fn whole(eq: &Equations, not_negative: &[usize]) -> Part {
+    /// All of the space where some unknowns are not negative, or with `true` not positive.
+    pub fn whole(eq: &Equations, signs: impl Iterator<Item = (usize, bool)>) -> Part {
         let mut x = vec![entire(); eq.m];
-        not_negative.iter().for_each(|&i| x[i] = upper_half());
+        for (i, negative) in signs {
+            let half = upper_half();
+            x[i] = if negative { -half } else { half };
+        }
         x.extend([point(1.0), ZERO, point(1.0)]);
         Part {
             fresh: vec![true; x.len()],

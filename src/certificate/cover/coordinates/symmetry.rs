@@ -4,18 +4,17 @@ use super::format::{Change, Half};
 use crate::certificate::checker::equations::{Equations, ZERO};
 use crate::constraint::Symmetry;
 use crate::interval::point;
-use crate::problem::Problem;
 
 /// The unknowns that may be taken as not negative: each is changed by a symmetry that changes none before it, so that
 /// of the images of a figure under these symmetries one has none of them negative.
 pub fn not_negative(
     eq: &Equations,
-    allowed: Symmetry,
+    (allowed, signs): (Symmetry, &[(usize, bool)]),
     halves: &[Half],
 ) -> Result<Vec<usize>, String> {
     let mut done: Vec<usize> = Vec::new();
     for half in halves {
-        let fits = changes(eq, allowed, &half.by).is_some_and(|changes| {
+        let fits = changes(eq, (allowed, signs), &half.by).is_some_and(|changes| {
             changes.get(half.unknown) == Some(&true) && done.iter().all(|&i| !changes[i])
         });
         if !fits {
@@ -30,8 +29,12 @@ pub fn not_negative(
 }
 
 /// For each unknown whether a change of signs changes it; `None` where it is no symmetry: it has to be one that the problem
-/// has, to keep the equations, and to keep lengths and radii positive.
-pub fn changes(eq: &Equations, allowed: Symmetry, by: &Change) -> Option<Vec<bool>> {
+/// has, to keep the equations, and to keep lengths and radii positive and all `signs` that figures have.
+pub fn changes(
+    eq: &Equations,
+    (allowed, signs): (Symmetry, &[(usize, bool)]),
+    by: &Change,
+) -> Option<Vec<bool>> {
     let homotopy = &eq.homotopy;
     let is_allowed = match allowed {
         _ if by.axes.iter().any(|&axis| axis >= homotopy.dimension) => false,
@@ -53,7 +56,8 @@ pub fn changes(eq: &Equations, allowed: Symmetry, by: &Change) -> Option<Vec<boo
         (of_axes.count() + of_twins.count()) % 2 == 1
     };
     let changes: Vec<bool> = (0..eq.m).map(change).collect();
-    let stay = eq.positive.iter().all(|&i| !changes[i]);
+    let told = signs.iter().map(|(i, _)| i);
+    let stay = eq.positive.iter().chain(told).all(|&i| !changes[i]);
     (stay && keeps(eq, &changes)).then_some(changes)
 }
 
@@ -85,12 +89,4 @@ fn keeps(eq: &Equations, changes: &[bool]) -> bool {
             Some(change) => all.all(|p| both(p) == Some(change)) && (!change || vanishes),
         }
     })
-}
-
-/// A line or plane of its own whose two directions constraints tell apart, by name: a path keeps one of them, and the
-/// equations have both.
-pub fn directed<'a>(eq: &Equations, problem: &'a Problem) -> Option<&'a str> {
-    let told_apart = || eq.homotopy.directed(|changes| keeps(eq, changes));
-    let object = problem.fixed_direction().or_else(told_apart)?;
-    Some(&problem.objects[object].name)
 }
