@@ -483,8 +483,8 @@ fn ended_early_is_partial() {
     assert!(share > 0.0 && share <= 1.0);
     // What is left is told by what was done; of what is through nothing is.
     let open = share * result.seconds / (1.0 - share);
-    let left = result.seconds_left().unwrap();
+    let left = result.seconds_left.unwrap();
     assert!((left - open).abs() < 1e-6 * open, "{left} and {open}");
     let whole = all(&problem, &Options::default()).unwrap();
-    assert_eq!(whole.seconds_left(), None);
+    assert_eq!(whole.seconds_left, None);
 }

@@ -90,7 +90,7 @@ fn a_sketch_that_meets_everything_stays_as_it_is() {
         assert!(behind.t.1 < -1e10 && ahead.t.0 > 1e10, "{ends:?}");
         for end in &**ends {
             assert_eq!((end.kind, end.away), (EndKind::Infinite, None));
-            assert!(end.reason.contains("t goes on"), "{}", end.reason);
+            assert!(end.reason.contains("t has passed"), "{}", end.reason);
         }
         let [solution] = &outcome.solutions[..] else {
             panic!("{} solutions", outcome.solutions.len());

@@ -657,7 +657,7 @@ impl Arguments {
         };
         let reason = reason.trim_end_matches('.');
         let how = match open {
-            true => "its path has no end either way",
+            true => "its path goes farther than it is followed, both ways",
             false => "it stops",
         };
         let introduction = match self.summary {

@@ -103,6 +103,7 @@ fn by_plan(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         most_boxes: options.most_boxes,
         done: AtomicU64::new(0),
         before: AtomicU64::new(0),
+        lost: AtomicU64::new(0),
         cover: options.cover,
     };
     let store = match &options.store {
@@ -122,7 +123,7 @@ fn by_plan(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
             if result.status == Status::Complete && in_words.is_some() {
                 result.reason = in_words;
             }
-            result.share_before = run.share_before();
+            result.tell_what_is_left(&run);
             Ok(result)
         }
         Err(Unfit::Empty(point)) => {
@@ -209,6 +210,7 @@ fn chosen(
                 boxes: AtomicU64::new(0),
                 done: AtomicU64::new(0),
                 before: AtomicU64::new(0),
+                lost: AtomicU64::new(0),
                 most_boxes: budget.min(run.most_boxes),
                 ..*run
             };

@@ -84,8 +84,9 @@ pub struct Complete {
     pub plan: Vec<usize>,
     /// Wall-clock seconds.
     pub seconds: f64,
-    /// The share of the search space that a store had already.
-    pub share_before: f64,
+    /// Of a search that was ended: how many seconds the rest of it may take, if it goes on as it did; infinity where a store keeps
+    /// nothing of what was done. Otherwise `None`.
+    pub seconds_left: Option<f64>,
     /// The cover of the search space, if it was wanted and there was a search.
     pub cover: Option<Vec<u8>>,
 }
@@ -253,13 +254,10 @@ impl Options<'_> {
 }
 
 impl Complete {
-    /// Of a search that was ended: how many seconds the rest of it may take, if it goes on as it did.
-    pub fn seconds_left(&self) -> Option<f64> {
-        let open = self.undecided.iter().find(|p| p.why == Why::Unfinished)?;
-        let done = 1.0 - open.share - self.share_before;
-        let seconds = self.seconds * open.share / done;
-        // Shares add up but for roundings.
-        (done > 1e-12 && seconds.is_finite()).then_some(seconds)
+    /// Of a search that was ended: how long the rest may take.
+    pub(super) fn tell_what_is_left(&mut self, run: &Run) {
+        let is_open = self.undecided.iter().any(|p| p.why == Why::Unfinished);
+        self.seconds_left = is_open.then(|| run.seconds_left(self.seconds));
     }
 
     /// No solution, for a reason that needs no search.
@@ -279,7 +277,7 @@ impl Complete {
             driving: 0,
             plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
-            share_before: 0.0,
+            seconds_left: None,
             cover: None,
         }
     }
@@ -389,7 +387,7 @@ impl Complete {
                 .chain(search.plan.steps.iter().map(|s| s.point))
                 .collect(),
             seconds: begin.elapsed().as_secs_f64(),
-            share_before: 0.0,
+            seconds_left: None,
             cover,
         }
     }

@@ -143,13 +143,17 @@ impl Search {
                 todo.push((piece, node));
             }
         }
-        run.before
-            .store(run.done.load(Ordering::Relaxed), Ordering::Relaxed);
+        run.all_before();
         let store = Mutex::new(store);
         let worked: Vec<(usize, Result<Found, String>)> = todo
             .into_par_iter()
             .map(|(piece, node)| {
                 let found = self.below(run, node.clone());
+                if !found.is_done() {
+                    let open = found.undecided.iter();
+                    let open = open.filter(|part| part.why == Why::Unfinished);
+                    run.add_lost(node.share - open.map(|part| part.share).sum::<f64>());
+                }
                 let put = match (found.is_done(), store.lock()) {
                     (true, Ok(mut store)) => store.put(&piece, &found),
                     _ => Ok(()),

@@ -61,6 +61,8 @@ pub struct Run<'a> {
     pub done: AtomicU64,
     /// What of that was done before this run.
     pub before: AtomicU64,
+    /// What of it was done in vain.
+    pub lost: AtomicU64,
     /// Whether the cover is wanted.
     pub cover: bool,
 }
@@ -406,8 +408,37 @@ impl Run<'_> {
     /// Notes that an earlier run has done a share of the parameter space.
     pub fn add_done_before(&self, share: f64) {
         self.add_done(share);
+        self.add_before(share);
+    }
+
+    /// Notes that what was noted as done is no work that counts: an earlier run did it, or every run does.
+    pub fn add_before(&self, share: f64) {
         let units = (share * SHARE_UNIT) as u64;
         self.before.fetch_add(units, Ordering::Relaxed);
+    }
+
+    /// Notes what was done before the search as such: what a store had, and what is looked at in every run.
+    pub fn all_before(&self) {
+        let done = self.done.load(Ordering::Relaxed);
+        self.before.store(done, Ordering::Relaxed);
+    }
+
+    /// Notes that a share was done in vain: it is of a piece that was not finished, of which a store keeps nothing.
+    pub fn add_lost(&self, share: f64) {
+        let units = (share.max(0.0) * SHARE_UNIT) as u64;
+        self.lost.fetch_add(units, Ordering::Relaxed);
+    }
+
+    /// How many seconds the rest may take after so many, if it goes on as it did; infinity where nothing was done for good.
+    pub fn seconds_left(&self, seconds: f64) -> f64 {
+        let lost = self.lost.load(Ordering::Relaxed) as f64 / SHARE_UNIT;
+        let kept = self.share_done() - lost;
+        let fresh = kept - self.share_before();
+        // Shares add up but for roundings.
+        match fresh > 1e-12 {
+            true => seconds * (1.0 - kept).max(0.0) / fresh,
+            false => f64::INFINITY,
+        }
     }
 
     /// The share that was done before this run.

@@ -82,7 +82,7 @@ impl<'a> Document<'a> {
                 .collect(),
             boxes: result.boxes,
             seconds: result.seconds,
-            seconds_left: result.seconds_left(),
+            seconds_left: result.seconds_left,
             driving: result.driving,
             plan: names(problem, &result.plan),
         }
@@ -219,14 +219,20 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     }
     writeln!(out, "boxes               {}", result.boxes)?;
     writeln!(out, "seconds             {:.4}", result.seconds)?;
-    if let Some(left) = result.seconds_left() {
-        let left = span(left);
-        writeln!(
+    match result.seconds_left {
+        Some(left) if left.is_finite() => {
+            let left = span(left);
+            writeln!(
+                out,
+                "left                perhaps {left}, if it goes on as it did"
+            )
+        }
+        Some(_) => writeln!(
             out,
-            "left                perhaps {left}, if it goes on as it did"
-        )?;
+            "left                no piece of it was finished: the same time again would lead no farther"
+        ),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// A share in percent: small ones by their size, others to two places that are never rounded to nothing or to all.

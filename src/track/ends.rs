@@ -34,7 +34,7 @@ pub struct Away {
 /// What happens to the figure where a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndKind {
-    /// Points go away, ever farther as far as one can see: see [`PathEnd::away`]. Or t does.
+    /// Points go away, ever farther as far as one can see: see [`PathEnd::away`]. Or t does, or goes too far to be followed.
     Infinite,
     /// A length that must be positive goes to zero: an angle loses its leg, a radius its circle.
     Undefined,
@@ -62,8 +62,8 @@ pub const FAR: f64 = 30.0;
 /// that. (Where t has a limit at infinity it nears that like a negative power of the distance.)
 pub const SETTLED: f64 = 1e-2;
 
-/// Beyond this t, or another unknown, is taken to go on without end, if it moves away from 0 there: a path that comes back
-/// from there is not followed that far. Certificates hold no numbers much larger.
+/// Beyond this t, or another unknown, is not followed, if it moves away from 0 there: such a path may go on without end, or come
+/// back. Certificates hold no numbers much larger.
 pub const ENDLESS: f64 = (1u64 << 36) as f64;
 
 /// A length or radius has nearly vanished where it is this part of what it was in the sketch.

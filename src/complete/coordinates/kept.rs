@@ -60,9 +60,9 @@ impl<'a> Kept<'a> {
         piece % of + 1 == which
     }
 
-    /// What was found in a piece before, once.
+    /// What was found in a piece before.
     pub fn known(&self, name: &str) -> Option<Found> {
-        self.store.lock().ok()?.done.remove(name)
+        self.store.lock().ok()?.done.get(name).cloned()
     }
 
     /// Keeps what was found in a piece, if that is done.
@@ -73,7 +73,9 @@ impl<'a> Kept<'a> {
         let Ok(mut store) = self.store.lock() else {
             return;
         };
-        if let Err(what) = store.put(name, found) {
+        let put = store.put(name, found);
+        store.done.insert(name.clone(), found.clone());
+        if let Err(what) = put {
             // A disk that is full ends the search.
             self.stop.store(true, Ordering::Relaxed);
             if let Ok(mut failed) = self.failed.lock() {

@@ -73,6 +73,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         most_boxes: options.most_boxes,
         done: AtomicU64::new(0),
         before: AtomicU64::new(0),
+        lost: AtomicU64::new(0),
         cover: false,
     };
     let store = match &options.store {
@@ -173,9 +174,9 @@ fn searched(
         );
     }
     result.count = Some(result.solutions.len() as u64);
-    result.share_before = run.share_before();
     kept.map_or(Ok(()), Kept::end)?;
     result.seconds = begin.elapsed().as_secs_f64();
+    result.tell_what_is_left(run);
     Ok(result)
 }
 

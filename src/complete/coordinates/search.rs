@@ -130,6 +130,11 @@ impl<'a> Block<'a> {
             }
         }
         let first = first.found;
+        if run.kept.is_some() {
+            // Looked at in every run.
+            let open: f64 = nodes.iter().map(|(_, share)| share).sum();
+            run.watched.add_before(run.weight * (1.0 - open).max(0.0));
+        }
         let own = self.square.own.iter();
         let mut all = Together {
             ranges: nodes
@@ -187,6 +192,12 @@ impl<'a> Block<'a> {
             return Found::missing(share);
         }
         let found = searched(node);
+        if found.is_broken_off {
+            let open = found.undecided.iter();
+            let open = open.filter(|part| part.why == Why::Unfinished);
+            let open: f64 = open.map(|part| part.share).sum();
+            run.watched.add_lost(run.weight * (share - open));
+        }
         kept.put(&name, &found);
         found
     }

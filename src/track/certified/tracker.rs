@@ -323,7 +323,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             if let Some(what) = self.runs_on() {
                 self.endless = true;
                 let words = format!(
-                    "{what}, ever farther as far as one can see, {}",
+                    "{what} and moves away from 0; the path is not followed farther, {}",
                     self.place()
                 );
                 return Err(Stop::new(StopKind::Infinite, words));

@@ -54,10 +54,10 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         })
     }
 
-    /// What goes on without end, in words, if t or another unknown is far from 0 and moves away at the last point that is proved.
-    /// So t goes on where nothing depends on it, as from a sketch that meets all constraints, or all that does is in
-    /// proportion to it.
-    pub(super) fn runs_on(&self) -> Option<&'static str> {
+    /// What has gone too far to be followed, in words, if t or another unknown is far from 0 and moves away at the last point that is
+    /// proved. So t goes on where nothing depends on it, as from a sketch that meets all constraints, or all that does is in
+    /// proportion to it; it may also come back from there.
+    pub(super) fn runs_on(&self) -> Option<String> {
         if self.arc.is_some() {
             return None;
         }
@@ -76,11 +76,12 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             is_far && if at > 0.0 { low > 0.0 } else { high < 0.0 }
         };
         if moves_away(m) {
-            return Some("t goes on moving away from 0");
+            let passed = ENDLESS.copysign(tube.exit.centre[m]);
+            return Some(format!("t has passed {passed:.1e}"));
         }
         (0..m)
             .any(moves_away)
-            .then_some("the figure goes on growing")
+            .then(|| format!("an unknown has passed {ENDLESS:.1e} units of length"))
     }
 
     /// A length or radius that goes to zero, in words, if one is small beside what it was in the sketch, proved to shrink

@@ -175,7 +175,8 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
         }
         if now.z[0][m].abs() > ENDLESS && now.z[0][m] * now.z[1][m] > 0.0 {
             let words = format!(
-                "t goes on moving away from 0, ever farther as far as one can see, {}",
+                "t has passed {:.1e} and moves away from 0; the path is not followed farther, {}",
+                ENDLESS.copysign(now.z[0][m]),
                 place(record, &now)
             );
             return Err(endless(ends.as_ref(), &now.z[0], words));
