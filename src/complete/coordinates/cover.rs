@@ -7,17 +7,22 @@ use super::newton::Square;
 use super::search::{Block as Searched, COARSE, Choice, MANY, SMALL};
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::{
-    Block, Change, CoordinateCover, Half, Mark, Part, Space,
+    Block, Body, Change, CoordinateCover, Half, Mark, Part, Space, Turn, Turned,
 };
 use crate::interval::{Interval, ZERO};
 use crate::problem::Problem;
 use crate::system::Homotopy;
+use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A block that narrows a part by less than this, in the logarithm of its volume, is not worth a mark.
 const WORTH: f64 = 0.7;
 /// The same where the block has one zero in the part.
 const SLOW: f64 = 0.01;
+/// Boxes of rotations of which no range is wider are looked at for one figure.
+const NEAR: f64 = 0.06;
+/// In boxes of rotations as narrow as this in which linear equations do not tell the body's place a coordinate of that is halved, too.
+const FINE: f64 = 0.05;
 /// Images by more changes of sign of lines and planes of their own, in all sums, are not looked for.
 const MOST_TWINS: usize = 8;
 
@@ -33,8 +38,18 @@ pub struct Results<'a> {
     pub blocks: &'a [Cut],
     /// The same, as the search has them.
     pub searched: Vec<Searched<'a>>,
+    /// For each block the body on legs that it is, if it was searched over how that is turned.
+    pub bodies: Vec<Option<Body>>,
     /// The parts of the search.
     pub boxes: u64,
+}
+
+/// What is still to be looked at.
+enum Open {
+    /// A part, the block that is next in it, and whether that block's body was turned.
+    Part(Part, usize, bool),
+    /// A box of rotations of the body of a block, for the figures in a part.
+    Turn(Rc<Part>, usize, Turn),
 }
 
 /// The cover, as a file; `None` where the check's test is too coarse for a figure.
@@ -54,6 +69,7 @@ pub fn file(
         halves: results.halves,
         blocks: results.blocks.iter().map(block).collect(),
         figures: results.figures,
+        bodies: results.bodies.iter().flatten().cloned().collect(),
         images: Vec::new(),
         others: results.others,
         marks: Vec::new(),
@@ -65,22 +81,34 @@ pub fn file(
     // As the check reads it.
     let problem = Problem::parse(&cover.problem, "").ok()?;
     let mut space = Space::new(&problem, &cover).ok()?;
-    let mut stack = vec![(space.whole(), 0)];
+    let mut stack = vec![Open::Part(space.whole(), 0, false)];
+    let mut number = 0;
+    let bodies = results.bodies.iter().map(|body| {
+        body.as_ref()?;
+        number += 1;
+        Some(number - 1)
+    });
     let mut writer = Writer {
         homotopy,
         space: &mut space,
         cover: &mut cover,
         blocks: results.searched,
+        bodies: bodies.collect(),
         left: 0,
         parts: 0,
         // The check's rules are about as strong as the search's.
         most: 4 * results.boxes + 10_000,
         stop,
     };
-    while let Some((mut part, block)) = stack.pop() {
+    while let Some(open) = stack.pop() {
         writer.parts += 1;
-        if writer.space.narrow(&mut part).is_ok() {
-            writer.go(part, block, &mut stack);
+        match open {
+            Open::Part(mut part, block, is_turned) => {
+                if writer.space.narrow(&mut part).is_ok() {
+                    writer.go(part, (block, is_turned), &mut stack);
+                }
+            }
+            Open::Turn(part, block, turn) => writer.turn(part, block, turn, &mut stack),
         }
     }
     Some(cover.to_bytes())
@@ -91,6 +119,8 @@ struct Writer<'a> {
     space: &'a mut Space,
     cover: &'a mut CoordinateCover,
     blocks: Vec<Searched<'a>>,
+    /// For each block the number of its body in the cover.
+    bodies: Vec<Option<usize>>,
     /// Parts undecided, and all.
     left: usize,
     parts: u64,
@@ -109,12 +139,23 @@ impl Writer<'_> {
     }
 
     /// Says why a part holds no figure but those listed, all blocks before this one being known well in it.
-    fn go(&mut self, mut part: Part, mut b: usize, stack: &mut Vec<(Part, usize)>) {
+    fn go(&mut self, mut part: Part, (mut b, mut is_turned): (usize, bool), stack: &mut Vec<Open>) {
         loop {
             if let Some(mark) = self.space.zero_of(&part) {
                 return self.put(mark);
             }
-            let is_over = self.parts > self.most || self.stop.load(Ordering::Relaxed);
+            let is_over = self.is_over();
+            if let Some(&Some(body)) = self.bodies.get(b)
+                && !is_turned
+                && !is_over
+                && self.space.stands(body, &part)
+            {
+                self.put(Mark::Body(body));
+                let part = Rc::new(part);
+                let charts = Turn::all().into_iter().rev();
+                stack.extend(charts.map(|turn| Open::Turn(Rc::clone(&part), b, turn)));
+                return;
+            }
             let Some(block) = self.blocks.get(b).filter(|_| !is_over) else {
                 return match self.image_in(&part).filter(|_| !is_over) {
                     Some(mark) => self.put(mark),
@@ -150,7 +191,7 @@ impl Writer<'_> {
                 part = saved;
                 self.cover.marks.truncate(mark);
                 if is_known {
-                    b += 1;
+                    (b, is_turned) = (b + 1, false);
                     continue;
                 }
             }
@@ -165,9 +206,87 @@ impl Writer<'_> {
                 return self.leave();
             };
             self.put(Mark::Halves(u));
-            stack.extend([(high, b), (low, b)]);
+            stack.extend([high, low].map(|part| Open::Part(part, b, is_turned)));
             return;
         }
+    }
+
+    fn is_over(&self) -> bool {
+        self.parts > self.most || self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Says why a box of rotations of a block's body holds no figure but those listed.
+    fn turn(&mut self, part: Rc<Part>, b: usize, mut turn: Turn, stack: &mut Vec<Open>) {
+        let Some(&Some(body)) = self.bodies.get(b) else {
+            return self.leave_turned();
+        };
+        while let Some(look) = self.space.look(body, &part, &turn) {
+            let Some(left) = look.contracted() else {
+                return;
+            };
+            let widths = turn.ranges().iter().map(|x| x.wid());
+            let widest = widths.clone().take(3).fold(0.0, f64::max);
+            let least = if self.left > MANY { COARSE } else { SMALL };
+            if self.is_over() || widest < least {
+                return self.leave_turned();
+            }
+            if widest < NEAR && look.is_told() {
+                let placed = self.space.placed(body, &part, &look);
+                let Some(Ok(mut near)) = placed else {
+                    return self.put_turned(Turned::Part);
+                };
+                let given = near.clone();
+                let is_clear = self.space.narrow(&mut near).is_err()
+                    || self.space.zero_of(&near).is_some()
+                    || is_known(&self.blocks[b].square, &ranges(&near));
+                if is_clear {
+                    self.put_turned(Turned::Part);
+                    return stack.push(Open::Part(given, b, true));
+                }
+            }
+            let kept: f64 = turn
+                .ranges()
+                .iter()
+                .zip(&left)
+                .map(|(_, u)| 0.5 * u.wid())
+                .product();
+            if kept < 0.3
+                && let Some(narrowed) = turn.within(&left)
+            {
+                self.put_turned(Turned::Narrowed);
+                turn = narrowed;
+                continue;
+            }
+            if !look.is_told()
+                && widest < FINE
+                && let Some(higher) = self.space.with_height(body, &turn, look.untold)
+            {
+                self.put_turned(Turned::Height(look.untold));
+                turn = higher;
+                continue;
+            }
+            // The coordinate of the place beside its size at the most.
+            let size = |i: usize| if i == 3 { self.space.reach(body) } else { 1.0 };
+            let sizes: Vec<f64> = widths.enumerate().map(|(i, x)| x / size(i)).collect();
+            let i = (0..sizes.len()).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j]));
+            let halves = i.and_then(|i| Some((i, turn.halved(i)?)));
+            let Some((i, [low, high])) = halves else {
+                return self.leave_turned();
+            };
+            self.put_turned(Turned::Halves(i));
+            let halves = [high, low].map(|turn| Open::Turn(Rc::clone(&part), b, turn));
+            stack.extend(halves);
+            return;
+        }
+    }
+
+    fn put_turned(&mut self, mark: Turned) {
+        mark.put(&mut self.cover.marks);
+    }
+
+    fn leave_turned(&mut self) {
+        self.left += 1;
+        self.put_turned(Turned::Undecided);
     }
 
     /// Lists the zero in a part as an image of a solution, if it is one.

@@ -20,6 +20,7 @@ mod contract;
 mod cover;
 mod kept;
 mod newton;
+mod poses;
 mod search;
 mod symmetry;
 mod system;
@@ -31,7 +32,7 @@ use super::store::{Keep, Store};
 use super::targets::Targets;
 use super::{Complete, Options, Part, Status, Unserved, Why, emptiness};
 use crate::blocks::{Block as Cut, Blocks};
-use crate::certificate::cover::coordinates::Half;
+use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -39,6 +40,7 @@ use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
 use contract::{contract, entire, upper_half};
 use kept::Kept;
+use poses::Poses;
 pub(super) use search::leave;
 use search::{Block, Found, Run, ranges};
 use std::collections::{BTreeSet, HashMap};
@@ -146,7 +148,8 @@ fn searched(
         Some((keep, store)) => Some(Kept::new(store, keep, (problem, &x), run.stop)?),
         None => None,
     };
-    let mut figures = Figures::new((homotopy, signs), &system, run, kept.as_ref());
+    let mut figures = Figures::new(problem, (homotopy, signs), &system, run, kept.as_ref());
+
     if space.is_ok() {
         figures.go(0, &mut Vec::new(), &x, 1.0);
     }
@@ -207,9 +210,12 @@ fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
 
 /// The figures, block by block.
 struct Figures<'a> {
+    problem: &'a Problem,
     homotopy: &'a Homotopy,
     /// The unknowns whose sign figures have from the sketch, and whether it is negative.
     signs: Vec<(usize, bool)>,
+    /// For each block the body on legs that it is, if it was searched over how that is turned.
+    bodies: Vec<Option<Body>>,
     system: &'a System,
     run: &'a Watched<'a>,
     /// Where pieces of the search are kept.
@@ -227,6 +233,7 @@ struct Figures<'a> {
 
 impl<'a> Figures<'a> {
     fn new(
+        problem: &'a Problem,
         (homotopy, signs): (&'a Homotopy, Vec<(usize, bool)>),
         system: &'a System,
         run: &'a Watched<'a>,
@@ -255,8 +262,10 @@ impl<'a> Figures<'a> {
             ancestors.push(all);
         }
         Figures {
+            problem,
             homotopy,
             signs,
+            bodies: vec![None; blocks.len()],
             system,
             run,
             kept,
@@ -356,7 +365,15 @@ impl<'a> Figures<'a> {
                     kept: self.kept,
                     is_whole,
                 };
-                let mut found = self.block(b).search(x.to_vec(), &run);
+                let block = self.block(b);
+                let poses = Poses::of(self.problem, self.homotopy, &self.blocks[b], x);
+                let mut found = match poses {
+                    Some(poses) => {
+                        self.bodies[b] = Some(poses.body.clone());
+                        poses.search(&block, x, &run)
+                    }
+                    None => block.search(x.to_vec(), &run),
+                };
                 if is_whole {
                     found.pieces.fill(None);
                 }
@@ -441,6 +458,7 @@ impl<'a> Figures<'a> {
             others: self.others.clone(),
             halves,
             blocks: &self.blocks,
+            bodies: self.bodies.clone(),
             searched: (0..self.blocks.len()).map(|b| self.block(b)).collect(),
             boxes: self.run.boxes.load(Ordering::Relaxed),
         };

@@ -6,6 +6,7 @@ use crate::complete::krawczyk::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// A block: as many equations as unknowns, all other entries being known.
 #[derive(Debug)]
@@ -308,6 +309,13 @@ impl Zero {
     pub fn range(&self, k: usize) -> Interval {
         let (x, r) = (self.centre[k], self.radius);
         hull((x - r).next_down(), (x + r).next_up())
+    }
+
+    /// An order that does not depend on who found them: by their middles, unknown by unknown.
+    pub fn order(&self, other: &Zero) -> Ordering {
+        let pairs = self.centre.iter().zip(&other.centre);
+        let mut order = pairs.map(|(x, y)| x.total_cmp(y));
+        order.find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
     }
 
     /// The greatest difference of the middles.

@@ -57,7 +57,7 @@ pub const COARSE: f64 = 1e-3;
 /// How many that are.
 pub const MANY: usize = 300;
 /// Where that many are undecided a piece is given up.
-const TOO_MANY: usize = 5000;
+pub const TOO_MANY: usize = 5000;
 /// An unknown that may be as large as this, and more, is not looked at any further.
 const HUGE: f64 = (1u64 << 40) as f64;
 
@@ -66,8 +66,9 @@ pub struct Block<'a> {
     /// The equations with the unknowns.
     pub square: Square<'a>,
     /// The equations, and what follows from them.
-    rows: Vec<&'a Row>,
-    is_free: Vec<bool>,
+    pub rows: Vec<&'a Row>,
+    /// For each entry whether it is an unknown of the block.
+    pub is_free: Vec<bool>,
 }
 
 /// A part of the space, with its share.
@@ -292,7 +293,8 @@ impl Found {
     }
 }
 
-fn add(zeros: &mut Vec<Zero>, zero: Zero) {
+/// Adds a zero that is new.
+pub fn add(zeros: &mut Vec<Zero>, zero: Zero) {
     if !zeros.iter().any(|known| known.is_same(&zero)) {
         zeros.push(zero);
     }
@@ -345,14 +347,7 @@ impl Together {
     /// In an order that does not depend on who found them. Zeros that are neither the same nor apart stay, and are told apart, or
     /// not, as figures.
     fn in_order(mut self) -> (Vec<Zero>, Vec<Option<usize>>) {
-        self.zeros.sort_by(|(a, _), (b, _)| {
-            let pairs = a.centre.iter().zip(&b.centre);
-            let order = pairs.map(|(x, y)| x.total_cmp(y));
-            order
-                .into_iter()
-                .find(|o| o.is_ne())
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
+        self.zeros.sort_by(|(a, _), (b, _)| a.order(b));
         self.zeros.into_iter().unzip()
     }
 }

@@ -20,6 +20,8 @@ pub struct CoordinateCover {
     pub halves: Vec<Half>,
     /// Equations that are taken together.
     pub blocks: Vec<Block>,
+    /// Rigid bodies on legs, whose rotations are looked at.
+    pub bodies: Vec<Body>,
     /// For each solution about where it is, unknown by unknown.
     pub figures: Vec<Vec<f64>>,
     /// Zeros of the equations that are images of these.
@@ -66,6 +68,15 @@ pub struct Block {
     pub unknowns: Vec<usize>,
 }
 
+/// A rigid body, six of whose points have distances from points that are none of its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Body {
+    /// Its number among the problem's objects.
+    pub object: usize,
+    /// The equations of the six distances.
+    pub legs: Vec<usize>,
+}
+
 /// What is said of a part, after its ranges were narrowed by the equations one by one. Parts in which nothing is left have no mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
@@ -83,6 +94,49 @@ pub enum Mark {
     Bound(usize),
     /// 7: nothing is claimed.
     Undecided,
+    /// 8: all rotations of a body are looked at, with the part's ranges for all else; marks of rotations follow, chart by chart.
+    Body(usize),
+}
+
+/// What is said of a box of rotations of a body: one byte. Boxes that no pose is in have no mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turned {
+    /// 16: the box is narrowed to what the equations leave; another mark of it follows.
+    Narrowed,
+    /// 32 and the number of the range: it is halved; both halves follow, the lower one first.
+    Halves(usize),
+    /// 48 and the number of the axis: the coordinate along it becomes one more range of the box, and another mark of it follows.
+    Height(usize),
+    /// 64: the part with the body's points where the box allows follows, with marks of parts.
+    Part,
+    /// 80: nothing is claimed.
+    Undecided,
+}
+
+impl Turned {
+    /// Appends the mark.
+    pub fn put(self, out: &mut Vec<u8>) {
+        out.push(match self {
+            Turned::Narrowed => 16,
+            Turned::Halves(i) => 32 + i as u8,
+            Turned::Height(axis) => 48 + axis as u8,
+            Turned::Part => 64,
+            Turned::Undecided => 80,
+        });
+    }
+
+    /// Reads the mark at a place.
+    pub fn read(bytes: &[u8], at: usize) -> Option<Turned> {
+        let byte = *bytes.get(at)?;
+        Some(match byte {
+            16 => Turned::Narrowed,
+            32..36 => Turned::Halves(usize::from(byte) - 32),
+            48..51 => Turned::Height(usize::from(byte) - 48),
+            64 => Turned::Part,
+            80 => Turned::Undecided,
+            _ => return None,
+        })
+    }
 }
 
 fn list(numbers: &[usize]) -> String {
@@ -137,6 +191,9 @@ impl CoordinateCover {
             let (equations, unknowns) = (list(&block.equations), list(&block.unknowns));
             let _ = writeln!(out, "block{equations} unknowns{unknowns}");
         }
+        for body in &self.bodies {
+            let _ = writeln!(out, "body {} legs{}", body.object, list(&body.legs));
+        }
         for figure in &self.figures {
             let _ = writeln!(out, "figure{}", floats(figure));
         }
@@ -175,6 +232,13 @@ impl CoordinateCover {
                     equations: until(&mut words, Some("unknowns"))?,
                     unknowns: until(&mut words, None)?,
                 }),
+                "body" => cover.bodies.push(Body {
+                    object: number(words.next())?,
+                    legs: match words.next() {
+                        Some("legs") => until(&mut words, None)?,
+                        _ => return Err(error("the legs of a body")),
+                    },
+                }),
                 "figure" => cover
                     .figures
                     .push(words.map(float).collect::<Result<_, _>>()?),
@@ -206,6 +270,7 @@ impl Mark {
             Mark::Image(k) => (5, k),
             Mark::Bound(k) => (6, k),
             Mark::Undecided => return out.push(7),
+            Mark::Body(k) => (8, k),
         };
         out.push(tag);
         out.extend((number as u16).to_le_bytes());
@@ -226,6 +291,7 @@ impl Mark {
             4 => Mark::Other(number),
             5 => Mark::Image(number),
             6 => Mark::Bound(number),
+            8 => Mark::Body(number),
             _ => return None,
         };
         Some((mark, at + 3))

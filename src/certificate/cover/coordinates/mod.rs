@@ -9,9 +9,11 @@ mod bounds;
 mod format;
 mod space;
 mod symmetry;
+mod turns;
 
-pub use format::{Block, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark};
+pub use format::{Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark, Turned};
 pub use space::{Empty, Part};
+pub use turns::{Look, Turn};
 
 use super::{CoverError, CoverVerdict};
 use crate::certificate::checker::equations::Equations;
@@ -21,6 +23,7 @@ use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use space::Rows;
+use std::rc::Rc;
 
 /// What a cover is about, with all that it says but its marks proved.
 pub struct Space {
@@ -31,6 +34,7 @@ pub struct Space {
     rows: Rows,
     not_negative: Vec<usize>,
     blocks: Vec<Block>,
+    bodies: Vec<turns::Body>,
     figures: Vec<Place>,
     images: Vec<Seen>,
     others: Vec<Place>,
@@ -68,7 +72,10 @@ impl Space {
                 return Err("a block has not as many equations as unknowns".to_owned());
             }
         }
+        let bodies = cover.bodies.iter();
+        let bodies = bodies.map(|body| turns::Body::new(problem, &eq, body));
         let mut space = Space {
+            bodies: bodies.collect::<Result<_, _>>()?,
             allowed,
             signs,
             rows: Rows::new(&eq),
@@ -182,6 +189,33 @@ impl Space {
         self.narrow(part)
     }
 
+    /// Whether it is known in a part about where a body's legs stand, so that its rotations can be looked at.
+    pub fn stands(&self, body: usize, part: &Part) -> bool {
+        let body = self.bodies.get(body);
+        body.is_some_and(|body| body.stands(&self.eq, part))
+    }
+
+    /// What a body's legs say of a box of rotations for the figures in a part. `None`: there is none.
+    pub fn look(&self, body: usize, part: &Part, turn: &Turn) -> Option<Look> {
+        self.bodies[body].look(&self.eq, part, turn)
+    }
+
+    /// The part with a body's points where a box of rotations allows, narrowed by the equations one by one, if that tells where
+    /// they are.
+    pub fn placed(&self, body: usize, part: &Part, look: &Look) -> Option<Result<Part, Empty>> {
+        self.bodies[body].placed(&self.eq, part, look)
+    }
+
+    /// How large a coordinate of a body's place may be.
+    pub fn reach(&self, body: usize) -> f64 {
+        self.bodies[body].reach().sup()
+    }
+
+    /// The box of rotations with a coordinate of a body's place as one more range.
+    pub fn with_height(&self, body: usize, turn: &Turn, axis: usize) -> Option<Turn> {
+        turn.with_height(axis, self.bodies[body].reach())
+    }
+
     /// The solution that a change of signs takes the zero in a part to, if it is one.
     pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
         let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), by)?;
@@ -246,25 +280,65 @@ pub fn verify(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
     Ok(verdict)
 }
 
+/// What is still to be looked at.
+enum Open {
+    /// A part of the space.
+    Part(Part),
+    /// A box of rotations of a body, for the figures in a part.
+    Turn(Rc<Part>, usize, Turn),
+}
+
+/// The check of the marks, one after the other.
+struct Check<'a> {
+    cover: &'a CoordinateCover,
+    space: Space,
+    /// Where the next mark is.
+    at: usize,
+    stack: Vec<Open>,
+}
+
 fn check(cover: &CoordinateCover, verdict: &mut CoverVerdict) -> Result<(), String> {
     let space = Space::new(&verdict.problem, cover)?;
-    let mut at = 0;
-    let mut stack = vec![space.whole()];
-    while let Some(mut part) = stack.pop() {
+    let stack = vec![Open::Part(space.whole())];
+    let mut check = Check {
+        cover,
+        space,
+        at: 0,
+        stack,
+    };
+    while let Some(open) = check.stack.pop() {
         verdict.parts += 1;
-        let number = verdict.parts;
+        let undecided = match open {
+            Open::Part(part) => check.part(part),
+            Open::Turn(part, body, turn) => check.turn(part, body, turn),
+        };
+        let undecided = undecided.map_err(|flaw| format!("part {}: {flaw}", verdict.parts))?;
+        verdict.undecided += u64::from(undecided);
+    }
+    match check.at == cover.marks.len() {
+        true => Ok(()),
+        false => Err("there are more marks than parts".to_owned()),
+    }
+}
+
+const DAMAGED: &str = "the marks end, or are damaged";
+const UNPROVED: &str = "what its mark says is not proved";
+
+impl Check<'_> {
+    /// A part of the space: whether it stays undecided.
+    fn part(&mut self, mut part: Part) -> Result<bool, &'static str> {
+        let space = &self.space;
         let mut left = space.narrow(&mut part);
         while left.is_ok() {
-            let (mark, next) = Mark::read(&cover.marks, at)
-                .ok_or_else(|| format!("part {number}: the marks end, or are damaged"))?;
-            at = next;
+            let (mark, next) = Mark::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;
+            self.at = next;
             let proved = match mark {
-                Mark::Block(k) if k < cover.blocks.len() => {
+                Mark::Block(k) if k < self.cover.blocks.len() => {
                     left = space.narrow_together(k, &mut part);
                     continue;
                 }
                 Mark::Halves(unknown) => part.halved(unknown).is_some_and(|[low, high]| {
-                    stack.extend([high, low]);
+                    self.stack.extend([high, low].map(Open::Part));
                     true
                 }),
                 Mark::Figure(k) => space.holds(space.figures.get(k), &part),
@@ -273,24 +347,55 @@ fn check(cover: &CoordinateCover, verdict: &mut CoverVerdict) -> Result<(), Stri
                     seen.is_some_and(|seen| space.shows(seen, &part))
                 }
                 Mark::Other(k) => space.holds(space.others.get(k), &part),
-                Mark::Undecided => {
-                    verdict.undecided += 1;
-                    true
-                }
-                Mark::Bound(k) if k < cover.blocks.len() => {
+                Mark::Undecided => return Ok(true),
+                Mark::Bound(k) if k < self.cover.blocks.len() => {
                     left = space.bound(k, &mut part);
                     continue;
                 }
-                Mark::Block(_) | Mark::Bound(_) => false,
+                Mark::Body(k) if space.stands(k, &part) => {
+                    let part = Rc::new(part);
+                    let charts = Turn::all().into_iter().rev();
+                    let charts = charts.map(|turn| Open::Turn(Rc::clone(&part), k, turn));
+                    self.stack.extend(charts);
+                    true
+                }
+                Mark::Block(_) | Mark::Bound(_) | Mark::Body(_) => false,
             };
-            if !proved {
-                return Err(format!("part {number}: what its mark says is not proved"));
-            }
-            break;
+            return if proved { Ok(false) } else { Err(UNPROVED) };
         }
+        Ok(false)
     }
-    match at == cover.marks.len() {
-        true => Ok(()),
-        false => Err("there are more marks than parts".to_owned()),
+
+    /// A box of rotations: whether it stays undecided.
+    fn turn(&mut self, part: Rc<Part>, body: usize, mut turn: Turn) -> Result<bool, &'static str> {
+        let space = &self.space;
+        while let Some(look) = space.look(body, &part, &turn) {
+            let Some(left) = look.contracted() else {
+                break;
+            };
+            let mark = Turned::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;
+            self.at += 1;
+            match mark {
+                Turned::Narrowed => turn = turn.within(&left).ok_or(UNPROVED)?,
+                Turned::Height(axis) => {
+                    turn = space.with_height(body, &turn, axis).ok_or(UNPROVED)?;
+                }
+                Turned::Halves(i) => {
+                    let [low, high] = turn.halved(i).ok_or(UNPROVED)?;
+                    let halves = [high, low];
+                    let halves = halves.map(|turn| Open::Turn(Rc::clone(&part), body, turn));
+                    self.stack.extend(halves);
+                    break;
+                }
+                Turned::Part => {
+                    if let Ok(part) = space.placed(body, &part, &look).ok_or(UNPROVED)? {
+                        self.stack.push(Open::Part(part));
+                    }
+                    break;
+                }
+                Turned::Undecided => return Ok(true),
+            }
+        }
+        Ok(false)
     }
 }

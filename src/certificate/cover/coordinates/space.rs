@@ -101,7 +101,7 @@ impl Part {
     }
 
     /// Narrows one range to what it has in common with another one.
-    fn narrow(&mut self, i: usize, to: Interval) -> Result<(), Empty> {
+    pub fn narrow(&mut self, i: usize, to: Interval) -> Result<(), Empty> {
         let old = self.x[i];
         let new = old.intersection(to);
         if new.is_empty() {

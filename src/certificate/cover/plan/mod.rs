@@ -10,12 +10,12 @@ mod model;
 mod pairs;
 
 pub use format::{Cover, Kind, MAX_SYMBOLS, Mark, Radius};
+pub use model::Model;
 
 use super::{CoverError, CoverVerdict};
 use crate::interval::{Interval, hull, point};
 use figure::Figure;
 use geometry::{Node, Place, Plan, dot, minus};
-use model::Model;
 
 /// Checks a cover.
 pub fn verify(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
@@ -340,7 +340,7 @@ fn with(node: &Node, ranges: &[[f64; 2]; MAX_SYMBOLS]) -> Node {
 
 /// What the equations leave of the symbols' ranges, or nothing: each equation solved for each symbol, then each of the
 /// combinations that Gauss–Jordan elimination makes.
-fn contracted(symbols: usize, equations: &[Model]) -> Option<[Interval; MAX_SYMBOLS]> {
+pub fn contracted(symbols: usize, equations: &[Model]) -> Option<[Interval; MAX_SYMBOLS]> {
     let mut u = [hull(-1.0, 1.0); MAX_SYMBOLS];
     for equation in equations {
         solve(equation, symbols, &mut u)?;

@@ -65,6 +65,27 @@ impl Model {
         ((self.c[0] - point(from)).abs() + linear + quadratic + self.rest.abs()).sup()
     }
 
+    /// The middle of its constant: a guide, no bound.
+    pub fn at_middle(&self) -> f64 {
+        self.c[0].mid()
+    }
+
+    /// The polynomial without the rest.
+    pub fn polynomial(&self) -> Model {
+        Model {
+            rest: ZERO,
+            ..*self
+        }
+    }
+
+    /// All functions that differ by no more than a range from one that is enclosed.
+    pub fn widened(&self, by: Interval) -> Model {
+        Model {
+            rest: self.rest + by,
+            ..*self
+        }
+    }
+
     /// How much it may vary about its constant: a guide, no bound.
     pub fn blur(&self) -> f64 {
         let [linear, quadratic] = self.sizes();

@@ -1,0 +1,361 @@
+//! All places of a rigid body on legs to points that stand, by a search over how the body is turned.
+//!
+//! Legs are distances from points of the body to points that are known (a platform of a parallel robot: Stewart and Gough). A
+//! search over all coordinates knows three of the body's points by nine numbers; how the body is turned is told by three, and with
+//! that known, where it is follows from linear equations ([`legs`]). So the parts of this search are boxes of
+//! rotations ([`part`]), with Taylor models of the second order over them, rounded outwards.
+//!
+//! # Why nothing is missed
+//!
+//! Let X be a figure. Its body is turned by some rotation, and stands at some place; that rotation is in a part at every level of the
+//! search, as the charts hold all rotations and halves share their border. A part is given up only where the models prove that none of
+//! its rotations leaves a place that all legs allow, or where every figure whose rotation is in it lies where a zero of the block's
+//! equations that is proved is alone: its points are enclosed by the models, and its other unknowns by the equations
+//! ([`contract`]). Nothing is claimed of zeros of the block's equations that are no figures.
+
+mod legs;
+mod part;
+
+use super::contract::contract;
+use super::newton::Zero;
+use super::search::{Block, COARSE, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
+use crate::blocks::Block as Cut;
+use crate::certificate::cover::coordinates::Body;
+use crate::complete::Why;
+use crate::complete::model::{Model, Number};
+use crate::interval::{Interval, ZERO, enclose, point};
+use crate::problem::{Problem, Shape};
+use crate::system::Homotopy;
+use legs::{Leg, Legs, Look};
+use part::Part;
+use rayon::prelude::*;
+use std::sync::atomic::Ordering;
+
+/// The legs that a body stands on: as many as it has freedoms.
+const LEGS: usize = 6;
+/// Parts that are searched each by itself.
+const PIECES: usize = 256;
+/// Parts that are looked at, one after the other, to make the pieces.
+const LOOKED: u64 = 2000;
+/// Figures are sought where no number that tells the rotation varies by more than this from its middle.
+const NEAR: f64 = 0.03;
+/// And surely where it varies by no more than this.
+const NEARER: f64 = 1e-3;
+
+/// A block of a rigid body on legs.
+#[derive(Debug)]
+pub struct Poses {
+    /// The body, and the equations of its legs.
+    pub body: Body,
+    /// Where the first leg stands.
+    foot: [Interval; 3],
+    legs: Legs,
+    /// The body's points whose coordinates are unknowns of the block: where each is from the first leg's point, in the
+    /// body's own coordinates, and its unknowns.
+    points: Vec<([Number; 3], [usize; 3])>,
+}
+
+impl Poses {
+    /// The body on legs that a block is, if it is one. `x`: what is known of the unknowns.
+    pub fn of(problem: &Problem, homotopy: &Homotopy, block: &Cut, x: &[Interval]) -> Option<Self> {
+        if homotopy.dimension != 3 {
+            return None;
+        }
+        let is_own = |u: usize| block.unknowns.contains(&u);
+        let unknowns = |p: usize| -> Option<[usize; 3]> {
+            let all = [0, 1, 2].map(|axis| homotopy.coordinate(p, axis).filter(|&u| is_own(u)));
+            let [Some(a), Some(b), Some(c)] = all else {
+                return None;
+            };
+            Some([a, b, c])
+        };
+        // Where a point stands that the block does not move.
+        let place = |p: usize| -> Option<[Interval; 3]> {
+            let mut at = [ZERO; 3];
+            for (axis, at) in at.iter_mut().enumerate() {
+                if let Some(u) = homotopy.coordinate(p, axis) {
+                    if is_own(u) || !x[u].is_common_interval() {
+                        return None;
+                    }
+                    *at = x[u];
+                }
+            }
+            Some(at)
+        };
+        let per_unit = point(1.0 / homotopy.unit);
+        let edges: Vec<_> = homotopy.half_squares().collect();
+        problem
+            .objects
+            .iter()
+            .enumerate()
+            .find_map(|(number, object)| {
+                let Shape::Body { points, local } = &object.shape else {
+                    return None;
+                };
+                let index = |p: usize| points.iter().position(|&q| q == p);
+                let mut found = Vec::new();
+                for &e in &block.equations {
+                    let Some(edge) = edges.get(e) else { continue };
+                    let [a, b] = edge.points;
+                    let (inner, outer) = match (index(a), index(b)) {
+                        (Some(k), None) => (k, b),
+                        (None, Some(k)) => (k, a),
+                        _ => continue,
+                    };
+                    let (Some(_), Some(foot)) = (unknowns(points[inner]), place(outer)) else {
+                        continue;
+                    };
+                    // The equation is ½|p − q|² = right.
+                    let square = homotopy.rights[e].at_target() * point(2.0);
+                    found.push((e, inner, foot, square));
+                }
+                if found.len() != LEGS {
+                    return None;
+                }
+                let (_, first, foot, first_square) = found[0];
+                // From the first leg's point, in the body's coordinates.
+                let from = |k: usize| -> [Interval; 3] {
+                    std::array::from_fn(|axis| {
+                        let at = |k: usize| enclose(&local[k][axis]);
+                        match k == first {
+                            true => ZERO,
+                            false => (at(k) - at(first)) * per_unit,
+                        }
+                    })
+                };
+                let leg = |&(_, k, at, square): &(usize, usize, [Interval; 3], Interval)| {
+                    let stands = std::array::from_fn(|axis| at[axis] - foot[axis]);
+                    Leg::new(from(k), stands, square, first_square)
+                };
+                let free = points.iter().enumerate();
+                let free =
+                    free.filter_map(|(k, &p)| Some((from(k).map(Number::new), unknowns(p)?)));
+                Some(Poses {
+                    body: Body {
+                        object: number,
+                        legs: found.iter().map(|leg| leg.0).collect(),
+                    },
+                    foot,
+                    legs: Legs::new(found[1..].iter().map(leg), first_square)?,
+                    points: free.collect(),
+                })
+            })
+    }
+
+    /// Searches all rotations.
+    pub fn search(&self, block: &Block, x: &[Interval], run: &Run) -> Found {
+        let new = || Piece {
+            poses: self,
+            block,
+            x,
+            run,
+            found: Found::default(),
+            left: 0,
+            is_flexible: false,
+        };
+        let mut first = new();
+        let mut parts: Vec<Part> = Part::all();
+        // Breadth first until there are enough pieces.
+        while !parts.is_empty() && parts.len() < PIECES && first.found.boxes < LOOKED {
+            let mut next = Vec::new();
+            for part in parts {
+                first.visit(part, &mut next);
+            }
+            parts = next;
+        }
+        let pieces: Vec<Found> = parts
+            .into_par_iter()
+            .map(|part| {
+                let mut piece = new();
+                let mut stack = vec![part];
+                while let Some(part) = stack.pop() {
+                    piece.visit(part, &mut stack);
+                }
+                piece.found
+            })
+            .collect();
+        let mut whole = first.found;
+        for piece in pieces {
+            for zero in piece.zeros {
+                add(&mut whole.zeros, zero);
+            }
+            for part in piece.undecided {
+                leave(&mut whole.undecided, part.why, part.count, part.share);
+            }
+            whole.boxes += piece.boxes;
+            whole.is_broken_off |= piece.is_broken_off;
+        }
+        whole.zeros.sort_by(Zero::order);
+        whole.pieces = vec![None; whole.zeros.len()];
+        whole
+    }
+
+    /// The ranges of all unknowns of the block for figures whose rotation is in a part: `None` if there are none.
+    fn ranges<const S: usize, const M: usize>(
+        &self,
+        block: &Block,
+        x: &[Interval],
+        look: &Look<S, M>,
+    ) -> Option<Vec<Interval>> {
+        let mut x = x.to_vec();
+        let size = look.square.range();
+        let over = look.square.reciprocal(size);
+        let turned = look
+            .turned
+            .each_ref()
+            .map(|row| row.each_ref().map(|entry| entry.times(&over)));
+        for (from, unknowns) in &self.points {
+            for axis in 0..3 {
+                let mut at = look.place[axis].shifted(Number::new(self.foot[axis]));
+                for k in 0..3 {
+                    at = at.plus(&turned[axis][k].by(from[k]));
+                }
+                let range = at.range();
+                if !(range.lo.is_finite() && range.hi.is_finite()) {
+                    continue;
+                }
+                let u = unknowns[axis];
+                x[u] = x[u].intersection(crate::interval::hull(range.lo, range.hi));
+                if x[u].is_empty() {
+                    return None;
+                }
+            }
+        }
+        contract(&block.rows, &block.is_free, &mut x).ok()?;
+        Some(x)
+    }
+}
+
+/// A part of the search that goes on by itself.
+struct Piece<'s, 'a> {
+    poses: &'s Poses,
+    block: &'s Block<'a>,
+    /// What is known of all unknowns.
+    x: &'s [Interval],
+    run: &'s Run<'s>,
+    found: Found,
+    left: usize,
+    is_flexible: bool,
+}
+
+impl Piece<'_, '_> {
+    fn leave(&mut self, why: Why, share: f64) {
+        self.left += 1;
+        if why != Why::Unfinished {
+            self.done(share);
+        }
+        leave(&mut self.found.undecided, why, 1, share);
+    }
+
+    /// Notes that a part is not looked at any more.
+    fn done(&self, share: f64) {
+        self.run.watched.add_done(self.run.weight * share);
+    }
+
+    /// Looks at a part: it is given up, decided, left undecided, or its halves come to the others.
+    fn visit(&mut self, part: Part, others: &mut Vec<Part>) {
+        match part.height {
+            None => self.look::<3, 10, 3>(part, others),
+            Some(_) => self.look::<4, 15, 2>(part, others),
+        }
+    }
+
+    /// The same, with S symbols, where linear equations tell K coordinates of the body's place.
+    fn look<const S: usize, const M: usize, const K: usize>(
+        &mut self,
+        mut part: Part,
+        others: &mut Vec<Part>,
+    ) {
+        let watched = self.run.watched;
+        loop {
+            self.found.boxes += 1;
+            if watched.stop.load(Ordering::Relaxed)
+                || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
+            {
+                self.found.is_broken_off = true;
+                return self.leave(Why::Unfinished, part.share);
+            }
+            if self.left > TOO_MANY {
+                return self.leave(Why::GivenUp, part.share);
+            }
+            let Some(look) = self.poses.legs.look::<S, M, K>(&part) else {
+                return self.done(part.share);
+            };
+            let before = part.widest();
+            if look.equations.is_empty() {
+                return self.halve(part, &look.moves, look.untold, others);
+            }
+            let Some(volume) = part.contract(&look.equations) else {
+                return self.done(part.share);
+            };
+            let is_near = before < NEAR && (volume < 0.1 || before < NEARER);
+            let mut why = Why::Small;
+            if is_near {
+                let Some(x) = self.poses.ranges(self.block, self.x, &look) else {
+                    return self.done(part.share);
+                };
+                if self.is_known(&x) {
+                    return self.done(part.share);
+                }
+                if before < SMALL && (self.is_flexible || self.block.square.seems_flexible(&x)) {
+                    why = Why::Flexible;
+                    self.is_flexible = true;
+                }
+            }
+            let least = match self.left > MANY || self.is_flexible {
+                true => COARSE,
+                false => SMALL,
+            };
+            if part.widest() < least {
+                return self.leave(why, part.share);
+            }
+            // Worth another look where a good part of it is gone.
+            if volume > 0.3 {
+                return self.halve(part, &look.moves, None, others);
+            }
+        }
+    }
+
+    /// Whether a zero is the only one that a box may hold: one that is known, or one that is proved now.
+    fn is_known(&mut self, x: &[Interval]) -> bool {
+        let square = &self.block.square;
+        if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
+            return true;
+        }
+        let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
+        if !is_bounded {
+            return false;
+        }
+        let Some(zero) = square.prove(x) else {
+            return false;
+        };
+        let is_it = square.is_alone(&zero, x);
+        add(&mut self.found.zeros, zero);
+        is_it
+    }
+
+    /// The halves of a part come to the others; or, where linear equations do not tell the body's place however small the part is,
+    /// the part with the coordinate that they do not tell.
+    fn halve<const S: usize>(
+        &mut self,
+        part: Part,
+        moves: &[f64; S],
+        untold: Option<usize>,
+        others: &mut Vec<Part>,
+    ) {
+        if let Some(axis) = untold
+            && part.is_small()
+        {
+            return others.push(part.with_height(axis, self.poses.legs.reach));
+        }
+        match part.halves(moves) {
+            Some(halves) => others.extend(halves),
+            None => self.leave(Why::Small, part.share),
+        }
+    }
+}
+
+/// A model of S symbols that is a number.
+fn number<const S: usize, const M: usize>(x: Number) -> Model<S, M> {
+    Model::constant(x)
+}
