@@ -280,7 +280,6 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         && self.is_at_crossing()
                         && self.cross(options, control)
                     {
-                        self.show_tube(control, self.ledger.solutions_so_far(), false);
                         steps_ahead = StepControl::new(&self.equations);
                         limit = max_h;
                     }
