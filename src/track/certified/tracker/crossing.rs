@@ -195,7 +195,6 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     }
 
     /// Tells how many solutions are known before the last tube, that in these equations again.
-
     fn try_to_cross(
         &mut self,
         crossing: &mut Crossing,
