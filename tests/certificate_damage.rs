@@ -7,6 +7,7 @@ use common::certificate::{Certificate, shipped};
 use common::mixed::Spec;
 use dice::Dice;
 use krawl::certificate::{Outcome, Record, Settings, TubeClaim, verify};
+use krawl::problem::Problem;
 use krawl::track::{Options, Status};
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use std::collections::{BTreeMap, BTreeSet};
@@ -414,6 +415,17 @@ fn damaged_certificates_of_mixed_kinds_are_refused() {
         }
     }
     assert!(2 * sum.0 > sum.1, "{sum:?}");
+}
+
+/// A path that passes degenerate (flat) figures: tubes and solutions of two systems of equations.
+#[test]
+fn damaged_certificates_through_flat_figures_are_refused() {
+    let problem = Problem::read("problems/constraints/hexahedron.toml").unwrap();
+    let (_, bytes) = common::certificate::of(&problem, &Options::certified());
+    let good = Certificate::read(&bytes);
+    let (refuted, of) = damage_in("hexahedron", &good, 2, FALSE, false);
+    assert!(2 * refuted > of, "{refuted} of {of}");
+    damage_in("hexahedron", &good, 1, HARMLESS, true);
 }
 
 #[test]

@@ -44,6 +44,10 @@ pub const TAG_FOLD: u8 = 7;
 pub const TAG_EXTENDED: u8 = 8;
 /// See [`TAG_TUBE`].
 pub const TAG_ARC_OF_DIMENSIONS: u8 = 9;
+/// See [`TAG_TUBE`].
+pub const TAG_DIVIDE: u8 = 10;
+/// See [`TAG_TUBE`].
+pub const TAG_RETURN: u8 = 11;
 
 /// What stands before the chain of tubes.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +71,10 @@ pub enum Record {
     Solution(SolutionClaim),
     /// What follows are tubes the other way from the sketch.
     Turn,
+    /// What follows are tubes of the path in the equations with heights divided by 1 − t, and solutions in their unknowns.
+    Divide,
+    /// What follows are tubes in the problem's own equations again.
+    Return,
     /// An edit: what follows are tubes from the figure at hand, t rising from 0.
     Arc(ArcClaim),
     /// The arc ends with t = 1, in this box, which is then the figure at hand.

@@ -3,11 +3,13 @@
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAGIC, MAX_DECIMAL,
     MAX_FREE_COORDINATES, MAX_LISTED, MAX_NUMBER, MAX_PROBLEM, MAX_SOLUTIONS, MAX_TEXT,
-    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_END,
-    TAG_EXTENDED, TAG_FOLD, TAG_REACHED, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION,
+    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END,
+    TAG_EXTENDED, TAG_FOLD, TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim,
+    VERSION,
 };
 use crate::constraint;
 use crate::problem::{Decimal, Problem};
+use crate::system::Heights;
 use sha2::{Digest, Sha256};
 use std::io::{ErrorKind, Read};
 
@@ -21,8 +23,10 @@ use std::io::{ErrorKind, Read};
 pub struct Reader<R> {
     input: R,
     header: Header,
-    /// The number m of unknowns without t.
+    /// The number m of unknowns without t, of the equations that the next tube is about.
     unknowns: usize,
+    /// The same of the other equations, given or divided, once there were tubes of those.
+    others: Option<usize>,
     tubes: u64,
     solutions: usize,
     stage: Stage,
@@ -33,10 +37,10 @@ pub struct Reader<R> {
 enum Stage {
     /// The first record.
     Begun,
-    /// Tubes and solutions of a path; after the turn if so.
-    Path { turned: bool },
-    /// The first tube behind the turn.
-    Turned,
+    /// Tubes and solutions of a path; after the turn if so, and with heights divided by 1 − t if so.
+    Path { turned: bool, divided: bool },
+    /// The first tube behind the turn, or of other equations.
+    Changed { turned: bool, divided: bool },
     /// The first tube of an arc.
     Arc,
     /// Tubes of an arc, or its end.
@@ -93,6 +97,7 @@ impl<R: Read> Reader<R> {
                 unit_exponent,
             },
             unknowns,
+            others: None,
             tubes: 0,
             solutions: 0,
             stage: Stage::Begun,
@@ -110,19 +115,22 @@ impl<R: Read> Reader<R> {
             return Ok(None);
         }
         let [tag] = array(&mut self.input, "the chain of tubes")?;
-        let path = Stage::Path { turned: false };
+        let path = |turned, divided| Stage::Path { turned, divided };
+        let changed = |turned, divided| Stage::Changed { turned, divided };
         self.stage = match (tag, self.stage) {
-            (TAG_TUBE | TAG_EXTENDED, Stage::Begun) => path,
-            (TAG_TUBE | TAG_EXTENDED, Stage::Turned) => Stage::Path { turned: true },
+            (TAG_TUBE | TAG_EXTENDED, Stage::Begun) => path(false, false),
+            (TAG_TUBE | TAG_EXTENDED, Stage::Changed { turned, divided }) => path(turned, divided),
             (TAG_TUBE | TAG_EXTENDED, Stage::Arc) => Stage::Along,
             (TAG_TUBE | TAG_EXTENDED, stage @ (Stage::Path { .. } | Stage::Along)) => stage,
             (TAG_SOLUTION, stage @ Stage::Path { .. }) => stage,
-            (TAG_TURN, stage) if stage == path => Stage::Turned,
+            (TAG_TURN, stage) if stage == path(false, false) => changed(true, false),
+            (TAG_DIVIDE, Stage::Path { turned, divided }) if !divided => changed(turned, true),
+            (TAG_RETURN, Stage::Path { turned, divided }) if divided => changed(turned, false),
             (TAG_ARC | TAG_ARC_OF_DIMENSIONS, Stage::Begun | Stage::Reached) => Stage::Arc,
             (TAG_REACHED, Stage::Along) => Stage::Reached,
             (TAG_FOLD, Stage::Along) => Stage::Fold,
             (TAG_END, stage) => stage,
-            (1..=9, _) => {
+            (1..=TAG_RETURN, _) => {
                 return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
             }
             _ => return Err(self.fault(&format!("there is no kind {tag} of record"))),
@@ -130,6 +138,8 @@ impl<R: Read> Reader<R> {
         let record = match tag {
             TAG_SOLUTION => Record::Solution(self.solution()?),
             TAG_TURN => Record::Turn,
+            TAG_DIVIDE => self.change(Record::Divide)?,
+            TAG_RETURN => self.change(Record::Return)?,
             TAG_ARC | TAG_ARC_OF_DIMENSIONS => Record::Arc(self.arc(tag == TAG_ARC_OF_DIMENSIONS)?),
             TAG_REACHED => Record::Reached(self.figure()?),
             TAG_FOLD => Record::Fold(self.fold()?),
@@ -137,6 +147,17 @@ impl<R: Read> Reader<R> {
             _ => Record::Tube(self.tube(tag == TAG_EXTENDED)?),
         };
         Ok(Some(record))
+    }
+
+    /// What follows is about the other equations.
+    fn change(&mut self, record: Record) -> Result<Record> {
+        let divided = || Heights::size(&self.header.problem);
+        let others = self.others.or_else(divided).ok_or(malformed(
+            "its problem has no equations with heights divided by 1 − t",
+        ))?;
+        check_size(others)?;
+        self.others = Some(std::mem::replace(&mut self.unknowns, others));
+        Ok(record)
     }
 
     fn tube(&mut self, extended: bool) -> Result<TubeClaim> {
@@ -285,13 +306,14 @@ impl<R: Read> Reader<R> {
             Err(error) => return Err(error),
             Ok(()) => return Err(malformed("something stands behind its end")),
         }
+        let divided = false;
+        let path = |turned| self.stage == Stage::Path { turned, divided };
         let fits = match &ending {
-            Ending::Complete => matches!(
-                self.stage,
-                Stage::Begun | Stage::Path { turned: false } | Stage::Reached | Stage::Fold
-            ),
+            Ending::Complete => {
+                path(false) || matches!(self.stage, Stage::Begun | Stage::Reached | Stage::Fold)
+            }
             Ending::Stopped(_) => true,
-            Ending::Open(_) => self.stage == Stage::Path { turned: true },
+            Ending::Open(_) => path(true),
         };
         if !fits {
             return Err(malformed("it cannot end so: its last tubes lead elsewhere"));

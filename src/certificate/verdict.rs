@@ -18,6 +18,8 @@ pub struct Verdict {
     pub tubes: u64,
     /// The boxes, each with exactly one solution: coordinates of every point in the problem's units.
     pub solutions: Vec<Vec<[Interval; 3]>>,
+    /// Which of them are degenerate (flat) figures: alone in their boxes in the equations with heights divided by 1 − t only.
+    pub degenerate: Vec<bool>,
     /// Whether the certificate is one of edits.
     pub is_edit: bool,
     /// Those whose arc was proved to its end.
@@ -74,6 +76,11 @@ pub enum Flaw {
     /// The path turns round between two tubes.
     #[error("tube {0} follows the path in the direction of tube {prev}", prev = .0 - 1)]
     Direction(u64),
+    /// Other equations follow where they may not.
+    #[error(
+        "where the path leaves tube {0} t is not 1, so that it can be followed in equations with heights divided by 1 − t, or back"
+    )]
+    Change(u64),
     /// There is nothing to travel.
     #[error("in tube {0} the path's exit lies behind its entry")]
     Backwards(u64),

@@ -3,8 +3,8 @@
 use super::checker::Trial;
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record,
-    SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED,
-    TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION, WEIGHT_UNIT,
+    SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD,
+    TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION, WEIGHT_UNIT,
 };
 use crate::problem::{Decimal, Problem, Target};
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
@@ -39,6 +39,8 @@ pub struct Writer<'a, W> {
     solutions: usize,
     /// The way back from the sketch, and how many solutions there were before.
     back: Option<(Vec<Record>, usize)>,
+    /// The piece with heights divided by 1 − t that is being followed, if so: it may come to nothing.
+    piece: Option<Vec<Record>>,
     /// The last tubes, in extended precision, and their solutions: left out where the run stops among them, near a
     /// singular place, as the checker's bounds are coarser.
     held: Vec<Record>,
@@ -50,13 +52,11 @@ pub struct Writer<'a, W> {
     arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
     edits: Option<Result<(), String>>,
-    /// Why the certificate ends before the run does, if so: nothing is written any more but the end.
-    cut: Option<String>,
     ended: bool,
     result: io::Result<()>,
-    /// What lengths are divided by, and what tells whether tubes will be proved.
+    /// What lengths are divided by, and what tells whether tubes will be proved, of the given equations and of the divided ones.
     unit: f64,
-    trial: Option<Trial>,
+    trials: [Option<Trial>; 2],
 }
 
 /// An edit that is being followed.
@@ -75,16 +75,16 @@ impl<'a, W: Write> Writer<'a, W> {
             tubes: 0,
             solutions: 0,
             back: None,
+            piece: None,
             held: Vec::new(),
             tail: VecDeque::new(),
             in_parts: false,
             arc: None,
             edits: None,
-            cut: None,
             ended: false,
             result: Ok(()),
             unit: 1.0,
-            trial: None,
+            trials: [None, None],
         }
     }
 
@@ -134,11 +134,12 @@ impl<'a, W: Write> Writer<'a, W> {
             return self.release();
         }
         let is_tube = |record: &Record| matches!(record, Record::Tube(_));
-        // The tube around the sketch stays: behind the turn, or as the first of all.
-        let is_first = match &self.back {
-            Some((records, _)) => records.len() < 2,
-            None => self.tubes == self.held.iter().filter(|r| is_tube(r)).count() as u64,
+        // The tube around the sketch stays: behind the turn, or as the first of all; and the first in the given equations again.
+        let last = match &self.back {
+            Some((records, _)) => records.last(),
+            None => self.tail.back(),
         };
+        let is_first = matches!(last, None | Some(Record::Turn | Record::Return));
         let least = usize::from(is_first);
         let told = self.held.iter().rposition(|record| !is_tube(record));
         let least = told.map_or(least, |k| k + 2);
@@ -158,7 +159,7 @@ impl<'a, W: Write> Writer<'a, W> {
             .map_or(0, |k| k + 2)
             .max(first)
             .max(records.len().saturating_sub(TAIL));
-        let trial = prepared(&mut self.trial, self.problem, self.unit);
+        let trial = prepared(&mut self.trials, self.problem, self.unit, false);
         let fails = |record: &&Record| match (record, trial) {
             (Record::Tube(tube), Some(trial)) => !trial.proves(tube),
             _ => false,
@@ -197,10 +198,16 @@ impl<'a, W: Write> Writer<'a, W> {
     }
 }
 
-/// What tells whether tubes will be proved, made when it is wanted for the first time.
-fn prepared<'t>(trial: &'t mut Option<Trial>, problem: &Problem, unit: f64) -> Option<&'t Trial> {
+/// What tells whether tubes will be proved, of the given equations or of the divided ones: made when it is wanted for the first time.
+fn prepared<'t>(
+    trials: &'t mut [Option<Trial>; 2],
+    problem: &Problem,
+    unit: f64,
+    is_divided: bool,
+) -> Option<&'t Trial> {
+    let trial = &mut trials[usize::from(is_divided)];
     if trial.is_none() {
-        *trial = Trial::new(problem, unit);
+        *trial = Trial::new(problem, unit, is_divided);
     }
     trial.as_ref()
 }
@@ -244,23 +251,12 @@ impl<W: Write> Witness for Writer<'_, W> {
         self.result = write_header(&mut self.out, program, &self.problem.to_toml(), exponent);
     }
 
-    fn interrupt(&mut self, reason: &str) {
-        if self.cut.is_none() {
-            // Half of a way back proves nothing.
-            self.end_turn(false);
-            self.release();
-            self.cut = Some(shortened(reason));
-        }
-    }
-
     fn tube(&mut self, tube: TubeSeen) {
-        if self.cut.is_some() {
-            return;
-        }
         let tube = tube_claim(&tube);
-        match &mut self.arc {
-            Some(arc) => arc.tubes.push(tube),
-            None => {
+        match (&mut self.arc, &mut self.piece) {
+            (Some(arc), _) => arc.tubes.push(tube),
+            (None, Some(piece)) => piece.push(Record::Tube(tube)),
+            (None, None) => {
                 self.tubes += 1;
                 if tube.low.is_empty() {
                     self.release();
@@ -274,15 +270,19 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn is_provable(&mut self, tube: &TubeSeen) -> bool {
         self.in_parts = true;
-        let trial = prepared(&mut self.trial, self.problem, self.unit);
+        let is_divided = self.piece.is_some();
+        let trial = prepared(&mut self.trials, self.problem, self.unit, is_divided);
         trial.is_none_or(|trial| trial.proves(&tube_claim(tube)))
     }
 
     fn solution(&mut self, centre: &[f64], radius: &[f64]) {
         // An edit's figures stand at its end.
-        if self.arc.is_none() && self.cut.is_none() {
-            self.solutions += 1;
+        if self.arc.is_none() {
             let record = Record::Solution(solution_claim(centre, radius, WIDER));
+            if let Some(piece) = &mut self.piece {
+                return piece.push(record);
+            }
+            self.solutions += 1;
             match self.held.is_empty() {
                 true => self.put(record),
                 false => self.held.push(record),
@@ -290,16 +290,33 @@ impl<W: Write> Witness for Writer<'_, W> {
         }
     }
 
-    fn turn(&mut self) {
-        if self.cut.is_some() {
+    fn divide(&mut self) {
+        self.piece = Some(Vec::new());
+    }
+
+    fn end_divide(&mut self, kept: bool) {
+        let Some(piece) = self.piece.take().filter(|_| kept) else {
             return;
+        };
+        self.release();
+        self.put(Record::Divide);
+        for record in piece {
+            match record {
+                Record::Tube(_) => self.tubes += 1,
+                _ => self.solutions += 1,
+            }
+            self.put(record);
         }
+        self.put(Record::Return);
+    }
+
+    fn turn(&mut self) {
         self.trim();
         self.back = Some((vec![Record::Turn], self.solutions));
     }
 
     fn end_turn(&mut self, kept: bool) {
-        if kept && self.cut.is_none() {
+        if kept {
             self.trim();
         } else {
             self.release();
@@ -386,7 +403,6 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn end(&mut self, status: &Status, classes: &[usize]) {
         let ending = match status {
-            _ if self.cut.is_some() => Ending::Stopped(self.cut.take().unwrap_or_default()),
             Status::Closed => Ending::Complete,
             // The tubes that were written first are those of the second end.
             Status::Open(ends) => {
@@ -450,6 +466,8 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
         }
         Record::Solution(solution) => write_figure(out, TAG_SOLUTION, solution),
         Record::Turn => out.write_all(&[TAG_TURN]),
+        Record::Divide => out.write_all(&[TAG_DIVIDE]),
+        Record::Return => out.write_all(&[TAG_RETURN]),
         Record::Arc(arc) => {
             let kinds = [TAG_ARC, TAG_ARC_OF_DIMENSIONS];
             out.write_all(&[kinds[usize::from(arc.is_general)]])?;

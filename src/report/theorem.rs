@@ -25,11 +25,14 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
             out,
             "{name}: VERIFIED.\n\
              Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, for the exact decimals in \
-             it, and S the connected component of the sketch at t = 0.\n\
-             1. From the sketch both ways the certificate's tubes hold an arc of S, regular along its whole length.\n\
-             2. The arc has exactly {} with t = 1, one in each of {}; {}.\n\
+             it, and S {}.\n\
+             1. From the sketch both ways the certificate's tubes hold an arc of S, {}.\n\
+             2. The arc has exactly {} with t = 1{}, one in each of {}; {}.\n\
              3. On it t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+            curve_in_words(verdict),
+            regular_in_words(verdict),
             counted(verdict.solutions.len(), "point"),
+            degenerate_in_words(verdict),
             counted(verdict.solutions.len(), "disjoint box"),
             classes_in_words(&verdict.problem, &verdict.classes)
         )?,
@@ -39,11 +42,14 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
                 out,
                 "{name}: VERIFIED.\n\
                  Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, \
-                 for the exact decimals in it, and S the connected component of the sketch at t = 0.\n\
-                 1. S is a closed curve, regular along its whole length.\n\
-                 2. S has exactly {} with t = 1, one in each of {}; {}.\n\
+                 for the exact decimals in it, and S {}.\n\
+                 1. S is a closed curve, {}.\n\
+                 2. S has exactly {} with t = 1{}, one in each of {}; {}.\n\
                  3. On S t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+                curve_in_words(verdict),
+                regular_in_words(verdict),
                 counted(count, "point"),
+                degenerate_in_words(verdict),
                 counted(count, "disjoint box"),
                 classes_in_words(&verdict.problem, &verdict.classes)
             )?;
@@ -66,9 +72,10 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
             out,
             "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
              Verified so far: a regular arc of the curve through the sketch, with t between {low:.6} and \
-             {high:.6}, and on it exactly {} with t = 1. Nothing is claimed of the rest of \
+             {high:.6}, and on it exactly {} with t = 1{}. Nothing is claimed of the rest of \
              the curve.",
-            counted(verdict.solutions.len(), "point")
+            counted(verdict.solutions.len(), "point"),
+            degenerate_in_words(verdict)
         )?,
         Outcome::NotProved(flaw) => writeln!(
             out,
@@ -79,7 +86,11 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
     }
     if matches!(verdict.outcome, Outcome::Verified | Outcome::Partial(_)) {
         for (k, solution) in verdict.solutions.iter().enumerate() {
-            writeln!(out, "  solution {}", k + 1)?;
+            let what = match verdict.degenerate[k] {
+                true => ", degenerate (flat)",
+                false => "",
+            };
+            writeln!(out, "  solution {}{what}", k + 1)?;
             write_figure(out, verdict, solution)?;
         }
     }
@@ -103,6 +114,43 @@ fn write_figure(out: &mut String, verdict: &Verdict, figure: &[[Interval; 3]]) -
         writeln!(out, "    {:<12} {}", point.name, place.join("  "))?;
     }
     Ok(())
+}
+
+/// How many of the solutions are degenerate.
+fn degenerate(verdict: &Verdict) -> usize {
+    verdict.degenerate.iter().filter(|&&is| is).count()
+}
+
+/// What S is.
+fn curve_in_words(verdict: &Verdict) -> &'static str {
+    match degenerate(verdict) {
+        0 => "the connected component of the sketch at t = 0",
+        _ => {
+            "the curve of solutions of these equations through the sketch at t = 0, which goes on through degenerate (flat) \
+             figures at t = 1 so that heights over 1 − t stay continuous"
+        }
+    }
+}
+
+/// Where S is regular.
+fn regular_in_words(verdict: &Verdict) -> &'static str {
+    match degenerate(verdict) {
+        0 => "regular along its whole length",
+        _ => {
+            "regular along its whole length: at degenerate figures in the equations with heights divided by 1 − t, and \
+             elsewhere in the given ones"
+        }
+    }
+}
+
+/// How many of the solutions are degenerate, if any are.
+fn degenerate_in_words(verdict: &Verdict) -> String {
+    let figures = match degenerate(verdict) {
+        0 => return String::new(),
+        1 => "1 of them a degenerate (flat) figure".to_owned(),
+        n => format!("{n} of them degenerate (flat) figures"),
+    };
+    format!(", {figures} with other flat figures that meet the constraints as near as one likes")
 }
 
 /// More edits than that are not told one by one.

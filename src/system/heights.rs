@@ -4,6 +4,7 @@
 use super::Homotopy;
 use crate::constraint::{Origin, divide, odd_ones};
 use crate::interval::{Interval, point};
+use crate::problem::Problem;
 
 /// The divided equations of a problem, and how points go from the given unknowns to theirs and back.
 #[derive(Debug, Clone)]
@@ -104,6 +105,51 @@ impl Heights {
             }
         }
         out
+    }
+
+    /// How a direction of the given path, one entry per given unknown and t, looks in the unknowns of the divided equations: the
+    /// derivative of [`Heights::divide`] at a point z, times v. `None`: t may be 1.
+    pub fn divide_along(&self, z: &[Interval], v: &[Interval]) -> Option<Vec<Interval>> {
+        let (s, dt) = (point(1.0) - z[self.given], v[self.given]);
+        if s.contains(0.0) {
+            return None;
+        }
+        // (x/s)' = (x' + (x/s) t')/s, as s' = −t'.
+        let quotient = |i: usize| (v[i] + z[i] / s * dt) / s;
+        let auxiliary = |origin: &Origin| match *origin {
+            Origin::Scale => -dt,
+            Origin::Same(u) => v[self.places + u],
+            Origin::Divided(u) => quotient(self.places + u),
+            Origin::Height(p) => quotient(self.homotopy.gauge.variable[3 * p + 2]),
+        };
+        let coordinates = v[..self.places].iter().copied();
+        let others = self.origins.iter().map(auxiliary);
+        Some(coordinates.chain(others).chain([dt]).collect())
+    }
+
+    /// How a direction of the path of the divided equations looks in the given unknowns: the derivative of
+    /// [`Heights::multiply`] at a point z of that path, times v.
+    pub fn multiply_along(&self, z: &[Interval], v: &[Interval]) -> Vec<Interval> {
+        let (m, given) = (self.homotopy.equations, self.given);
+        let (s, dt) = (point(1.0) - z[m], v[m]);
+        let mut out = vec![point(0.0); given + 1];
+        out[..self.places].copy_from_slice(&v[..self.places]);
+        out[given] = dt;
+        for (k, origin) in (self.places..).zip(&self.origins) {
+            match *origin {
+                Origin::Divided(u) => out[self.places + u] = s * v[k] - dt * z[k],
+                // Before that one, where an unknown is there both ways: either will do.
+                Origin::Same(u) => out[self.places + u] = v[k],
+                Origin::Scale | Origin::Height(_) => {}
+            }
+        }
+        out
+    }
+
+    /// The number of unknowns of a problem's divided equations, t not among them. `None`: there are none.
+    pub fn size(problem: &Problem) -> Option<usize> {
+        let heights = Homotopy::with_unit(problem, 1.0).ok()?.over_heights();
+        heights.ok().map(|heights| heights.homotopy.equations)
     }
 
     /// Where the path passes a flat figure, about its unknowns from those given there (`x`) and their derivatives by t:

@@ -38,9 +38,12 @@ pub trait Witness {
     /// In the tube just seen the path meets t = 1 for the first time at this point: `centre` up to
     /// `radius`, per free coordinate.
     fn solution(&mut self, centre: &[f64], radius: &[f64]);
-    /// The path goes on by a proof that cannot be told in tubes and solutions of the problem's own equations: why. What
-    /// is seen after that is no proof by itself.
-    fn interrupt(&mut self, _reason: &str) {}
+    /// What follows are tubes of the path in the equations with heights divided by 1 − t ([`crate::system::Heights`]), from where
+    /// the last tube is left, and solutions in the unknowns of those.
+    fn divide(&mut self) {}
+    /// What follows are tubes in the problem's own equations again, from where the last tube is left. Unless the piece before is
+    /// kept its tubes and solutions are forgotten.
+    fn end_divide(&mut self, _kept: bool) {}
     /// What follows are the tubes the other way from the sketch.
     fn turn(&mut self) {}
     /// The way back is over. Unless it is kept its tubes and solutions are forgotten.

@@ -1,6 +1,7 @@
 //! The chain: every tube linked to the one before, the loop closed, and what that proves.
 
 use super::arc::{Edits, Fold, keeps, rises};
+use super::degenerate::Divided;
 use super::equations::{Equations, ZERO};
 use super::matrix::between;
 use super::place::{Place, Spot, component};
@@ -11,6 +12,7 @@ use crate::certificate::verdict::{Arc, Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
 use crate::problem::Problem;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// What is kept from one part of the chain to the next: all solutions, and two tubes.
 pub struct Chain {
@@ -20,7 +22,13 @@ pub struct Chain {
     /// The path's direction there, along the normal of the first tube.
     start: Vec<Interval>,
     last: Option<Tube>,
+    /// The equations with heights divided by 1 − t, once they were wanted, and whether the tubes to come are of those.
+    divided: Option<Box<Divided>>,
+    is_divided: bool,
+    /// In the problem's own unknowns.
     pub solutions: Vec<Place>,
+    /// Where degenerate (flat) ones among them, by their places in that list, are in the divided equations' unknowns.
+    pub flat: BTreeMap<usize, Spot>,
     /// Whether the path meets each of them: the best that any tube says.
     met: Vec<Met>,
     /// Whether the tubes to come are those behind the turn.
@@ -56,6 +64,9 @@ impl Chain {
             eq,
             start: Vec::new(),
             last: None,
+            divided: None,
+            is_divided: false,
+            flat: BTreeMap::new(),
             solutions: Vec::new(),
             met: Vec::new(),
             turned: false,
@@ -72,7 +83,9 @@ impl Chain {
         mark: Option<&Record>,
         verdict: &mut Verdict,
     ) -> Result<(), Outcome> {
-        let (eq, first) = (&self.eq, verdict.tubes + 1);
+        let divided = self.divided.as_ref().filter(|_| self.is_divided);
+        let eq = divided.map_or(&self.eq, |divided| &divided.eq);
+        let first = verdict.tubes + 1;
         let tubes = claims.par_iter().enumerate().map(|(k, (tube, _))| {
             let number = first + k as u64;
             Tube::prove(eq, tube).map_err(|f| flaw(f.is_false, Flaw::Tube(number, f)))
@@ -85,7 +98,13 @@ impl Chain {
                 let number = self.solutions.len() + 1;
                 let solution = Place::solution(eq, solution, tube);
                 let solution = solution.map_err(|f| flaw(f.is_false, Flaw::Solution(number, f)));
-                self.solutions.push(solution?);
+                let mut place = solution?;
+                if let Some(divided) = divided {
+                    let given = divided.flat_figure(&place);
+                    let there = std::mem::replace(&mut place, given).spot;
+                    self.flat.insert(number - 1, there);
+                }
+                self.solutions.push(place);
             }
             listed.push(self.solutions.len());
         }
@@ -119,6 +138,12 @@ impl Chain {
             }
             _ => Goal::On,
         };
+        // Tubes tell of solutions in their own unknowns alone.
+        let spot = |k: usize| match (self.flat.get(&k), self.is_divided) {
+            (None, false) => Some(&self.solutions[k].spot),
+            (flat, is_divided) => flat.filter(|_| is_divided),
+        };
+        let spots: Vec<Option<&Spot>> = (0..self.solutions.len()).map(spot).collect();
         let join = |k: usize| {
             let before = match k {
                 0 => self.last.as_ref(),
@@ -129,8 +154,8 @@ impl Chain {
                 true => &goal,
                 false => &Goal::On,
             };
-            let solutions = &self.solutions[..listed[k]];
-            let stretch = self.join((first + k as u64, arc), before, tube, goal, solutions)?;
+            let solutions = &spots[..listed[k]];
+            let stretch = self.join(eq, (first + k as u64, arc), before, tube, goal, solutions)?;
             Ok((tube.proof.margin, stretch))
         };
         let joined: Vec<_> = (0..tubes.len()).into_par_iter().map(join).collect();
@@ -181,7 +206,25 @@ impl Chain {
         if let Some(Record::Arc(claim)) = mark {
             self.set_out(claim, verdict)?;
         }
-        Ok(())
+        match mark {
+            Some(Record::Divide) => self.change(true, verdict.tubes),
+            Some(Record::Return) => self.change(false, verdict.tubes),
+            _ => Ok(()),
+        }
+    }
+
+    /// What follows are tubes of the divided equations, or of the given ones again: the point where the last tube is left, and the
+    /// path's direction there, are carried over, to be linked to the next tube as in one system.
+    fn change(&mut self, is_divided: bool, tubes: u64) -> Result<(), Outcome> {
+        if self.divided.is_none() {
+            self.divided = Divided::new(&self.eq.homotopy).map(Box::new);
+        }
+        let carried = match (&self.divided, &mut self.last) {
+            (Some(divided), Some(last)) => divided.carry(&self.eq, last, !is_divided),
+            _ => None,
+        };
+        self.is_divided = is_divided;
+        carried.ok_or(flaw(false, Flaw::Change(tubes)))
     }
 
     /// What follows are tubes of an edit.
@@ -201,11 +244,12 @@ impl Chain {
     /// from its entry to its exit, or to the goal.
     fn join(
         &self,
+        eq: &Equations,
         (number, arc): (u64, usize),
         before: Option<&Tube>,
         tube: &Tube,
         goal: &Goal,
-        listed: &[Place],
+        listed: &[Option<&Spot>],
     ) -> Result<Stretch, Outcome> {
         // What is claimed of tubes that were not proved to their ends may be true of what is beyond.
         let is_whole = tube.is_whole && before.is_none_or(|before| before.is_whole);
@@ -246,7 +290,7 @@ impl Chain {
             along(&self.start, claim)?;
         }
         let range = hull(entry.inf(), exit.sup());
-        let stands = tube.stands(&self.eq, range);
+        let stands = tube.stands(eq, range);
         stands.map_err(|fault| flaw(false, Flaw::Tube(number, fault)))?;
         // Certainly between entry and exit.
         let inner = between(entry.sup(), exit.inf());
@@ -335,7 +379,5 @@ impl Chain {
 /// The exact sketch, and t = 0.
 fn sketch(eq: &Equations) -> Spot {
     let sketch: Vec<Interval> = eq.homotopy.sketch_of_unknowns().chain([ZERO]).collect();
-    let near = sketch.iter().map(|x| x.mid()).collect();
-    let rest = sketch.iter().map(|&x| x - point(x.mid())).collect();
-    Spot { near, rest }
+    Spot::around(&sketch)
 }

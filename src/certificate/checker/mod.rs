@@ -5,6 +5,7 @@
 
 mod arc;
 mod chain;
+mod degenerate;
 pub(super) mod equations;
 mod extended;
 pub(super) mod guess;
@@ -62,6 +63,7 @@ pub fn verify(
         program: header.program.clone(),
         tubes: 0,
         solutions: Vec::new(),
+        degenerate: Vec::new(),
         is_edit: false,
         arcs: Vec::new(),
         is_open: false,
@@ -99,6 +101,8 @@ pub fn verify(
     };
     let solutions = chain.solutions.iter();
     verdict.solutions = solutions.map(|s| chain.points(&s.claimed)).collect();
+    let numbers = 0..chain.solutions.len();
+    verdict.degenerate = numbers.map(|k| chain.flat.contains_key(&k)).collect();
     verdict.is_open = matches!(end.ending, Ending::Open(_));
     verdict.outcome = match proved.and_then(|()| chain.conclude(&end, &mut verdict)) {
         Err(outcome) => outcome,

@@ -20,6 +20,19 @@ pub struct Spot {
 }
 
 impl Spot {
+    /// An enclosure, entry by entry.
+    pub fn around(z: &[Interval]) -> Spot {
+        Spot {
+            near: z.iter().map(|x| x.mid()).collect(),
+            rest: z.iter().map(|&x| x - point(x.mid())).collect(),
+        }
+    }
+
+    /// All of its entries.
+    pub fn entries(&self) -> Vec<Interval> {
+        (0..self.near.len()).map(|i| self.at(i)).collect()
+    }
+
     /// One of its entries.
     pub fn at(&self, i: usize) -> Interval {
         exact(self.near[i]) + self.rest[i]
@@ -150,6 +163,21 @@ impl Place {
             alone_within: weights().map(|u| (alone * u).inf()).collect(),
             margin: proof.margin,
         })
+    }
+
+    /// The same point in other unknowns, in which other solutions may be as near as one likes: what `carry` makes of a box.
+    pub fn carried(&self, carry: impl Fn(&[Interval]) -> Vec<Interval>) -> Place {
+        let with_time = [&self.claimed[..], &[point(1.0)]].concat();
+        let mut claimed = carry(&with_time);
+        claimed.pop();
+        let spot = Spot::around(&carry(&self.spot.entries()));
+        Place {
+            middle: spot.near.iter().map(|&x| exact(x)).collect(),
+            alone_within: vec![0.0; spot.near.len()],
+            claimed,
+            margin: self.margin,
+            spot,
+        }
     }
 
     /// Whether a box of coordinates lies where this figure is the only one with t = 1.

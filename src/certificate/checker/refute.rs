@@ -66,7 +66,7 @@ pub fn elsewhere(tube: &Tube, z: &Spot) -> bool {
 }
 
 /// A part of a range of a tube's parameters in which t certainly passes 1, at none of the solutions.
-pub fn missing(tube: &Tube, range: Interval, solutions: &[Place]) -> Option<Interval> {
+pub fn missing(tube: &Tube, range: Interval, solutions: &[Option<&Spot>]) -> Option<Interval> {
     let share = |k: u32| (range.sup() - range.inf()) * f64::from(k) / 256.0;
     let cuts = (0..=256).map(|k| (range.inf() + share(k)).min(range.sup()));
     let times = cuts.map(|s| (s, tube.time(exact(s))));
@@ -75,7 +75,7 @@ pub fn missing(tube: &Tube, range: Interval, solutions: &[Place]) -> Option<Inte
         let part = between(ends[0].0, ends[1].0);
         let inside = |spot: &Spot| !tube.parameter(spot).disjoint(part) && !elsewhere(tube, spot);
         let passes = (ends[0].1 * ends[1].1).sup() < 0.0;
-        (passes && !solutions.iter().any(|p| inside(&p.spot))).then_some(part)
+        (passes && !solutions.iter().flatten().any(|spot| inside(spot))).then_some(part)
     })
 }
 

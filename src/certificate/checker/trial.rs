@@ -1,5 +1,6 @@
 //! Tubes tried before they are claimed, for who writes certificates: nobody has to trust it.
 
+use super::degenerate::Divided;
 use super::equations::Equations;
 use super::tube::Tube;
 use crate::certificate::format::TubeClaim;
@@ -11,13 +12,16 @@ use std::fmt;
 /// A tube is claimed if its test succeeds with such a margin.
 const MARGIN: f64 = 0.05;
 
-/// A problem's equations.
+/// A problem's equations, given or divided.
 pub struct Trial(Equations);
 
 impl Trial {
-    /// `None`: the problem has none.
-    pub fn new(problem: &Problem, unit: f64) -> Option<Trial> {
+    /// Of the problem's own equations, or of those with heights divided by 1 − t. `None`: the problem has none.
+    pub fn new(problem: &Problem, unit: f64, is_divided: bool) -> Option<Trial> {
         let homotopy = Homotopy::with_unit(problem, unit).ok()?;
+        if is_divided {
+            return Divided::new(&homotopy).map(|divided| Trial(divided.eq));
+        }
         Some(Trial(Equations::new(homotopy)))
     }
 

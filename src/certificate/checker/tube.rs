@@ -4,7 +4,7 @@ use super::equations::{Equations, ZERO};
 use super::guess::{Inverse, Moving, expand};
 use super::krawczyk::{Curve, LARGE, ORDER, Proof, Section, around, derivative, way, weights};
 use super::matrix::{Matrix, along, between, exact, size};
-use super::place::{Place, Spot, component};
+use super::place::{Spot, component};
 use super::refute;
 use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
@@ -240,8 +240,12 @@ impl Tube {
     }
 
     /// Accounts for all parameters from the entry to the exit: the path meets t = 1 in no other point of these than
-    /// these solutions, which have t = 1. `Err`: a range where this fails.
-    pub fn account(&self, ends: [Interval; 2], listed: &[Place]) -> Result<Stretch, Interval> {
+    /// these solutions, which have t = 1; those of other equations than this tube's are `None`. `Err`: a range where this fails.
+    pub fn account(
+        &self,
+        ends: [Interval; 2],
+        listed: &[Option<&Spot>],
+    ) -> Result<Stretch, Interval> {
         let [entry, exit] = ends;
         let range = hull(entry.inf(), exit.sup());
         let times = parts(range).map(|part| self.time(part));
@@ -254,13 +258,14 @@ impl Tube {
         }
         // Where in this tube the solutions are that it holds.
         let mut here = Vec::new();
-        for (k, solution) in listed.iter().enumerate() {
-            let place = self.locate(&solution.spot);
+        for (k, spot) in listed.iter().enumerate() {
+            let Some(spot) = spot else { continue };
+            let place = self.locate(spot);
             here.extend(place);
             stretch.met[k] = match place {
                 Some(s) if entry.sup() <= s.inf() && s.sup() <= exit.inf() => Met::Yes,
                 Some(s) if entry.inf() <= s.sup() && s.inf() <= exit.sup() => Met::InTube,
-                None if !refute::elsewhere(self, &solution.spot) => Met::Unknown,
+                None if !refute::elsewhere(self, spot) => Met::Unknown,
                 _ => Met::No,
             }
         }

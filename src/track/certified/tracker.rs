@@ -280,7 +280,6 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         && self.is_at_crossing()
                         && self.cross(options, control)
                     {
-                        self.show_tube(control, self.ledger.solutions_so_far(), false);
                         steps_ahead = StepControl::new(&self.equations);
                         limit = max_h;
                     }
@@ -397,7 +396,8 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             solutions.for_each(|(centre, radius)| witness.solution(centre, &radius));
             return;
         }
-        let to = match is_last && self.arc.is_none() {
+        let leads_to_sketch = is_last && self.arc.is_none() && self.beyond.is_none();
+        let to = match leads_to_sketch {
             true => tube.parameter_near(&self.sketch),
             false => tube.exit_at,
         };

@@ -14,7 +14,7 @@ use crate::system::{Heights, Homotopy};
 use crate::track::certified::link::{Ball, Frame, Tube};
 use crate::track::certified::solution::SolutionBox;
 use crate::track::full::{Local, first_normal};
-use crate::track::{Control, Options, Trace};
+use crate::track::{Control, Options, Trace, Witness};
 use std::borrow::Cow;
 
 /// Crossings are tried where t is nearer to 1 than this.
@@ -171,29 +171,37 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         remaining <= VANISHING * largest
     }
 
-    /// Follows the path through the flat figure ahead, if there is one, and comes back to these equations behind it.
-    /// If it cannot be proved all is as it was.
+    /// Follows the path through the flat figure ahead, if there is one, and comes back to these equations behind it, in a tube
+    /// that is shown. If it cannot be proved all is as it was.
     pub(super) fn cross(&mut self, options: &Options, control: &mut Control) -> bool {
         let Some(mut crossing) = self.crossing.take() else {
             return false;
         };
         let left = (1.0 - self.now.local.z[0][self.equations.m]).abs();
+        if let Some(witness) = &mut control.witness {
+            witness.divide();
+        }
         let result = self.try_to_cross(&mut crossing, left, options, control);
         let done = result.is_ok();
-        if let Err(why) = result {
-            crossing.failed = Some((left, why));
+        if let Some(witness) = &mut control.witness {
+            witness.end_divide(done);
+        }
+        match result {
+            Ok(known) => self.show_tube(control, known, false),
+            Err(why) => crossing.failed = Some((left, why)),
         }
         self.crossing = Some(crossing);
         done
     }
 
+    /// Tells how many solutions are known before the last tube, that in these equations again.
     fn try_to_cross(
         &mut self,
         crossing: &mut Crossing,
         left: f64,
         options: &Options,
         control: &mut Control,
-    ) -> Result<(), String> {
+    ) -> Result<usize, String> {
         let heights = &crossing.heights;
         self.test
             .tighten_exit(&self.equations, &mut self.now)
@@ -224,7 +232,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             Some(Beyond { t, rising })
         };
         piece.beyond = beyond(distance);
-        // It is part of another run, which alone tells of itself.
+        // It is part of another run, which alone tells of itself, but for its proof.
         let mut trace = control.trace.is_some().then(Trace::default);
         if let Some(trace) = &mut trace {
             trace.begin(&heights.homotopy);
@@ -233,6 +241,10 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             cancel: control.cancel,
             limit: control.limit,
             trace: trace.as_mut(),
+            witness: match &mut control.witness {
+                Some(witness) => Some(&mut **witness as &mut dyn Witness),
+                None => None,
+            },
             ..Control::default()
         };
         let words = |why: String| format!("with heights divided by 1 − t, {why}");
@@ -243,7 +255,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             return Err(words("it is not certain whether t rises".to_owned()));
         }
         piece.show_tube(&mut quiet, 0, false);
-        loop {
+        let known = loop {
             if !is_there {
                 let gone = piece.go_on(&options, max_h, &mut quiet);
                 gone.map_err(|stop| words(stop.text))?;
@@ -254,7 +266,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
                 ));
             }
             match self.come_back(&mut piece, heights, rising, max_h) {
-                Ok(()) => break,
+                Ok(known) => break known,
                 Err(why) if distance >= FARTHEST * left => return Err(why),
                 Err(_) => {
                     distance *= 1.5;
@@ -262,32 +274,26 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
                     is_there = false;
                 }
             }
-        }
+        };
         crossing.passed += piece.ledger.solutions_so_far();
         crossing.tubes += piece.steps + 1;
         self.steps += piece.steps + 1;
         self.rejected += piece.rejected;
-        if let Some(witness) = &mut control.witness {
-            witness.interrupt(
-                "the path passes a degenerate (flat) figure at t = 1, which is proved with heights divided by 1 − t; \
-                 certificates have no records for that yet",
-            );
-        }
         if let (Some(all), Some(piece)) = (&mut control.trace, &trace) {
             all.append(piece, self.homotopy.gauge.place.len(), rising);
         }
-        Ok(())
+        Ok(known)
     }
 
-    /// Proves a tube of these equations around the point at which `piece` ends, and takes over its account. If it
-    /// cannot be proved all is as it was.
+    /// Proves a tube of these equations around the point at which `piece` ends, and takes over its account. Tells how many
+    /// solutions are known before that tube. If it cannot be proved all is as it was.
     fn come_back(
         &mut self,
         piece: &mut Tracker<D, N, T>,
         heights: &Heights,
         rising: bool,
         max_h: f64,
-    ) -> Result<(), String> {
+    ) -> Result<usize, String> {
         piece
             .test
             .tighten_exit(&piece.equations, &mut piece.now)
@@ -311,6 +317,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         let given = |found: &SolutionBox| self.flat_solution(found, heights);
         let flat: Vec<SolutionBox> = piece.ledger.found().iter().map(given).collect();
         self.ledger.pass_flat(&piece.ledger, flat, rising)?;
+        let known = self.ledger.solutions_so_far();
         // The tube around it comes in the next one's place, as one around the sketch.
         let mut normal = at_ball.normal.clone();
         std::mem::swap(&mut self.now, &mut self.next);
@@ -326,7 +333,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             return Err("no tube behind it could be proved and linked".to_owned());
         }
         (self.has_previous, self.typical) = (false, f64::NAN);
-        Ok(())
+        Ok(known)
     }
 
     /// A box around a flat figure in these unknowns.
