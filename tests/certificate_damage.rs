@@ -4,9 +4,10 @@
 mod common;
 
 use common::certificate::{Certificate, shipped};
+use common::hard::families;
 use common::mixed::Spec;
 use dice::Dice;
-use krawl::certificate::{Outcome, Record, Settings, TubeClaim, verify};
+use krawl::certificate::{Outcome, Record, Settings, TubeClaim, Verdict, verify};
 use krawl::problem::Problem;
 use krawl::track::{Options, Status};
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -45,19 +46,11 @@ const FALSE: &[(&str, Damage)] = &[
         let k = dice.below(c.tubes());
         let factor = dice.about(3.0, 300.0);
         let tube = c.tube_mut(k);
-        let n = tube.centre.len();
-        // Sideways: along the path the tube would stay where it is.
-        let mut off: Vec<f64> = (0..n).map(|_| dice.between(-1.0, 1.0)).collect();
-        let normal: Vec<f64> = tube.normal.iter().map(|&c| c.into()).collect();
-        let along: f64 = off.iter().zip(&normal).map(|(x, c)| x * c).sum();
-        off.iter_mut()
-            .zip(&normal)
-            .for_each(|(x, c)| *x -= along * c);
-        let weight = |i: usize| f64::from(tube.weights[i]) / 65536.0;
-        let size = (0..n).fold(0.0, |max: f64, i| max.max(off[i].abs() / weight(i)));
-        for i in 0..n {
-            tube.centre[i] += factor * f64::from(tube.r) / size * off[i];
-        }
+        let off = sideways(tube, factor, dice);
+        tube.centre
+            .iter_mut()
+            .zip(off)
+            .for_each(|(x, off)| *x += off);
     }),
     ("tube's radius too large", |c, dice| {
         let k = dice.below(c.tubes());
@@ -229,6 +222,21 @@ const FALSE: &[(&str, Damage)] = &[
         *class = if other == *class { other + 1 } else { other };
     }),
 ];
+
+/// A random way off a tube's centre, so many radii long: not along the path, where the tube would stay where it is.
+fn sideways(tube: &TubeClaim, radii: f64, dice: &mut Dice) -> Vec<f64> {
+    let n = tube.centre.len();
+    let mut off: Vec<f64> = (0..n).map(|_| dice.between(-1.0, 1.0)).collect();
+    let normal: Vec<f64> = tube.normal.iter().map(|&c| c.into()).collect();
+    let along: f64 = off.iter().zip(&normal).map(|(x, c)| x * c).sum();
+    off.iter_mut()
+        .zip(&normal)
+        .for_each(|(x, c)| *x -= along * c);
+    let weight = |i: usize| f64::from(tube.weights[i]) / 65536.0;
+    let size = (0..n).fold(0.0, |max: f64, i| max.max(off[i].abs() / weight(i)));
+    let factor = radii * f64::from(tube.r) / size;
+    off.into_iter().map(|x| factor * x).collect()
+}
 
 /// Changes after which all claims are still true, and proved.
 const HARMLESS: &[(&str, Damage)] = &[
@@ -440,6 +448,218 @@ fn harmless_changes_are_accepted() {
     ] {
         damage(name, times, HARMLESS, true);
     }
+}
+
+type Change = fn(&mut TubeClaim, &mut Dice);
+
+/// Changes of one tube in extended precision after which a claim is false.
+const FALSE_EXTENDED: &[(&str, Change)] = &[
+    ("low parts off the path", |tube, dice| {
+        let off = sideways(tube, dice.about(3.0, 300.0), dice);
+        tube.low.iter_mut().zip(off).for_each(|(x, off)| *x += off);
+    }),
+    ("centre off the path", |tube, dice| {
+        let off = sideways(tube, dice.about(3.0, 300.0), dice);
+        tube.centre
+            .iter_mut()
+            .zip(off)
+            .for_each(|(x, off)| *x += off);
+    }),
+    (
+        "low parts and centre changed places with a factor",
+        |tube, dice| {
+            let factor = dice.between(0.1, 0.9);
+            for (x, low) in tube.centre.iter_mut().zip(&mut tube.low) {
+                (*x, *low) = (*low, factor * *x);
+            }
+        },
+    ),
+    ("normal reversed", |tube, _| {
+        tube.normal.iter_mut().for_each(|c| *c *= -1.0);
+    }),
+    ("exit on the wrong side", |tube, _| tube.exit *= -1.0),
+];
+
+/// Changes of one tube in extended precision after which its claims may be true.
+const DOUBTFUL_EXTENDED: &[(&str, Change)] = &[
+    ("a low part zeroed", |tube, dice| {
+        let i = dice.below(tube.low.len());
+        tube.low[i] = 0.0;
+    }),
+    ("all low parts zeroed", |tube, _| tube.low.fill(0.0)),
+    ("low parts swapped", |tube, dice| {
+        let n = tube.low.len();
+        tube.low.swap(dice.below(n), dice.below(n));
+    }),
+    ("low parts reversed in sign", |tube, _| {
+        tube.low.iter_mut().for_each(|x| *x *= -1.0);
+    }),
+    ("a low part changed", |tube, dice| {
+        let i = dice.below(tube.low.len());
+        tube.low[i] += dice.about(1e-40, 1e-3) * [-1.0, 1.0][dice.below(2)];
+    }),
+    ("t changed", |tube, dice| {
+        let sign = [-1.0, 1.0][dice.below(2)];
+        *tube.low.last_mut().unwrap() += sign * dice.about(1e-35, 1e-3);
+    }),
+    ("low parts in the precision of floats", |tube, _| {
+        for (x, low) in tube.centre.iter_mut().zip(&mut tube.low) {
+            (*x, *low) = (*x + *low, 0.0);
+        }
+    }),
+    ("another radius", |tube, dice| {
+        tube.r *= dice.about(1e-6, 1e6) as f32
+    }),
+    ("another length", |tube, dice| {
+        tube.h *= dice.about(1.0, 1e6)
+    }),
+    ("next to no length", |tube, dice| {
+        tube.h *= dice.about(1e-9, 1e-6);
+        tube.exit = tube.exit.clamp(-tube.h, tube.h);
+    }),
+    ("another normal", |tube, dice| {
+        let size = dice.about(1e-7, 1.0);
+        let change = |c: &mut f32| *c += dice.between(-size, size) as f32;
+        tube.normal.iter_mut().for_each(change);
+    }),
+    ("normal in a random direction", |tube, dice| {
+        let random = |_: &f32| dice.between(-1.0, 1.0) as f32;
+        tube.normal = tube.normal.iter().map(random).collect();
+    }),
+    ("other weights", |tube, dice| {
+        let change = |u: &mut u16| *u = 1 + dice.below(65535) as u16;
+        tube.weights.iter_mut().for_each(change);
+    }),
+    ("left elsewhere", |tube, dice| {
+        tube.exit = tube.h * dice.between(-1.0, 1.0)
+    }),
+    ("in 53 bits", |tube, _| tube.low.clear()),
+];
+
+/// Records in extended precision left out, doubled and moved; and the solutions behind them.
+const RECORDS_EXTENDED: &[(&str, Damage)] = &[
+    ("dropped", |c, dice| {
+        let gone = extended(c, dice);
+        c.keep_tubes(|k| k != gone);
+    }),
+    ("all dropped", |c, _| {
+        c.records
+            .retain(|r| !matches!(r, Record::Tube(tube) if !tube.low.is_empty()));
+        c.recount();
+    }),
+    ("doubled", |c, dice| {
+        let k = extended(c, dice);
+        let at = c.tube_at(k);
+        c.records.insert(at, c.records[at].clone());
+        c.recount();
+    }),
+    ("moved", |c, dice| {
+        let (k, to) = (extended(c, dice), dice.below(c.tubes() - 1));
+        let (at, to) = (c.tube_at(k), c.tube_at(to));
+        let record = c.records.remove(at);
+        c.records.insert(to, record);
+    }),
+    ("swapped with another", |c, dice| {
+        let (k, other) = (extended(c, dice), dice.below(c.tubes()));
+        let (a, b) = (c.tube_at(k), c.tube_at(other));
+        c.records.swap(a, b);
+    }),
+    ("two doubled in the other order", |c, dice| {
+        let k = extended(c, dice).min(c.tubes() - 2);
+        let pair = [k + 1, k].map(|k| c.records[c.tube_at(k)].clone());
+        let at = c.tube_at(k);
+        c.records.splice(at..at, pair);
+        c.recount();
+    }),
+];
+
+/// The number of a tube in extended precision.
+fn extended(c: &mut Certificate, dice: &mut Dice) -> usize {
+    let count = c.tubes();
+    let all: Vec<usize> = (0..count)
+        .filter(|&k| !c.tube_mut(k).low.is_empty())
+        .collect();
+    all[dice.below(all.len())]
+}
+
+/// Tubes in extended precision: false claims are refused; and where a change is accepted, what is said of the path is
+/// what was said before.
+#[test]
+fn damaged_tubes_in_extended_precision_are_refused() {
+    let mut dice = Dice(TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    let said = |c: &Certificate| -> Option<Verdict> {
+        verify(&c.bytes()[..], &Settings { threads: 1 }, &mut |_| ()).ok()
+    };
+    let (mut accepted, mut refused) = (BTreeMap::new(), BTreeMap::new());
+    for (name, k) in [
+        ("fold", 8),
+        ("fold-missed", 10),
+        ("peak", 9),
+        ("flaps-split", 8),
+        ("graze", 7),
+    ] {
+        let problem = families().find(|f| f.name == name).unwrap().problem(k);
+        let (run, bytes) = common::certificate::of(&problem, &Options::certified());
+        assert_eq!(run.status, Status::Closed);
+        let good = Certificate::read(&bytes);
+        let before = said(&good).unwrap();
+        assert_eq!(before.outcome, Outcome::Verified, "{name}-{k}");
+        let mut judge = |kind: &'static str, changed: &Certificate, is_false: bool| {
+            let after = said(changed);
+            let Some(after) = after.filter(|v| v.outcome == Outcome::Verified) else {
+                *refused.entry(kind).or_insert(0) += 1;
+                return;
+            };
+            assert!(!is_false, "{name}-{k}: {kind} is accepted");
+            *accepted.entry(kind).or_insert(0) += 1;
+            assert_eq!(
+                after.solutions.len(),
+                before.solutions.len(),
+                "{name}-{k}: {kind}"
+            );
+            let coordinates = |v: &Verdict| v.solutions.concat().concat();
+            let both = coordinates(&after).into_iter().zip(coordinates(&before));
+            assert!(
+                both.into_iter().all(|(a, b)| !a.disjoint(b)),
+                "{name}-{k}: {kind}"
+            );
+        };
+        let kinds = FALSE_EXTENDED.iter().map(|kind| (kind, true));
+        for (&(kind, change), is_false) in
+            kinds.chain(DOUBTFUL_EXTENDED.iter().map(|kind| (kind, false)))
+        {
+            for _ in 0..5 {
+                let mut changed = good.clone();
+                let tube = extended(&mut changed, &mut dice);
+                change(changed.tube_mut(tube), &mut dice);
+                judge(kind, &changed, is_false);
+            }
+        }
+        for &(kind, change) in RECORDS_EXTENDED {
+            for _ in 0..4 {
+                let mut changed = good.clone();
+                change(&mut changed, &mut dice);
+                judge(kind, &changed, false);
+            }
+        }
+        // The solutions, which are next to such tubes.
+        for k in 0..good.solutions() {
+            let mut changed = good.clone();
+            changed.records.remove(good.solution_at(k));
+            changed.classes_mut().pop();
+            judge("solution dropped", &changed, true);
+            let mut changed = good.clone();
+            let solution = changed.solution_mut(k);
+            solution.centre[0] += 10.0 * f64::from(solution.radius);
+            judge("solution moved", &changed, true);
+        }
+    }
+    println!("accepted: {accepted:?}\nrefused: {refused:?}");
+    let sum = |counts: &BTreeMap<&str, usize>| counts.values().sum::<usize>();
+    assert!(
+        sum(&refused) > 250 && sum(&accepted) > 100,
+        "{accepted:?} {refused:?}"
+    );
 }
 
 /// Bytes at random: an error, a refusal or a harmless change, and never a panic.

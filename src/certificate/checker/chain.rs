@@ -295,7 +295,7 @@ impl Chain {
         // Certainly between entry and exit.
         let inner = between(entry.sup(), exit.inf());
         let Some(edit) = &self.arc else {
-            let stretch = tube.account([entry, exit], listed);
+            let stretch = tube.account(eq, [entry, exit], listed);
             let mut stretch = stretch.map_err(|part| {
                 let missing = refute::missing(tube, inner, listed);
                 let at = missing.unwrap_or(part);

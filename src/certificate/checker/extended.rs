@@ -1,10 +1,14 @@
-//! F at points of more than 53 bits, in whole numbers.
+//! F at points of more than 53 bits, in whole numbers, and finer tubes around such points.
 //!
 //! Only F at a point needs so many: at the middle of a tube, where it is left, and at a solution.
 
 use super::equations::{Equations, ZERO};
-use super::krawczyk::{LARGE, around};
+use super::guess::newton;
+use super::krawczyk::{LARGE, around, weights};
 use super::matrix::{between, power, size};
+use super::place::Spot;
+use super::tube::Tube;
+use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
 use num_bigint::BigInt;
@@ -100,6 +104,37 @@ fn enclosed(x: BigInt, bits: i32) -> Interval {
         (floor.next_down() - 1.0) * unit,
         (floor.next_up() + 1.0) * unit,
     )
+}
+
+impl Tube {
+    /// The path for all parameters of a range in a tube of its own around the middle of that, with the parameters there. What
+    /// the bounds of a tube lose is nearly in proportion to its length, so that those of a short one are finer.
+    ///
+    /// Both tubes hold curves of zeros of F along which c·z grows, with the same c, and [J; c] is regular. The point where
+    /// the finer tube is left, which is a point of its curve, lies on the other curve. So the curves are the same where c·z is
+    /// the same.
+    pub fn finer(&self, eq: &Equations, range: Interval) -> Option<(Tube, Interval)> {
+        let n = eq.m + 1;
+        // A guess: whatever it is, the tube is proved.
+        let middle = |i: usize| self.beyond(0.0, i, point(range.mid())).mid();
+        let near: Vec<f64> = (0..n).map(middle).collect();
+        let u = weights(&self.claim.weights);
+        let (curve, _) = newton(eq, (&near, true), &self.normal, &u).ok()?;
+        let claim = TubeClaim {
+            centre: curve.z[0].clone(),
+            low: (0..n).map(|i| curve.low_of(i).mid()).collect(),
+            h: range.wid() * self.advance.sup(),
+            exit: 0.0,
+            ..self.claim.clone()
+        };
+        let tube = Tube::prove(eq, &claim).ok()?;
+        self.locate(&tube.exit)?;
+        let near = tube.z[0].clone();
+        let rest = near.iter().enumerate();
+        let rest = rest.map(|(i, &near)| self.beyond(near, i, range)).collect();
+        let there = tube.parameter(&Spot { near, rest });
+        (there.mag() <= 1.0).then_some((tube, there))
+    }
 }
 
 #[cfg(test)]

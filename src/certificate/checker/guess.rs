@@ -50,8 +50,16 @@ impl Inverse {
 
     /// U Y f.
     pub fn times(&self, f: &[f64]) -> Vec<f64> {
-        let v = product(&self.y, f);
+        let v = self.image(f);
         v.iter().zip(&self.u).map(|(v, u)| v * u).collect()
+    }
+
+    /// Y f, or M⁻¹ f where that is less work.
+    fn image(&self, f: &[f64]) -> Vec<f64> {
+        match &self.sparse {
+            Some(sparse) => sparse.solve_one(f),
+            None => product(&self.y, f),
+        }
     }
 }
 
@@ -171,7 +179,7 @@ impl<'a> Moving<'a> {
 
     /// U (I − sA) Y f.
     fn times(&self, f: &[f64], s: f64) -> Vec<f64> {
-        let v = product(&self.inverse.y, f);
+        let v = self.inverse.image(f);
         let change = product(self.a, &v);
         let all = v.iter().zip(change).zip(&self.at.u);
         all.map(|((v, x), u)| (v - s * x) * u).collect()

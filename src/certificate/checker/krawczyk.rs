@@ -266,23 +266,27 @@ impl<'a> Curve<'a> {
         assert!([0, ORDER].contains(&order) && u.len() == n);
         assert!(y.n == n && y.entries.len() == n * n);
         let mut rests = at.rests.clone();
-        let stiff = y.times(&at.j0).minus_identity().norm();
+        let stiff = y.norm_of_product(&at.j0, 1.0);
         let (mut moving, mut square, mut a) = (point(1.0), ZERO, None);
         if order > 0 {
             let [j1, j2] = [1, 2].map(|k| self.jacobian(k, u, &mut rests));
-            let [moved, second] = [&j1, &j2].map(|j| y.times(j));
+            let moved = y.times(&j1);
             // What Y J₀, Y J₁ and Y J₂ may have lost, and more.
             let (norm, lost) = (moved.norm(), y.bound(&rests));
             moving += norm;
-            square = match n < MANY {
-                true => moved.square_distance(&second),
+            let (away, second) = match n < MANY {
+                true => {
+                    let second = y.times(&j2);
+                    (moved.square_distance(&second), second.norm())
+                }
                 false => {
                     let all = [&j1, &j2, &at.j0];
                     let image = |b: &Matrix| inverse.solve(b);
-                    image_of_product((y, stiff + lost), all, &moved, image) + lost * moving
+                    let away = image_of_product((y, stiff + lost), all, &moved, image);
+                    (away + lost * moving, y.norm_of_product(&j2, 0.0))
                 }
             };
-            square += norm * second.norm();
+            square = away + norm * second;
             a = Some(moved);
         }
         let t = way(&self.z, m, around(point(1.0))) + around(r * point(u[m]));

@@ -108,6 +108,20 @@ impl Sparse {
         Matrix { n, entries: out }
     }
 
+    /// M⁻¹ f.
+    pub fn solve_one(&self, f: &[f64]) -> Vec<f64> {
+        let (mut left, mut out) = (f.to_vec(), vec![0.0; self.n]);
+        for step in &self.steps {
+            let from = left[step.row];
+            step.below.iter().for_each(|&(i, x)| left[i] -= x * from);
+        }
+        for step in self.steps.iter().rev() {
+            let known = step.right.iter().map(|&(j, x)| x * out[j]);
+            out[step.column] = (left[step.row] - known.sum::<f64>()) / step.pivot;
+        }
+        out
+    }
+
     /// (M⁻¹ B)ᵀ from Bᵀ: row by row.
     pub fn solve(&self, b: &Matrix) -> Matrix {
         let (n, mut rows) = (self.n, b.entries.clone());

@@ -16,6 +16,12 @@ pub fn image_of_product(
     let n = y.n;
     let entries = vec![0.0; n * n];
     let (mut left, mut sizes, mut terms) = (Matrix { n, entries }, vec![0.0; n], vec![2; n]);
+    for (i, column) in k.iter().enumerate() {
+        for &(e, x) in column {
+            left.entries[e * n + i] -= x;
+            (sizes[e], terms[e]) = (sizes[e] + x.abs(), terms[e] + 1);
+        }
+    }
     // Adds a matrix times another, transposed; the largest sum of a row's sizes of that one.
     let mut add_product = |left: &mut Matrix, sign: f64, columns: &Columns, other: &Matrix| {
         let of_rows = sizes_of_columns(other);
@@ -28,9 +34,6 @@ pub fn image_of_product(
         of_rows.into_iter().fold(0.0, largest)
     };
     add_product(&mut left, 1.0, j, &transposed(a));
-    let one = (0..n * n).map(|at| f64::from(u8::from(at % (n + 1) == 0)));
-    let entries = one.collect();
-    add_product(&mut left, -1.0, k, &Matrix { n, entries });
     let x = solve(&left);
     assert!(x.n == n && x.entries.len() == n * n);
     let norm = exact(add_product(&mut left, -1.0, m, &x));
@@ -45,9 +48,15 @@ pub fn image_of_product(
 
 /// The other way round.
 fn transposed(matrix: &Matrix) -> Matrix {
-    let n = matrix.n;
-    let column = |i: usize| matrix.entries.iter().skip(i).step_by(n);
-    let entries = (0..n).flat_map(column).copied().collect();
+    // So many rows at a time: their parts of a column lie side by side.
+    const ROWS: usize = 16;
+    let (n, mut entries) = (matrix.n, vec![0.0; matrix.n * matrix.n]);
+    for first in (0..n).step_by(ROWS) {
+        for (j, column) in matrix.entries.chunks(n).enumerate() {
+            let rows = column.iter().enumerate().skip(first).take(ROWS);
+            rows.for_each(|(i, &x)| entries[i * n + j] = x);
+        }
+    }
     Matrix { n, entries }
 }
 

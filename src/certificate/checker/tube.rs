@@ -10,6 +10,7 @@ use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
+use std::cell::Cell;
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
 /// with |z − ẑ(σ)|_u ≤ r, regular, and as near ẑ(σ), and φ' as near ẑ', as its proof says.
@@ -20,6 +21,7 @@ pub struct Tube {
     pub normal: Vec<f64>,
     pub u: Vec<Interval>,
     r: Interval,
+    pub claim: TubeClaim,
     pub proof: Proof,
     /// c·ẑ'(σ), positive.
     pub advance: Interval,
@@ -51,8 +53,13 @@ pub struct Stretch {
     pub t: Interval,
 }
 
-/// Ranges of parameters are not split into more pieces.
+/// Ranges of parameters are split into so many pieces first.
+const PARTS: u32 = 16;
+/// They are not split into more pieces.
 const PIECES: usize = 10_000;
+/// Finer tubes are made within others so many times, and of pieces no longer than this.
+const FINER: usize = 4;
+const FINE: f64 = 1.0 / 512.0;
 /// How near the path its points are guessed, in radii.
 const ENOUGH: f64 = 1e-6;
 /// ẑ is guessed so much longer than the claimed tube, as its ends are only as good as rounding.
@@ -174,6 +181,7 @@ impl Tube {
             z: work.curve.z,
             u: work.at.u.iter().map(|&u| point(u)).collect(),
             r: work.r,
+            claim: claim.clone(),
             proof: work.proof,
             advance,
             normal: work.at.c,
@@ -243,6 +251,7 @@ impl Tube {
     /// these solutions, which have t = 1; those of other equations than this tube's are `None`. `Err`: a range where this fails.
     pub fn account(
         &self,
+        eq: &Equations,
         ends: [Interval; 2],
         listed: &[Option<&Spot>],
     ) -> Result<Stretch, Interval> {
@@ -256,32 +265,54 @@ impl Tube {
         if !t.contains(0.0) {
             return Ok(stretch);
         }
-        // Where in this tube the solutions are that it holds.
-        let mut here = Vec::new();
         for (k, spot) in listed.iter().enumerate() {
             let Some(spot) = spot else { continue };
-            let place = self.locate(spot);
-            here.extend(place);
-            stretch.met[k] = match place {
+            stretch.met[k] = match self.locate(spot) {
                 Some(s) if entry.sup() <= s.inf() && s.sup() <= exit.inf() => Met::Yes,
                 Some(s) if entry.inf() <= s.sup() && s.inf() <= exit.sup() => Met::InTube,
                 None if !refute::elsewhere(self, spot) => Met::Unknown,
                 _ => Met::No,
             }
         }
-        // Where t is monotone from a solution on, it is the only one.
-        let holds = |part: Interval| {
-            let only = |&s: &Interval| !self.time_slope(part.convex_hull(s)).contains(0.0);
-            !self.time(part).contains(0.0) || here.iter().any(only)
-        };
-        everywhere(range, holds, |_| false)?;
+        self.meets_only(eq, range, listed, FINER)?;
         Ok(stretch)
+    }
+
+    /// Proves that for all parameters of a range the path meets t = 1 in no other point than these. Where the bounds of a
+    /// tube in extended precision are too coarse, finer ones are made, so many times one within the other. `Err`: a range where this
+    /// fails.
+    fn meets_only(
+        &self,
+        eq: &Equations,
+        range: Interval,
+        listed: &[Option<&Spot>],
+        finer: usize,
+    ) -> Result<(), Interval> {
+        // Where in this tube the solutions are that it holds.
+        let spots = listed.iter().flatten();
+        let here: Vec<Interval> = spots.filter_map(|spot| self.locate(spot)).collect();
+        // Where t is monotone from a solution on, it is the only one.
+        let only = |part: Interval, s| !self.time_slope(part.convex_hull(s)).contains(0.0);
+        let is_seen = |part| !self.time(part).contains(0.0) || here.iter().any(|&s| only(part, s));
+        // Of parts that are halved one has such a length.
+        let length = FINE.min(range.wid() / f64::from(PARTS));
+        let is_due = |part: Interval| part.wid() <= length && part.wid() > 0.5 * length;
+        // Where one of them fails no more are tried: their number stays small.
+        let may_be_finer = Cell::new(finer > 0 && !self.claim.low.is_empty());
+        let is_seen_finer = |part: Interval| {
+            let again = |(tube, s): (Tube, Interval)| tube.meets_only(eq, s, listed, finer - 1);
+            let tube = self.finer(eq, part);
+            may_be_finer.set(tube.is_some_and(|tube| again(tube).is_ok()));
+            may_be_finer.get()
+        };
+        let holds =
+            |part| is_seen(part) || (may_be_finer.get() && is_due(part) && is_seen_finer(part));
+        everywhere(range, holds, |_| false)
     }
 }
 
 /// A range in equal parts.
 fn parts(range: Interval) -> impl Iterator<Item = Interval> {
-    const PARTS: u32 = 16;
     let width = range.sup() - range.inf();
     let cut = move |k: u32| match k {
         PARTS => range.sup(),
