@@ -192,10 +192,11 @@ impl<const D: usize> ReducedTest<D> {
             used = largest(used, *cubic / kappa[i]);
             widest = largest(widest, *width / kappa[i]);
         }
-        if !(used < TOO_LONG && widest > 0.0) {
+        if !(used < TOO_LONG && widest >= 0.0) {
             return None;
         }
-        // |w_t| ≤ 1, see `Along::curvature`.
+        // |w_t| ≤ 1, see `Along::curvature`. That is all that limits the box where its width does not count in any key
+        // unknown: where the only one is t, and no equation depends on it.
         place.scale = (0.5 * (1.0 - used) / widest).min(0.5 / omega[t]);
         Some(left)
     }
