@@ -193,15 +193,13 @@ impl<const D: usize> KrawczykTest<D> {
         h: f64,
     ) -> Norms {
         let (m, n) = (equations.m, equations.n());
-        // Differences, sums over a column, and the powers of t(s): fewer roundings than this. An entry of the
-        // tail's is a sum of at most twice as many terms as there are products.
-        let per_entry = gamma(equations.roundings_of_entry(m + 120));
+        let per_entry = gamma(equations.roundings().of_entry_along());
         let hs = powers_of(h);
         self.bound_equations(equations, local, &hs, per_entry);
 
         let u = &self.u;
         let y = &local.y;
-        let roundings = equations.roundings_of_bound(n + 200);
+        let roundings = equations.roundings().of_norm_along();
         let mut bound = |g: &Vector, len: usize| {
             y.multiply_abs(&g[..len], &mut self.v);
             round_up(norm_of(&self.v, u, n), roundings)
