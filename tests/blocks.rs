@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use serde_json::Value;
+use std::fs;
 
 const RECTANGLE: &str = "name = \"rectangle\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n\
     [constraints]\ndistances = [[\"a\", \"b\", 5], [\"b\", \"c\", 3], [\"c\", \"d\", 5], [\"d\", \"a\", 3]]\n\
@@ -505,4 +506,53 @@ fn pages_draw_the_figures_of_blocks() {
         text.starts_with("Followed as a whole, as `--reverse` asks for its path"),
         "{text}"
     );
+}
+
+/// Two circles about one centre, and beside them what is given: every radius changes in proportion to t, so that the path is
+/// straight, and has an end where one vanishes.
+fn shrinking(more: &str, radii: &str) -> String {
+    format!(
+        "name = \"rings\"\ndimension = 2\n[points]\na = [0, 0]\n[circles]\nc = {{ center = \"a\", radius = 3 }}\n\
+         d = {{ center = \"a\", radius = 4.3 }}\n{more}[constraints]\nfixed = [\"a\"]\n\
+         radii = [[\"c\", 3.3]{radii}]\ndistances = [[\"c\", \"d\", 1]]\n"
+    )
+}
+
+#[test]
+fn a_straight_path_that_ends_where_a_radius_vanishes_is_answered_by_blocks() {
+    // The radius of c vanishes at t = -10, and that of e at t = 5.
+    let one = shrinking("", "");
+    let both = shrinking("e = { center = \"a\", radius = 5 }\n", ", [\"e\", 4]");
+    for text in [&one, &both] {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("rings.toml");
+        fs::write(&file, text).unwrap();
+        let file = file.to_str().unwrap();
+        let (code, said) = krawl(&["solve", file], "");
+        assert_eq!(code, Some(0), "{said}");
+        assert!(said.contains("goes to zero"), "{said}");
+        assert!(
+            said.contains("Complete, proved: 1 figure meets all constraints"),
+            "{said}"
+        );
+        assert!(said.contains("\n  d: radius 4.3"), "{said}");
+        // What the path is remains there for programs, and for who asks for a proof of it.
+        let (code, line) = krawl(&["solve", file, "--json", "-"], "");
+        assert_eq!(code, Some(0));
+        let value: Value = serde_json::from_str(&line).unwrap();
+        assert_eq!(value["status"], "open");
+        assert_eq!(value["ends"][0]["kind"], "undefined");
+        assert_eq!(value["solutions"].as_array().unwrap().len(), 1);
+        assert_eq!(value["by_blocks"]["status"], "complete");
+        assert_eq!(value["by_blocks"]["count"], 1);
+        let cert = folder.path().join("rings.krawl");
+        let (code, said) = krawl(&["solve", file, "--cert", cert.to_str().unwrap()], "");
+        assert_eq!(code, Some(5), "{said}");
+        // Who asks for what only a path has is told of the path; floats see nothing else.
+        for option in ["--reverse", "--mode=float"] {
+            let (code, said) = krawl(&["solve", file, option], "");
+            assert_eq!(code, Some(5), "{said}");
+            assert!(said.contains(": Open, "), "{said}");
+        }
+    }
 }

@@ -428,7 +428,7 @@ fn damaged_certificates_of_mixed_kinds_are_refused() {
 /// A path that passes degenerate (flat) figures: tubes and solutions of two systems of equations.
 #[test]
 fn damaged_certificates_through_flat_figures_are_refused() {
-    let problem = Problem::read("problems/constraints/hexahedron.toml").unwrap();
+    let problem = Problem::read("tests/data/hexahedron-28.toml").unwrap();
     let (_, bytes) = common::certificate::of(&problem, &Options::certified());
     let good = Certificate::read(&bytes);
     let (refuted, of) = damage_in("hexahedron", &good, 2, FALSE, false);

@@ -4,6 +4,7 @@ mod common;
 
 use assert_cmd::Command;
 use krawl::compare::{Effort, Fault, Hooks, Knob, Method, Row, Verdict, compare};
+use krawl::problem::Problem;
 use krawl::report::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
 use krawl::track::Space;
 use serde_json::Value;
@@ -615,4 +616,35 @@ fn an_open_certified_run_is_a_reference() {
             assert_eq!(row["solutions"], solutions);
         }
     }
+}
+
+/// A certified run that ended before the one that others are judged by is told from one that came as far.
+#[test]
+fn a_certified_run_that_ended_earlier_is_told() {
+    let problem = Problem::read(K33).unwrap();
+    let effort = Effort {
+        repeats: 1,
+        ..Effort::default()
+    };
+    let mut comparison = compare(&problem, &effort, &mut Hooks::default()).unwrap();
+    let is_reduced =
+        |row: &&mut Row| row.way.method == Method::Certified && row.way.space == Space::Reduced;
+    let row = comparison.rows.iter_mut().find(is_reduced).unwrap();
+    row.verdict = Verdict::Earlier(2);
+    let compared = Compared {
+        comparison,
+        published: Vec::new(),
+    };
+    let table = comparison_to_table(&compared);
+    let words =
+        "certified, reduced: it ended earlier: 2 solutions of the arc proved are beyond its ends";
+    assert!(table.contains(words), "{table}");
+    let document: Value = serde_json::from_str(&comparisons_to_json(&[compared])).unwrap();
+    let rows = document["problems"][0]["rows"].as_array().unwrap();
+    let earlier = rows.iter().filter(|row| row["verdict"] == "earlier");
+    assert_eq!(earlier.count(), 1);
+    assert!(
+        rows.iter()
+            .all(|row| row["faults"] == serde_json::json!([]))
+    );
 }

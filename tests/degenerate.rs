@@ -15,7 +15,7 @@ use krawl::track::{Control, Mode, Options, Outcome, Solution, Space, Status, sol
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// The lengths and faces of `problems/constraints/hexahedron.toml`, by the numbers of points.
+/// The lengths and faces of the hexahedron, by the numbers of points.
 const LENGTHS: [(usize, usize, f64); 12] = [
     (0, 1, 1.3),
     (1, 2, 1.3),
@@ -41,12 +41,18 @@ const FACES: [[usize; 4]; 6] = [
 
 type Figure = Vec<[f64; 3]>;
 
+/// The one with the longer path.
 fn hexahedron() -> Problem {
+    Problem::read("tests/data/hexahedron-28.toml").unwrap()
+}
+
+/// The one that is shipped, with the same lengths and faces.
+fn shipped() -> Problem {
     Problem::read("problems/constraints/hexahedron.toml").unwrap()
 }
 
-fn run(options: &Options) -> Outcome {
-    solve(&hexahedron(), options, &mut Control::default()).unwrap()
+fn run(problem: &Problem, options: &Options) -> Outcome {
+    solve(problem, options, &mut Control::default()).unwrap()
 }
 
 fn middle(solution: &Solution) -> Figure {
@@ -118,8 +124,7 @@ fn left_over(figure: &Figure, volumes: &[f64]) -> f64 {
 
 /// The volumes of the faces in the sketch as the reference sees it: which a rigid motion does not change. The problem
 /// leads p3's height instead of its face's volume, to the same zero.
-fn volumes_in_sketch(flat: &Figure) -> Vec<f64> {
-    let problem = hexahedron();
+fn volumes_in_sketch(problem: &Problem, flat: &Figure) -> Vec<f64> {
     let decimal = |x: &krawl::problem::Decimal| x.to_string().parse::<f64>().unwrap();
     let place = |p: &krawl::problem::Point| p.sketch.each_ref().map(decimal);
     let sketch: Figure = problem.points.iter().map(place).collect();
@@ -139,7 +144,7 @@ fn volumes_in_sketch(flat: &Figure) -> Vec<f64> {
 }
 
 /// What holds of solutions, whoever lists them.
-fn check(outcome: &Outcome) -> (usize, usize) {
+fn check(problem: &Problem, outcome: &Outcome) -> (usize, usize) {
     let mut degenerate = 0;
     for solution in &outcome.solutions {
         let figure = middle(solution);
@@ -157,7 +162,7 @@ fn check(outcome: &Outcome) -> (usize, usize) {
         assert!(solution.points.iter().all(|p| p[2].mag() == 0.0));
         // It is the one on its curve of flat figures in which heights over 1 − t have limits, and its neighbours
         // on that curve are not.
-        let volumes = volumes_in_sketch(&figure);
+        let volumes = volumes_in_sketch(problem, &figure);
         let here = left_over(&figure, &volumes);
         assert!(here < 1e-7, "{here:e}");
         let mut found = 0;
@@ -236,14 +241,45 @@ fn along_the_curve(figure: &Figure, step: f64) -> Figure {
 /// Solutions on the path, and degenerate ones among them: what a tracker of another make and other coordinates, with
 /// steps over t = 1, counts too.
 const SOLUTIONS: (usize, usize) = (28, 4);
+/// The same of the shipped one: what the float and the certified tracker count alike.
+const SHIPPED: (usize, usize) = (8, 2);
 
 /// The path closes, through its flat figures, in floats and with proof.
 #[test]
 fn the_hexahedron_closes_through_flat_figures() {
+    closes(&hexahedron(), SOLUTIONS);
+}
+
+/// The shipped one has 7 solutions up to reflection, as the paper's first path, and an even number of flat ones, as every
+/// closed path that meets flat figures at t = 1 alone (docs/degenerate.md).
+#[test]
+fn the_shipped_hexahedron_has_seven_solutions_up_to_reflection() {
+    let problem = shipped();
+    closes(&problem, SHIPPED);
+    for options in [
+        Options::certified(),
+        Options::certified().reversed(),
+        Options::float(Space::Full),
+        Options::float(Space::Full).reversed(),
+    ] {
+        let outcome = run(&problem, &options);
+        assert_eq!(outcome.status, Status::Closed, "{options:?}");
+        assert_eq!(check(&problem, &outcome), SHIPPED, "{options:?}");
+        let classes = |flat: bool| -> BTreeSet<usize> {
+            let solutions = outcome.solutions.iter();
+            let wanted = solutions.filter(|s| s.is_degenerate == flat);
+            wanted.map(|s| s.class).collect()
+        };
+        assert_eq!((classes(false).len(), classes(true).len()), (5, 2));
+    }
+}
+
+/// A problem's path closes in both modes, with so many solutions and flat ones among them, which are the same in both.
+fn closes(problem: &Problem, counts: (usize, usize)) {
     let [certified, float] = [Options::certified(), Options::float(Space::Full)].map(|options| {
-        let outcome = run(&options);
+        let outcome = run(problem, &options);
         assert_eq!(outcome.status, Status::Closed, "{:?}", outcome.mode);
-        assert_eq!(check(&outcome), SOLUTIONS, "{:?}", outcome.mode);
+        assert_eq!(check(problem, &outcome), counts, "{:?}", outcome.mode);
         outcome
     });
     for (proved, seen) in certified.solutions.iter().zip(&float.solutions) {
@@ -263,8 +299,8 @@ fn the_hexahedron_closes_through_flat_figures() {
 #[test]
 fn the_other_way_round_meets_the_same() {
     for options in [Options::certified(), Options::float(Space::Full)] {
-        let there = run(&options);
-        let back = run(&options.clone().reversed());
+        let there = run(&hexahedron(), &options);
+        let back = run(&hexahedron(), &options.clone().reversed());
         assert_eq!(back.status, Status::Closed);
         assert_eq!(there.solutions.len(), back.solutions.len());
         for (one, other) in there.solutions.iter().zip(back.solutions.iter().rev()) {

@@ -102,6 +102,29 @@ fn both_directions_of_a_line_are_one_figure() {
     }
 }
 
+/// Distances that are zero at t = 1 and not before are met in a regular figure, in which the equations are independent: r is
+/// led onto the line a-b, so that q has to be on p-s, on either side of p and for either place of r.
+#[test]
+fn equal_distances_may_become_zero() {
+    let problem = Problem::parse(
+        "name = \"zero\"\ndimension = 2\n[points]\np = [0, 0]\nq = [0.3, -0.1]\na = [0, 3]\nb = [4, 4]\nr = [1.2, 3.9]\n\
+         s = [5, 1]\n[constraints]\nfixed = [\"p\", \"a\", \"b\", \"s\"]\non = [[\"r\", \"a\", \"b\"]]\n\
+         equal_distances = [[\"q\", \"p\", \"s\", \"r\", \"a\", \"b\"]]\n\
+         distances = [[\"a\", \"r\", 1.5], [\"p\", \"q\", 1]]\n",
+        "zero.toml",
+    )
+    .unwrap();
+    for options in ways() {
+        let outcome = solve(&problem, &options);
+        assert_eq!(outcome.status, Status::Closed, "{options:?}");
+        assert_eq!(outcome.solutions.len(), 4, "{options:?}");
+        for solution in &outcome.solutions {
+            let [x, y, _] = *solution.point(&problem, "q").unwrap();
+            assert!((5.0 * y.mid() - x.mid()).abs() < 1e-9, "{options:?}");
+        }
+    }
+}
+
 /// The checker comes to the same classes.
 #[test]
 fn certificates_know_that_both_directions_are_one_figure() {

@@ -283,7 +283,7 @@ fn a_fold_beyond_the_figure_wanted_is_no_limit() {
 /// Neither knows the records of equations with heights divided by 1 − t, and both say so.
 #[test]
 fn records_of_divided_equations_are_said_to_be_unknown() {
-    let problem = Problem::read("problems/constraints/hexahedron.toml").unwrap();
+    let problem = Problem::read("tests/data/hexahedron-28.toml").unwrap();
     let (_, bytes) = certificate::of(&problem, &Options::certified());
     let found = [(scripted_bytes(&bytes), 5), (checked_bytes(&bytes), 3)];
     for ((code, text), expected) in found.into_iter().filter_map(|(f, e)| Some((f?, e))) {

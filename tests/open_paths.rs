@@ -74,12 +74,21 @@ fn a_sketch_that_meets_everything_stays_as_it_is() {
         "3.3",
         ", [\"d\", \"b\", 1]]\nhorizontal = [[\"a\", \"b\"]]",
     );
-    for (problem, reverse) in [(&alone, false), (&alone, true), (&beside, false)] {
+    for (problem, reverse, space) in [
+        (&alone, false, Space::Full),
+        (&alone, true, Space::Full),
+        (&beside, false, Space::Full),
+        (&alone, false, Space::Reduced),
+        (&alone, true, Space::Reduced),
+        (&beside, false, Space::Reduced),
+    ] {
         let options = Options {
             reverse,
+            space,
             ..Options::certified()
         };
         let outcome = run(problem, &options);
+        assert_eq!(outcome.space, space);
         let Status::Open(ends) = &outcome.status else {
             panic!("{:?}", outcome.status);
         };
@@ -129,12 +138,24 @@ fn a_figure_as_it_should_be_is_found() {
         "dimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nc = [0, 4]\n[constraints]\n\
          distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 5], [\"c\", \"a\", 4]]\n[homotopy]\nbend_coefficient = 0\n",
     );
-    let outcome = run(&problem, &Options::certified());
-    let Status::Stopped(stop) = &outcome.status else {
-        panic!("{:?}", outcome.status);
-    };
-    assert_eq!(stop.kind, StopKind::Infinite, "{stop}");
-    assert_eq!(outcome.solutions.len(), 1);
+    for space in [Space::Full, Space::Reduced] {
+        let options = Options {
+            space,
+            ..Options::certified()
+        };
+        let outcome = run(&problem, &options);
+        let Status::Stopped(stop) = &outcome.status else {
+            panic!("{:?}", outcome.status);
+        };
+        assert_eq!(stop.kind, StopKind::Infinite, "{stop}");
+        let [solution] = &outcome.solutions[..] else {
+            panic!("{} solutions", outcome.solutions.len());
+        };
+        let [x, y, _] = *solution.point(&problem, "c").unwrap();
+        let [p, q, _] = *solution.point(&problem, "b").unwrap();
+        let across = (p.mid() - x.mid()).hypot(q.mid() - y.mid());
+        assert!((across - 5.0).abs() < 1e-12, "{across}");
+    }
 }
 
 /// b is on the line a-e and sees a and c under a right angle: at the foot of c, but where b falls on a the equation

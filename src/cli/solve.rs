@@ -19,6 +19,7 @@ use krawl::report::{
 use krawl::track::{
     self, Control, EndKind, First, Options, Outcome, PathEnd, Progress, Status, Trace, Witness,
 };
+use num_traits::Zero;
 use serde_json::Value;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
@@ -329,17 +330,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             )?
         };
         written &= well;
-        let has_no_end = without_end(&outcome.status);
+        let unbounded = Unbounded::of(&outcome.status);
         let reason = match &outcome.status {
             Status::Stopped(reason) => Some(&*reason.text),
-            _ => has_no_end.filter(|_| problem.is_absolute()),
+            _ => unbounded
+                .filter(|_| problem.is_absolute())
+                .map(|path| path.reason),
         };
         if let Some(reason) = reason
             && arguments.can_be_cut(cancel)
         {
             if problem.is_absolute()
-                && let Some((mut text, value, code)) =
-                    arguments.instead(problem, reason, has_no_end.is_some())
+                && let Some((mut text, value, code)) = arguments.instead(problem, reason, unbounded)
             {
                 if arguments.cert.is_some() {
                     // What the certificate is about.
@@ -374,7 +376,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let blocks = match arguments.cert {
                 // What is asked for is a certificate of the whole.
                 Some(_) => Vec::new(),
-                None if has_no_end.is_some() => Vec::new(),
+                None if unbounded.is_some() => Vec::new(),
                 None => clusters(problem),
             };
             if !blocks.is_empty() {
@@ -483,14 +485,33 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     Ok(if written { worst } else { BAD_INPUT })
 }
 
-/// Why the path goes on both ways without an end that one can see, if it does: as from a sketch that meets all constraints,
-/// where nothing depends on t.
-fn without_end(status: &Status) -> Option<&str> {
-    let Status::Open(ends) = status else {
-        return None;
-    };
-    let runs_on = |end: &PathEnd| end.kind == EndKind::Infinite && end.away.is_none();
-    ends.iter().all(runs_on).then(|| ends[1].reason.as_str())
+/// A path with two ends of which neither says anything of the figures with t = 1.
+#[derive(Clone, Copy)]
+struct Unbounded<'a> {
+    /// Why it was left, one of the two ways.
+    reason: &'a str,
+    /// Whether it goes farther than it is followed, both ways: as from a sketch that meets all constraints, where nothing
+    /// depends on t. Otherwise it has an end where a length or radius vanishes, as t makes it larger or smaller for ever.
+    both_ways: bool,
+}
+
+impl<'a> Unbounded<'a> {
+    /// The path of a run that came to two such ends.
+    fn of(status: &'a Status) -> Option<Self> {
+        let Status::Open(ends) = status else {
+            return None;
+        };
+        let runs_on = |end: &PathEnd| end.kind == EndKind::Infinite && end.away.is_none();
+        let vanishes = |end: &PathEnd| end.kind == EndKind::Undefined;
+        if !ends.iter().all(|end| runs_on(end) || vanishes(end)) {
+            return None;
+        }
+        let vanishing = ends.iter().rev().find(|end| vanishes(end));
+        Some(Unbounded {
+            reason: vanishing.map_or(&ends[1].reason, |end| &end.reason),
+            both_ways: vanishing.is_none(),
+        })
+    }
 }
 
 /// The graver of two exit codes.
@@ -646,9 +667,24 @@ impl Arguments {
 
     /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole: as text, as a
     /// value for JSON, and the exit code. `None`: its blocks do not come to an end either, and no certificate is asked for.
-    /// `open`: its path is one without end that one can see.
-    fn instead(&self, problem: &Problem, reason: &str, open: bool) -> Option<(String, Value, u8)> {
+    /// `unbounded`: its path has two ends. Where a length or radius vanishes at one of them, what is on the path is said unless
+    /// nothing bends, nothing is asked for that a path alone has, and the blocks have all figures.
+    fn instead(
+        &self,
+        problem: &Problem,
+        reason: &str,
+        unbounded: Option<Unbounded>,
+    ) -> Option<(String, Value, u8)> {
+        let vanishes = unbounded.is_some_and(|path| !path.both_ways);
+        let bends = problem.homotopy.bend < problem.distances.len()
+            && !problem.homotopy.bend_coefficient.value().is_zero();
+        if vanishes && (bends || self.wants_path().is_some()) {
+            return None;
+        }
         let (text, value, code) = self.by_blocks(problem).ok()?;
+        if vanishes && value["status"] != "complete" {
+            return None;
+        }
         let certificate = match self.cert {
             Some(_) => {
                 " The certificate has what was proved of the path of the whole; of the figures below it says nothing."
@@ -656,9 +692,14 @@ impl Arguments {
             None => "",
         };
         let reason = reason.trim_end_matches('.');
-        let how = match open {
-            true => "its path goes farther than it is followed, both ways",
-            false => "it stops",
+        let how = match unbounded {
+            Some(Unbounded {
+                both_ways: true, ..
+            }) => "its path goes farther than it is followed, both ways",
+            Some(_) => {
+                "its path ends where a length or radius vanishes, or goes farther than it is followed"
+            }
+            None => "it stops",
         };
         let introduction = match self.summary {
             true => String::new(),
@@ -670,7 +711,7 @@ impl Arguments {
         };
         // A certificate of a path that stopped, or is open, proves no more for it.
         let worth = match self.cert {
-            Some(_) if open => OPEN,
+            Some(_) if unbounded.is_some() => OPEN,
             Some(_) => STOPPED,
             None => code,
         };

@@ -16,6 +16,9 @@ pub enum Verdict {
     Right,
     /// It stopped, and nothing that it says up to there is wrong.
     Stopped,
+    /// A certified run that ended open, as the one that others are judged by did, but earlier: nothing that it says is wrong,
+    /// and so many solutions of the arc that the other one proved are beyond its ends.
+    Earlier(usize),
     /// It is wrong in these ways.
     Wrong(Vec<Fault>),
     /// No certified run closed or ended open, so that nothing can be judged. Or one proved an arc, on which this run
@@ -202,6 +205,9 @@ impl<'m> Reference<'m> {
             // That the arc's ends are those of the path is not proved.
             (true, Ending::Closed) if known == Ending::Open => Verdict::Unjudged,
             (true, Ending::Stopped) => Verdict::Stopped,
+            (true, Ending::Open) if is_piece && places.len() < all => {
+                Verdict::Earlier(all - places.len())
+            }
             (true, _) => Verdict::Right,
         }
     }
@@ -361,7 +367,7 @@ mod tests {
 
     #[test]
     fn an_arc_is_a_reference() {
-        use Verdict::{Right, Stopped, Unjudged, Wrong};
+        use Verdict::{Earlier, Right, Stopped, Unjudged, Wrong};
         let float = |met: &[f64], ending| on_arc(Mode::Float, met, ending, 1e-15);
         assert_eq!(float(&PROVED, Ending::Open), Right);
         assert_eq!(float(&[0.4, 0.3, 0.2, 0.1], Ending::Open), Right);
@@ -422,7 +428,12 @@ mod tests {
         );
         // Another proof may get less far, and does not pass over anything.
         let proved = |met: &[f64]| on_arc(Mode::Certified, met, Ending::Open, 1e-12);
-        assert_eq!(proved(&[0.2, 0.3]), Right);
+        assert_eq!(proved(&PROVED), Right);
+        assert_eq!(proved(&[0.2, 0.3]), Earlier(2));
+        assert_eq!(proved(&[0.1, 0.2, 0.3]), Earlier(1));
+        assert_eq!(proved(&[]), Earlier(4));
+        // Its figures beyond the other end are not known to be wrong.
+        assert_eq!(proved(&[0.3, 0.4, 0.5]), Unjudged);
         assert_eq!(proved(&[0.1, 0.3]), Wrong(vec![Fault::Lost(1)]));
         // A closed path is not open.
         let matching = matching();

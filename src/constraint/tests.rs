@@ -2,6 +2,7 @@
 
 use super::testing::{Figure, angle, cross, dot, examine, near, read, size};
 use crate::interval::point;
+use crate::problem::Problem;
 use crate::system::{Edge, Homotopy};
 
 /// A problem in the plane.
@@ -388,6 +389,32 @@ fn equal_lengths_and_distances() {
     );
     near(f.distance("b", "c"), f.distance("a", "d"));
     near(f.off_line("c", "a", "b"), f.off_line("b", "c", "d"));
+}
+
+/// Which side a point is on cannot be read off a sketch in which it is on its line, and where the line goes through it there is
+/// none at all: the words say what to do.
+#[test]
+fn equal_distances_that_are_zero_in_the_sketch_are_refused() {
+    let refused = |d: &str, row: &str| {
+        let text = format!(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nc = [4, 2.1]\nd = {d}\n[constraints]\n\
+             distances = [[\"a\", \"b\", 3], [\"b\", \"c\", 2], [\"a\", \"d\", 2.2], [\"c\", \"d\", 3]]\n\
+             equal_distances = [[{row}]]\n"
+        );
+        Problem::parse(&text, "test.toml").unwrap_err().to_string()
+    };
+    let on_it = refused("[1, 0]", r#""d", "a", "b", "a", "b", "c""#);
+    assert!(
+        on_it.contains("`d` is on the line in the sketch"),
+        "{on_it}"
+    );
+    assert!(
+        on_it.contains("say `on` of each point and its line"),
+        "{on_it}"
+    );
+    let own = refused("[1, 2]", r#""d", "a", "b", "b", "b", "c""#);
+    assert!(own.contains("the line goes through `b` itself"), "{own}");
+    assert!(own.contains("say `on` of the other point"), "{own}");
 }
 
 #[test]

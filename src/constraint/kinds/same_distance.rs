@@ -34,16 +34,27 @@ impl Kind for EqualDistances {
             return Err("this is for problems of dimension 2".to_owned());
         }
         let mut area = |low: &mut Lowering| -> Result<_, Fault> {
-            let place = low.place(of.items.point()?);
-            let line = of.items.line()?;
-            let line = low.line(line)?;
+            let point = of.items.point()?;
+            let place = low.place(point);
+            let name = of.items.line()?;
+            let line = low.line(name)?;
             let across = low.between(&line.base, &place);
             let at = cross_in_plane(&line.along.at, &across.at);
+            if let LineName::Points(ends) = name
+                && ends.contains(&point)
+            {
+                return Err(format!(
+                    "the line goes through `{}` itself, so that both distances would be zero: say `on` of the other point and \
+                     its line",
+                    low.name(point)
+                ));
+            }
             if at.is_zero() {
-                return Err(
-                    "the point is on the line in the sketch: move it to the side where it is wanted"
-                        .to_owned(),
-                );
+                return Err(format!(
+                    "`{}` is on the line in the sketch, so that there is no side to keep it on: move it to the side where it is \
+                     wanted, or, where both distances are to be zero, say `on` of each point and its line",
+                    low.name(point)
+                ));
             }
             let products = low.cross_in_plane(-1, &line.along.forms, &across.forms);
             Ok((line, at, products))

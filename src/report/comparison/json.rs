@@ -23,9 +23,9 @@ use serde::Serialize;
 ///
 /// `sweep` has rows of the same form, with the name of the option that was set and its value in the
 /// problem's lengths and in typical lengths. `seconds` is the median of `runs`. `status` is
-/// `closed`, `open`, `stopped` or `unsupported`; `verdict` is `right`, `wrong`, `stopped` or `unjudged`,
-/// and `faults` has entries like `{"fault": "lost", "amount": 3.0}` with `lost`, `jumped`,
-/// `invented`, `order`, `length`, `not_closed`, `open`. Where `reference_is_arc` the certified run that the
+/// `closed`, `open`, `stopped` or `unsupported`; `verdict` is `right`, `wrong`, `stopped`, `earlier`
+/// (a certified run that ended open without all solutions of the arc that is proved) or `unjudged`,
+/// and `faults` has entries like `{"fault": "lost", "amount": 3.0}` with `lost`, `jumped`, `invented`, `order`, `length`, `not_closed`, `open`. Where `reference_is_arc` the certified run that the
 /// others are judged by ended open, and what it proves is the arc between its ends. Where there is nothing to say stands `null`.
 pub fn comparisons_to_json(compared: &[Compared]) -> String {
     let document = Document {

@@ -65,9 +65,19 @@ fn verdict(verdict: &Verdict) -> &'static str {
     match verdict {
         Verdict::Right => "right",
         Verdict::Stopped => "stopped",
+        Verdict::Earlier(_) => "earlier",
         Verdict::Wrong(_) => "wrong",
         Verdict::Unjudged => "unjudged",
     }
+}
+
+/// What there is to say of a certified run that ended before the one that others are judged by.
+fn earlier(beyond: usize) -> String {
+    let solutions = match beyond {
+        1 => "1 solution of the arc proved is".to_owned(),
+        n => format!("{n} solutions of the arc proved are"),
+    };
+    format!("it ended earlier: {solutions} beyond its ends")
 }
 
 /// What is wrong, in words.

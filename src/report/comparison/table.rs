@@ -1,6 +1,6 @@
 //! A comparison for people.
 
-use super::{Compared, faults, status, switched_on};
+use super::{Compared, earlier, faults, status, switched_on};
 use crate::compare::{Knob, Row, Verdict, Way};
 use crate::track::Status;
 use std::fmt::Write;
@@ -85,6 +85,9 @@ pub fn comparison_to_table(compared: &Compared) -> String {
                 }
             ));
         }
+        if let Verdict::Earlier(beyond) = row.verdict {
+            remarks.push(format!("{place}: {}", earlier(beyond)));
+        }
         if wrong {
             remarks.push(format!("{place}: WRONG: {}", faults(&row.verdict)));
         }
@@ -168,6 +171,7 @@ fn sweep(compared: &Compared) -> String {
             Verdict::Right => "right".into(),
             Verdict::Wrong(_) => format!("WRONG: {}", faults(&row.verdict)),
             Verdict::Stopped => word.into(),
+            Verdict::Earlier(beyond) => format!("{word}: {}", earlier(*beyond)),
             Verdict::Unjudged if comparison.has_reference() && closed(row) => {
                 format!("{word}, beyond the arc")
             }
@@ -195,12 +199,12 @@ fn sweep(compared: &Compared) -> String {
     out
 }
 
-/// The largest and the smallest width of a certified run's boxes.
 fn closed(row: &Row) -> bool {
     row.measured()
         .is_some_and(|measured| measured.outcome.status == Status::Closed)
 }
 
+/// The largest and the smallest width of a certified run's boxes.
 fn widths(row: &Row) -> String {
     match row.measured().and_then(|m| m.widths()) {
         Some((largest, smallest)) if largest > 0.0 => format!("{largest:.1e}, {smallest:.1e}"),

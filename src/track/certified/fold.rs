@@ -225,7 +225,7 @@ impl<const D: usize> FoldProver<D> {
         let defect = self.greatest_step(n);
         let t = self.x[m].abs();
         // All entries of a row, twice for those that come from X and from v.
-        let per_entry = gamma(equations.roundings_of_entry(n + 40));
+        let per_entry = gamma(equations.roundings().of_entry_at_fold());
         let is_free = |end: usize| (end < m) as usize as f64;
         let mut width = Vector::zeros(n);
         for e in 0..m {
@@ -253,7 +253,7 @@ impl<const D: usize> FoldProver<D> {
             let curvature = homotopy.rights[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
             self.bound[e] = per_entry * (size + slope) + slope_radius;
             self.bound[m + e] = per_entry * (size + size_v);
-            let roundings = equations.roundings_of_bound(8);
+            let roundings = equations.roundings().of_width_at_fold();
             width[e] = round_up(change + curvature.mag(), roundings);
             width[m + e] = round_up(2.0 * change, roundings);
         }
@@ -264,7 +264,7 @@ impl<const D: usize> FoldProver<D> {
         // The ones of I pass through as many sums as the products that they are added to.
         let q0 = round_up(
             defect + rounding + gamma(n + 4),
-            equations.roundings_of_bound(2 * n + 60),
+            equations.roundings().of_contraction_at_fold(),
         );
         self.y.multiply_abs(&width[..n], &mut self.step);
         let kappa = round_up(self.greatest_step(n), n + 30);

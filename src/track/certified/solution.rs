@@ -174,7 +174,7 @@ impl<const D: usize> SolutionProver<D> {
         let (m, n) = (equations.m, equations.n());
         let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
-        let per_entry = gamma(equations.roundings_of_entry(m + 12));
+        let per_entry = gamma(equations.roundings().of_entry_at_point());
         let is_free = |end: usize| (end < n) as usize as f64;
         let (rounding, width) = (&mut self.rounding, &mut self.width);
         for e in 0..m {
@@ -215,10 +215,13 @@ impl<const D: usize> SolutionProver<D> {
         // The ones of I pass through as many sums as the products that they are added to.
         let q0 = round_up(
             defect + greatest(&self.v[..n]) + gamma(m + 4),
-            equations.roundings_of_bound(2 * n + 40),
+            equations.roundings().of_contraction_at_point(),
         );
         local.y.multiply_abs(&width[..m], &mut self.v);
-        let kappa = round_up(greatest(&self.v[..n]), equations.roundings_of_bound(n + 20));
+        let kappa = round_up(
+            greatest(&self.v[..n]),
+            equations.roundings().of_width_at_point(),
+        );
         (q0, kappa)
     }
 

@@ -152,10 +152,6 @@ fn form_value<const D: usize>(
 
 /// q_e(z) − E, as a float, and how far the exact value may be away: E has been computed
 /// from terms of that `size` in sum, whose coefficients are known up to what adds up to `radius`.
-///
-/// No term of a distance passes through more than 20 operations: a difference is relatively exact, twice in
-/// a square; D sums; ten in Horner's rule; the last subtraction. A product of the tail passes through one
-/// multiplication more, by half a small whole number.
 fn equation<const D: usize>(
     equations: &Equations<D>,
     z: (&[f64], &[f64]),
@@ -172,9 +168,9 @@ fn equation<const D: usize>(
     let (half, products) = add_tail(equations, z, e, half);
     let f = half - length;
     let size = squared.half().size() + products + size;
-    let rounding = gamma_double(equations.roundings(20)) * size + f.lo.abs();
-    // The bound's own roundings: two for every step of Horner's rule, and sizes rounded to floats.
-    (f.hi, round_up(rounding + radius, equations.roundings(40)))
+    let rounding = gamma_double(equations.roundings().of_residual()) * size + f.lo.abs();
+    let bound = equations.roundings().of_extended_bound();
+    (f.hi, round_up(rounding + radius, bound))
 }
 
 /// Adds what the tail has to the left-hand side of an equation, and tells the size of that.

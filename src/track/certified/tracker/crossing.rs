@@ -371,7 +371,7 @@ mod tests {
     /// The hexahedron's run, and the end it came to.
     fn run(change: impl Fn(&mut Homotopy)) -> (Result<(), Stop>, usize, String) {
         let path = format!(
-            "{}/problems/constraints/hexahedron.toml",
+            "{}/tests/data/hexahedron-28.toml",
             env!("CARGO_MANIFEST_DIR")
         );
         let homotopy = Homotopy::new(&Problem::read(path).unwrap()).unwrap();

@@ -69,9 +69,12 @@ fn failures<const D: usize>(
     let mut absolute = Forms::new(tail);
     absolute.set(tail, |form| d.forms[form].abs());
     tail.row_sizes(&absolute, &mut sizes);
-    let per_term = gamma(equations.roundings_of_row(8));
+    let per_term = gamma(equations.roundings().of_row_at_point());
     let wrong = |entry: usize| {
-        let error = round_up(per_term * sizes[entry], equations.roundings_of_bound(20));
+        let error = round_up(
+            per_term * sizes[entry],
+            equations.roundings().of_row_bound(),
+        );
         misses(values[entry], error, row[tail.unknown(entry)])
     };
     if tail.row(e).any(wrong) {
@@ -86,7 +89,7 @@ fn failures<const D: usize>(
         }
     }
     let wrong = |(&column, &(sum, size)): (&usize, &(f64, f64))| {
-        let error = round_up(per_term * size, equations.roundings_of_bound(20));
+        let error = round_up(per_term * size, equations.roundings().of_row_bound());
         misses(sum, error, row[column])
     };
     if sums.iter().any(wrong) {

@@ -62,7 +62,7 @@ impl<const D: usize> KrawczykTest<D> {
         let reach: f64 = (1..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
         let t = local.z[0][m].abs() + reach;
         let t_higher: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
-        let of_right = gamma(coefficient_roundings(equations));
+        let of_right = gamma(equations.roundings().of_coefficient(ORDER));
         let Bounds {
             rounding,
             higher,
@@ -161,7 +161,7 @@ impl<const D: usize> KrawczykTest<D> {
         per_entry: f64,
     ) {
         let tail = &equations.tail;
-        let per_term = gamma(coefficient_roundings(equations));
+        let per_term = gamma(equations.roundings().of_coefficient(ORDER));
         let Bounds {
             rounding,
             higher,
@@ -213,7 +213,7 @@ impl<const D: usize> KrawczykTest<D> {
         let bend = &equations.bends[b];
         let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
         let cube = t * t * t;
-        let of_right = gamma(coefficient_roundings(equations));
+        let of_right = gamma(equations.roundings().of_coefficient(ORDER));
         low[at] += of_right * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
         let slope_size = t * t * (3.0 * e[3] + 4.0 * t * e[4]);
         let slope_radius = t * t * (3.0 * r[3] + 4.0 * t * r[4]);
@@ -227,10 +227,4 @@ impl<const D: usize> KrawczykTest<D> {
             .sum();
         higher[at] += terms * ut;
     }
-}
-
-/// More roundings than any term of a coefficient of F along ẑ goes through, right-hand sides included: it is a
-/// sum of at most six products of orders for each product of the equation.
-fn coefficient_roundings<const D: usize>(equations: &Equations<D>) -> usize {
-    equations.roundings_of_coefficient(200, ORDER + 1)
 }

@@ -56,7 +56,7 @@ impl<const D: usize> KrawczykTest<D> {
         let t_of = |k: usize| local.z[k][m].abs() * hs[k];
         let t = (0..=ORDER).map(t_of).sum();
         let t_rate: f64 = (1..=ORDER).map(|k| k as f64 * t_of(k)).sum();
-        let per_term = gamma(equations.roundings_of_coefficient(200, ORDER + 1));
+        let per_term = gamma(equations.roundings().of_coefficient(ORDER));
         for (e, rest) in rest[..m].iter_mut().enumerate() {
             // Of Σ_k f_k sᵏ in absolute values throughout, Σ_k k f_k sᵏ is the derivative times s; that of
             // ½ (Σ |d_k| sᵏ)² for the differences, of E(Σ |t_k| sᵏ) for the lengths.
@@ -85,7 +85,7 @@ impl<const D: usize> KrawczykTest<D> {
                 *rest += share * k as f64 * c.abs() * hs[k];
             }
         }
-        let roundings = equations.roundings_of_bound(n + 200);
+        let roundings = equations.roundings().of_norm_along();
         let mut bound = |g: &Vector| {
             local.y.multiply_abs(&g[..m], &mut self.v);
             round_up(norm_of(&self.v, &self.u, n), roundings)

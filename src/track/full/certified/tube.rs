@@ -27,6 +27,7 @@ use crate::track::certified::link::Tube;
 use crate::track::certified::proof::{Proof, powers_of};
 use crate::track::certified::shortfall::{MAX_CONTRACTION, Shortfall};
 use crate::track::certified::tracker::Test;
+use crate::track::ends::LONGEST;
 use crate::track::full::{
     Differences, Equations, Forms, InverseMaker, Lengths, Local, ORDER, RefineError,
 };
@@ -34,10 +35,6 @@ use crate::track::{Driving, Options, Space};
 
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
-
-/// No tube is tried that is longer than this to either side: far more than any path needs that is not straight, and
-/// so that the next point of one that has not come to [`ENDLESS`](crate::track::ends::ENDLESS) fits into a certificate.
-const LONGEST: f64 = (1u64 << 33) as f64;
 
 /// Where bounds are out of range for tubes so long, as on a straight path, they are taken for tubes shorter by this.
 const SHORTER: f64 = 1.0 / 16.0;
@@ -196,15 +193,13 @@ impl<const D: usize> KrawczykTest<D> {
         h: f64,
     ) -> Norms {
         let (m, n) = (equations.m, equations.n());
-        // Differences, sums over a column, and the powers of t(s): fewer roundings than this. An entry of the
-        // tail's is a sum of at most twice as many terms as there are products.
-        let per_entry = gamma(equations.roundings_of_entry(m + 120));
+        let per_entry = gamma(equations.roundings().of_entry_along());
         let hs = powers_of(h);
         self.bound_equations(equations, local, &hs, per_entry);
 
         let u = &self.u;
         let y = &local.y;
-        let roundings = equations.roundings_of_bound(n + 200);
+        let roundings = equations.roundings().of_norm_along();
         let mut bound = |g: &Vector, len: usize| {
             y.multiply_abs(&g[..len], &mut self.v);
             round_up(norm_of(&self.v, u, n), roundings)

@@ -6,10 +6,11 @@ use crate::linalg::{LANE, Vector};
 
 impl<const D: usize> Equations<D> {
     /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
-    /// radii of the coefficients. No term of a distance goes through more than 20 roundings.
+    /// radii of the coefficients.
     pub fn residual_error(&self, d: &Differences<D>, t: f64, out: &mut Vector) {
         let t = t.abs();
-        let (per_term, roundings) = (gamma(self.roundings(20)), self.roundings(24));
+        let count = self.roundings();
+        let (per_term, roundings) = (gamma(count.of_residual()), count.of_residual_bound());
         let axes = d.each_ref().map(|d| d.lanes());
         let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = self.e_radius.each_ref().map(|r| r.lanes());
@@ -32,13 +33,12 @@ impl<const D: usize> Equations<D> {
         }
         for e in self.tail.first()..self.m {
             let size = self.tail.half_products_abs(e, &d.forms, &d.forms);
-            out[e] = round_up(out[e] + per_term * size, self.roundings_of_bound(24));
+            out[e] = round_up(out[e] + per_term * size, count.of_product_bound());
         }
     }
 
     /// How far J v may be from what [`Equations::jacobian_times`] computes, J being taken anywhere
-    /// within the given radii (as differences' sums, and of t) of the point: no term of a distance goes
-    /// through more than 20 roundings.
+    /// within the given radii (as differences' sums, and of t) of the point.
     pub fn jacobian_times_error(
         &self,
         (d, t): (&Differences<D>, f64),
@@ -47,8 +47,8 @@ impl<const D: usize> Equations<D> {
         out: &mut [f64],
     ) {
         let (t, vt) = (t.abs() + t_radius, vt.abs());
-        // Either factor of a product passes through one sum more than a distance's difference does.
-        let per_term = gamma(self.roundings_of_derivative(20));
+        let count = self.roundings();
+        let per_term = gamma(count.of_jacobian_times());
         for (e, out) in out[..self.m].iter_mut().enumerate() {
             let (mut size, mut moved) = (0.0, 0.0);
             for axis in 0..D {
@@ -69,7 +69,7 @@ impl<const D: usize> Equations<D> {
             }
             let time = slope_radius + curvature * t_radius;
             let bound = per_term * (size + slope_size * vt) + moved + time * vt;
-            *out = round_up(bound, self.roundings_of_bound(40));
+            *out = round_up(bound, count.of_jacobian_times_bound());
         }
     }
 

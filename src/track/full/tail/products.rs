@@ -172,7 +172,7 @@ impl Tail {
 
     /// Adds what each lane of equations has, told from its slots.
     ///
-    /// Fewer roundings than [`Equations::roundings`](super::super::Equations::roundings) and its like count: a product is
+    /// Fewer roundings than [`Equations::roundings`](super::super::Equations::roundings) has counts for: a product is
     /// added to those before it with one rounding, and the sum to what is there with one more.
     #[inline(always)]
     fn add(&self, value: impl Fn(std::ops::Range<usize>) -> Lane, out: &mut [f64]) {

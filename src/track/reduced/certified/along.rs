@@ -10,23 +10,6 @@ use crate::linalg::{LANE, Vector};
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};
 
-/// More roundings than any term of a distance's coefficient of F along ẑ goes through: the differences and
-/// their sum over a, b and the axes (27), the powers of t(s) − t₀ (40), E and its derivatives (20).
-const COEFFICIENT: usize = 100;
-/// More roundings than any term of a distance's F(z₀) goes through: differences, their squares and sum (7), E of
-/// degree 4 (10).
-const POINT: usize = 20;
-
-/// What COEFFICIENT and POINT are for all equations, those of the tail too: more roundings than any term of a
-/// coefficient of F along ẑ, and of F(z₀), goes through. Each product of an equation is a sum over a and b, of
-/// COEFFICIENTS terms at most, and one at z₀.
-fn roundings<const D: usize>(equations: &Equations<D>) -> (usize, usize) {
-    (
-        equations.roundings_of_coefficient(COEFFICIENT, COEFFICIENTS + 1),
-        equations.roundings_of_derivative(POINT),
-    )
-}
-
 /// Sizes over a tube of a length that was chosen last.
 #[derive(Debug)]
 pub struct Along<const D: usize> {
@@ -169,12 +152,14 @@ impl<const D: usize> Along<D> {
                 self.high[bend.edge] += excess * hs[k] * (k as f64 / COEFFICIENTS as f64);
             }
         }
-        let (of_coefficient, of_point) = roundings(equations);
-        let (t, at_point, rounding) = (self.time.t, gamma(of_point), gamma(of_coefficient));
+        let count = equations.roundings();
+        let of_coefficient = count.of_reduced_coefficient(COEFFICIENTS);
+        let (at_point, rounding) = (gamma(count.of_reduced_residual()), gamma(of_coefficient));
+        let t = self.time.t;
         let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
-        // Rounding in F(z₀) is at most γ(POINT) times ½ Σ d₀² + |E|(|t₀|). Rounding in the coefficient of
-        // sᵏ, k ≥ 1, is at most γ(COEFFICIENT) times that of hᵏ in Σ all² + |E|(T), with T(h) = Σ |t_k| hᵏ,
+        // Rounding in F(z₀) is at most γ(at a point) times ½ Σ d₀² + |E|(|t₀|). Rounding in the coefficient of
+        // sᵏ, k ≥ 1, is at most γ(in a coefficient) times that of hᵏ in Σ all² + |E|(T), with T(h) = Σ |t_k| hᵏ,
         // and the radii's share that in E's radius at T. These are polynomials in h with coefficients
         // ≥ 0: the derivative by s is bounded by that by h, and what they have without k = 0 by
         // Σ (all − |d₀|)(all + |d₀|) and (T − |t₀|) |E|'(T).

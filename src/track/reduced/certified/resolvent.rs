@@ -419,9 +419,8 @@ impl<const D: usize> Resolvent<D> {
             .blocks
             .iter()
             .fold(D, |max, block| max.max(block.size));
-        // A row of the tail has more entries than that of a distance.
-        let largest = equations.roundings_of_row(layout.order + widest + 10);
-        self.roundings = (layout.blocks.len() + 4) * 2 * largest + 200;
+        let count = equations.roundings();
+        self.roundings = count.of_inverse(layout.blocks.len(), layout.order, widest);
     }
 
     /// `v ≥ |A(s)⁻¹| g` for four right-hand sides g ≥ 0 at once: `g` and `y` (work space) per row of A,

@@ -80,11 +80,7 @@ impl<const D: usize> ReducedTest<D> {
         tube: &mut Tubes<D>,
         h: f64,
     ) -> Option<Bounds> {
-        let m = equations.m;
-        // Differences and the powers of t(s), sums over the normal or the distances of a point (m
-        // each, the latter at three orders), over A's rows at two orders and key unknowns at three:
-        // in all fewer roundings than this.
-        let per_entry = gamma(equations.roundings_of_row(4 * m + 4 * MAX_KEYS + 200));
+        let per_entry = gamma(equations.roundings().of_reduced_entry(MAX_KEYS));
         let entries = &self.series.entries;
         self.along.measure(equations, &tube.local, entries, h);
         let entries = [&entries[0][..], &entries[1]];
@@ -103,7 +99,8 @@ impl<const D: usize> ReducedTest<D> {
             kappa,
             scale: 0.0,
             per_entry,
-            roundings: tube.local.y.resolvent.roundings() + equations.roundings_of_row(4 * m + 200),
+            roundings: tube.local.y.resolvent.roundings()
+                + equations.roundings().of_reduced_bound(),
         };
         let left = self.first_round(&mut place)?;
         self.shape.fill(&layout, &self.sides, place.scale);
@@ -192,10 +189,11 @@ impl<const D: usize> ReducedTest<D> {
             used = largest(used, *cubic / kappa[i]);
             widest = largest(widest, *width / kappa[i]);
         }
-        if !(used < TOO_LONG && widest > 0.0) {
+        if !(used < TOO_LONG && widest >= 0.0) {
             return None;
         }
-        // |w_t| ≤ 1, see `Along::curvature`.
+        // |w_t| ≤ 1, see `Along::curvature`. That is all that limits the box where its width does not count in any key
+        // unknown: where the only one is t, and no equation depends on it.
         place.scale = (0.5 * (1.0 - used) / widest).min(0.5 / omega[t]);
         Some(left)
     }

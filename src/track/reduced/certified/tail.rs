@@ -77,7 +77,7 @@ impl TailSizes {
         tail.row_sizes(&self.all, all);
         // An entry is a sum of terms with signs: the computed one is off by γ times these at most, one
         // rounding for the form, one for the product, and one for each part.
-        let hidden = gamma(equations.roundings_of_row(2 * COEFFICIENTS));
+        let hidden = gamma(equations.roundings().of_row_along(COEFFICIENTS));
         let count = all.len();
         let values = values.each_ref().map(|values| &values[..count]);
         let [from2, from3, from4, from5] =

@@ -43,6 +43,7 @@ use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
 use crate::track::certified::shortfall::Shortfall;
 use crate::track::certified::tracker::Test;
+use crate::track::ends::LONGEST;
 use crate::track::full::{Differences, Equations, Lengths, RefineError};
 use crate::track::reduced::structure::elimination::{Elimination, Maker};
 use crate::track::reduced::structure::layout::{Layout, Order};
@@ -323,7 +324,9 @@ impl<const D: usize> ReducedTest<D> {
     /// The length for which bounds are taken first.
     fn first_length(&self, tube: &Tubes<D>, max_h: f64) -> f64 {
         let reach = reach(&tube.local) / self.reach;
-        (GROWTH * self.expected * reach.clamp(1.0 / CHANGE, CHANGE)).min(max_h)
+        (GROWTH * self.expected * reach.clamp(1.0 / CHANGE, CHANGE))
+            .min(max_h)
+            .min(LONGEST)
     }
 }
 
