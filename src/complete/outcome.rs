@@ -64,6 +64,8 @@ pub struct Complete {
     /// Lines and planes of their own, by name, whose two directions constraints tell apart: figures with either are counted, so
     /// that what is on one side of them may be on the other.
     pub both_ways: Vec<String>,
+    /// Rigid bodies on legs, by name, that were searched over how they are turned.
+    pub turned: Vec<String>,
     /// The parts of a problem that falls apart, each with what was found of it; otherwise none.
     pub parts: Vec<Searched>,
     /// The solutions in the problem's gauge and units (where `count` is more, only the first of them, whose boxes were not
@@ -269,6 +271,7 @@ impl Complete {
             count: Some(0),
             parts: Vec::new(),
             both_ways: Vec::new(),
+            turned: Vec::new(),
             solutions: Vec::new(),
             reference: problem.homotopy.reference.clone(),
             undecided: Vec::new(),
@@ -377,6 +380,7 @@ impl Complete {
             count: Some(solutions.len() as u64),
             parts: Vec::new(),
             both_ways: Vec::new(),
+            turned: Vec::new(),
             solutions,
             reference,
             undecided,

@@ -84,6 +84,7 @@ impl<'a> Document<'a> {
             seconds: result.seconds,
             seconds_left: result.seconds_left,
             driving: result.driving,
+            turned: &result.turned,
             plan: names(problem, &result.plan),
         }
     }
@@ -106,6 +107,8 @@ struct Document<'a> {
     seconds: f64,
     seconds_left: Option<f64>,
     driving: usize,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    turned: &'a [String],
     plan: Vec<&'a str>,
 }
 
@@ -216,6 +219,9 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     match result.method {
         Method::Coordinates => writeln!(out, "unknowns            {}", result.driving)?,
         _ => writeln!(out, "driving parameters  {}", result.driving)?,
+    }
+    if !result.turned.is_empty() {
+        writeln!(out, "rotations of        {}", result.turned.join(", "))?;
     }
     writeln!(out, "boxes               {}", result.boxes)?;
     writeln!(out, "seconds             {:.4}", result.seconds)?;

@@ -154,6 +154,10 @@ fn searched(
         figures.go(0, &mut Vec::new(), &x, 1.0);
     }
     result.solutions = solutions(homotopy, &figures.found);
+    let bodies = figures.bodies.iter().flatten();
+    result.turned = bodies
+        .map(|body| problem.objects[body.object].name.clone())
+        .collect();
     result.boxes = run.boxes.load(Ordering::Relaxed);
     if cover {
         result.cover = figures.cover(problem, halves);
