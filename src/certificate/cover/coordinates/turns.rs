@@ -16,6 +16,7 @@ use super::format::Body as Line;
 use super::space::Part;
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::checker::guess::invert;
+use crate::interval::rounding::largest;
 use crate::interval::{Interval, UNIT, ZERO, checked, enclose, hull, point};
 use crate::problem::{Problem, Shape};
 
@@ -151,11 +152,9 @@ impl Body {
         // |b| ≤ |A| l₀, row by row.
         let reach = self.legs[0].2.sqrt();
         for (row, b) in a.iter().zip(&b) {
-            let size = row
-                .iter()
-                .fold(ZERO, |sum, x| sum + point(x.distance(0.0)).sqr());
+            let size = row.iter().fold(ZERO, |sum, x| sum + size(x).sqr());
             let most = (size.sqrt() * reach).sup();
-            if b.range().disjoint(hull(-most, most)) {
+            if most.is_finite() && b.range().disjoint(hull(-most, most)) {
                 return None;
             }
         }
@@ -349,6 +348,12 @@ impl Turn {
     }
 }
 
+/// A bound of a function's size, which may be infinite.
+fn size(f: &Model) -> Interval {
+    let size = f.distance(0.0);
+    checked(size, size).unwrap_or(Interval::ENTIRE)
+}
+
 /// A x = b solved for x, and the equations that are left. `None`: the matrix does not tell x.
 fn eliminated(symbols: usize, a: &[Vec<Model>], b: &[Model]) -> Option<(Vec<Model>, Vec<Model>)> {
     let (rows, count) = (a.len(), a[0].len());
@@ -391,14 +396,10 @@ fn eliminated(symbols: usize, a: &[Vec<Model>], b: &[Model]) -> Option<(Vec<Mode
             (0..count).map(entry).collect()
         })
         .collect();
-    let size = |f: &Model| point(f.distance(0.0));
     let norms = off
         .iter()
         .map(|row| row.iter().fold(ZERO, |sum, e| sum + size(e)).sup());
-    let norm = norms.fold(
-        0.0,
-        |max: f64, x| if x > max || x.is_nan() { x } else { max },
-    );
+    let norm = norms.fold(0.0, largest);
     if !(norm < 0.7) {
         return None;
     }
@@ -429,10 +430,11 @@ fn eliminated(symbols: usize, a: &[Vec<Model>], b: &[Model]) -> Option<(Vec<Mode
         .iter()
         .map(|row| size(&combined(row, &|i| rest[i])))
         .collect();
-    let most = moved
-        .iter()
-        .fold(ZERO, |max, x| point(max.sup().max(x.sup())));
-    let most = most / (point(1.0) - point(norm));
+    let most = moved.iter().fold(0.0, |max, x| largest(max, x.sup()));
+    if !most.is_finite() {
+        return None;
+    }
+    let most = point(most) / (point(1.0) - point(norm));
     let delta: Vec<Interval> = (0..count)
         .map(|j| {
             let sum = off[j].iter().fold(moved[j], |sum, e| sum + size(e) * most);

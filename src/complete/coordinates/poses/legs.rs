@@ -17,7 +17,7 @@
 use super::number;
 use super::part::Part;
 use crate::complete::model::{Model, Number, Range, weighted};
-use crate::interval::rounding::{UNDERFLOW, round_up};
+use crate::interval::rounding::{UNDERFLOW, largest, round_up};
 use crate::interval::{Interval, point};
 
 /// A leg beside the first one.
@@ -164,7 +164,7 @@ impl Legs {
         }
         let sizes = off.each_ref().map(|row| row.each_ref().map(Model::size));
         let norm = sizes.iter().fold(0.0, |max: f64, row| {
-            max.max(round_up(row.iter().sum(), K + 2))
+            largest(max, round_up(row.iter().sum(), K + 2))
         });
         if !(norm < LIMIT) {
             self.wide::<S, M, K>(&mut look, &a, Some(&off));
@@ -211,7 +211,7 @@ impl Legs {
         // δ.
         let size = |row: &[f64; OTHERS]| combination(Model::ZERO, row, rest.each_ref()).size();
         let moved: [f64; K] = std::array::from_fn(|j| size(&bases.inverse[j]));
-        let most = moved.iter().fold(0.0, |max: f64, &x| max.max(x));
+        let most = moved.iter().copied().fold(0.0, largest);
         let most = round_up(most / (1.0 - norm), 6);
         let delta: [f64; K] = std::array::from_fn(|j| {
             let sum: f64 = sizes[j].iter().map(|e| e * most).sum();
