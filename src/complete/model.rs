@@ -301,7 +301,12 @@ impl<const S: usize, const M: usize> Model<S, M> {
             size += g + h.abs();
             // The least and the greatest value of g u + h u² on [−1, 1].
             let turn = if g < 2.0 * h.abs() {
-                g * g / (4.0 * h.abs())
+                // It is at most g/2; the square of a number as small as this may be lost.
+                if g > 1e-150 {
+                    g * g / (4.0 * h.abs())
+                } else {
+                    g
+                }
             } else {
                 g - h.abs()
             };

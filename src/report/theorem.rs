@@ -71,9 +71,10 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
         Outcome::Partial(reason) => writeln!(
             out,
             "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
-             Verified so far: a regular arc of the curve through the sketch, with t between {low:.6} and \
+             Verified so far: an arc of the curve through the sketch, {}, with t between {low:.6} and \
              {high:.6}, and on it exactly {} with t = 1{}. Nothing is claimed of the rest of \
              the curve.",
+            regular_in_words(verdict),
             counted(verdict.solutions.len(), "point"),
             degenerate_in_words(verdict)
         )?,

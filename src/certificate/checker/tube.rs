@@ -59,6 +59,8 @@ const PARTS: u32 = 16;
 const PIECES: usize = 10_000;
 /// Finer tubes are made within others so many times, and of pieces no longer than this.
 const FINER: usize = 4;
+/// And no more than so many for one claimed tube.
+const MOST_FINER: usize = 50_000;
 const FINE: f64 = 1.0 / 512.0;
 /// How near the path its points are guessed, in radii.
 const ENOUGH: f64 = 1e-6;
@@ -274,19 +276,19 @@ impl Tube {
                 _ => Met::No,
             }
         }
-        self.meets_only(eq, range, listed, FINER)?;
+        self.meets_only(eq, range, listed, (FINER, &Cell::new(MOST_FINER)))?;
         Ok(stretch)
     }
 
     /// Proves that for all parameters of a range the path meets t = 1 in no other point than these. Where the bounds of a
-    /// tube in extended precision are too coarse, finer ones are made, so many times one within the other. `Err`: a range where this
+    /// tube in extended precision are too coarse, finer ones are made: so many times one within the other, and so many in all. `Err`: a range where this
     /// fails.
     fn meets_only(
         &self,
         eq: &Equations,
         range: Interval,
         listed: &[Option<&Spot>],
-        finer: usize,
+        (finer, left): (usize, &Cell<usize>),
     ) -> Result<(), Interval> {
         // Where in this tube the solutions are that it holds.
         let spots = listed.iter().flatten();
@@ -300,8 +302,11 @@ impl Tube {
         // Where one of them fails no more are tried: their number stays small.
         let may_be_finer = Cell::new(finer > 0 && !self.claim.low.is_empty());
         let is_seen_finer = |part: Interval| {
-            let again = |(tube, s): (Tube, Interval)| tube.meets_only(eq, s, listed, finer - 1);
-            let tube = self.finer(eq, part);
+            let next = (finer - 1, left);
+            let again = |(tube, s): (Tube, Interval)| tube.meets_only(eq, s, listed, next);
+            let count = left.get();
+            left.set(count.saturating_sub(1));
+            let tube = (count > 0).then(|| self.finer(eq, part)).flatten();
             may_be_finer.set(tube.is_some_and(|tube| again(tube).is_ok()));
             may_be_finer.get()
         };

@@ -205,6 +205,9 @@ fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
          path meets t = 1 there is a solution. Solutions of one colour are congruent: the same figure, or \
          its mirror image.",
     )];
+    let solutions = reader.result["solutions"].as_array();
+    let mut solutions = solutions.into_iter().flatten();
+    let is_flat = solutions.any(|solution| solution["degenerate"].as_bool() == Some(true));
     match (mode, closed) {
         ("certified", true) => {
             out.push(paragraph(
@@ -235,6 +238,13 @@ fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
         _ => out.push(paragraph(
             "This run was made in floating-point arithmetic: what it says is observed, not proved.",
         )),
+    }
+    if is_flat && mode == "certified" {
+        out.push(paragraph(
+            "This is different at solutions that are degenerate (flat): there the path is regular in the equations with heights \
+             divided by 1 − t, not in the given ones, and other flat figures that meet the constraints are as near as one likes. On \
+             the path are only those listed.",
+        ));
     }
     if let Some(reason) = reader.result["reason"].as_str() {
         out.push(Text::Paragraph(format!("Why it stopped: {reason}.")));

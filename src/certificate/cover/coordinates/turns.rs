@@ -383,6 +383,9 @@ fn eliminated(symbols: usize, a: &[Vec<Model>], b: &[Model]) -> Option<(Vec<Mode
     let z: Vec<Vec<f64>> = (0..rows)
         .map(|l| (0..rows).map(|i| z(l, i)).collect())
         .collect();
+    if !z.iter().flatten().all(|z| z.is_finite()) {
+        return None;
+    }
     let combined = |row: &[f64], f: &dyn Fn(usize) -> Model| {
         (0..rows).fold(zero, |sum, i| sum.plus(point(row[i]), &f(i)))
     };

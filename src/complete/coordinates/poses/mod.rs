@@ -283,6 +283,9 @@ impl Piece<'_, '_> {
             };
             let before = part.widest();
             if look.equations.is_empty() {
+                if part.height.is_some() && before < SMALL {
+                    return self.leave(Why::Small, part.share);
+                }
                 return self.halve(part, &look.moves, look.untold, others);
             }
             let Some(volume) = part.contract(&look.equations) else {
