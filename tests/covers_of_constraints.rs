@@ -3,28 +3,17 @@
 
 mod common;
 
+use common::covers::searched;
 use common::edits::Random;
 use common::mixed::Spec;
 use common::sketches::{LEG, apollonius_text};
 use krawl::certificate::cover::coordinates::{Block, Change, CoordinateCover, Half, Image, Mark};
 use krawl::certificate::cover::{CoverVerdict, verify_cover};
-use krawl::complete::{Complete, Options, Status, Unserved, all};
+use krawl::complete::{Options, Status, Unserved, all};
 use krawl::problem::Problem;
 
 fn parse(text: &str) -> Problem {
     Problem::parse(text, "test.toml").unwrap()
-}
-
-fn searched(problem: &Problem) -> (Complete, CoordinateCover) {
-    let options = Options {
-        cover: true,
-        ..Options::default()
-    };
-    let mut result = all(problem, &options).unwrap();
-    let bytes = result.cover.take().expect("a cover");
-    let cover = CoordinateCover::from_bytes(&bytes).unwrap();
-    assert_eq!(cover.to_bytes(), bytes);
-    (result, cover)
 }
 
 fn check(cover: &CoordinateCover) -> CoverVerdict {

@@ -2,6 +2,8 @@
 //! legs were measured from them, Newton's method from random starts, and the same robot said in other ways; and their covers, which a check
 //! with rotations of its own proves.
 
+mod common;
+
 use krawl::certificate::cover::coordinates::{CoordinateCover, Turned};
 use krawl::certificate::cover::verify_cover;
 use krawl::complete::{Complete, Options, Status, all};
@@ -38,6 +40,8 @@ struct Platform {
     base: Points,
     body: Points,
     legs: [f64; 6],
+    /// The pose from which the legs were measured, as near as they were rounded.
+    measured: Points,
 }
 
 /// To six decimals: what a file says.
@@ -49,8 +53,14 @@ impl Platform {
     /// The platform whose legs are those of a pose of the body.
     fn at(base: Points, body: Points, turn: UnitQuaternion<f64>, place: Vector3<f64>) -> Self {
         let [base, body] = [base, body].map(|points| points.map(|p| p.map(rounded)));
-        let legs = std::array::from_fn(|k| rounded((turn * body[k] + place - base[k]).norm()));
-        Platform { base, body, legs }
+        let measured = body.map(|b| turn * b + place);
+        let legs = std::array::from_fn(|k| rounded((measured[k] - base[k]).norm()));
+        Platform {
+            base,
+            body,
+            legs,
+            measured,
+        }
     }
 
     fn random(random: &mut Random) -> Self {
@@ -148,6 +158,23 @@ fn are_near(one: &Points, other: &Points) -> bool {
     apart.all(|d| d < 1e-5)
 }
 
+/// All poses of a platform: the set is complete, each is one, and that from which the legs were measured is among them.
+fn complete(platform: &Platform) -> Vec<Points> {
+    let (problem, result) = platform.solved();
+    assert_eq!(result.status, Status::Complete, "{:?}", result.undecided);
+    let found = poses(&problem, &result);
+    check(platform, &found);
+    let is_measured = |one: &Points| {
+        let mut apart = one
+            .iter()
+            .zip(&platform.measured)
+            .map(|(a, b)| (a - b).norm());
+        apart.all(|d| d < 1e-3)
+    };
+    assert!(found.iter().any(is_measured));
+    found
+}
+
 /// Each pose has the legs of the file, is the body and not its mirror image, and is no other pose.
 fn check(platform: &Platform, found: &[Points]) {
     let volume = |p: &Points| (p[1] - p[0]).cross(&(p[2] - p[0])).dot(&(p[3] - p[0]));
@@ -195,15 +222,7 @@ fn random_platforms() {
     let mut counts = Vec::new();
     for round in 0..12 {
         let platform = Platform::random(&mut random);
-        let (problem, result) = platform.solved();
-        assert_eq!(
-            result.status,
-            Status::Complete,
-            "{round}: {:?}",
-            result.undecided
-        );
-        let found = poses(&problem, &result);
-        check(&platform, &found);
+        let found = complete(&platform);
         assert!(
             found.len() >= 2 && found.len().is_multiple_of(2),
             "{round}: {}",
@@ -275,19 +294,9 @@ fn the_same_platform_in_other_words() {
 fn flat_platforms() {
     let mut random = Random(23);
     for round in 0..6 {
-        let (platform, pose) = flat_platform(&mut random);
-        let (problem, result) = platform.solved();
-        assert_eq!(
-            result.status,
-            Status::Complete,
-            "{round}: {:?}",
-            result.undecided
-        );
-        let found = poses(&problem, &result);
-        check(&platform, &found);
+        let platform = flat_platform(&mut random);
+        let found = complete(&platform);
         assert!(found.len() >= 2, "{round}");
-        let measured = |one: &Points| one.iter().zip(&pose).all(|(a, b)| (a - b).norm() < 1e-3);
-        assert!(found.iter().any(measured), "{round}");
         for pose in &found {
             let image = pose.map(|p| Vector3::new(p.x, p.y, -p.z));
             assert!(found.iter().any(|other| are_near(&image, other)), "{round}");
@@ -376,20 +385,8 @@ fn threads_change_nothing() {
     assert_eq!(with(1), with(3));
 }
 
-fn with_cover(problem: &Problem) -> (Complete, CoordinateCover) {
-    let options = Options {
-        cover: true,
-        ..Options::default()
-    };
-    let mut result = all(problem, &options).unwrap();
-    let bytes = result.cover.take().expect("a cover");
-    let cover = CoordinateCover::from_bytes(&bytes).unwrap();
-    assert_eq!(cover.to_bytes(), bytes);
-    (result, cover)
-}
-
-/// A flat body over a flat base, and the pose from which the legs are measured.
-fn flat_platform(random: &mut Random) -> (Platform, Points) {
+/// A flat body over a flat base.
+fn flat_platform(random: &mut Random) -> Platform {
     let flat = |random: &mut Random, size: f64| -> Points {
         std::array::from_fn(|k| {
             let angle = std::f64::consts::FRAC_PI_3 * (k as f64 + 0.3 * random.next());
@@ -403,9 +400,7 @@ fn flat_platform(random: &mut Random) -> (Platform, Points) {
         0.5 * random.next(),
     );
     let place = Vector3::new(0.2 * random.next(), 0.2 * random.next(), 0.9);
-    let platform = Platform::at(base, body, turn, place);
-    let pose = platform.body.map(|b| turn * b + place);
-    (platform, pose)
+    Platform::at(base, body, turn, place)
 }
 
 /// The check proves the sets complete, by looking at all rotations again with models of its own.
@@ -414,10 +409,10 @@ fn covers_prove_that_there_is_no_other_pose() {
     let mut random = Random(41);
     let mut texts = vec![std::fs::read_to_string("problems/mechanisms/dietmaier.toml").unwrap()];
     texts.push(Platform::random(&mut random).text([0, 1, 2, 3, 4, 5]));
-    texts.push(flat_platform(&mut random).0.text([0, 1, 2, 3, 4, 5]));
+    texts.push(flat_platform(&mut random).text([0, 1, 2, 3, 4, 5]));
     for (k, text) in texts.iter().enumerate() {
         let problem = Problem::parse(text, "test.toml").unwrap();
-        let (result, cover) = with_cover(&problem);
+        let (result, cover) = common::covers::searched(&problem);
         assert_eq!(result.status, Status::Complete);
         assert_eq!(cover.bodies.len(), 1);
         let verdict = verify_cover(&cover.to_bytes()).unwrap();
@@ -441,7 +436,7 @@ fn damaged_covers_prove_nothing_false() {
     let mut random = Random(2);
     let platform = Platform::random(&mut random);
     let problem = Problem::parse(&platform.text([0, 1, 2, 3, 4, 5]), "test.toml").unwrap();
-    let (_, cover) = with_cover(&problem);
+    let (_, cover) = common::covers::searched(&problem);
     assert!(cover.figures.len() >= 2);
     let is_refused = |damaged: &CoordinateCover| {
         verify_cover(&damaged.to_bytes()).map_or(true, |verdict| !verdict.proves_all())

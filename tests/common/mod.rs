@@ -5,6 +5,7 @@
 
 pub mod boxes;
 pub mod certificate;
+pub mod covers;
 pub mod edits;
 pub mod exact;
 pub mod hard;
