@@ -200,8 +200,7 @@ impl Space {
         self.bodies[body].look(&self.eq, part, turn)
     }
 
-    /// The part with a body's points where a box of rotations allows, narrowed by the equations one by one, if that tells where
-    /// they are.
+    /// The part with a body's points where a box of rotations allows. `None`: the linear equations do not tell the body's place.
     pub fn placed(&self, body: usize, part: &Part, look: &Look) -> Option<Result<Part, Empty>> {
         self.bodies[body].placed(&self.eq, part, look)
     }

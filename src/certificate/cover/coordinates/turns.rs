@@ -53,7 +53,7 @@ pub struct Look {
     pub untold: usize,
 }
 
-/// For a quaternion with ranges for all components but one, which is 1, in this order.
+/// The components of a quaternion that have ranges: all but the one that is 1.
 const COMPONENTS: usize = 3;
 
 impl Body {
@@ -126,7 +126,8 @@ impl Body {
         self.legs.iter().all(is_known)
     }
 
-    /// What the legs say of a box of rotations, for all figures in a part. `None`: there is none.
+    /// What the legs say of a box of rotations, for all figures in a part in which it is known where the legs stand
+    /// ([`Body::stands`]). `None`: there is no figure with such a rotation.
     pub fn look(&self, eq: &Equations, part: &Part, turn: &Turn) -> Option<Look> {
         let symbols = COMPONENTS + usize::from(turn.height.is_some());
         let number = |x: Interval| Model::constant(symbols, x);
@@ -199,7 +200,7 @@ impl Body {
         Some(look)
     }
 
-    /// The part where the body's points are as a box of rotations allows. `Ok(None)`: the place is not told.
+    /// The part where the body's points are as a box of rotations allows. `None`: the place is not told.
     pub fn placed(
         &self,
         eq: &Equations,

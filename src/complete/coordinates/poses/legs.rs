@@ -14,7 +14,6 @@
 //! Where one coordinate of p is not told by the linear equations (a flat platform parallel to its flat base), it is a symbol of its own,
 //! the two others are eliminated, and there is one more equation.
 
-use super::number;
 use super::part::Part;
 use crate::complete::model::{Model, Number, Range, weighted};
 use crate::interval::rounding::{UNDERFLOW, largest, round_up};
@@ -159,7 +158,7 @@ impl Legs {
             for (k, entry) in row.iter_mut().enumerate() {
                 let start = if j == k { MINUS_ONE } else { ZERO };
                 let column = told.each_ref().map(|row| &row[k]);
-                *entry = combination(number(start), &bases.inverse[j], column);
+                *entry = combination(Model::constant(start), &bases.inverse[j], column);
             }
         }
         let sizes = off.each_ref().map(|row| row.each_ref().map(Model::size));
@@ -344,7 +343,7 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
     let mut next = 0;
     let q: [Model<S, M>; 4] = std::array::from_fn(|i| {
         if i == part.chart {
-            return number(float(1.0));
+            return Model::constant(float(1.0));
         }
         next += 1;
         part.symbol(next - 1)

@@ -22,7 +22,7 @@ use super::search::{Block, COARSE, Found, MANY, Run, SMALL, TOO_MANY, add, leave
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::Body;
 use crate::complete::Why;
-use crate::complete::model::{Model, Number};
+use crate::complete::model::Number;
 use crate::interval::{Interval, ZERO, enclose, point};
 use crate::problem::{Problem, Shape};
 use crate::system::Homotopy;
@@ -356,9 +356,4 @@ impl Piece<'_, '_> {
             None => self.leave(Why::Small, part.share),
         }
     }
-}
-
-/// A model of S symbols that is a number.
-fn number<const S: usize, const M: usize>(x: Number) -> Model<S, M> {
-    Model::constant(x)
 }
