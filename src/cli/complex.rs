@@ -1,7 +1,7 @@
 //! `krawl complex`: all complex solutions of a problem.
 
 use super::output::{self, Destination};
-use super::template::{Search, read, read_template};
+use super::template::{Search, TemplateText, read};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Lowered, Status, Template, Ways, solve, to_certificate};
@@ -63,7 +63,9 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
-    let (problem, mut lowered) = read(&arguments.file)?;
+    let template = arguments.template.as_deref().map(TemplateText::read);
+    let template = template.transpose()?;
+    let (problem, mut lowered) = read(&arguments.file, template.as_ref())?;
     if let Some(bound) = arguments.bound {
         lowered.cite(bound.into());
     }
@@ -110,8 +112,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ..Ways::default()
     };
     let result = arguments.search.in_pool(|| {
-        let template = match &arguments.template {
-            Some(path) => read_template(path, &lowered)?,
+        let template = match &template {
+            Some(text) => text.prove(&lowered)?,
             None => {
                 let fibre = arguments.search.fill(&lowered, None, &line);
                 Template::new(

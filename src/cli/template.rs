@@ -2,7 +2,7 @@
 
 use super::output::{self, Destination};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, interrupt};
-use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower};
+use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower, lower_for};
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
 use std::path::{Path, PathBuf};
@@ -107,23 +107,47 @@ pub fn run(arguments: &Arguments) -> u8 {
     output::exit_code(try_run(arguments))
 }
 
-/// A problem, and its complex equations.
-pub(super) fn read(file: &Path) -> Result<(Problem, Lowered), String> {
+/// A problem, and its complex equations: those of a template, where one is given and has them.
+pub(super) fn read(
+    file: &Path,
+    template: Option<&TemplateText>,
+) -> Result<(Problem, Lowered), String> {
     let problem = Problem::read(file).map_err(|error| error.to_string())?;
-    let lowered = lower(&problem).map_err(|error| format!("{}: {error}", file.display()))?;
+    let lowered = match template {
+        Some(template) => lower_for(&problem, &template.text),
+        None => lower(&problem),
+    };
+    let lowered = lowered.map_err(|error| format!("{}: {error}", file.display()))?;
     Ok((problem, lowered))
 }
 
-/// A template for these equations, its solutions proved again.
-pub(super) fn read_template(path: &Path, lowered: &Lowered) -> Result<Template, String> {
-    let at = |error: String| format!("{}: {error}", path.display());
-    let text = std::fs::read_to_string(path).map_err(|e| at(e.to_string()))?;
-    Template::read(&text, &lowered.system).map_err(|e| at(e.to_string()))
+/// The text of a template's file.
+pub(super) struct TemplateText {
+    path: PathBuf,
+    text: String,
+}
+
+impl TemplateText {
+    pub(super) fn read(path: &Path) -> Result<Self, String> {
+        let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(TemplateText {
+            path: path.to_owned(),
+            text,
+        })
+    }
+
+    /// The template, for these equations, its solutions proved again.
+    pub(super) fn prove(&self, lowered: &Lowered) -> Result<Template, String> {
+        let at = |error| format!("{}: {error}", self.path.display());
+        Template::read(&self.text, &lowered.system).map_err(at)
+    }
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
-    let (problem, lowered) = read(&arguments.file)?;
+    let from = arguments.from.as_deref().map(TemplateText::read);
+    let from = from.transpose()?;
+    let (problem, lowered) = read(&arguments.file, from.as_ref())?;
     if output::is_same_file(&arguments.out, &arguments.file) {
         return Err(format!(
             "{file}: is the problem itself; name another file for the template"
@@ -133,8 +157,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let begin = Instant::now();
     let fibre = arguments.search.in_pool(|| {
-        let from = arguments.from.as_ref();
-        let from = from.map(|path| read_template(path, &lowered)).transpose()?;
+        let from = from.as_ref().map(|text| text.prove(&lowered)).transpose()?;
         let fibre = arguments.search.fill(&lowered, from.as_ref(), &line);
         fibre.map_err(|error| format!("{file}: {error}"))
     })?;

@@ -6,6 +6,10 @@
 //! left are h, f, g and the points: a point at p has |p − q|² − ((p − q)·u)² = d² from the line through q with the unit
 //! direction u. Nothing spurious: no unit tangents on both sides, no closest points.
 //!
+//! Where the first two lines are nearly parallel the z axis, on which both are met at right angles, is far from the figure, and
+//! where the third is nearly parallel to the plane z = 0 so is its place there. So the two lines that are nearest to a right angle
+//! come first, and the third may be told where it meets x = 0 or y = 0 instead ([`Frame`]).
+//!
 //! Where the lines are orthogonal their directions are the axes, and all equations have whole numbers for
 //! coefficients. Otherwise c₂, s₂, c₃, a, b are unknowns with c₂ and c₃ the cosines wanted and |u₂|² = |u₃|² = 1, and so is
 //! (p − q)·u for each point and line: a change of the angles then moves the directions along.
@@ -38,23 +42,29 @@ fn times(factor: i32, left: Option<[usize; 2]>, right: Option<[usize; 2]>) -> Te
     }
 }
 
+/// Which line stands where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Frame {
+    /// The objects that are the first, the second and the third line.
+    lines: [usize; 3],
+    /// The third line is told by its place where this coordinate is 0.
+    across: usize,
+}
+
 /// What the constraints say, if they are of these kinds.
 struct Given {
-    lines: [usize; 3],
-    /// The cosines of the angles between lines 0 and 1, 0 and 2, 1 and 2; `None` for right angles.
+    /// The cosines of the angles between the objects 0 and 1, 0 and 2, 1 and 2; `None` for right angles.
     cosines: [Option<Real>; 3],
     /// Half the squared distances of points from lines, with their names.
     distances: Vec<(usize, usize, Real, String)>,
 }
 
 fn given(problem: &Problem) -> Option<Given> {
-    let lines: Vec<usize> = (0..problem.objects.len()).collect();
     let are_lines = problem
         .objects
         .iter()
         .all(|o| matches!(o.shape, Shape::FreeLine { .. }));
-    let lines: [usize; 3] = lines.try_into().ok()?;
-    if problem.dimension != 3 || !are_lines {
+    if problem.dimension != 3 || problem.objects.len() != 3 || !are_lines {
         return None;
     }
     let mut cosines: [Option<Option<Real>>; 3] = [None, None, None];
@@ -62,12 +72,7 @@ fn given(problem: &Problem) -> Option<Given> {
     for (index, constraint) in problem.constraints.iter().enumerate() {
         match (constraint.kind.as_str(), constraint.items.as_slice()) {
             ("angles" | "perpendicular", &[Item::Object(a), Item::Object(b)]) => {
-                let slot = match (a.min(b), a.max(b)) {
-                    (0, 1) => 0,
-                    (0, 2) => 1,
-                    (1, 2) => 2,
-                    _ => return None,
-                };
+                let slot = slot(a, b)?;
                 let cosine = constraint.value.as_ref().map(|degrees| {
                     // The lines have directions: which of the two angles is meant does not matter, as another
                     // direction of one of the lines makes the other one of it.
@@ -95,20 +100,60 @@ fn given(problem: &Problem) -> Option<Given> {
     };
     let unknowns = 3 * problem.points.len() + 3;
     (problem.distances.len() + distances.len() == unknowns).then_some(Given {
-        lines,
         cosines: [a, b, c],
         distances,
     })
 }
 
-/// The system of a problem of this kind; `None` if it is another.
-pub fn lower(problem: &Problem) -> Option<System> {
+/// Where the angle of two of three lines stands.
+fn slot(a: usize, b: usize) -> Option<usize> {
+    match (a.min(b), a.max(b)) {
+        (0, 1) => Some(0),
+        (0, 2) => Some(1),
+        (1, 2) => Some(2),
+        _ => None,
+    }
+}
+
+/// The frames that a problem of this kind can be told in, the best one first; none if it is another. In a template's equations
+/// the frame is the one that was best where it was made.
+pub fn frames(problem: &Problem) -> Vec<Frame> {
+    let Some(given) = given(problem) else {
+        return Vec::new();
+    };
+    let are_orthogonal = given.cosines.iter().all(Option::is_none);
+    let cosine = |a: usize, b: usize| {
+        let cosine = slot(a, b).and_then(|slot| given.cosines[slot].as_ref());
+        cosine.map_or(0.0, |cosine| cosine.enclose().mid())
+    };
+    let mut frames = Vec::new();
+    for lines in [[0, 1, 2], [0, 2, 1], [1, 2, 0]] {
+        let [c2, c3, c23]: [f64; 3] =
+            [(0, 1), (0, 2), (1, 2)].map(|(a, b): (usize, usize)| cosine(lines[a], lines[b]));
+        let s2 = (1.0 - c2 * c2).sqrt();
+        let along = (c23 - c2 * c3) / s2;
+        let up = (1.0 - c3 * c3 - along * along).max(0.0).sqrt();
+        for (across, size) in [(2, up), (0, c3.abs()), (1, along.abs())] {
+            // Orthogonal lines are the axes.
+            if across == 2 || !are_orthogonal {
+                frames.push((s2, size, Frame { lines, across }));
+            }
+        }
+    }
+    // Whichever angle is smaller counts; sorting is stable.
+    frames.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    frames.into_iter().map(|(.., frame)| frame).collect()
+}
+
+/// The system of a problem of this kind in a frame; `None` if it is another problem.
+pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
     let given = given(problem)?;
+    let Frame { lines, across } = frame;
     let points = problem.points.len();
     let first = 3 * points;
     let are_orthogonal = given.cosines.iter().all(Option::is_none);
     let unit = unit(problem);
-    let name = |k: usize| problem.objects[given.lines[k]].name.as_str();
+    let name = |k: usize| problem.objects[lines[k]].name.as_str();
 
     let mut unknowns = Vec::new();
     let mut push = |name: String, power: i32, flips: [bool; 3]| {
@@ -121,8 +166,13 @@ pub fn lower(problem: &Problem) -> Option<System> {
         }
     }
     push(format!("height of {}", name(1)), 1, along(2));
-    push(format!("x of {} at height 0", name(2)), 1, along(0));
-    push(format!("y of {} at height 0", name(2)), 1, along(1));
+    let letters = ["x", "y", "z"];
+    let in_plane: Vec<usize> = (0..3).filter(|&axis| axis != across).collect();
+    for &axis in &in_plane {
+        let (letter, zero) = (letters[axis], letters[across]);
+        let what = format!("{letter} of {} where {zero} is 0", name(2));
+        push(what, 1, along(axis));
+    }
     if !are_orthogonal {
         // Reversing the x axis and the directions of all lines: s₂, a and b change their signs, not c₂ and c₃.
         let (c, s) = ([false; 3], [true, true, false]);
@@ -158,12 +208,18 @@ pub fn lower(problem: &Problem) -> Option<System> {
     }
     for (point, line, half, constraint) in &given.distances {
         let [x, y, z] = [0, 1, 2].map(|axis| coordinate(*point, axis));
-        let which = given.lines.iter().position(|l| l == line)?;
+        let which = lines.iter().position(|l| l == line)?;
         // The differences of the point from the line's place.
         let from = match which {
             0 => [value(x), value(y), value(z)],
             1 => [value(x), value(y), Some([z, height])],
-            _ => [Some([x, foot[0]]), Some([y, foot[1]]), value(z)],
+            _ => {
+                let mut from = [value(x), value(y), value(z)];
+                for (&axis, foot) in in_plane.iter().zip(foot) {
+                    from[axis] = Some([[x, y, z][axis], foot]);
+                }
+                from
+            }
         };
         let square = |form: Option<[usize; 2]>| times(1, form, form);
         let mut terms: Vec<Term> = match (which, are_orthogonal) {
@@ -206,7 +262,10 @@ pub fn lower(problem: &Problem) -> Option<System> {
     }
     if !are_orthogonal {
         let [c2, s2, c3, a, b] = directions.map(value);
-        let wanted = |k: usize| given.cosines[k].clone().unwrap_or_else(Real::zero);
+        let wanted = |a: usize, b: usize| {
+            let cosine = slot(lines[a], lines[b]).and_then(|slot| given.cosines[slot].clone());
+            cosine.unwrap_or_else(Real::zero)
+        };
         let mut add = |what: String, terms: Vec<Term>, right: Kind| {
             equations.push(Equation {
                 name: what,
@@ -217,14 +276,14 @@ pub fn lower(problem: &Problem) -> Option<System> {
             });
         };
         let angle = |a: usize, b: usize| format!("angle of {} and {}", name(a), name(b));
-        let parameter = |k: usize| Kind::Parameter([wanted(k), Real::zero()]);
+        let parameter = |a, b| Kind::Parameter([wanted(a, b), Real::zero()]);
         let half = Exact::whole(1).over(&Exact::whole(2))?;
-        add(angle(0, 1), vec![times(2, c2, None)], parameter(0));
-        add(angle(0, 2), vec![times(2, c3, None)], parameter(1));
+        add(angle(0, 1), vec![times(2, c2, None)], parameter(0, 1));
+        add(angle(0, 2), vec![times(2, c3, None)], parameter(0, 2));
         add(
             angle(1, 2),
             vec![times(2, c2, c3), times(2, s2, a)],
-            parameter(2),
+            parameter(1, 2),
         );
         add(
             format!("length of the direction of {}", name(1)),
@@ -255,7 +314,7 @@ pub fn lower(problem: &Problem) -> Option<System> {
         start: if are_orthogonal {
             Start::Any
         } else {
-            Start::Lines
+            Start::Lines(across)
         },
         positions: 1,
         gauge: format!(
@@ -282,17 +341,31 @@ fn unit(problem: &Problem) -> f64 {
 }
 
 /// Draws the directions of the lines, exactly of length 1: rational points on the circle and on the sphere.
-pub fn draw(system: &System, random: &mut Random, values: &mut [Option<Exact>]) -> Option<()> {
+pub fn draw(
+    system: &System,
+    across: usize,
+    random: &mut Random,
+    values: &mut [Option<Exact>],
+) -> Option<()> {
     let first = 3 * system.points.len();
     let one = Exact::whole(1);
-    // Real directions, about at right angles: real figures' cosines are then reached along a straight way on
-    // which the directions stay real and independent, as convex sums of positive definite matrices are so.
+    // Real directions: real figures' cosines are then reached along a straight way on which the directions stay real and
+    // independent, as convex sums of positive definite matrices are so. The first two are about at a right angle, and the
+    // third at right angles to both, or, where its place is told in another plane, some 37° from that plane's normal.
     let m = one.plus(&random.nearly_whole());
     let square = m.times(&m);
     let below = one.plus(&square);
     let c2 = one.minus(&square).over(&below)?;
     let s2 = m.plus(&m).over(&below)?;
-    let (p, q) = (random.nearly_whole(), random.nearly_whole());
+    let half = Exact::whole(1).over(&Exact::whole(2))?;
+    let mut near = |axis: usize| {
+        let small = random.nearly_whole();
+        match across == axis {
+            true => small.plus(&half),
+            false => small,
+        }
+    };
+    let (p, q) = (near(0), near(1));
     let square = p.times(&p).plus(&q.times(&q));
     let below = one.plus(&square);
     let b = one.minus(&square).over(&below)?;

@@ -72,6 +72,23 @@ pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
     lower_with(problem, true)
 }
 
+/// Makes the complex system of a checked problem as a template has it, if it has the problem's equations in one of the frames that these
+/// can be told in; otherwise in the best frame.
+pub fn lower_for(problem: &Problem, template: &str) -> Result<Lowered, Unserved> {
+    let wanted = super::template::structure_of(template);
+    for frame in lines::frames(problem) {
+        if problem.is_absolute() {
+            break;
+        }
+        if let Some(system) = lines::lower(problem, frame)
+            && wanted.as_ref() == Some(&system.structure())
+        {
+            return checked(without_bound(system));
+        }
+    }
+    lower(problem)
+}
+
 /// Makes the complex system of a checked problem with an equation for the square of every distance, those of the
 /// reference too: then all coefficients of a problem of distances are ratios.
 pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
@@ -79,16 +96,25 @@ pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
 }
 
 fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
-    let three_lines = || lines::lower(problem).filter(|_| !problem.is_absolute());
-    let lowered = match three_lines() {
-        Some(system) => Lowered {
-            system,
-            bound: None,
-            placed: None,
-            graph: None,
-        },
-        None => general(problem, placed)?,
-    };
+    let frame = lines::frames(problem).into_iter().next();
+    let frame = frame.filter(|_| !problem.is_absolute());
+    match frame.and_then(|frame| lines::lower(problem, frame)) {
+        Some(system) => checked(without_bound(system)),
+        None => checked(general(problem, placed)?),
+    }
+}
+
+fn without_bound(system: System) -> Lowered {
+    Lowered {
+        system,
+        bound: None,
+        placed: None,
+        graph: None,
+    }
+}
+
+/// What is not too large.
+fn checked(lowered: Lowered) -> Result<Lowered, Unserved> {
     let unknowns = 2 * lowered.system.unknowns.len();
     if unknowns > MOST {
         return Err(Unserved::Other(format!(

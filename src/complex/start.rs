@@ -24,7 +24,7 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
     let mut values: Vec<Option<Exact>> = vec![None; n];
     match system.start {
         Start::Any => {}
-        Start::Lines => lines::draw(system, random, &mut values)?,
+        Start::Lines(across) => lines::draw(system, across, random, &mut values)?,
         Start::Placed(unknowns, count) => {
             for (k, &unknown) in unknowns[..count].iter().enumerate() {
                 // The second reference point around (1, 0, 0), the third around (0, 1, 0).

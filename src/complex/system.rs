@@ -60,8 +60,8 @@ pub enum Start {
     /// number says are its coordinates that are not zero. Unknowns that a fixed equation defines are computed from
     /// the others.
     Placed([usize; 3], usize),
-    /// Three lines in general directions: see `lines`.
-    Lines,
+    /// Three lines in general directions, the third of which is told where this coordinate is 0: see `lines`.
+    Lines(usize),
 }
 
 /// n complex quadratic equations in n complex unknowns, with the parameters of one instance.

@@ -74,6 +74,11 @@ pub enum TemplateError {
 
 crate::debug_in_words!(TemplateError);
 
+/// The digest of the equations that the text of a template was made for; `None` if it is no such text.
+pub(super) fn structure_of(text: &str) -> Option<String> {
+    Some(serde_json::from_str::<File>(text).ok()?.structure)
+}
+
 impl Template {
     /// From a fibre.
     pub fn new(problem: &str, fibre: Fibre) -> Self {
