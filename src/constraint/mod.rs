@@ -91,6 +91,19 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
     }
 }
 
+/// The same equations with vectors divided by their lengths, where these are not dimensions: for sets of all figures, which know
+/// t = 1 alone (see `lowering/heading.rs`).
+///
+/// # Panics
+/// If the problem has not been checked.
+pub fn lower_with_headings(problem: &Problem) -> Tail {
+    let low = Lowering::new(problem, Start::Sketch, false).with_headings();
+    match try_lower_from(problem, low, false) {
+        Ok(lowered) => lowered.tail,
+        Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
+    }
+}
+
 /// Which other figures satisfy the constraints where one does: what *congruent* means for solutions of a
 /// problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,7 +147,7 @@ pub(crate) enum Owner {
 
 /// The equations of a problem with a reference and known names, or the first object or constraint at fault.
 pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
-    try_lower_from(problem, Start::Sketch, (false, false))
+    try_lower_from(problem, Lowering::new(problem, Start::Sketch, false), false)
 }
 
 /// All equations of a problem in its own frame, distances among them, which come last. Left-hand sides do not depend
@@ -147,7 +160,7 @@ pub(crate) fn try_lower_all(
     from: Option<&Record>,
 ) -> Result<Lowered, (Owner, Fault)> {
     let from = from.map_or(Start::Sketch, Start::Dimensions);
-    try_lower_from(problem, from, (true, true))
+    try_lower_from(problem, Lowering::new(problem, from, true), true)
 }
 
 /// The equations of all constraints of a problem that are not distances between points, as [`lower`] makes them, but with
@@ -158,16 +171,15 @@ pub(crate) fn try_lower_editable(
     from: Option<&Record>,
 ) -> Result<Lowered, (Owner, Fault)> {
     let from = from.map_or(Start::Sketch, Start::Dimensions);
-    try_lower_from(problem, from, (false, true))
+    try_lower_from(problem, Lowering::new(problem, from, true), false)
 }
 
-/// `all`: distances among the equations, and nothing pinned. `editable`: left-hand sides that do not depend on values.
-fn try_lower_from(
-    problem: &Problem,
-    from: Start,
-    (all, editable): (bool, bool),
+/// `all`: distances among the equations, and nothing pinned.
+fn try_lower_from<'a>(
+    problem: &'a Problem,
+    mut low: Lowering<'a>,
+    all: bool,
 ) -> Result<Lowered, (Owner, Fault)> {
-    let mut low = Lowering::new(problem, from, editable);
     let objects = problem.objects.len();
     for object in 0..objects {
         low.begin(object);

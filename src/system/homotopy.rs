@@ -102,6 +102,20 @@ impl Homotopy {
         Self::with_constraints(problem, unit, |sketch| constraint::lower(problem, sketch))
     }
 
+    /// Sets up the equations for sets of all figures, which mean something at t = 1 alone: vectors of which the lengths are no
+    /// dimensions are divided by these, so that where they nearly vanish equations still say something.
+    pub fn for_sets(problem: &Problem) -> Result<Self, GaugeError> {
+        Self::for_sets_in(problem, typical_length(problem))
+    }
+
+    /// The same in a unit of one's own choice.
+    ///
+    /// # Panics
+    /// If `unit` is not a power of two.
+    pub fn for_sets_in(problem: &Problem, unit: f64) -> Result<Self, GaugeError> {
+        Self::with_constraints(problem, unit, |_| constraint::lower_with_headings(problem))
+    }
+
     /// Sets up the homotopy with other constraints in place of the problem's own: `lower` makes their equations from
     /// the sketch as it is seen from the reference.
     pub(crate) fn with_constraints(

@@ -164,19 +164,22 @@ impl Writer<'_> {
             };
             let square = &block.square;
             let before = ranges(&part);
-            let is_bounded = |x: &[Interval]| square.own.iter().all(|&u| x[u].is_common_interval());
-            if !is_bounded(&before) {
+            let unbounded = |x: &[Interval]| {
+                let own = square.own.iter();
+                own.filter(|&&u| !x[u].is_common_interval()).count()
+            };
+            if unbounded(&before) > 0 {
                 let saved = part.clone();
                 if self.space.bound(b, &mut part).is_err() {
                     return Mark::Bound(b).put(&mut self.cover.marks);
                 }
-                if is_bounded(&ranges(&part)) {
+                if unbounded(&ranges(&part)) < unbounded(&before) {
                     Mark::Bound(b).put(&mut self.cover.marks);
                     continue;
                 }
                 part = saved;
             }
-            if is_bounded(&before) {
+            if unbounded(&before) == 0 {
                 let (mark, saved) = (self.cover.marks.len(), part.clone());
                 Mark::Block(b).put(&mut self.cover.marks);
                 if self.space.narrow_together(b, &mut part).is_err() {

@@ -18,6 +18,7 @@
 mod bound;
 mod contract;
 mod cover;
+mod far;
 mod kept;
 mod newton;
 mod poses;
@@ -59,7 +60,7 @@ const FAR: f64 = 1e30;
 /// Searches for all figures of a problem, up to its symmetries.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
-    let homotopy = Homotopy::new(problem)
+    let homotopy = Homotopy::for_sets(problem)
         .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
     let system = System::new(&homotopy);
     let signs = homotopy.fixed_signs(problem).map_err(|object| {

@@ -7,6 +7,7 @@
 
 use super::bound::bounds;
 use super::contract::{Empty, contract};
+use super::far::far;
 use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
 use super::system::{Row, System};
@@ -461,7 +462,11 @@ impl<'s, 'a> Piece<'s, 'a> {
             }
             let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
             if !is_bounded {
-                return false;
+                match far(&block.rows, &block.is_free, x) {
+                    Err(Empty) => return true,
+                    Ok(true) => continue,
+                    Ok(false) => return false,
+                }
             }
             let before = block.volume(x);
             let Ok(step) = square.step(x) else {

@@ -53,7 +53,8 @@ impl Kind for Angles {
             if low.measure_opposite(of.name, [a, b, c], &target)? {
                 return Ok(());
             }
-            let (u, v) = (low.span(b, a)?, low.span(b, c)?);
+            let legs = [low.span(b, a)?, low.span(b, c)?];
+            let [u, v] = legs.map(|leg| low.heading(leg));
             return between(of.name, low, &u, &v, target, false);
         }
         let corner = corner(&of.items);
@@ -78,7 +79,8 @@ impl Kind for Angles {
             low.measure_opposite(of.name, points, &cosine)?;
             return Ok(());
         }
-        between(of.name, low, &first.0, &second.0, target, true)
+        let (first, second) = (low.heading(first.0), low.heading(second.0));
+        between(of.name, low, &first, &second, target, true)
     }
 }
 

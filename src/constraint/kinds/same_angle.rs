@@ -45,6 +45,7 @@ impl Kind for EqualAngles {
                 }
                 (low.line(a)?.along, low.line(b)?.along)
             };
+            let (u, v) = (low.heading(u), low.heading(v));
             let now = dot(&u.at, &v.at);
             let at = &Real::from(now.clone()) / &(&length(&u.at) * &length(&v.at));
             let what = format!("{}, cosine {index}", of.name);

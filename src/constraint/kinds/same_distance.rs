@@ -38,6 +38,7 @@ impl Kind for EqualDistances {
             let place = low.place(point);
             let name = of.items.line()?;
             let line = low.line(name)?;
+            let line = low.headed_line(line);
             let across = low.between(&line.base, &place);
             let at = cross_in_plane(&line.along.at, &across.at);
             if let LineName::Points(ends) = name

@@ -69,6 +69,7 @@ impl Kind for Tangent {
                     low.vanish(of.name, products, start, 2);
                     return Ok(());
                 }
+                let line = low.headed_line(line);
                 let across = low.between(&line.base, &round.center);
                 let products = low.cross_in_plane(1, &line.along.forms, &across.forms);
                 let now = cross_in_plane(&line.along.at, &across.at);
@@ -76,6 +77,7 @@ impl Kind for Tangent {
             }
             Other::Plane(name) => {
                 let plane = low.proper_plane(name)?;
+                let plane = low.headed_plane(plane);
                 let products = plane.height(low, 1, &round.center);
                 let now = plane.height_in_sketch(low, &round.center);
                 touch(of.name, low, products, now, &plane.normal, &round)

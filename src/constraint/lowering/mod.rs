@@ -2,6 +2,7 @@
 //! build them with.
 
 mod geometry;
+mod heading;
 mod relations;
 mod symmetry;
 
@@ -54,6 +55,10 @@ pub struct Lowering<'a> {
     distances: HashMap<[usize; 2], usize>,
     /// Lengths that are entries of equations already.
     lengths: HashMap<[Form; 3], Entry>,
+    /// Whether vectors are divided by their lengths, see `heading`.
+    has_headings: bool,
+    /// Those that are.
+    headings: HashMap<[Form; 3], Arrow>,
     /// Cross products likewise.
     crosses: HashMap<[[Form; 3]; 2], Arrow>,
     /// Unknowns of objects, by index of the object.
@@ -118,9 +123,17 @@ impl<'a> Lowering<'a> {
                 })
                 .collect(),
             lengths: HashMap::new(),
+            has_headings: false,
+            headings: HashMap::new(),
             crosses: HashMap::new(),
             objects: HashMap::new(),
         }
+    }
+
+    /// The same with vectors divided by their lengths, see `heading`: for t = 1 alone.
+    pub fn with_headings(mut self) -> Self {
+        self.has_headings = true;
+        self
     }
 
     /// From here on equations belong to this object or constraint.

@@ -120,6 +120,59 @@ impl Expanded {
     }
 }
 
+/// Ranges that hold some unknowns at every zero in a part, from the equations that are linear in them where all else is a number in its
+/// range: each with its place among the unknowns.
+pub fn far<'a>(
+    eq: &Equations,
+    rows: impl Iterator<Item = (&'a [Product], Interval)>,
+    unknowns: &[usize],
+    part: &Part,
+) -> Vec<(usize, Interval)> {
+    let n = unknowns.len();
+    let is_bounded = |row: &Expanded| {
+        let all = || row.linear.iter().chain([&row.constant]);
+        row.squares.is_empty() && all().all(|x| x.is_common_interval())
+    };
+    let rows = rows.map(|row| Expanded::new(eq, row, unknowns, part.entries()));
+    let rows = rows.filter(|row| is_bounded(row) && row.linear.iter().any(|x| *x != ZERO));
+    let mut rows: Vec<Expanded> = rows.collect();
+    // What each is solved for.
+    let mut solved: Vec<Option<usize>> = vec![None; rows.len()];
+    let clear = |row: &Expanded, k: usize| {
+        let sum: f64 = row.linear.iter().map(|x| x.mag()).sum();
+        (row.linear[k].mig() / sum, k)
+    };
+    loop {
+        let open = (0..n).filter(|k| !solved.contains(&Some(*k)));
+        let open: Vec<usize> = open.collect();
+        let candidates = (0..rows.len()).filter(|&e| solved[e].is_none());
+        let candidates = candidates.flat_map(|e| {
+            let row = &rows[e];
+            open.iter().map(move |&k| (e, clear(row, k)))
+        });
+        let best = candidates
+            .filter(|(_, (clear, _))| *clear > 0.0)
+            .max_by(|a, b| a.1.0.total_cmp(&b.1.0));
+        let Some((e, (_, k))) = best else { break };
+        solved[e] = Some(k);
+        let pivot = rows[e].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != e) {
+            let by = row.linear[k] / pivot.linear[k];
+            let pairs = row.linear.iter_mut().zip(&pivot.linear);
+            pairs.for_each(|(x, y)| *x -= by * *y);
+            // The same numbers in both, so that nothing is left of this one.
+            row.linear[k] = ZERO;
+            row.constant -= by * pivot.constant;
+        }
+    }
+    let found = rows.iter().zip(solved).filter_map(|(row, k)| {
+        let k = k?;
+        let is_alone = (0..n).all(|j| j == k || row.linear[j] == ZERO);
+        is_alone.then(|| (k, -(row.constant / row.linear[k])))
+    });
+    found.collect()
+}
+
 /// Ranges that hold the unknowns of a block at every zero in a part. `None`: nothing follows.
 pub fn bounds<'a>(
     eq: &Equations,

@@ -51,7 +51,7 @@ impl Space {
     /// Proves that the zeros listed exist, that the figures among them are figures and no two congruent, and the others none.
     pub fn new(problem: &Problem, cover: &CoordinateCover) -> Result<Space, String> {
         let unit = 2f64.powi(cover.unit_exponent);
-        let homotopy = Homotopy::with_unit(problem, unit).map_err(|error| error.to_string())?;
+        let homotopy = Homotopy::for_sets_in(problem, unit).map_err(|error| error.to_string())?;
         let eq = Equations::new(homotopy);
         let signs = eq.homotopy.fixed_signs(problem).map_err(|object| {
             let name = &problem.objects[object].name;

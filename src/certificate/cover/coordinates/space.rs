@@ -3,7 +3,7 @@
 //! A part has a range for every unknown. All that is done to it keeps every zero of the equations that is in it, so that a part in
 //! which a range becomes empty has none.
 
-use super::bounds::bounds;
+use super::bounds::{bounds, far};
 use super::format::Block;
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
@@ -345,9 +345,19 @@ impl Rows {
         });
         let found = bounds(eq, rows, &block.unknowns, part);
         let ranges = block.unknowns.iter().zip(found.into_iter().flatten());
-        ranges
-            .into_iter()
-            .try_for_each(|(&u, range)| part.narrow(u, range))
+        for (&u, range) in ranges {
+            part.narrow(u, range)?;
+        }
+        let unbounded = block.unknowns.iter().copied();
+        let unbounded: Vec<usize> = unbounded
+            .filter(|&u| !part.x[u].is_common_interval())
+            .collect();
+        let rows = self.rows.iter();
+        let rows = rows.map(|row| (row.products.as_slice(), row.right));
+        for (k, range) in far(eq, rows, &unbounded, part) {
+            part.narrow(unbounded[k], range)?;
+        }
+        Ok(())
     }
 }
 

@@ -35,6 +35,7 @@ pub fn from_plane(
     plane: &Plane,
     then: Real,
 ) -> Result<(), Fault> {
+    let plane = &low.headed_plane(plane.clone());
     let now = plane.height_in_sketch(low, place);
     let then = with_sign(&now, then)
         .ok_or("the point is in the plane in the sketch: move it to the side where it is wanted")?;
@@ -61,6 +62,7 @@ pub fn from_line(
     line: &Line,
     then: Real,
 ) -> Result<(), Fault> {
+    let line = &low.headed_line(line.clone());
     let on_it = "the point is on the line in the sketch: move it to the side where it is wanted, or say `on`";
     if low.dimension() == 2 {
         let across = low.between(&line.base, place);
@@ -94,6 +96,7 @@ pub fn off_line(
     place: &Place,
     line: &Line,
 ) -> Option<(Vec<Product>, BigRational)> {
+    let line = &low.headed_line(line.clone());
     let across = low.between(&line.base, place);
     let along = dot(&line.along.at, &across.at);
     let square =

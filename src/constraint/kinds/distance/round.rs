@@ -66,6 +66,7 @@ pub fn from_flat(
         }
         Flat::Line(line) => {
             let line = low.line(line)?;
+            let line = low.headed_line(line);
             let across = low.between(&line.base, &round.center);
             let products = low.cross_in_plane(1, &line.along.forms, &across.forms);
             let now = cross_in_plane(&line.along.at, &across.at);
@@ -73,6 +74,7 @@ pub fn from_flat(
         }
         Flat::Plane(plane) => {
             let plane = low.proper_plane(plane)?;
+            let plane = low.headed_plane(plane);
             let products = plane.height(low, 1, &round.center);
             let now = plane.height_in_sketch(low, &round.center);
             height(&what, low, products, now, &plane.normal)?

@@ -1,0 +1,191 @@
+//! Unknowns that may be as large as they like, by the equations that are linear in them.
+//!
+//! A point at the corner of two legs of known headings is not far away, as L u − M v is the difference of the legs' other ends; but no
+//! equation by itself says so. All that is bounded is taken as numbers in their ranges, and what equations are then
+//! linear in the unbounded unknowns are solved by elimination in intervals: for every zero in the box the exact numbers are in them, so
+//! that every row that is left holds, too.
+
+use super::contract::Empty;
+use super::system::{Form, Row};
+use crate::interval::{Interval, ZERO, point};
+
+/// Σ factors · unbounded unknowns + constant = 0.
+struct Linear {
+    factors: Vec<Interval>,
+    constant: Interval,
+}
+
+impl Linear {
+    /// A row, if it is linear in the unbounded unknowns and all else in it is bounded.
+    fn new(row: &Row, unbounded: &[usize], x: &[Interval]) -> Option<Self> {
+        let place = |entry: usize| unbounded.iter().position(|&u| u == entry);
+        if !row.entries.iter().any(|&e| place(e).is_some()) {
+            return None;
+        }
+        let mut out = Linear {
+            factors: vec![ZERO; unbounded.len()],
+            constant: -row.right,
+        };
+        // The unbounded unknowns of a form, with their signs, and the rest of it.
+        let split = |form: Form| {
+            let mut own = Vec::new();
+            let mut rest = if form == Form::One { point(1.0) } else { ZERO };
+            for (entry, sign) in form.entries() {
+                match place(entry) {
+                    Some(k) => own.push((k, point(sign))),
+                    None => rest += point(sign) * x[entry],
+                }
+            }
+            (own, rest)
+        };
+        for p in &row.products {
+            let (left, right) = (split(p.left), split(p.right));
+            if !left.0.is_empty() && !right.0.is_empty() {
+                return None;
+            }
+            let factor = point(p.factor);
+            out.constant += factor * left.1 * right.1;
+            for (one, other) in [(&left, &right), (&right, &left)] {
+                for &(k, sign) in &one.0 {
+                    out.factors[k] += factor * sign * other.1;
+                }
+            }
+        }
+        let is_bounded =
+            out.constant.is_common_interval() && out.factors.iter().all(|x| x.is_common_interval());
+        is_bounded.then_some(out)
+    }
+
+    /// How certain it is that an unknown stands in it, beside all others.
+    fn share(&self, k: usize) -> f64 {
+        let all: f64 = self.factors.iter().map(|x| x.mag()).sum();
+        match all > 0.0 {
+            true => self.factors[k].mig() / all,
+            false => 0.0,
+        }
+    }
+}
+
+/// Bounds the free entries that are unbounded by the rows that are linear in them. Tells whether any has a bound more.
+pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, Empty> {
+    let unbounded = (0..x.len()).filter(|&e| is_free[e] && !x[e].is_common_interval());
+    let unbounded: Vec<usize> = unbounded.collect();
+    let linear = rows
+        .iter()
+        .filter_map(|row| Linear::new(row, &unbounded, x));
+    let mut linear: Vec<Linear> = linear.collect();
+    // For each row the unknown that it is solved for.
+    let mut solved: Vec<Option<usize>> = vec![None; linear.len()];
+    let mut is_open = vec![true; unbounded.len()];
+    loop {
+        let pairs = (0..linear.len())
+            .filter(|&e| solved[e].is_none())
+            .flat_map(|e| (0..unbounded.len()).map(move |k| (e, k)));
+        let pairs = pairs.filter(|&(_, k)| is_open[k]);
+        let best = pairs
+            .map(|(e, k)| (linear[e].share(k), e, k))
+            .filter(|(share, ..)| *share > 0.0)
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, pivot, k)) = best else { break };
+        solved[pivot] = Some(k);
+        is_open[k] = false;
+        let (before, rest) = linear.split_at_mut(pivot);
+        let Some((row, after)) = rest.split_first_mut() else {
+            break;
+        };
+        for other in before.iter_mut().chain(after) {
+            if other.factors[k] == ZERO {
+                continue;
+            }
+            let by = other.factors[k] / row.factors[k];
+            for (factor, &of) in other.factors.iter_mut().zip(&row.factors) {
+                *factor -= by * of;
+            }
+            // The same numbers in both, so that nothing is left of this one.
+            other.factors[k] = ZERO;
+            other.constant -= by * row.constant;
+        }
+    }
+    let mut is_better = false;
+    for (row, k) in linear.iter().zip(&solved) {
+        let Some(k) = *k else { continue };
+        let mut others = row.factors.iter().enumerate().filter(|(j, _)| *j != k);
+        if !others.all(|(_, factor)| *factor == ZERO) {
+            continue;
+        }
+        let entry = unbounded[k];
+        let new = x[entry].intersection(-(row.constant / row.factors[k]));
+        if new.is_empty() {
+            return Err(Empty);
+        }
+        is_better |= new.is_common_interval();
+        x[entry] = new;
+    }
+    Ok(is_better)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::contract::{entire, upper_half};
+    use super::super::system::Product;
+    use super::*;
+    use crate::interval::hull;
+
+    /// (x, y) + L u = (0, 0) and (x, y) + M v = (1, 0) in the entries x, y, L, M, u, v, 0, 1.
+    fn corner(u: [f64; 2], v: [f64; 2], wide: f64) -> (Vec<Row>, Vec<Interval>) {
+        const ZERO_ENTRY: usize = 8;
+        let value = |entry| Form::Difference(entry, ZERO_ENTRY);
+        let product = |factor, left, right| Product {
+            factor,
+            left,
+            right,
+        };
+        let mut rows = Vec::new();
+        for (far, heading, place) in [(2, 4, [0.0, 0.0]), (3, 6, [1.0, 0.0])] {
+            for axis in 0..2 {
+                let products = vec![
+                    product(1.0, value(axis), Form::One),
+                    product(1.0, value(far), value(heading + axis)),
+                ];
+                rows.push(Row::new(products, point(place[axis]), ZERO_ENTRY));
+            }
+        }
+        let mut x = vec![entire(), entire(), upper_half(), upper_half()];
+        x.extend(
+            [u, v]
+                .into_iter()
+                .flatten()
+                .map(|c| hull(c - wide, c + wide)),
+        );
+        x.push(ZERO);
+        (rows, x)
+    }
+
+    #[test]
+    fn a_corner_of_two_legs_is_not_far_away() {
+        // At (0.5, 1): both legs are √1.25 long.
+        let size = 1.25f64.sqrt();
+        let (u, v) = ([-0.5 / size, -1.0 / size], [0.5 / size, -1.0 / size]);
+        let (rows, mut x) = corner(u, v, 1e-3);
+        let rows: Vec<&Row> = rows.iter().collect();
+        let is_free = [true; 8].into_iter().chain([false]).collect::<Vec<_>>();
+        assert_eq!(far(&rows, &is_free, &mut x), Ok(true));
+        for (range, exact) in x.iter().zip([0.5, 1.0, size, size]) {
+            assert!(range.contains(exact) && range.wid() < 0.05, "{range:?}");
+        }
+    }
+
+    #[test]
+    fn parallel_legs_say_nothing_and_legs_that_part_have_no_corner() {
+        let is_free = [true; 8].into_iter().chain([false]).collect::<Vec<_>>();
+        let (rows, mut x) = corner([0.0, 1.0], [0.0, 1.0], 1e-3);
+        let rows: Vec<&Row> = rows.iter().collect();
+        assert_eq!(far(&rows, &is_free, &mut x), Ok(false));
+        // Headings that meet behind the ends: a length would be negative.
+        let size = 1.25f64.sqrt();
+        let (rows, mut x) = corner([0.5 / size, 1.0 / size], [-0.5 / size, 1.0 / size], 1e-3);
+        let rows: Vec<&Row> = rows.iter().collect();
+        // (0.5, 1) + L u with L = −√1.25.
+        assert_eq!(far(&rows, &is_free, &mut x), Err(Empty));
+    }
+}
