@@ -5,92 +5,9 @@
 //! come of it as there are unknowns, or one fewer, all unknowns are linear in one of them (none), by elimination in intervals; and one
 //! of the equations is then a t² + b t + c = 0 in that unknown t, whence |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|) if a is not 0.
 
-use super::newton::{KNOWN, Square};
-use super::system::{Form, Row};
+use super::expanded::Expanded;
+use super::newton::Square;
 use crate::interval::{Interval, ZERO, checked, point};
-use std::collections::BTreeMap;
-
-/// `Σ q_ij x_i x_j + Σ b_i x_i + c = 0`, the q_ij being quarters.
-#[derive(Debug, Clone)]
-struct Expanded {
-    /// Four times q_ij with i ≤ j, not zero.
-    quadratic: BTreeMap<(usize, usize), i64>,
-    linear: Vec<Interval>,
-    constant: Interval,
-}
-
-/// Factors of equations beyond this are not looked at.
-const LARGEST: i64 = 1 << 40;
-
-impl Expanded {
-    /// A row in a block's unknowns, all other entries being known.
-    fn new(row: &Row, square: &Square, x: &[Interval]) -> Option<Self> {
-        let n = square.own.len();
-        let mut out = Expanded {
-            quadratic: BTreeMap::new(),
-            linear: vec![ZERO; n],
-            constant: -row.right,
-        };
-        let side = |form: Form| -> (Vec<(usize, i64)>, Interval) {
-            let mut unknowns = Vec::new();
-            let mut constant = match form {
-                Form::One => point(1.0),
-                Form::Difference(..) => ZERO,
-            };
-            for (entry, sign) in form.entries() {
-                match square.place[entry] {
-                    KNOWN => constant += point(sign) * x[entry],
-                    k => unknowns.push((k, sign as i64)),
-                }
-            }
-            (unknowns, constant)
-        };
-        for p in &row.products {
-            let quarters = 4.0 * p.factor;
-            if quarters != quarters.round() || quarters.abs() > 1e6 {
-                return None;
-            }
-            let (left, right) = (side(p.left), side(p.right));
-            for &(i, f) in &left.0 {
-                for &(j, g) in &right.0 {
-                    *out.quadratic.entry((i.min(j), i.max(j))).or_default() +=
-                        quarters as i64 * f * g;
-                }
-            }
-            for (one, other) in [(&left, &right), (&right, &left)] {
-                for &(i, f) in &one.0 {
-                    out.linear[i] += point(p.factor * f as f64) * other.1;
-                }
-            }
-            out.constant += point(p.factor) * left.1 * right.1;
-        }
-        out.quadratic.retain(|_, q| *q != 0);
-        Some(out)
-    }
-
-    /// `by` times this less `times` times another.
-    fn less(&self, by: i64, other: &Self, times: i64) -> Option<Self> {
-        let mut quadratic = BTreeMap::new();
-        for (&key, &q) in &self.quadratic {
-            *quadratic.entry(key).or_insert(0i64) += by.checked_mul(q)?;
-        }
-        for (&key, &q) in &other.quadratic {
-            let all = quadratic.entry(key).or_insert(0i64);
-            *all = all.checked_sub(times.checked_mul(q)?)?;
-        }
-        quadratic.retain(|_, q| *q != 0);
-        if quadratic.values().any(|q| q.abs() > LARGEST) || by.abs().max(times.abs()) > LARGEST {
-            return None;
-        }
-        let (by, times) = (point(by as f64), point(times as f64));
-        let pairs = self.linear.iter().zip(&other.linear);
-        Some(Expanded {
-            quadratic,
-            linear: pairs.map(|(a, b)| by * *a - times * *b).collect(),
-            constant: by * self.constant - times * other.constant,
-        })
-    }
-}
 
 /// Ranges of the unknowns of a block, in order, that hold all of its zeros. `None`: no better ones than before.
 pub fn bounds(square: &Square, x: &[Interval]) -> Option<Vec<Interval>> {
@@ -203,7 +120,8 @@ fn root_range(row: &Expanded, lines: &[(Interval, Interval)]) -> Option<Interval
 #[cfg(test)]
 mod tests {
     use super::super::contract::entire;
-    use super::super::system::Product;
+    use super::super::newton::KNOWN;
+    use super::super::system::{Form, Product, Row};
     use super::*;
 
     /// (x − p)² + (y − q)² = (r + s)².

@@ -16,8 +16,10 @@
 //! the box of these holds X and no other zero, and lies where the figure proved is alone: X is that figure.
 
 mod bound;
+mod combined;
 mod contract;
 mod cover;
+mod expanded;
 mod far;
 mod kept;
 mod newton;

@@ -6,6 +6,7 @@
 //! parts are made one after the other, and each of them is then searched by itself.
 
 use super::bound::bounds;
+use super::combined::{Combined, combined};
 use super::contract::{Empty, contract};
 use super::far::far;
 use super::kept::{Kept, digest};
@@ -61,6 +62,9 @@ pub const MANY: usize = 300;
 pub const TOO_MANY: usize = 5000;
 /// An unknown that may be as large as this, and more, is not looked at any further.
 const HUGE: f64 = (1u64 << 40) as f64;
+
+/// How often sums of two equations are gone through.
+const ROUNDS: usize = 4;
 
 /// A block and how it is contracted.
 pub struct Block<'a> {
@@ -118,7 +122,8 @@ impl<'a> Block<'a> {
                 x[u] = both;
             }
         }
-        let mut first = Piece::new(self, run);
+        let combined = combined(&self.square, &x);
+        let mut first = Piece::new(self, &combined, run);
         let mut nodes: Vec<Node> = vec![(x, 1.0)];
         // Breadth first until there are enough pieces, or few remain however far it goes.
         while !nodes.is_empty() && nodes.len() < PIECES && first.found.boxes < LOOKED {
@@ -148,7 +153,7 @@ impl<'a> Block<'a> {
         let mut found: Vec<Found> = nodes
             .into_par_iter()
             .enumerate()
-            .map(|(piece, node)| self.piece(piece, node, &first.zeros, run))
+            .map(|(piece, node)| self.piece((piece, node), (&first.zeros, &combined), run))
             .collect();
         all.add(first.zeros, None);
         all.find(&mut found);
@@ -170,9 +175,14 @@ impl<'a> Block<'a> {
     }
 
     /// Searches one of the pieces, or takes what was found in it before.
-    fn piece(&self, number: usize, node: Node, zeros: &[Zero], run: &Run) -> Found {
+    fn piece(
+        &self,
+        (number, node): (usize, Node),
+        (zeros, combined): (&[Zero], &[Combined]),
+        run: &Run,
+    ) -> Found {
         let searched = |node: Node| {
-            let mut piece = Piece::new(self, run);
+            let mut piece = Piece::new(self, combined, run);
             piece.found.zeros.extend_from_slice(zeros);
             let mut stack = vec![node];
             while let Some(node) = stack.pop() {
@@ -367,6 +377,8 @@ pub fn leave(undecided: &mut Vec<Part>, why: Why, count: u64, share: f64) {
 /// A part of a search that goes on by itself.
 struct Piece<'s, 'a> {
     block: &'s Block<'a>,
+    /// Sums of its equations.
+    combined: &'s [Combined],
     run: &'s Run<'s>,
     found: Found,
     left: usize,
@@ -374,9 +386,10 @@ struct Piece<'s, 'a> {
 }
 
 impl<'s, 'a> Piece<'s, 'a> {
-    fn new(block: &'s Block<'a>, run: &'s Run<'s>) -> Self {
+    fn new(block: &'s Block<'a>, combined: &'s [Combined], run: &'s Run<'s>) -> Self {
         Piece {
             block,
+            combined,
             run,
             found: Found::default(),
             left: 0,
@@ -449,12 +462,28 @@ impl<'s, 'a> Piece<'s, 'a> {
         others.push((other, 0.5 * share));
     }
 
+    /// Narrows a part by single equations, and by sums of two.
+    fn contract(&self, x: &mut [Interval]) -> Result<(), Empty> {
+        let block = self.block;
+        for _ in 0..ROUNDS {
+            contract(&block.rows, &block.is_free, x)?;
+            let mut changed = false;
+            for sum in self.combined {
+                sum.narrow(x, |_| changed = true)?;
+            }
+            if !changed {
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// Whether nothing is left of a part but zeros that are known.
     fn decided(&mut self, x: &mut [Interval]) -> bool {
         let block = self.block;
         let square = &block.square;
         for _ in 0..6 {
-            if contract(&block.rows, &block.is_free, x) == Err(Empty) {
+            if self.contract(x) == Err(Empty) {
                 return true;
             }
             if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {

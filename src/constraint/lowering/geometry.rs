@@ -150,9 +150,6 @@ impl Lowering<'_> {
 
     /// The length of a vector, as something that equations can hold.
     pub fn length(&mut self, of: &Arrow) -> Entry {
-        if of.known.is_none() {
-            self.heading(of.clone());
-        }
         if let Some(&entry) = self.lengths.get(&of.forms) {
             return entry;
         }
