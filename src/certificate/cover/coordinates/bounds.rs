@@ -14,15 +14,18 @@ const LARGEST: u64 = 1 << 40;
 
 /// `Σ squares_kl x_k x_l + Σ linear_k x_k + constant = 0` in a block's unknowns.
 #[derive(Clone)]
-struct Expanded {
-    squares: BTreeMap<(usize, usize), i64>,
-    linear: Vec<Interval>,
-    constant: Interval,
+pub struct Expanded {
+    /// squares_kl with k ≤ l, not zero.
+    pub squares: BTreeMap<(usize, usize), i64>,
+    /// linear_k.
+    pub linear: Vec<Interval>,
+    /// constant.
+    pub constant: Interval,
 }
 
 impl Expanded {
     /// Σ products = right, all entries that are not unknowns of the block being numbers in their ranges.
-    fn new(
+    pub fn new(
         eq: &Equations,
         (products, right): (&[Product], Interval),
         unknowns: &[usize],
@@ -68,7 +71,7 @@ impl Expanded {
     }
 
     /// This times a whole number less another one times one.
-    fn combined(&self, by: i64, other: &Self, times: i64) -> Option<Self> {
+    pub fn combined(&self, by: i64, other: &Self, times: i64) -> Option<Self> {
         let mut squares = BTreeMap::new();
         for (row, factor) in [(self, by), (other, times.checked_neg()?)] {
             for (&key, &q) in &row.squares {

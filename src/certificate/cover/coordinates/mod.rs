@@ -8,6 +8,7 @@
 mod bounds;
 mod format;
 mod space;
+mod sums;
 mod symmetry;
 mod turns;
 
@@ -24,6 +25,10 @@ use crate::problem::Problem;
 use crate::system::Homotopy;
 use space::Rows;
 use std::rc::Rc;
+use sums::Sum;
+
+/// How often sums of equations are gone through. (No zero is lost whatever this number is.)
+const SUMMED: usize = 2;
 
 /// What a cover is about, with all that it says but its marks proved.
 pub struct Space {
@@ -34,6 +39,8 @@ pub struct Space {
     rows: Rows,
     not_negative: Vec<usize>,
     blocks: Vec<Block>,
+    /// For each block the sums of its equations that narrow parts.
+    sums: Vec<Vec<Sum>>,
     bodies: Vec<turns::Body>,
     figures: Vec<Place>,
     images: Vec<Seen>,
@@ -82,10 +89,16 @@ impl Space {
             eq,
             not_negative,
             blocks: cover.blocks.clone(),
+            sums: Vec::new(),
             figures: Vec::new(),
             images: Vec::new(),
             others: Vec::new(),
         };
+        let whole = space.whole();
+        let sums = space.blocks.iter();
+        space.sums = sums
+            .map(|block| space.rows.sums(&space.eq, block, &whole))
+            .collect();
         for (index, near) in cover.figures.iter().enumerate() {
             let number = index + 1;
             let place = space.zero(near).filter(|place| space.is_figure(place));
@@ -173,20 +186,34 @@ impl Space {
         self.rows.narrow(&self.eq, part)
     }
 
-    /// Narrows a part by a block's equations together, and then one by one. A block that there is not does nothing.
+    /// Narrows a part by sums of two of a block's equations, by all of them together, and then one by one. A block that there is not does
+    /// nothing.
     pub fn narrow_together(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
+        self.add_up(block, part)?;
         if let Some(block) = self.blocks.get(block) {
             self.rows.together(&self.eq, block, part)?;
         }
         self.narrow(part)
     }
 
-    /// Bounds the unknowns of a block, and then narrows the part by the equations one by one.
+    /// Bounds the unknowns of a block, also by sums of two of its equations, and then narrows the part by the equations one by one.
     pub fn bound(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
+        self.add_up(block, part)?;
         if let Some(block) = self.blocks.get(block) {
             self.rows.bound(&self.eq, block, part)?;
         }
         self.narrow(part)
+    }
+
+    /// Narrows a part by sums of two of a block's equations.
+    fn add_up(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
+        if let (Some(block), Some(sums)) = (self.blocks.get(block), self.sums.get(block)) {
+            for _ in 0..SUMMED {
+                self.rows.add_up(&self.eq, (block, sums), part)?;
+                self.narrow(part)?;
+            }
+        }
+        Ok(())
     }
 
     /// Whether it is known in a part about where a body's legs stand, so that its rotations can be looked at.

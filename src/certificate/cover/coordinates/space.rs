@@ -5,6 +5,7 @@
 
 use super::bounds::{bounds, far};
 use super::format::Block;
+use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
 use crate::interval::{Interval, checked, point};
@@ -267,6 +268,29 @@ impl Rows {
             part.narrow(b, part.x[a] - range)?;
         }
         Ok(())
+    }
+
+    /// The sums of a block's equations that narrow parts beside these.
+    pub fn sums(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<Sum> {
+        sums::choose(&self.expanded(eq, block, part))
+    }
+
+    /// The equations of a block in its unknowns.
+    fn expanded(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<sums::Expanded> {
+        let rows = block.equations.iter().map(|&e| &self.rows[e]);
+        let rows = rows.map(|row| (row.products.as_slice(), row.right));
+        sums::expanded(eq, rows, &block.unknowns, part)
+    }
+
+    /// Narrows by sums of a block's equations, which `sums` says.
+    pub fn add_up(
+        &self,
+        eq: &Equations,
+        (block, sums): (&Block, &[Sum]),
+        part: &mut Part,
+    ) -> Result<(), Empty> {
+        let rows = self.expanded(eq, block, part);
+        sums::narrow(sums, &rows, &block.unknowns, part)
     }
 
     /// Narrows by a block's equations together, where its unknowns are bounded; all others are numbers in their ranges.
