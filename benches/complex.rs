@@ -39,7 +39,7 @@ fn main() {
         ("prism", &[true, false]),
         ("disulfide", &[true, false]),
         ("constraints/3p3l-orthogonal", &[true, false]),
-        ("constraints/3p3l", &[false]),
+        ("constraints/3p3l", &[true, false]),
         ("constraints/pentahedron", &[false]),
         ("dodecagon", &[false]),
     ] {

@@ -241,11 +241,11 @@ struct Tally {
 
 /// Random problems of mixed kinds: in complete sets are all solutions of the path, and every figure listed meets what the
 /// constraints mean to people.
-fn mixed(tries: usize, seed: u64, most_boxes: u64) -> Tally {
+fn mixed(dimension: usize, tries: usize, seed: u64, most_boxes: u64) -> Tally {
     let mut random = Random(seed);
     let mut tally = Tally::default();
     for number in 0..tries {
-        let Some((spec, problem)) = Spec::random(2, &mut |n| random.below(n)) else {
+        let Some((spec, problem)) = Spec::random(dimension, &mut |n| random.below(n)) else {
             continue;
         };
         tally.tried += 1;
@@ -280,18 +280,21 @@ fn mixed(tries: usize, seed: u64, most_boxes: u64) -> Tally {
 
 #[test]
 fn random_problems_of_mixed_kinds_hold_their_paths() {
-    let tally = mixed(40, 13, 3000);
+    let tally = mixed(2, 40, 13, 3000);
+    assert!(tally.complete > 5 && tally.on_paths > 10, "{tally:?}");
+    let tally = mixed(3, 15, 7, 3000);
     assert!(tally.complete > 5 && tally.on_paths > 10, "{tally:?}");
 }
 
 #[test]
-#[ignore = "minutes: KRAWL_COUNT problems (1000), those of KRAWL_SEED"]
+#[ignore = "minutes: KRAWL_COUNT problems (1000) of KRAWL_DIMENSION (2), those of KRAWL_SEED"]
 fn many_random_problems_of_mixed_kinds_hold_their_paths() {
     let number = |name: &str, default: u64| {
         let value = std::env::var(name).ok();
         value.map_or(default, |value| value.parse().unwrap())
     };
     let tally = mixed(
+        number("KRAWL_DIMENSION", 2) as usize,
         number("KRAWL_COUNT", 1000) as usize,
         number("KRAWL_SEED", 1),
         20_000,
@@ -389,6 +392,134 @@ fn blocks_by_formula_have_as_many_figures_as_solve_counts() {
 }
 
 /// The pentahedron: nine figures up to reflection, those that are published on its path, and no other.
+/// The papers' problem with angles, in its three valuations. Places where a leg vanishes, and where it has no end, are excluded.
+#[test]
+fn figures_with_angles_are_complete() {
+    for (name, count) in [("closed", 3), ("infinite", 6), ("undefined", 4)] {
+        let path = format!("problems/constraints/6p7d3a2c-{name}.toml");
+        let problem = Problem::read(path).unwrap();
+        let result = searched(&problem);
+        assert_eq!(result.status, Status::Complete, "{name}");
+        assert_eq!(result.solutions.len(), count, "{name}");
+        assert!(result.boxes < 2000, "{name}: {}", result.boxes);
+        holds_the_path(&problem, &result).unwrap();
+    }
+}
+
+/// Polygons by angles whose legs have no given lengths: one figure, found at once.
+#[test]
+fn polygons_by_angles_are_complete() {
+    let quadrangle = |constraints: &str| {
+        let text = format!(
+            r#"
+            name = "quadrangle"
+            dimension = 2
+            [points]
+            a = [0, 0]
+            b = [3, 0]
+            c = [3.5, 2]
+            d = [0.5, 2.5]
+            [constraints]
+            {constraints}
+            "#
+        );
+        let result = searched(&parse(&text));
+        assert_eq!(result.status, Status::Complete, "{constraints}");
+        assert!(result.boxes < 1000, "{constraints}: {}", result.boxes);
+        result.solutions.len()
+    };
+    let count = quadrangle(
+        r#"distances = [["a", "b", 3]]
+           angles = [["a", "b", "c", 75], ["b", "c", "d", 100], ["c", "d", "a", 95]]
+           equal = [["b", "c", "c", "d"]]"#,
+    );
+    assert_eq!(count, 1);
+    let count = quadrangle(
+        r#"distances = [["a", "b", 3], ["b", "d", 3.5]]
+           angles = [["a", "b", "c", 75], ["b", "c", "d", 80], ["c", "d", "a", 95]]"#,
+    );
+    assert_eq!(count, 1);
+}
+
+/// Three points seen from a fourth under three angles: as many figures as there are lengths s, t, u of the lines of sight with
+/// s² + t² − 2 s t cos = |ab|² and so on, counted along s with either root for t and u.
+#[test]
+fn three_points_seen_under_three_angles() {
+    let mut random = Random(11);
+    let (mut complete, mut figures) = (0, 0);
+    for _ in 0..12 {
+        let mut tenth =
+            |low: i64, high: i64| (low + random.below((high - low) as usize) as i64) as f64 / 10.0;
+        let sides = [tenth(25, 35), tenth(25, 35), tenth(25, 35)];
+        let angles = [tenth(300, 800), tenth(300, 800), tenth(300, 800)];
+        let [ab, ac, bc] = sides;
+        let x = (ab * ab + ac * ac - bc * bc) / (2.0 * ab);
+        let y = (ac * ac - x * x).sqrt();
+        let [adb, adc, bdc] = angles;
+        let problem = parse(&format!(
+            r#"
+            name = "seen"
+            dimension = 3
+            [points]
+            a = [0, 0, 0]
+            b = [{ab}, 0, 0]
+            c = [{x}, {y}, 0]
+            d = [1.2, 1, 2]
+            [constraints]
+            distances = [["a", "b", {ab}], ["a", "c", {ac}], ["b", "c", {bc}]]
+            angles = [["a", "d", "b", {adb}], ["a", "d", "c", {adc}], ["b", "d", "c", {bdc}]]
+            "#
+        ));
+        let options = Options {
+            most_boxes: 30_000,
+            ..Options::default()
+        };
+        let result = all(&problem, &options).unwrap();
+        if result.status != Status::Complete {
+            continue;
+        }
+        complete += 1;
+        figures += result.solutions.len();
+        assert_eq!(result.solutions.len(), sights(sides, angles), "{angles:?}");
+    }
+    assert!(complete >= 9 && figures > 5, "{complete}, {figures}");
+}
+
+/// How often the last equation changes its sign along s.
+fn sights([ab, ac, bc]: [f64; 3], degrees: [f64; 3]) -> usize {
+    let [p, q, r] = degrees.map(|d| d.to_radians().cos());
+    // No three lines of sight have such angles.
+    if 1.0 + 2.0 * p * q * r <= p * p + q * q + r * r {
+        return 0;
+    }
+    let root = |s: f64, side: f64, cosine: f64, sign: f64| {
+        let rest = side * side - s * s * (1.0 - cosine * cosine);
+        (rest >= 0.0).then(|| s * cosine + sign * rest.sqrt())
+    };
+    let longest = ab / (1.0 - p * p).sqrt();
+    let shortest = longest.min(ac / (1.0 - q * q).sqrt());
+    let mut count = 0;
+    for signs in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+        let mut before: Option<f64> = None;
+        const STEPS: usize = 200_000;
+        for k in 1..STEPS {
+            let s = shortest * k as f64 / STEPS as f64;
+            let (t, u) = (root(s, ab, p, signs[0]), root(s, ac, q, signs[1]));
+            let now = match (t, u) {
+                (Some(t), Some(u)) if t > 0.0 && u > 0.0 => {
+                    Some(t * t + u * u - 2.0 * t * u * r - bc * bc)
+                }
+                _ => None,
+            };
+            if let (Some(a), Some(b)) = (before, now) {
+                count += usize::from((a < 0.0) != (b < 0.0));
+            }
+            before = now;
+        }
+    }
+    count
+}
+
 #[test]
 fn the_pentahedron_is_complete() {
     let problem = Problem::read("problems/constraints/pentahedron.toml").unwrap();

@@ -158,8 +158,9 @@ fn lines_of(folder: &str, allowed: &[&str]) -> usize {
 /// The check of complex sets is short, too, and uses neither the search for them nor the tracker.
 #[test]
 fn the_check_of_complex_sets_is_short_and_its_own() {
-    let own = ["problem", "interval", "system"];
-    assert!(lines_of("src/certificate/complex", &own) <= 1020);
+    // With other constraints than distances it has the kernel's equations, and the test of changes of signs that covers have.
+    let own = ["problem", "interval", "system", "constraint", "certificate"];
+    assert!(lines_of("src/certificate/complex", &own) <= 1220);
 }
 
 /// The checks of covers use nothing of the searches; that of coordinates has the kernel's equations and the test
@@ -171,6 +172,6 @@ fn the_checks_of_covers_are_short_and_their_own() {
     assert!(lines_of(cover, &["problem", "constraint"]) <= 120);
     assert!(lines_of(&format!("{cover}/plan"), &["problem", "interval"]) <= 1320);
     let kernel = ["problem", "constraint", "interval", "system", "certificate"];
-    // A third of it is about rotations of bodies.
-    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 1530);
+    // A quarter of it is about rotations of bodies.
+    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 1720);
 }

@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use krawl::certificate::complex::{ComplexFlaw, ComplexSet, ComplexVerdict, verify_complex_set};
+use krawl::problem::Problem;
 use std::fs;
 use std::path::Path;
 
@@ -502,4 +503,136 @@ fn cited_bounds_are_called_so() {
     let (code, said) = run("63");
     assert_eq!(code, 4);
     assert!(said.contains("The bound that you cite is wrong"), "{said}");
+}
+
+/// With other constraints than distances solutions are told by all unknowns of the paths' equations, also those that were found in a
+/// frame of three lines.
+#[test]
+fn sets_of_other_constraints_are_proved() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, count, real) in [
+        ("constraints/3p3l-orthogonal", 120, 4),
+        ("constraints/3p3l", 480, 16),
+        ("constraints/pentahedron", 56, 12),
+        ("mechanisms/dietmaier", 40, 40),
+    ] {
+        let set = set_of(name, folder.path());
+        let verdict = verdict(&set);
+        assert_eq!(verdict.flaw, None, "{name}");
+        assert_eq!((verdict.isometry, verdict.real), (count, real), "{name}");
+        assert!(verdict.is_general && !verdict.proves_all());
+        assert_eq!(set.unknowns.len(), count);
+        let problem = Problem::read(format!("problems/{name}.toml")).unwrap();
+        assert!(verdict.is_about_all_of(&problem));
+    }
+}
+
+#[test]
+fn false_sets_of_other_constraints_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = set_of("constraints/3p3l-orthogonal", folder.path());
+    let is_false = |set: &ComplexSet| matches!(verdict(set).flaw, Some(ComplexFlaw::False(_)));
+    let is_unproved =
+        |set: &ComplexSet| matches!(verdict(set).flaw, Some(ComplexFlaw::NotProved(_)));
+    let with = |change: &dyn Fn(&mut ComplexSet)| {
+        let mut other = set.clone();
+        change(&mut other);
+        other
+    };
+    // One twice, as it is and as its mirror image: the reference is in a plane, and a line's direction may be reversed.
+    assert!(is_false(&with(&|set| set
+        .unknowns
+        .push(set.unknowns[0].clone()))));
+    let problem = Problem::parse(&set.problem, "set").unwrap();
+    let homotopy = krawl::system::Homotopy::new(&problem).unwrap();
+    let mirrored = with(&|set| {
+        let mut image = set.unknowns[3].clone();
+        for (k, number) in image.iter_mut().enumerate() {
+            if homotopy.flips(k, 2) {
+                number.iter_mut().for_each(|part| *part = -*part);
+            }
+        }
+        assert_ne!(image, set.unknowns[3]);
+        set.unknowns.push(image);
+    });
+    assert!(is_false(&mirrored));
+    // Moved, cut off, of another problem, with more claims than are defined.
+    assert!(is_unproved(&with(&|set| set.unknowns[7][0][0] += 0.01)));
+    assert!(is_unproved(&with(&|set| set.unknowns[7][5][1] += 1e-4)));
+    assert!(is_unproved(&with(&|set| drop(set.unknowns[7].pop()))));
+    assert!(is_unproved(&with(&|set| set.unknowns[7][2].clear())));
+    assert!(is_unproved(&with(
+        &|set| set.problem = set.problem.replace("2.14", "2.24")
+    )));
+    assert!(is_unproved(&with(&|set| set.complete = true)));
+    assert!(is_unproved(&with(&|set| set.fixed.push("p1".to_owned()))));
+    // As many as are cited, or fewer, may be there; not more.
+    let cited = |cited: u64| with(&|set| set.cited = Some(cited));
+    assert!(is_false(&cited(119)));
+    assert_eq!(verdict(&cited(120)).cited, Some(120));
+    let more = verdict(&cited(121));
+    assert_eq!((more.flaw, more.cited), (None, None));
+    // One that is left out leaves a set that is true.
+    assert_eq!(
+        verdict(&with(&|set| drop(set.unknowns.pop()))).isometry,
+        119
+    );
+    // Distances are told by places.
+    let mut distances = set_of("octahedron", folder.path());
+    distances.unknowns = set.unknowns.clone();
+    assert!(is_unproved(&distances));
+}
+
+/// Between lines angles have the sense of the sketch: three lines of which any two have 80° between them, where directions can be
+/// given all three of which have acute angles, and where they cannot, are different.
+#[test]
+fn three_lines_have_the_angles_of_the_sketch() {
+    let text = fs::read_to_string("problems/constraints/3p3l.toml").unwrap();
+    let old = "direction = [-0.9, 0.9, -0.9] }";
+    assert!(text.contains(old));
+    let angles = |text: &str| {
+        text.replace(
+            r#"[["l1", "l2", 8], ["l1", "l3", 88], ["l2", "l3", 86]]"#,
+            r#"[["l1", "l2", 70], ["l1", "l3", 75], ["l2", "l3", 80]]"#,
+        )
+    };
+    let mut parities = Vec::new();
+    for direction in [
+        "[-0.9, 0.9, -0.9]",
+        "[-0.9, 0.9, 0.9]",
+        "[-0.9, -0.9, -0.1]",
+    ] {
+        let text = angles(&text).replace(old, &format!("direction = {direction} }}"));
+        let problem = Problem::parse(&text, "lines.toml").unwrap();
+        let lowered = krawl::complex::lower(&problem).unwrap();
+        let filling = krawl::complex::Filling {
+            patience: 1,
+            enough: Some(8),
+            ..krawl::complex::Filling::default()
+        };
+        let fibre = krawl::complex::fill(&lowered.system, &filling).unwrap();
+        let template = krawl::complex::Template::new("lines", fibre);
+        let solutions =
+            krawl::complex::solve(&lowered, &template, &krawl::complex::Ways::default());
+        let set = krawl::complex::to_certificate(&problem, &lowered, &solutions).unwrap();
+        // The checker has the equations of paths, whatever frame solutions were found in.
+        let verdict = verdict(&set);
+        assert_eq!(verdict.flaw, None, "{direction}");
+        assert!(verdict.isometry > 0, "{direction}");
+        let seen = |a: usize, b: usize| {
+            let along = |k: usize| match &problem.objects[k].shape {
+                krawl::problem::Shape::FreeLine { direction, .. } => {
+                    direction.each_ref().map(|x| x.to_f64())
+                }
+                _ => panic!("three lines"),
+            };
+            let (u, v) = (along(a), along(b));
+            (0..3).map(|k| u[k] * v[k]).sum::<f64>() < 0.0
+        };
+        parities.push(seen(0, 1) ^ seen(0, 2) ^ seen(1, 2));
+    }
+    assert!(
+        parities.contains(&true) && parities.contains(&false),
+        "{parities:?}"
+    );
 }

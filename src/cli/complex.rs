@@ -173,8 +173,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 
 /// Why there is no certificate of a problem's solutions.
 fn no_certificate(problem: &Problem, lowered: &Lowered) -> String {
-    if !problem.is_distances_only() || problem.is_absolute() {
-        return "they are defined for distances between points, and this problem has other constraints".to_owned();
+    if !problem.is_distances_only() {
+        return "the reference that paths have is no triangle in one of the solutions".to_owned();
     }
     let fixed = lowered.bound.as_ref().map(|bound| bound.fixed.as_slice());
     let names: Vec<&str> = fixed

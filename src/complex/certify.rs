@@ -7,8 +7,8 @@ use super::solve::{Solutions, Status};
 use crate::certificate::complex::{ComplexSet, Departure};
 use crate::problem::{Distance, Problem};
 
-/// The solutions of a problem of distances, to be checked by [`verify_complex_set`]. `None`: there are other constraints,
-/// or the reference has no place of its own, and no certificate is defined.
+/// The solutions of a problem, to be checked by [`verify_complex_set`]. `None`: of distances, the reference has no place of its own,
+/// and no certificate is defined.
 ///
 /// [`verify_complex_set`]: crate::certificate::complex::verify_complex_set
 pub fn to_certificate(
@@ -16,6 +16,22 @@ pub fn to_certificate(
     lowered: &Lowered,
     solutions: &Solutions,
 ) -> Option<ComplexSet> {
+    let is_cited = lowered.bound.as_ref().is_some_and(|bound| bound.is_cited);
+    if !problem.is_distances_only() {
+        let cited = lowered
+            .bound
+            .as_ref()
+            .filter(|_| lowered.system.is_absolute);
+        return Some(ComplexSet {
+            problem: problem.to_toml(),
+            fixed: Vec::new(),
+            solutions: Vec::new(),
+            unknowns: super::unknowns::of(problem, &lowered.system, &solutions.boxes)?,
+            cited: cited.and_then(|bound| bound.count.try_into().ok()),
+            at_infinity: Vec::new(),
+            complete: false,
+        });
+    }
     let fixed = lowered.placed.as_ref()?;
     let system = &lowered.system;
     let figure = |one: &SolutionBox| {
@@ -27,12 +43,13 @@ pub fn to_certificate(
         };
         system.points.iter().map(place).collect()
     };
-    let is_cited = lowered.bound.as_ref().is_some_and(|bound| bound.is_cited);
     let departures = solutions.departures.iter();
     Some(ComplexSet {
         problem: problem.to_toml(),
         fixed: names(problem, fixed),
         solutions: solutions.boxes.boxes().iter().map(figure).collect(),
+        unknowns: Vec::new(),
+        cited: None,
         at_infinity: departures
             .map(|one| departure(problem, one, system.unit))
             .collect(),
@@ -48,7 +65,7 @@ fn names(problem: &Problem, points: &[usize]) -> Vec<String> {
 
 /// The middle of a box: for an unknown, and what its unit is in the problem's, the real and the imaginary part. Where the equations
 /// are not nearly linear as far as that is from the exact middle, what is left of both follows.
-fn numbers(one: &SolutionBox) -> impl Fn(usize, f64) -> Vec<f64> + '_ {
+pub(super) fn numbers(one: &SolutionBox) -> impl Fn(usize, f64) -> Vec<f64> + '_ {
     let (high, low) = (&one.figure.centre, &one.figure.low);
     let is_near = low.iter().all(|low| low.abs() < 0.01 * one.alone_within);
     move |unknown, unit| {

@@ -16,10 +16,13 @@
 
 use super::exact::{Exact, Random};
 use super::lower::{half_square, in_unit};
+use super::number::Complex;
 use super::system::{Equation, Kind, Start, System, Unknown};
-use crate::interval::Real;
+use crate::interval::{DoubleDouble, Real};
 use crate::problem::{Item, Problem, Shape, Target};
 use crate::system::Term;
+use num_rational::BigRational;
+use num_traits::Signed;
 
 /// Where the unknowns stand: coordinates of points first, then these.
 const HEIGHT: usize = 0;
@@ -53,7 +56,7 @@ pub struct Frame {
 
 /// What the constraints say, if they are of these kinds.
 struct Given {
-    /// The cosines of the angles between the objects 0 and 1, 0 and 2, 1 and 2; `None` for right angles.
+    /// The cosines between the directions of the objects 0 and 1, 0 and 2, 1 and 2 in the sketch; `None` for right angles.
     cosines: [Option<Real>; 3],
     /// Half the squared distances of points from lines, with their names.
     distances: Vec<(usize, usize, Real, String)>,
@@ -74,9 +77,12 @@ fn given(problem: &Problem) -> Option<Given> {
             ("angles" | "perpendicular", &[Item::Object(a), Item::Object(b)]) => {
                 let slot = slot(a, b)?;
                 let cosine = constraint.value.as_ref().map(|degrees| {
-                    // The lines have directions: which of the two angles is meant does not matter, as another
-                    // direction of one of the lines makes the other one of it.
-                    Real::cosine_of_degrees(degrees.value().clone())
+                    // Of a cosine and the opposite one that to which the sketch comes nearer, as along paths. (Whether all three lines
+                    // can be given directions between which all cosines are positive depends on it.)
+                    let cosine = Real::cosine_of_degrees(degrees.value().clone());
+                    let now = seen(problem, a, b);
+                    let opposite = now != 0.0 && (now < 0.0) == (cosine.enclose().inf() >= 0.0);
+                    if opposite { -&cosine } else { cosine }
                 });
                 let cosine = cosine.filter(|cosine| !cosine.is_zero());
                 if cosines[slot].replace(cosine).is_some() {
@@ -103,6 +109,21 @@ fn given(problem: &Problem) -> Option<Given> {
         cosines: [a, b, c],
         distances,
     })
+}
+
+/// The sign of the cosine of two lines of their own in the sketch, exactly: −1, 0 or 1.
+fn seen(problem: &Problem, a: usize, b: usize) -> f64 {
+    let direction = |object: usize| match &problem.objects[object].shape {
+        Shape::FreeLine { direction, .. } => direction.each_ref().map(|x| x.value().clone()),
+        _ => unreachable!("only lines of their own are asked for"),
+    };
+    let (u, v) = (direction(a), direction(b));
+    let cosine: BigRational = u.iter().zip(&v).map(|(x, y)| x * y).sum();
+    match (cosine.is_positive(), cosine.is_negative()) {
+        (true, _) => 1.0,
+        (_, true) => -1.0,
+        _ => 0.0,
+    }
 }
 
 /// Where the angle of two of three lines stands.
@@ -325,6 +346,59 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         is_absolute: false,
     };
     Some(system.with_groups())
+}
+
+/// The frame that a system of this kind is in, if it is one.
+pub fn frame_of(problem: &Problem, system: &System) -> Option<Frame> {
+    let structure = system.structure();
+    let mut frames = frames(problem).into_iter();
+    frames.find(|&frame| {
+        lower(problem, frame)
+            .is_some_and(|other| other.gauge == system.gauge && other.structure() == structure)
+    })
+}
+
+/// Points, and of each of the problem's lines a place on it and its direction of length 1.
+pub type Figure = (Vec<[Z; 3]>, Vec<([Z; 3], [Z; 3])>);
+
+type Z = Complex<DoubleDouble>;
+
+/// The points and lines of a solution, of which real and imaginary part of every unknown are given in turn: in the system's
+/// unit.
+pub fn figure(system: &System, Frame { lines, across }: Frame, at: &[DoubleDouble]) -> Figure {
+    let count = system.points.len();
+    let unknown = |k: usize| Z::new(at[2 * k], at[2 * k + 1]);
+    let (zero, one) = (Z::default(), Z::real(1.0));
+    let points = (0..count).map(|p| [0, 1, 2].map(|axis| unknown(3 * p + axis)));
+    let own = |k: usize| unknown(3 * count + k);
+    let directions = match system.start {
+        Start::Lines(_) => {
+            let [c2, s2, c3, a, b] = DIRECTIONS.map(own);
+            [[one, zero, zero], [c2, s2, zero], [c3, a, b]]
+        }
+        _ => [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
+    };
+    let mut foot = [zero; 3];
+    let in_plane = (0..3).filter(|&axis| axis != across);
+    for (axis, k) in in_plane.zip(FOOT) {
+        foot[axis] = own(k);
+    }
+    let places = [[zero; 3], [zero, zero, own(HEIGHT)], foot];
+    let of = |object: usize| {
+        let role = lines.iter().position(|&line| line == object);
+        let role = role.expect("each line has a role");
+        (places[role], directions[role])
+    };
+    (points.collect(), (0..3).map(of).collect())
+}
+
+/// How long the direction of a line of its own is in the sketch.
+pub fn length(problem: &Problem, object: usize) -> Option<DoubleDouble> {
+    let Shape::FreeLine { direction, .. } = &problem.objects[object].shape else {
+        return None;
+    };
+    let square: BigRational = direction.iter().map(|x| x.value() * x.value()).sum();
+    Some(Real::from(square).sqrt().double().0)
 }
 
 /// The power of two nearest to the mean length.

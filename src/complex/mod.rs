@@ -48,6 +48,7 @@ mod solve;
 mod start;
 pub mod system;
 mod template;
+mod unknowns;
 
 pub use bound::Bound;
 pub use boxes::{Found, Same, SolutionBox, SolutionSet};

@@ -370,6 +370,9 @@ fn sum_of_lengths(problem: &Problem, split: &Split) -> String {
 /// What the check of a set of complex solutions showed.
 pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> String {
     let name = &verdict.problem.name;
+    if verdict.is_general && verdict.flaw.is_none() {
+        return general_theorem(verdict, took);
+    }
     let counts = format!(
         "{} up to isometry ({} of them real), {} up to rotation",
         counted(verdict.isometry, "complex solution"),
@@ -410,6 +413,24 @@ pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) 
             )
         }
     }
+}
+
+/// The same where solutions are zeros of the equations that paths follow.
+fn general_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> String {
+    let others = match verdict.cited {
+        Some(cited) => format!(
+            "There is no other isolated one if there are at most {cited}, as whoever made the set cites; that is not checked."
+        ),
+        None => "That there are no others is not proved.".to_owned(),
+    };
+    let seconds = took.as_secs_f64();
+    format!(
+        "VERIFIED: the equations of {} have {} ({} of them real), of which no two differ by signs of axes and of directions alone. \
+         {others} Each was proved again in {seconds:.2} s.\n",
+        verdict.problem.name,
+        counted(verdict.isometry, "complex solution"),
+        verdict.real
+    )
 }
 
 /// The figures at infinity of a set, up to isometry.

@@ -322,6 +322,13 @@ impl Homotopy {
         }
     }
 
+    /// The unknowns that are an object's own, in the order in which they are made; entries that are zero are left out.
+    pub fn object_unknowns(&self, object: usize) -> impl Iterator<Item = usize> + '_ {
+        let entries = self.tail.objects[object].iter();
+        let unknowns = entries.map(|&entry| self.entry(entry));
+        unknowns.filter(|&unknown| unknown < self.equations)
+    }
+
     /// The unknown that a point's coordinate is, or `None` where it is zero.
     pub fn coordinate(&self, point: usize, axis: usize) -> Option<usize> {
         (axis < self.dimension)

@@ -1,5 +1,6 @@
-//! The check of sets of complex solutions of distances: that each exists, that no two are congruent, which are real, and that
-//! there is no other, where their number meets the multi-homogeneous Bézout bound, with that of figures at infinity.
+//! The check of sets of complex solutions: that each exists, that no two are congruent, which are real, and, of distances, that
+//! there is no other, where their number meets the multi-homogeneous Bézout bound, with that of figures at infinity. With other
+//! constraints ([`general`]) solutions are zeros of the equations that paths follow, and no bound is known.
 //!
 //! No path is needed for that: how solutions were found does not matter once each is proved to be one, and a bound says
 //! how many there are at most. The equations, the test for one zero and the bound are made here from the problem alone; what
@@ -7,12 +8,15 @@
 
 mod bezout;
 mod figure;
+mod general;
 mod infinity;
 mod numbers;
 mod zero;
 
+use crate::interval::Interval;
 use crate::problem::Problem;
 use figure::Equations;
+use general::General;
 pub use infinity::Departure;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -26,12 +30,20 @@ pub const FIRST_LINE: &str = "krawl complex set 1";
 pub struct ComplexSet {
     /// The text of the problem's file.
     pub problem: String,
-    /// The points that stand still, by name: two joined ones in the plane, three mutually joined ones in space.
+    /// The points that stand still, by name: two joined ones in the plane, three mutually joined ones in space. With other
+    /// constraints than distances none.
     pub fixed: Vec<String>,
     /// For each solution, each point (in the problem's order) and each coordinate its real and imaginary part, perhaps followed
     /// by what these leave of them: the first fixed point is at the origin, the second on the x axis at its positive distance,
     /// the third in the upper half of the xy plane. In the problem's unit.
     pub solutions: Vec<Vec<Vec<Vec<f64>>>>,
+    /// With other constraints than distances, in the place of `solutions`: for each solution every unknown of the equations that paths
+    /// follow, likewise, in the problem's unit.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unknowns: Vec<Vec<Vec<f64>>>,
+    /// As many solutions there are at most, as somebody says that has made the set: that is not checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cited: Option<u64>,
     /// Figures at infinity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub at_infinity: Vec<Departure>,
@@ -62,6 +74,10 @@ pub struct ComplexVerdict {
     pub bound: Option<u128>,
     /// Whether all was claimed.
     pub claims_all: bool,
+    /// Whether solutions are zeros of the equations that paths follow, counted up to signs.
+    pub is_general: bool,
+    /// The bound that the set cites, if it has as many solutions.
+    pub cited: Option<u64>,
     /// What is wrong or could not be proved: then nothing is.
     pub flaw: Option<ComplexFlaw>,
 }
@@ -94,6 +110,18 @@ impl ComplexVerdict {
             && self.problem.dimension == problem.dimension
             && names(&self.problem) == names(problem)
             && self.problem.distances == problem.distances
+    }
+
+    /// The same for a problem with other constraints.
+    pub fn is_about_all_of(&self, problem: &Problem) -> bool {
+        let other = &self.problem;
+        let places = |p: &Problem| p.points.clone();
+        other.dimension == problem.dimension
+            && places(other) == places(problem)
+            && other.distances == problem.distances
+            && other.objects == problem.objects
+            && other.constraints == problem.constraints
+            && other.homotopy.reference == problem.homotopy.reference
     }
 }
 
@@ -129,9 +157,15 @@ pub fn verify_complex_set(text: &str) -> Result<ComplexVerdict, ComplexSetError>
         at_infinity: Vec::new(),
         bound: None,
         claims_all: set.complete,
+        is_general: false,
+        cited: None,
         flaw: None,
     };
-    verdict.flaw = check(&set, &mut verdict).err();
+    verdict.is_general = !verdict.problem.is_distances_only();
+    verdict.flaw = match verdict.is_general {
+        false => check(&set, &mut verdict).err(),
+        true => check_general(&set, &mut verdict).err(),
+    };
     Ok(verdict)
 }
 
@@ -139,6 +173,11 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
     let wrong = |text: String| ComplexFlaw::False(text);
     let doubt = |text: String| ComplexFlaw::NotProved(text);
     let problem = &verdict.problem;
+    if !set.unknowns.is_empty() || set.cited.is_some() {
+        return Err(doubt(
+            "there are distances only, of which the places of points are to be given".to_owned(),
+        ));
+    }
     let fixed: Option<Vec<usize>> = set
         .fixed
         .iter()
@@ -168,7 +207,12 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
         verdict.real += usize::from(real);
         zeros.push(zero);
     }
-    are_apart(&equations, &zeros)?;
+    are_apart(
+        &zeros,
+        |zero| equations.key(zero),
+        |a, b| equations.are_congruent(a, b),
+        "they are the same, or mirror images of each other",
+    )?;
     verdict.at_infinity = infinity::check(problem, &fixed, &set.at_infinity)?;
     verdict.bound = bezout::bound(problem, &fixed);
     let all = (verdict.rotation + verdict.rotation_at_infinity()) as u128;
@@ -192,12 +236,61 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
     }
 }
 
-/// Checks that no two solutions are congruent.
-fn are_apart(equations: &Equations, zeros: &[Zero]) -> Result<(), ComplexFlaw> {
+/// Checks a set with other constraints than distances.
+fn check_general(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFlaw> {
+    let doubt = |text: String| ComplexFlaw::NotProved(text);
+    let is_of_places = !set.solutions.is_empty() || !set.fixed.is_empty();
+    if is_of_places || !set.at_infinity.is_empty() || set.complete {
+        return Err(doubt(
+            "there are other constraints than distances, of which unknowns are to be given, and no bound is known".to_owned(),
+        ));
+    }
+    let equations = General::new(&verdict.problem).map_err(doubt)?;
+    let proved: Vec<Option<Zero>> = set
+        .unknowns
+        .par_iter()
+        .map(|unknowns| equations.prove(unknowns))
+        .collect();
+    let mut zeros: Vec<Zero> = Vec::with_capacity(proved.len());
+    for (index, zero) in proved.into_iter().enumerate() {
+        let number = index + 1;
+        let zero =
+            zero.ok_or_else(|| doubt(format!("solution {number} is not proved to exist")))?;
+        let real = equations
+            .is_real(&zero)
+            .ok_or_else(|| doubt(format!("whether solution {number} is real is not clear")))?;
+        verdict.real += usize::from(real);
+        zeros.push(zero);
+    }
+    let same = "they are the same, or one has the other's numbers with other signs";
+    are_apart(
+        &zeros,
+        |zero| equations.key(zero),
+        |a, b| equations.are_one(a, b),
+        same,
+    )?;
+    (verdict.isometry, verdict.rotation) = (zeros.len(), zeros.len());
+    verdict.cited = set.cited.filter(|&cited| cited == zeros.len() as u64);
+    match set.cited {
+        Some(cited) if cited < zeros.len() as u64 => Err(ComplexFlaw::False(format!(
+            "there are said to be at most {cited} solutions, and there are {}",
+            zeros.len()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that no two solutions are congruent. `key`: a number that congruent ones have in common. `same`: what is said of two that are.
+fn are_apart(
+    zeros: &[Zero],
+    key: impl Fn(&Zero) -> Interval,
+    are_congruent: impl Fn(&Zero, &Zero) -> Option<bool>,
+    same: &str,
+) -> Result<(), ComplexFlaw> {
     // Solutions whose keys are disjoint are not congruent; those that meet come soon after each other.
     let mut keys: Vec<(f64, f64, usize)> = zeros
         .iter()
-        .map(|zero| equations.key(zero))
+        .map(&key)
         .enumerate()
         .map(|(index, key)| (key.inf(), key.sup(), index))
         .collect();
@@ -206,12 +299,10 @@ fn are_apart(equations: &Equations, zeros: &[Zero]) -> Result<(), ComplexFlaw> {
         for &(_, _, other) in keys[k + 1..].iter().take_while(|key| key.0 <= high) {
             let [a, b] = [one.min(other), one.max(other)];
             let numbers = format!("solutions {} and {}", a + 1, b + 1);
-            match equations.are_congruent(&zeros[a], &zeros[b]) {
+            match are_congruent(&zeros[a], &zeros[b]) {
                 Some(false) => {}
                 Some(true) => {
-                    return Err(ComplexFlaw::False(format!(
-                        "{numbers} are not two: they are the same, or mirror images of each other"
-                    )));
+                    return Err(ComplexFlaw::False(format!("{numbers} are not two: {same}")));
                 }
                 None => {
                     return Err(ComplexFlaw::NotProved(format!(

@@ -13,12 +13,12 @@
 //! |h + g| ≤ 2 R. The same inequality makes |I − Y F'(c + h)| < 1 in the norm max |h_k| / R_k, so that Y and
 //! the Jacobian are regular: a fixed point of N is a zero of F, and the only one.
 //!
-//! F(c) is exact but for the right-hand sides: whole numbers of a small unit. D is computed in double-doubles with the bound of
+//! F(c) is exact but for the right-hand sides: whole numbers of a small unit, and bounds on how far a right-hand side that is no ratio may be off. D is computed in double-doubles with the bound of
 //! [`gamma_double`], all else in floats that are rounded up. Y and c may be anything.
 
 use super::numbers::{Number, Z, about_inverse, minus, plus, size, times};
 use crate::interval::rounding::{UNDERFLOW, in_range, round_up};
-use crate::interval::{DoubleDouble, Interval, gamma_double, hull, point};
+use crate::interval::{Ball, DoubleDouble, Interval, gamma_double, hull, point};
 use crate::system::Term;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -43,7 +43,17 @@ const LEAST_RADIUS: f64 = 1e-100;
 #[derive(Debug)]
 pub struct Quadratic {
     unknowns: usize,
-    equations: Vec<(Vec<Term>, BigInt)>,
+    equations: Vec<Row>,
+}
+
+/// An equation.
+#[derive(Debug)]
+struct Row {
+    terms: Vec<Term>,
+    /// Twice the right-hand side in squared units, rounded down.
+    right: BigInt,
+    /// How far the exact one may be from that besides, in units.
+    off: BigInt,
 }
 
 /// A zero that is proved to be there.
@@ -84,14 +94,23 @@ fn whole(x: DoubleDouble) -> BigInt {
 impl Quadratic {
     /// Of equations with these terms and right-hand sides. Unknowns beyond their number are zero.
     pub fn new(unknowns: usize, equations: Vec<(Vec<Term>, BigRational)>) -> Self {
-        // Twice the right-hand side in squared units, rounded down.
-        let scale = BigRational::from_integer(BigInt::from(2) << (2 * BITS as u32));
         let equations = equations.into_iter();
+        let exact = equations.map(|(terms, right)| (terms, Ball::exactly(right)));
+        Self::enclosing(unknowns, exact.collect())
+    }
+
+    /// The same with right-hand sides that are somewhere in these.
+    pub fn enclosing(unknowns: usize, equations: Vec<(Vec<Term>, Ball)>) -> Self {
+        let unit = BigRational::from_integer(BigInt::from(2) << BITS as u32);
+        let scale = BigRational::from_integer(BigInt::from(2) << (2 * BITS as u32));
+        let row = |(terms, right): (Vec<Term>, Ball)| Row {
+            terms,
+            right: (right.middle * &scale).floor().to_integer(),
+            off: (right.radius * &unit).ceil().to_integer(),
+        };
         Quadratic {
             unknowns,
-            equations: equations
-                .map(|(terms, right)| (terms, (right * &scale).floor().to_integer()))
-                .collect(),
+            equations: equations.into_iter().map(row).collect(),
         }
     }
 
@@ -108,9 +127,9 @@ impl Quadratic {
             None => [BigInt::from(1) << BITS as u32, BigInt::ZERO],
         };
         let unit = 2.0.powi(-BITS);
-        let of = |(terms, right): &(Vec<Term>, BigInt)| {
-            let mut twice = [-right, BigInt::ZERO];
-            for term in terms {
+        let of = |row: &Row| {
+            let mut twice = [-&row.right, BigInt::ZERO];
+            for term in &row.terms {
                 let ([a, b], [c, d]) = (form(term.left), form(term.right));
                 twice[0] += (&a * &c - &b * &d) * term.factor;
                 twice[1] += (a * d + b * c) * term.factor;
@@ -119,7 +138,7 @@ impl Quadratic {
             let about = twice.map(|part: BigInt| part >> BITS as u32);
             let float = |x: &BigInt| x.to_f64().unwrap_or(f64::INFINITY) * (0.5 * unit);
             // Conversions are off by less than the last factor.
-            let bound = |x: &BigInt| float(&(x.abs() + 2)) * (1.0 + 1e-10);
+            let bound = |x: &BigInt| float(&(x.abs() + 2 + &row.off)) * (1.0 + 1e-10);
             let size = round_up(bound(&about[0]) + bound(&about[1]), 3);
             ([float(&about[0]), float(&about[1])], size)
         };
@@ -136,7 +155,7 @@ impl Quadratic {
             None => [1.0.into(), 0.0.into()],
         };
         let mut longest = 0;
-        let rows = self.equations.iter().map(|(terms, _)| {
+        let rows = self.equations.iter().map(|Row { terms, .. }| {
             let mut row: Vec<(usize, Z, f64)> = Vec::new();
             let mut slopes = 0;
             for term in terms {
@@ -173,7 +192,7 @@ impl Quadratic {
             |term: &Term| 0.5 * f64::from(term.factor).abs() * form(term.left) * form(term.right);
         let equations = self.equations.iter();
         equations
-            .map(|(terms, _)| terms.iter().map(of).sum())
+            .map(|row| row.terms.iter().map(of).sum())
             .collect()
     }
 

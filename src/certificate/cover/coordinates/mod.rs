@@ -14,6 +14,7 @@ mod turns;
 
 pub use format::{Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark, Turned};
 pub use space::{Empty, Part};
+pub use symmetry::changes;
 pub use turns::{Look, Turn};
 
 use super::{CoverError, CoverVerdict};
