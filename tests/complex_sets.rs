@@ -513,7 +513,7 @@ fn sets_of_other_constraints_are_proved() {
     for (name, count, real) in [
         ("constraints/3p3l-orthogonal", 120, 4),
         ("constraints/3p3l", 480, 16),
-        ("constraints/pentahedron", 56, 12),
+        ("constraints/pentahedron", 34, 9),
         ("mechanisms/dietmaier", 40, 40),
     ] {
         let set = set_of(name, folder.path());

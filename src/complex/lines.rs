@@ -52,6 +52,8 @@ pub struct Frame {
     lines: [usize; 3],
     /// The third line is told by its place where this coordinate is 0.
     across: usize,
+    /// The third line's direction is the opposite of the sketch's, so that it has a positive component there.
+    is_reversed: bool,
 }
 
 /// What the constraints say, if they are of these kinds.
@@ -154,10 +156,16 @@ pub fn frames(problem: &Problem) -> Vec<Frame> {
         let s2 = (1.0 - c2 * c2).sqrt();
         let along = (c23 - c2 * c3) / s2;
         let up = (1.0 - c3 * c3 - along * along).max(0.0).sqrt();
-        for (across, size) in [(2, up), (0, c3.abs()), (1, along.abs())] {
+        // The sign of the last component is not told.
+        for (across, size) in [(2, up), (0, c3), (1, along)] {
             // Orthogonal lines are the axes.
             if across == 2 || !are_orthogonal {
-                frames.push((s2, size, Frame { lines, across }));
+                let frame = Frame {
+                    lines,
+                    across,
+                    is_reversed: size < 0.0,
+                };
+                frames.push((s2, size.abs(), frame));
             }
         }
     }
@@ -169,7 +177,11 @@ pub fn frames(problem: &Problem) -> Vec<Frame> {
 /// The system of a problem of this kind in a frame; `None` if it is another problem.
 pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
     let given = given(problem)?;
-    let Frame { lines, across } = frame;
+    let Frame {
+        lines,
+        across,
+        is_reversed,
+    } = frame;
     let points = problem.points.len();
     let first = 3 * points;
     let are_orthogonal = given.cosines.iter().all(Option::is_none);
@@ -285,7 +297,11 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         let [c2, s2, c3, a, b] = directions.map(value);
         let wanted = |a: usize, b: usize| {
             let cosine = slot(lines[a], lines[b]).and_then(|slot| given.cosines[slot].clone());
-            cosine.unwrap_or_else(Real::zero)
+            let cosine = cosine.unwrap_or_else(Real::zero);
+            match is_reversed && b == 2 {
+                true => -&cosine,
+                false => cosine,
+            }
         };
         let mut add = |what: String, terms: Vec<Term>, right: Kind| {
             equations.push(Equation {
@@ -365,19 +381,23 @@ type Z = Complex<DoubleDouble>;
 
 /// The points and lines of a solution, of which real and imaginary part of every unknown are given in turn: in the system's
 /// unit.
-pub fn figure(system: &System, Frame { lines, across }: Frame, at: &[DoubleDouble]) -> Figure {
+pub fn figure(system: &System, frame: Frame, at: &[DoubleDouble]) -> Figure {
+    let Frame { lines, across, .. } = frame;
     let count = system.points.len();
     let unknown = |k: usize| Z::new(at[2 * k], at[2 * k + 1]);
     let (zero, one) = (Z::default(), Z::real(1.0));
     let points = (0..count).map(|p| [0, 1, 2].map(|axis| unknown(3 * p + axis)));
     let own = |k: usize| unknown(3 * count + k);
-    let directions = match system.start {
+    let mut directions = match system.start {
         Start::Lines(_) => {
             let [c2, s2, c3, a, b] = DIRECTIONS.map(own);
             [[one, zero, zero], [c2, s2, zero], [c3, a, b]]
         }
         _ => [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
     };
+    if frame.is_reversed {
+        directions[2] = directions[2].map(|x| -x);
+    }
     let mut foot = [zero; 3];
     let in_plane = (0..3).filter(|&axis| axis != across);
     for (axis, k) in in_plane.zip(FOOT) {

@@ -298,7 +298,11 @@ pub(super) fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
         Some([a, b]) => Some([a, b].iter().any(|&i| i < n && changes[i])),
     };
     let mut sign = None;
-    for term in &equation.terms {
+    // A difference of a number and itself, or of coordinates that are zero, is nothing, whatever multiplies it.
+    let is_nothing =
+        |form: Option<[usize; 2]>| form.is_some_and(|[a, b]| a == b || a >= n && b >= n);
+    let terms = equation.terms.iter();
+    for term in terms.filter(|term| !is_nothing(term.left) && !is_nothing(term.right)) {
         let this = form(term.left)? ^ form(term.right)?;
         if sign.is_some_and(|sign| sign != this) {
             return None;

@@ -252,8 +252,9 @@ impl Square<'_> {
 
     /// A direction in which a curve of zeros goes on from near the middle of a box, as floats see it: Newton's method with a
     /// pseudoinverse comes to a zero where the Jacobian is singular, and from a place aside in the direction of
-    /// its kernel to another one, much nearer to that place than to the first zero. That is no proof of anything.
-    pub fn seems_flexible(&self, x: &[Interval]) -> bool {
+    /// its kernel to another one, much nearer to that place than to the first zero. That is no proof of anything. The zero found, unknown by
+    /// unknown.
+    pub fn on_a_curve(&self, x: &[Interval]) -> Option<Vec<f64>> {
         let n = self.size();
         let to_zero = |from: Vec<f64>| -> Option<(Vec<f64>, nalgebra::DMatrix<f64>)> {
             let mut own = from;
@@ -279,17 +280,15 @@ impl Square<'_> {
         };
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         if !middle.iter().all(|x| x.abs() < 1e15) {
-            return false;
+            return None;
         }
-        let Some((zero, jacobian)) = to_zero(middle) else {
-            return false;
-        };
+        let (zero, jacobian) = to_zero(middle)?;
         let svd = jacobian.svd(false, true);
-        let Some(v) = svd.v_t else { return false };
+        let v = svd.v_t?;
         let greatest = svd.singular_values.max();
         let kernel = (0..n).filter(|&k| svd.singular_values[k] < 1e-7 * greatest);
         let mut kernel = kernel.collect::<Vec<_>>().into_iter();
-        kernel.any(|k| {
+        let goes_on = kernel.any(|k| {
             const ASIDE: f64 = 1e-2;
             let aside: Vec<f64> = (0..n).map(|i| zero[i] + ASIDE * v[(k, i)]).collect();
             let Some((there, _)) = to_zero(aside.clone()) else {
@@ -300,7 +299,8 @@ impl Square<'_> {
                 pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
             };
             distance(&there, &aside) < 0.1 * ASIDE && distance(&there, &zero) > 0.5 * ASIDE
-        })
+        });
+        goes_on.then_some(zero)
     }
 }
 

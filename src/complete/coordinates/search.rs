@@ -60,6 +60,8 @@ pub const COARSE: f64 = 1e-3;
 pub const MANY: usize = 300;
 /// Where that many are undecided a piece is given up.
 pub const TOO_MANY: usize = 5000;
+/// A length below this seems to be none.
+const NONE: f64 = 1e-6;
 /// An unknown that may be as large as this, and more, is not looked at any further.
 const HUGE: f64 = (1u64 << 40) as f64;
 
@@ -74,6 +76,8 @@ pub struct Block<'a> {
     pub rows: Vec<&'a Row>,
     /// For each entry whether it is an unknown of the block.
     pub is_free: Vec<bool>,
+    /// The unknowns, by their places in the block, that are positive in figures.
+    positive: Vec<usize>,
 }
 
 /// A part of the space, with its share.
@@ -97,6 +101,8 @@ impl<'a> Block<'a> {
             let mut entries = row.entries.iter();
             entries.clone().any(|&e| is_free[e]) && entries.all(|&e| is_free[e] || is_known(e))
         });
+        let positive = system.positive.iter().map(|&u| place[u]);
+        let positive = positive.filter(|&k| k != KNOWN).collect();
         let own_rows: Vec<&Row> = equations.iter().map(|&e| &system.rows[e]).collect();
         let rows = own_rows.iter().copied().chain(follow).collect();
         Block {
@@ -107,6 +113,7 @@ impl<'a> Block<'a> {
             },
             rows,
             is_free,
+            positive,
         }
     }
 
@@ -383,6 +390,8 @@ struct Piece<'s, 'a> {
     found: Found,
     left: usize,
     is_flexible: bool,
+    /// Whether curves of zeros were seen, so that nothing is gained by small parts.
+    is_coarse: bool,
 }
 
 impl<'s, 'a> Piece<'s, 'a> {
@@ -394,6 +403,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             found: Found::default(),
             left: 0,
             is_flexible: false,
+            is_coarse: false,
         }
     }
 
@@ -430,7 +440,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             return;
         }
         let own = &self.block.square.own;
-        let least = match self.left > MANY || self.is_flexible {
+        let least = match self.left > MANY || self.is_coarse {
             true => COARSE,
             false => SMALL,
         };
@@ -442,11 +452,15 @@ impl<'s, 'a> Piece<'s, 'a> {
             }
         };
         if widest < least {
-            let why = match self.is_flexible || self.block.square.seems_flexible(&x) {
-                true => Why::Flexible,
-                false => Why::Small,
+            let why = match self.block.square.on_a_curve(&x) {
+                // A curve of zeros at which a leg vanishes, whatever its heading is, is none of figures.
+                Some(zero) if self.block.positive.iter().any(|&k| zero[k] < NONE) => Why::Vanishing,
+                Some(_) => Why::Flexible,
+                None if self.is_flexible => Why::Flexible,
+                None => Why::Small,
             };
             self.is_flexible |= why == Why::Flexible;
+            self.is_coarse |= why != Why::Small;
             self.leave(why, share);
             return;
         }

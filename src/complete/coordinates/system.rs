@@ -43,6 +43,8 @@ pub struct System {
     pub unknowns: usize,
     /// The equations, in order, then what follows from them.
     pub rows: Vec<Row>,
+    /// The unknowns that are positive in figures.
+    pub positive: Vec<usize>,
 }
 
 impl Form {
@@ -165,6 +167,7 @@ impl System {
         let mut system = System {
             unknowns: m,
             rows: (0..m).map(row).collect(),
+            positive: homotopy.positive_unknowns(),
         };
         let follow = system.cross_products();
         system.rows.extend(follow);

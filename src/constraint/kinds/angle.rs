@@ -54,7 +54,7 @@ impl Kind for Angles {
                 return Ok(());
             }
             let legs = [low.span(b, a)?, low.span(b, c)?];
-            let [u, v] = legs.map(|leg| low.heading(leg));
+            let [u, v] = legs.map(|leg| told(leg, &target, low));
             return between(of.name, low, &u, &v, target, false);
         }
         let corner = corner(&of.items);
@@ -79,7 +79,7 @@ impl Kind for Angles {
             low.measure_opposite(of.name, points, &cosine)?;
             return Ok(());
         }
-        let (first, second) = (low.heading(first.0), low.heading(second.0));
+        let (first, second) = (told(first.0, &target, low), told(second.0, &target, low));
         between(of.name, low, &first, &second, target, true)
     }
 }
@@ -121,6 +121,14 @@ fn direction(flat: Flat, low: &mut Lowering) -> Result<(Arrow, bool), Fault> {
         Flat::Line(line) => (low.line(line)?.along, false),
         Flat::Plane(plane) => (low.proper_plane(plane)?.normal, true),
     })
+}
+
+/// A vector as its angles are told: by its heading. A right angle needs none.
+fn told(of: Arrow, cosine: &Real, low: &mut Lowering) -> Arrow {
+    match cosine.is_zero() {
+        true => low.heading_made(of),
+        false => low.heading(of),
+    }
 }
 
 /// Leads the cosine between two vectors to `target`, or, with `either`, to that or the opposite number,

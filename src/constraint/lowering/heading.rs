@@ -23,6 +23,14 @@ fn reversed(forms: [Form; 3]) -> [Form; 3] {
 }
 
 impl Lowering<'_> {
+    /// The heading of a vector, if it has one already; otherwise the vector itself.
+    pub fn heading_made(&mut self, of: Arrow) -> Arrow {
+        let is_made = [of.forms, reversed(of.forms)]
+            .iter()
+            .any(|forms| self.headings.contains_key(forms));
+        if is_made { self.heading(of) } else { of }
+    }
+
     /// The heading of a vector, where headings are wanted and its length is not known; otherwise the vector itself.
     pub fn heading(&mut self, of: Arrow) -> Arrow {
         let is_known = of.known.is_some() || of.forms.contains(&Form::One);

@@ -300,7 +300,9 @@ impl Piece<'_, '_> {
                 if self.is_known(&x) {
                     return self.done(part.share);
                 }
-                if before < SMALL && (self.is_flexible || self.block.square.seems_flexible(&x)) {
+                if before < SMALL
+                    && (self.is_flexible || self.block.square.on_a_curve(&x).is_some())
+                {
                     why = Why::Flexible;
                     self.is_flexible = true;
                 }
