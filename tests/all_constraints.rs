@@ -406,6 +406,34 @@ fn figures_with_angles_are_complete() {
     }
 }
 
+/// In space one angle leaves a leg of length 0 any heading of a cone: a curve of zeros at one place, and of no figures.
+#[test]
+fn headings_of_no_leg_are_no_curve_of_figures() {
+    let problem = parse(
+        r#"
+        name = "isosceles"
+        dimension = 3
+        [points]
+        a = [0, 0, 0]
+        b = [4, 0, 0]
+        c = [3, 2, 0]
+        d = [2, 1, 3]
+        [constraints]
+        distances = [["a", "b", 4], ["b", "c", 4], ["d", "a", 3.5], ["d", "b", 3], ["d", "c", 3.5]]
+        angles = [["b", "a", "c", 35]]
+        "#,
+    );
+    let result = searched(&problem);
+    assert_eq!(result.solutions.len(), 1);
+    assert_eq!(result.status, Status::Partial);
+    assert!(
+        result
+            .undecided
+            .iter()
+            .all(|part| part.why == Why::Vanishing)
+    );
+}
+
 /// Polygons by angles whose legs have no given lengths: one figure, found at once.
 #[test]
 fn polygons_by_angles_are_complete() {
