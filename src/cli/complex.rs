@@ -35,7 +35,8 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the solutions as a certificate, for `krawl verify`, and check it at once: problems of distances only
+    /// Write the solutions as a certificate, for `krawl verify`, and check it at once. That there are no others is in it for problems
+    /// of distances in space
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// A path is taken to go to infinity where an unknown is so many typical lengths (with --float: and the path cannot be
