@@ -597,11 +597,7 @@ fn three_lines_have_the_angles_of_the_sketch() {
         )
     };
     let mut parities = Vec::new();
-    for direction in [
-        "[-0.9, 0.9, -0.9]",
-        "[-0.9, 0.9, 0.9]",
-        "[-0.9, -0.9, -0.1]",
-    ] {
+    for direction in ["[-0.9, 0.9, -0.9]", "[-0.9, 0.9, 0.9]", "[0.9, 0.1, -0.1]"] {
         let text = angles(&text).replace(old, &format!("direction = {direction} }}"));
         let problem = Problem::parse(&text, "lines.toml").unwrap();
         let lowered = krawl::complex::lower(&problem).unwrap();
