@@ -189,6 +189,22 @@ impl fmt::Display for Fault {
     }
 }
 
+/// Whether sets of all solutions of two problems are about the same: of distances alone the points and distances, whatever the sketch;
+/// otherwise all that they say, as other constraints may mean what the sketch shows. `own`: as it stands in a set.
+pub(super) fn are_same(own: &Problem, problem: &Problem) -> bool {
+    // As in the text of a set: lengths before squared lengths.
+    let other = Problem::parse(&problem.to_toml(), "").unwrap_or_else(|_| problem.clone());
+    let is_same_figure = own.dimension == other.dimension && own.distances == other.distances;
+    if own.is_distances_only() && other.is_distances_only() {
+        let names = |p: &Problem| p.points.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+        return is_same_figure && names(own) == names(&other);
+    }
+    is_same_figure
+        && own.points == other.points
+        && own.objects == other.objects
+        && own.constraints == other.constraints
+}
+
 impl Verdict {
     /// Whether the theorem is about this problem: the same points in the same places, the same
     /// distances, reference and interpolation, exactly. Titles do not count.

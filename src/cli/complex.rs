@@ -175,7 +175,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 /// Why there is no certificate of a problem's solutions.
 fn no_certificate(problem: &Problem, lowered: &Lowered) -> String {
     if !problem.is_distances_only() {
-        return "the reference that paths have is no triangle in one of the solutions".to_owned();
+        return "it tells solutions as they are seen from the reference, and in one of them the points of that are in line (name others in \
+                `reference`)"
+            .to_owned();
     }
     let fixed = lowered.bound.as_ref().map(|bound| bound.fixed.as_slice());
     let names: Vec<&str> = fixed

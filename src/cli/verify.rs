@@ -155,11 +155,7 @@ fn verify_the_set(
     let verdict = super::in_pool(arguments.threads, || verify_complex_set(&text))?;
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
-    let is_about = |problem| match verdict.is_general {
-        false => verdict.is_about(problem),
-        true => verdict.is_about_all_of(problem),
-    };
-    let same = problem.is_none_or(is_about);
+    let same = problem.is_none_or(|problem| verdict.is_about(problem));
     if !print_with_problem(arguments, text, same, found) {
         return Ok(BAD_INPUT);
     }

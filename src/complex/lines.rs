@@ -16,13 +16,13 @@
 
 use super::exact::{Exact, Random};
 use super::lower::{half_square, in_unit};
-use super::number::Complex;
 use super::system::{Equation, Kind, Start, System, Unknown};
+use super::vector::Z;
+use crate::constraint::is_opposite_nearer;
 use crate::interval::{DoubleDouble, Real};
 use crate::problem::{Item, Problem, Shape, Target};
 use crate::system::Term;
 use num_rational::BigRational;
-use num_traits::Signed;
 
 /// Where the unknowns stand: coordinates of points first, then these.
 const HEIGHT: usize = 0;
@@ -69,7 +69,8 @@ fn given(problem: &Problem) -> Option<Given> {
         .objects
         .iter()
         .all(|o| matches!(o.shape, Shape::FreeLine { .. }));
-    if problem.dimension != 3 || problem.objects.len() != 3 || !are_lines {
+    let is_alike = problem.dimension == 3 && problem.objects.len() == 3 && are_lines;
+    if !is_alike || problem.is_absolute() {
         return None;
     }
     let mut cosines: [Option<Option<Real>>; 3] = [None, None, None];
@@ -82,9 +83,10 @@ fn given(problem: &Problem) -> Option<Given> {
                     // Of a cosine and the opposite one that to which the sketch comes nearer, as along paths. (Whether all three lines
                     // can be given directions between which all cosines are positive depends on it.)
                     let cosine = Real::cosine_of_degrees(degrees.value().clone());
-                    let now = seen(problem, a, b);
-                    let opposite = now != 0.0 && (now < 0.0) == (cosine.enclose().inf() >= 0.0);
-                    if opposite { -&cosine } else { cosine }
+                    match is_opposite_nearer(&product_in_sketch(problem, a, b), &cosine) {
+                        true => -&cosine,
+                        false => cosine,
+                    }
                 });
                 let cosine = cosine.filter(|cosine| !cosine.is_zero());
                 if cosines[slot].replace(cosine).is_some() {
@@ -113,19 +115,14 @@ fn given(problem: &Problem) -> Option<Given> {
     })
 }
 
-/// The sign of the cosine of two lines of their own in the sketch, exactly: −1, 0 or 1.
-fn seen(problem: &Problem, a: usize, b: usize) -> f64 {
+/// The product of the directions of two lines of their own in the sketch.
+fn product_in_sketch(problem: &Problem, a: usize, b: usize) -> BigRational {
     let direction = |object: usize| match &problem.objects[object].shape {
         Shape::FreeLine { direction, .. } => direction.each_ref().map(|x| x.value().clone()),
         _ => unreachable!("only lines of their own are asked for"),
     };
     let (u, v) = (direction(a), direction(b));
-    let cosine: BigRational = u.iter().zip(&v).map(|(x, y)| x * y).sum();
-    match (cosine.is_positive(), cosine.is_negative()) {
-        (true, _) => 1.0,
-        (_, true) => -1.0,
-        _ => 0.0,
-    }
+    u.iter().zip(&v).map(|(x, y)| x * y).sum()
 }
 
 /// Where the angle of two of three lines stands.
@@ -376,8 +373,6 @@ pub fn frame_of(problem: &Problem, system: &System) -> Option<Frame> {
 
 /// Points, and of each of the problem's lines a place on it and its direction of length 1.
 pub type Figure = (Vec<[Z; 3]>, Vec<([Z; 3], [Z; 3])>);
-
-type Z = Complex<DoubleDouble>;
 
 /// The points and lines of a solution, of which real and imaginary part of every unknown are given in turn: in the system's
 /// unit.

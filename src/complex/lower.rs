@@ -75,18 +75,16 @@ pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
 /// Makes the complex system of a checked problem as a template has it, if it has the problem's equations in one of the frames that these
 /// can be told in; otherwise in the best frame.
 pub fn lower_for(problem: &Problem, template: &str) -> Result<Lowered, Unserved> {
-    let wanted = super::template::structure_of(template);
-    for frame in lines::frames(problem) {
-        if problem.is_absolute() {
-            break;
-        }
-        if let Some(system) = lines::lower(problem, frame)
-            && wanted.as_ref() == Some(&system.structure())
-        {
-            return checked(without_bound(system));
-        }
+    let frames = lines::frames(problem);
+    if frames.is_empty() {
+        return lower(problem);
     }
-    lower(problem)
+    let wanted = super::template::structure_of(template);
+    let mut systems = frames
+        .into_iter()
+        .filter_map(|frame| lines::lower(problem, frame));
+    let fitting = systems.find(|system| wanted.as_ref() == Some(&system.structure()));
+    fitting.map_or_else(|| lower(problem), |system| checked(without_bound(system)))
 }
 
 /// Makes the complex system of a checked problem with an equation for the square of every distance, those of the
@@ -97,7 +95,6 @@ pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
 
 fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     let frame = lines::frames(problem).into_iter().next();
-    let frame = frame.filter(|_| !problem.is_absolute());
     match frame.and_then(|frame| lines::lower(problem, frame)) {
         Some(system) => checked(without_bound(system)),
         None => checked(general(problem, placed)?),

@@ -49,6 +49,7 @@ mod start;
 pub mod system;
 mod template;
 mod unknowns;
+mod vector;
 
 pub use bound::Bound;
 pub use boxes::{Found, Same, SolutionBox, SolutionSet};

@@ -3,13 +3,11 @@
 use super::boxes::{SolutionBox, SolutionSet};
 use super::certify::numbers;
 use super::lines;
-use super::number::Complex;
 use super::system::System;
+use super::vector::{Z, cross, dot, plus};
 use crate::interval::DoubleDouble;
 use crate::problem::Problem;
 use crate::system::Homotopy;
-
-type Z = Complex<DoubleDouble>;
 
 /// For each solution every unknown: the real and the imaginary part, perhaps followed by what these leave, in the problem's
 /// unit. `None`: they have no place in the frame that paths have.
@@ -38,22 +36,15 @@ pub fn of(
     Some(boxes.map(of_box).collect())
 }
 
-fn dot(a: [Z; 3], b: [Z; 3]) -> Z {
-    (0..3).fold(Z::default(), |sum, k| sum + a[k] * b[k])
-}
-
 fn minus(a: [Z; 3], b: [Z; 3]) -> [Z; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn times(a: [Z; 3], by: Z) -> [Z; 3] {
-    a.map(|x| x * by)
+    plus(&a, Z::real(-1.0), &b)
 }
 
 /// A vector divided by its length.
 fn unit(a: [Z; 3]) -> Option<[Z; 3]> {
-    let square = dot(a, a);
-    (square.norm_sqr() > 1e-20).then(|| times(a, square.sqrt().inverse()))
+    let square = dot(&a, &a);
+    let over = square.sqrt().inverse();
+    (square.norm_sqr() > 1e-20).then(|| a.map(|x| x * over))
 }
 
 /// A figure of points, and lines with a point and a direction of length 1, in a unit.
@@ -71,12 +62,9 @@ fn in_gauge(
     let points: Vec<[Z; 3]> = points.iter().map(|p| p.map(|x| x.times(scale))).collect();
     let first = unit(minus(points[b], points[a]))?;
     let across = minus(points[c], points[a]);
-    let second = unit(minus(across, times(first, dot(across, first))))?;
-    let third = std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        first[i] * second[j] - first[j] * second[i]
-    });
-    let turned = |v: [Z; 3]| [dot(first, v), dot(second, v), dot(third, v)];
+    let second = unit(plus(&across, -dot(&across, &first), &first))?;
+    let axes = [first, second, cross(&first, &second)];
+    let turned = |v: [Z; 3]| axes.map(|axis| dot(&axis, &v));
     let m = homotopy.equations;
     let mut known: Vec<Option<Z>> = vec![None; m];
     for (p, &at) in points.iter().enumerate() {
@@ -91,7 +79,7 @@ fn in_gauge(
         let base = turned(minus(base.map(|x| x.times(scale)), points[a]));
         let along = turned(along);
         // The place nearest to the origin, and a direction as long as in the sketch.
-        let base = minus(base, times(along, dot(base, along)));
+        let base = plus(&base, -dot(&base, &along), &along);
         let length = lines::length(problem, object)?;
         let unknowns = homotopy.object_unknowns(object);
         for (unknown, x) in unknowns.zip(base.into_iter().chain(along.map(|x| x.times(length)))) {
@@ -99,14 +87,9 @@ fn in_gauge(
         }
     }
     fill(homotopy, &mut known);
-    let places = homotopy.gauge.place.len();
-    let power = |k: usize| match k < places {
-        true => 1,
-        false => homotopy.tail.unknowns[k - places].power,
-    };
     let numbers = known.into_iter().enumerate().map(|(k, x)| {
         let x = x?;
-        let unit = homotopy.unit.powi(power(k));
+        let unit = homotopy.unit.powi(homotopy.power(k));
         let parts = [x.re.hi, x.im.hi, x.re.lo, x.im.lo];
         Some(parts.map(|part| part * unit).to_vec())
     });

@@ -44,6 +44,7 @@ mod zeros;
 pub use heights::{Divided, Origin, divide, odd_ones};
 pub use kind::{Fixes, Kind, Measure};
 pub use kinds::KINDS;
+pub(crate) use kinds::is_opposite_nearer;
 pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
     difference, product, value,

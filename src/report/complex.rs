@@ -4,6 +4,7 @@ use super::{JSON_VERSION, certain_digits};
 use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
 use crate::complex::infinity::{Departure, Split};
 use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
+use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
 use crate::problem::{Problem, Target, counted, list};
 use serde_json::{Map, Value, json};
@@ -424,9 +425,14 @@ fn general_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> Strin
         None => "That there are no others is not proved.".to_owned(),
     };
     let seconds = took.as_secs_f64();
+    let signs = match symmetry(&verdict.problem) {
+        Symmetry::Isometries => "of axes and of directions",
+        Symmetry::Motions => "of two axes and of directions",
+        Symmetry::Identity => "of directions",
+    };
     format!(
-        "VERIFIED: the equations of {} have {} ({} of them real), of which no two differ by signs of axes and of directions alone. \
-         {others} Each was proved again in {seconds:.2} s.\n",
+        "VERIFIED: the equations of {} have {} ({} of them real), of which no two differ by signs \
+         {signs} alone. {others} Each was proved again in {seconds:.2} s.\n",
         verdict.problem.name,
         counted(verdict.isometry, "complex solution"),
         verdict.real

@@ -52,9 +52,9 @@ impl ExactLength {
     }
 
     /// E(1), straight from the target length.
-    pub fn target_half_square(&self) -> Approximate {
+    pub fn target_half_square(&self) -> Ball {
         let half = BigRational::new(1.into(), 2.into());
-        Ball::exactly(self.target_squared() * half).double()
+        Ball::exactly(self.target_squared() * half)
     }
 
     fn per_unit(&self) -> BigRational {
@@ -105,7 +105,7 @@ mod tests {
                 assert!(near.hi + radius >= around.inf() && near.hi - radius <= around.sup());
                 assert!(radius <= 1e-30 * near.size() + 1e-200, "{radius:e}");
             }
-            let (near, _) = length.target_half_square();
+            let (near, _) = length.target_half_square().double();
             assert!(wide.target_half_square().contains(near.hi));
         }
     }

@@ -322,6 +322,12 @@ impl Homotopy {
         }
     }
 
+    /// The power of the unit of length that an unknown has.
+    pub fn power(&self, unknown: usize) -> i32 {
+        let auxiliary = unknown.checked_sub(self.gauge.place.len());
+        auxiliary.map_or(1, |k| self.tail.unknowns[k].power)
+    }
+
     /// The unknowns that are an object's own, in the order in which they are made; entries that are zero are left out.
     pub fn object_unknowns(&self, object: usize) -> impl Iterator<Item = usize> + '_ {
         let entries = self.tail.objects[object].iter();

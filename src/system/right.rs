@@ -2,13 +2,13 @@
 
 use super::{ExactLength, Length};
 use crate::constraint::MAX_DEGREE;
-use crate::interval::{DoubleDouble, Interval, Real, point};
+use crate::interval::{Ball, DoubleDouble, Interval, Real, point};
 use num_rational::BigRational;
 
 /// E(t), a polynomial of degree at most 4 with exact coefficients, in the homotopy's unit: half the
 /// square of a length (RR 8705, section 3.1), or what a constraint says.
 ///
-/// It hands out enclosures in intervals, floats with radii, and double-doubles with errors.
+/// It hands out enclosures in intervals, floats with radii, double-doubles with errors, and ratios.
 #[derive(Debug, Clone)]
 pub struct Right {
     enclosures: [Interval; MAX_DEGREE + 1],
@@ -117,13 +117,18 @@ impl Right {
             Exact::HalfSquare(length) => length.half_square(),
             Exact::Polynomial(coefficients, unit) => std::array::from_fn(|k| {
                 let coefficient = coefficients.get(k).cloned().unwrap_or_else(Real::zero);
-                divided(coefficient, unit)
+                divided(coefficient, unit).double()
             }),
         }
     }
 
     /// E(1) in double-doubles, straight from the target, with its error.
     pub fn double_at_target(&self) -> Approximate {
+        self.ball_at_target().double()
+    }
+
+    /// E(1) in ratios, straight from the target.
+    pub fn ball_at_target(&self) -> Ball {
         match &self.exact {
             Exact::HalfSquare(length) => length.target_half_square(),
             Exact::Polynomial(coefficients, unit) => divided(sum(coefficients), unit),
@@ -135,8 +140,8 @@ fn sum(coefficients: &[Real]) -> Real {
     coefficients.iter().fold(Real::zero(), |sum, c| &sum + c)
 }
 
-fn divided(number: Real, unit: &BigRational) -> Approximate {
-    (&number * &Real::from(unit.recip())).double()
+fn divided(number: Real, unit: &BigRational) -> Ball {
+    (&number * &Real::from(unit.recip())).ball()
 }
 
 #[cfg(test)]

@@ -1,27 +1,23 @@
 //! Sets of complex solutions of problems with other constraints than distances: zeros of the equations that paths follow, with t = 1.
 //!
-//! Zeros that differ by signs alone are one: by changes that keep every equation, of the coordinates along some axes and the auxiliary
-//! unknowns that go with them, and of the directions of lines and planes of their own.
+//! Zeros are one if changes of signs that keep every equation and take figures to congruent ones take one to the other: of the
+//! coordinates along some axes and the auxiliary unknowns that go with them, and of the directions of lines and planes of their own.
 
-use super::figure::{number, square};
+use super::figure::number;
 use super::zero::{Quadratic, Zero};
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::cover::coordinates::{Change, changes};
 use crate::constraint::symmetry;
-use crate::interval::{Ball, Interval, Real, point};
+use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
-use num_rational::BigRational;
-
-/// More lines and planes of their own are not served: all sums of changes of sign are tried.
-const MOST_TWINS: usize = 8;
 
 /// The equations of a problem in complex unknowns.
 pub struct General {
     system: Quadratic,
     /// For each unknown what 1 is in the problem's unit of length, a power of two.
     units: Vec<f64>,
-    /// For each change of signs that keeps the equations what it changes; the first changes nothing.
+    /// For each of these changes of signs what it changes; the first changes nothing.
     changes: Vec<Vec<bool>>,
 }
 
@@ -35,57 +31,21 @@ impl General {
                 "complex solutions have no signs, and {name} has to be positive"
             ));
         }
-        if homotopy.tail.twins.len() > MOST_TWINS {
+        if homotopy.tail.twins.len() > Change::MOST_TWINS {
             return Err("there are too many lines and planes of their own".to_owned());
         }
-        let (m, head) = (homotopy.equations, homotopy.edges.len());
-        let equation = |e: usize| {
-            let right = match e < head {
-                // ½ d².
-                true => Ball::exactly(
-                    square(&problem.distances[e].target) / BigRational::from_integer(2.into()),
-                ),
-                false => {
-                    let coefficients = homotopy.tail.equations[e - head].right.iter();
-                    let sum = coefficients.fold(Real::zero(), |sum, c| &sum + c);
-                    sum.ball()
-                }
-            };
-            let power = match e < head {
-                true => 2,
-                false => homotopy.tail.equations[e - head].power,
-            };
-            let per_unit = homotopy.unit.powi(-power);
-            let per_unit = BigRational::from_float(per_unit).ok_or("a unit that is no number")?;
-            let right = Ball {
-                middle: right.middle * &per_unit,
-                radius: right.radius * per_unit,
-            };
-            Ok((homotopy.terms(e), right))
-        };
-        let equations = (0..m).map(equation).collect::<Result<Vec<_>, String>>()?;
-        let places = homotopy.gauge.place.len();
-        let power = |i: usize| match i < places {
-            true => 1,
-            false => homotopy.tail.unknowns[i - places].power,
-        };
-        let units = (0..m).map(|i| homotopy.unit.powi(power(i))).collect();
-        let (axes, twins) = (homotopy.dimension, homotopy.tail.twins.len());
-        let eq = Equations::new(homotopy);
-        let bits = |mask: usize, count: usize| -> Vec<usize> {
-            (0..count).filter(|k| mask >> k & 1 == 1).collect()
-        };
-        let changes = (0..1usize << (axes + twins)).filter_map(|mask| {
-            let by = Change {
-                axes: bits(mask, axes),
-                twins: bits(mask >> axes, twins),
-            };
-            changes(&eq, (symmetry(problem), &[]), &by)
-        });
+        let m = homotopy.equations;
+        let equation = |e: usize| (homotopy.terms(e), homotopy.rights[e].ball_at_target());
+        let system = Quadratic::enclosing(m, (0..m).map(equation).collect());
+        let unit = |i: usize| homotopy.unit.powi(homotopy.power(i));
+        let units = (0..m).map(unit).collect();
+        let all = Change::all(homotopy.dimension, homotopy.tail.twins.len());
+        let (eq, allowed) = (Equations::new(homotopy), symmetry(problem));
+        let kept = all.filter_map(|by| changes(&eq, (allowed, &[]), &by));
         Ok(General {
-            system: Quadratic::enclosing(m, equations),
+            system,
             units,
-            changes: changes.collect(),
+            changes: kept.collect(),
         })
     }
 
@@ -106,7 +66,7 @@ impl General {
         zero.is_same(&zero.image(|_| false, true))
     }
 
-    /// Whether two zeros are the same but for signs. `None`: that is not clear.
+    /// Whether two zeros are one. `None`: that is not clear.
     pub fn are_one(&self, one: &Zero, other: &Zero) -> Option<bool> {
         let mut clear = Some(false);
         for changes in &self.changes {

@@ -13,6 +13,7 @@ mod infinity;
 mod numbers;
 mod zero;
 
+use super::verdict::are_same;
 use crate::interval::Interval;
 use crate::problem::Problem;
 use figure::Equations;
@@ -103,25 +104,11 @@ impl ComplexVerdict {
         2 * self.at_infinity.iter().map(|one| one.1).sum::<usize>()
     }
 
-    /// Whether this is about the points and distances of a problem, whatever its sketch.
+    /// Whether this is about a problem: of distances alone about its points and distances, whatever its sketch; otherwise
+    /// about all that it says, and the reference.
     pub fn is_about(&self, problem: &Problem) -> bool {
-        let names = |p: &Problem| p.points.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
-        problem.is_distances_only()
-            && self.problem.dimension == problem.dimension
-            && names(&self.problem) == names(problem)
-            && self.problem.distances == problem.distances
-    }
-
-    /// The same for a problem with other constraints.
-    pub fn is_about_all_of(&self, problem: &Problem) -> bool {
-        let other = &self.problem;
-        let places = |p: &Problem| p.points.clone();
-        other.dimension == problem.dimension
-            && places(other) == places(problem)
-            && other.distances == problem.distances
-            && other.objects == problem.objects
-            && other.constraints == problem.constraints
-            && other.homotopy.reference == problem.homotopy.reference
+        let is_same_reference = self.problem.homotopy.reference == problem.homotopy.reference;
+        are_same(&self.problem, problem) && (is_same_reference || !self.is_general)
     }
 }
 
@@ -175,7 +162,7 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
     let problem = &verdict.problem;
     if !set.unknowns.is_empty() || set.cited.is_some() {
         return Err(doubt(
-            "there are distances only, of which the places of points are to be given".to_owned(),
+            "a set of a problem of distances gives the places of points in `solutions`, and neither `unknowns` nor `cited`".to_owned(),
         ));
     }
     let fixed: Option<Vec<usize>> = set
@@ -186,27 +173,18 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
     let fixed =
         fixed.ok_or_else(|| wrong("a fixed point is no point of the problem".to_owned()))?;
     let equations = Equations::new(problem, &fixed).map_err(doubt)?;
-    let proved: Vec<Option<Zero>> = set
-        .solutions
-        .par_iter()
-        .map(|places| equations.prove(places))
-        .collect();
-    let mut zeros: Vec<Zero> = Vec::with_capacity(proved.len());
-    for (index, zero) in proved.into_iter().enumerate() {
-        let number = index + 1;
-        let zero =
-            zero.ok_or_else(|| doubt(format!("solution {number} is not proved to exist")))?;
-        let flat = equations
-            .is_its_own_mirror_image(&zero)
-            .ok_or_else(|| doubt(format!("whether solution {number} is flat is not clear")))?;
-        let real = equations
-            .is_real(&zero)
-            .ok_or_else(|| doubt(format!("whether solution {number} is real is not clear")))?;
-        verdict.isometry += 1;
+    let zeros = proved(&set.solutions, |places| equations.prove(places))?;
+    for (index, zero) in zeros.iter().enumerate() {
+        let flat = equations.is_its_own_mirror_image(zero).ok_or_else(|| {
+            doubt(format!(
+                "whether solution {} is flat is not clear",
+                index + 1
+            ))
+        })?;
         verdict.rotation += if flat { 1 } else { 2 };
-        verdict.real += usize::from(real);
-        zeros.push(zero);
     }
+    verdict.isometry = zeros.len();
+    verdict.real = real(&zeros, |zero| equations.is_real(zero))?;
     are_apart(
         &zeros,
         |zero| equations.key(zero),
@@ -236,33 +214,47 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
     }
 }
 
+/// The solutions, if each is proved to exist.
+fn proved<T: Sync>(
+    claimed: &[T],
+    prove: impl Fn(&T) -> Option<Zero> + Sync,
+) -> Result<Vec<Zero>, ComplexFlaw> {
+    let proved: Vec<Option<Zero>> = claimed.par_iter().map(&prove).collect();
+    let zeros = proved.into_iter().enumerate().map(|(index, zero)| {
+        let number = index + 1;
+        zero.ok_or_else(|| {
+            ComplexFlaw::NotProved(format!("solution {number} is not proved to exist"))
+        })
+    });
+    zeros.collect()
+}
+
+/// How many solutions are real.
+fn real(zeros: &[Zero], is_real: impl Fn(&Zero) -> Option<bool>) -> Result<usize, ComplexFlaw> {
+    let mut count = 0;
+    for (index, zero) in zeros.iter().enumerate() {
+        let number = index + 1;
+        let real = is_real(zero).ok_or_else(|| {
+            ComplexFlaw::NotProved(format!("whether solution {number} is real is not clear"))
+        })?;
+        count += usize::from(real);
+    }
+    Ok(count)
+}
+
 /// Checks a set with other constraints than distances.
 fn check_general(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFlaw> {
     let doubt = |text: String| ComplexFlaw::NotProved(text);
     let is_of_places = !set.solutions.is_empty() || !set.fixed.is_empty();
     if is_of_places || !set.at_infinity.is_empty() || set.complete {
         return Err(doubt(
-            "there are other constraints than distances, of which unknowns are to be given, and no bound is known".to_owned(),
+            "a set of a problem with other constraints than distances gives `unknowns` only, and cannot claim to be complete".to_owned(),
         ));
     }
     let equations = General::new(&verdict.problem).map_err(doubt)?;
-    let proved: Vec<Option<Zero>> = set
-        .unknowns
-        .par_iter()
-        .map(|unknowns| equations.prove(unknowns))
-        .collect();
-    let mut zeros: Vec<Zero> = Vec::with_capacity(proved.len());
-    for (index, zero) in proved.into_iter().enumerate() {
-        let number = index + 1;
-        let zero =
-            zero.ok_or_else(|| doubt(format!("solution {number} is not proved to exist")))?;
-        let real = equations
-            .is_real(&zero)
-            .ok_or_else(|| doubt(format!("whether solution {number} is real is not clear")))?;
-        verdict.real += usize::from(real);
-        zeros.push(zero);
-    }
-    let same = "they are the same, or one has the other's numbers with other signs";
+    let zeros = proved(&set.unknowns, |unknowns| equations.prove(unknowns))?;
+    verdict.real = real(&zeros, |zero| equations.is_real(zero))?;
+    let same = "they are the same, or signs of axes or of directions make one of the other";
     are_apart(
         &zeros,
         |zero| equations.key(zero),

@@ -13,8 +13,9 @@
 //! |h + g| ≤ 2 R. The same inequality makes |I − Y F'(c + h)| < 1 in the norm max |h_k| / R_k, so that Y and
 //! the Jacobian are regular: a fixed point of N is a zero of F, and the only one.
 //!
-//! F(c) is exact but for the right-hand sides: whole numbers of a small unit, and bounds on how far a right-hand side that is no ratio may be off. D is computed in double-doubles with the bound of
-//! [`gamma_double`], all else in floats that are rounded up. Y and c may be anything.
+//! F(c) is exact but for the right-hand sides: whole numbers of a small unit, with a bound on how far one that is no ratio may be
+//! off. D is computed in double-doubles with the bound of [`gamma_double`], all else in floats that are rounded up. Y and c may be
+//! anything.
 
 use super::numbers::{Number, Z, about_inverse, minus, plus, size, times};
 use crate::interval::rounding::{UNDERFLOW, in_range, round_up};

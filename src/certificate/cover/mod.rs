@@ -14,6 +14,7 @@ mod plan;
 
 pub use plan::{Cover, Kind, MAX_SYMBOLS, Mark, Radius};
 
+use super::verdict::are_same;
 use crate::problem::Problem;
 
 /// The beginning of the first line of every cover.
@@ -62,20 +63,7 @@ impl CoverVerdict {
     /// Whether this is about a problem: of distances alone about its points and distances, whatever its sketch; otherwise
     /// about all that it says, as other constraints may mean what the sketch shows.
     pub fn is_about(&self, problem: &Problem) -> bool {
-        // As in the text of a cover: lengths before squared lengths.
-        let same = Problem::parse(&problem.to_toml(), "").unwrap_or_else(|_| problem.clone());
-        let (own, other) = (&self.problem, &same);
-        if own.is_distances_only() && other.is_distances_only() {
-            let names = |p: &Problem| p.points.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
-            return own.dimension == other.dimension
-                && names(own) == names(other)
-                && own.distances == other.distances;
-        }
-        own.dimension == other.dimension
-            && own.points == other.points
-            && own.objects == other.objects
-            && own.distances == other.distances
-            && own.constraints == other.constraints
+        are_same(&self.problem, problem)
     }
 }
 

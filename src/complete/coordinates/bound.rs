@@ -130,7 +130,7 @@ mod tests {
         let at = x.len();
         x.extend([point(p), point(q), point(-s)]);
         let square = |factor, a, b| Product {
-            factor,
+            factor: point(factor),
             left: Form::Difference(a, b),
             right: Form::Difference(a, b),
         };

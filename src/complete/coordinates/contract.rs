@@ -1,7 +1,7 @@
 //! Contraction of a box by one equation after the other.
 //!
 //! Every step keeps all zeros of the box: from `factor · L · R + rest = right` follows that L · R is in
-//! (right − rest) / factor; from that, where L = R, that |L| is in the root of it, and otherwise that L is in it
+//! (right − rest) / factor, also where 0 may be the factor, as it is not if right − rest has no 0; from that, where L = R, that |L| is in the root of it, and otherwise that L is in it
 //! divided by R; and from L = a − b that a is in L + b and b in a − L. All are evaluated in intervals, so that they hold
 //! for every zero in the box and every value that the numbers of blocks before may have.
 
@@ -61,7 +61,7 @@ fn revise(
     let values: Vec<Interval> = row
         .products
         .iter()
-        .map(|p| point(p.factor) * product(p, x))
+        .map(|p| p.factor * product(p, x))
         .collect();
     // The sums of all products behind each.
     let mut behind = vec![ZERO; count + 1];
@@ -78,7 +78,7 @@ fn revise(
         if rest.is_entire() {
             continue;
         }
-        let wanted = (row.right - rest) / point(p.factor);
+        let wanted = (row.right - rest) / p.factor;
         if wanted.is_entire() {
             continue;
         }
@@ -198,7 +198,7 @@ mod tests {
     fn square(a: usize, b: usize) -> Product {
         let form = Form::Difference(a, b);
         Product {
-            factor: 1.0,
+            factor: point(1.0),
             left: form,
             right: form,
         }
@@ -224,7 +224,7 @@ mod tests {
         // x y = 6 with y between −2 and 3 and x above −1: x is at least 2 then.
         let row = Row::new(
             vec![Product {
-                factor: 2.0,
+                factor: point(2.0),
                 left: Form::Difference(0, 2),
                 right: Form::Difference(1, 2),
             }],

@@ -23,8 +23,6 @@ const SLOW: f64 = 0.01;
 const NEAR: f64 = 0.06;
 /// In boxes of rotations as narrow as this in which linear equations do not tell the body's place a coordinate of that is halved, too.
 const FINE: f64 = 0.05;
-/// Images by more changes of sign of lines and planes of their own, in all sums, are not looked for.
-const MOST_TWINS: usize = 8;
 
 /// What the search found.
 pub struct Results<'a> {
@@ -297,19 +295,10 @@ impl Writer<'_> {
         let axes = self.homotopy.dimension;
         let twins = self.homotopy.tail.twins.len();
         let place = self.cover.images.len();
-        if twins > MOST_TWINS || place == Mark::MOST {
+        if twins > Change::MOST_TWINS || place == Mark::MOST {
             return None;
         }
-        let bits = |mask: usize, count: usize| -> Vec<usize> {
-            (0..count).filter(|k| mask >> k & 1 == 1).collect()
-        };
-        let image = (0..1usize << (axes + twins)).find_map(|mask| {
-            let by = Change {
-                axes: bits(mask, axes),
-                twins: bits(mask >> axes, twins),
-            };
-            self.space.image_in(&by, part)
-        })?;
+        let image = Change::all(axes, twins).find_map(|by| self.space.image_in(&by, part))?;
         self.space.see(&image).ok()?;
         self.cover.images.push(image);
         Some(Mark::Image(place))

@@ -1,7 +1,7 @@
 //! Equations of a block as sums of monomials, whole multiples of which are added so that monomials cancel exactly.
 
 use super::newton::{KNOWN, Square};
-use super::system::{Form, Row};
+use super::system::{Form, Product, Row};
 use crate::interval::{Interval, ZERO, point};
 use std::collections::BTreeMap;
 
@@ -43,8 +43,8 @@ impl Expanded {
             (unknowns, constant)
         };
         for p in &row.products {
-            let quarters = 4.0 * p.factor;
-            if quarters != quarters.round() || quarters.abs() > 1e6 {
+            let quarters = 4.0 * p.factor.mid();
+            if p.factor.wid() > 0.0 || quarters != quarters.round() || quarters.abs() > 1e6 {
                 return None;
             }
             let (left, right) = (side(p.left), side(p.right));
@@ -56,13 +56,31 @@ impl Expanded {
             }
             for (one, other) in [(&left, &right), (&right, &left)] {
                 for &(i, f) in &one.0 {
-                    out.linear[i] += point(p.factor * f as f64) * other.1;
+                    out.linear[i] += p.factor * point(f as f64) * other.1;
                 }
             }
-            out.constant += point(p.factor) * left.1 * right.1;
+            out.constant += p.factor * left.1 * right.1;
         }
         out.quadratic.retain(|_, q| *q != 0);
         Some(out)
+    }
+
+    /// The same as a row in these unknowns. `zero`: the entry that is the number 0.
+    pub fn row(&self, own: &[usize], zero: usize) -> Row {
+        let value = |k: usize| Form::Difference(own[k], zero);
+        let quadratic = self.quadratic.iter().map(|(&(i, j), &q)| Product {
+            factor: point(0.25 * q as f64),
+            left: value(i),
+            right: value(j),
+        });
+        let linear = self.linear.iter().enumerate();
+        let linear = linear.filter(|(_, b)| **b != ZERO);
+        let linear = linear.map(|(k, &b)| Product {
+            factor: b,
+            left: value(k),
+            right: Form::One,
+        });
+        Row::new(quadratic.chain(linear).collect(), -self.constant, zero)
     }
 
     /// `by` times this less `times` times another.

@@ -43,7 +43,7 @@ impl Linear {
             if !left.0.is_empty() && !right.0.is_empty() {
                 return None;
             }
-            let factor = point(p.factor);
+            let factor = p.factor;
             out.constant += factor * left.1 * right.1;
             for (one, other) in [(&left, &right), (&right, &left)] {
                 for &(k, sign) in &one.0 {
@@ -66,7 +66,7 @@ impl Linear {
     }
 }
 
-/// Bounds the free entries that are unbounded by the rows that are linear in them. Tells whether any has a bound more.
+/// Bounds the free entries that are unbounded by the rows that are linear in them. Tells whether any of them is bounded now.
 pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, Empty> {
     let unbounded = (0..x.len()).filter(|&e| is_free[e] && !x[e].is_common_interval());
     let unbounded: Vec<usize> = unbounded.collect();
@@ -136,7 +136,7 @@ mod tests {
         const ZERO_ENTRY: usize = 8;
         let value = |entry| Form::Difference(entry, ZERO_ENTRY);
         let product = |factor, left, right| Product {
-            factor,
+            factor: point(factor),
             left,
             right,
         };

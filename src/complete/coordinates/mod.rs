@@ -16,7 +16,6 @@
 //! the box of these holds X and no other zero, and lies where the figure proved is alone: X is that figure.
 
 mod bound;
-mod combined;
 mod contract;
 mod cover;
 mod expanded;
@@ -25,6 +24,7 @@ mod kept;
 mod newton;
 mod poses;
 mod search;
+mod sums;
 mod symmetry;
 mod system;
 

@@ -202,7 +202,7 @@ impl Square<'_> {
                 };
                 let products = row.products.iter();
                 let change: f64 = products
-                    .map(|p| 2.0 * p.factor.abs() * free(p.left) * free(p.right))
+                    .map(|p| 2.0 * p.factor.mag() * free(p.left) * free(p.right))
                     .sum();
                 round_up(change, row.products.len() + 4)
             })

@@ -6,11 +6,11 @@
 //! parts are made one after the other, and each of them is then searched by itself.
 
 use super::bound::bounds;
-use super::combined::{Combined, combined};
 use super::contract::{Empty, contract};
 use super::far::far;
 use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
+use super::sums::sums;
 use super::system::{Row, System};
 use crate::complete::search::Run as Watched;
 use crate::complete::{Part, Why};
@@ -65,9 +65,6 @@ const NONE: f64 = 1e-6;
 /// An unknown that may be as large as this, and more, is not looked at any further.
 const HUGE: f64 = (1u64 << 40) as f64;
 
-/// How often sums of two equations are gone through.
-const ROUNDS: usize = 4;
-
 /// A block and how it is contracted.
 pub struct Block<'a> {
     /// The equations with the unknowns.
@@ -76,6 +73,8 @@ pub struct Block<'a> {
     pub rows: Vec<&'a Row>,
     /// For each entry whether it is an unknown of the block.
     pub is_free: Vec<bool>,
+    /// The entry that is the number 0.
+    zero: usize,
     /// The unknowns, by their places in the block, that are positive in figures.
     positive: Vec<usize>,
 }
@@ -113,6 +112,7 @@ impl<'a> Block<'a> {
             },
             rows,
             is_free,
+            zero: system.unknowns,
             positive,
         }
     }
@@ -129,8 +129,9 @@ impl<'a> Block<'a> {
                 x[u] = both;
             }
         }
-        let combined = combined(&self.square, &x);
-        let mut first = Piece::new(self, &combined, run);
+        let sums = sums(&self.square, self.zero, &x);
+        let rows: Vec<&Row> = self.rows.iter().copied().chain(&sums).collect();
+        let mut first = Piece::new(self, &rows, run);
         let mut nodes: Vec<Node> = vec![(x, 1.0)];
         // Breadth first until there are enough pieces, or few remain however far it goes.
         while !nodes.is_empty() && nodes.len() < PIECES && first.found.boxes < LOOKED {
@@ -160,7 +161,7 @@ impl<'a> Block<'a> {
         let mut found: Vec<Found> = nodes
             .into_par_iter()
             .enumerate()
-            .map(|(piece, node)| self.piece((piece, node), (&first.zeros, &combined), run))
+            .map(|(piece, node)| self.piece((piece, node), (&first.zeros, &rows), run))
             .collect();
         all.add(first.zeros, None);
         all.find(&mut found);
@@ -185,11 +186,11 @@ impl<'a> Block<'a> {
     fn piece(
         &self,
         (number, node): (usize, Node),
-        (zeros, combined): (&[Zero], &[Combined]),
+        (zeros, rows): (&[Zero], &[&Row]),
         run: &Run,
     ) -> Found {
         let searched = |node: Node| {
-            let mut piece = Piece::new(self, combined, run);
+            let mut piece = Piece::new(self, rows, run);
             piece.found.zeros.extend_from_slice(zeros);
             let mut stack = vec![node];
             while let Some(node) = stack.pop() {
@@ -233,6 +234,18 @@ impl<'a> Block<'a> {
     pub fn volume(&self, x: &[Interval]) -> f64 {
         let own = self.square.own.iter();
         own.map(|&u| x[u].wid().max(1e-300).ln()).sum()
+    }
+
+    /// Why a part stays undecided, if a curve of zeros seems to go through it.
+    fn curve(&self, x: &[Interval]) -> Option<Why> {
+        let zero = self.square.on_a_curve(x)?;
+        // A curve along which a leg has no length, whatever its heading is, is none of figures.
+        let is_none = self.positive.iter().any(|&k| zero[k] < NONE);
+        Some(if is_none {
+            Why::Vanishing
+        } else {
+            Why::Flexible
+        })
     }
 
     /// The unknown to be halved: the one that moves the equations most, each beside what all others move it.
@@ -384,26 +397,24 @@ pub fn leave(undecided: &mut Vec<Part>, why: Why, count: u64, share: f64) {
 /// A part of a search that goes on by itself.
 struct Piece<'s, 'a> {
     block: &'s Block<'a>,
-    /// Sums of its equations.
-    combined: &'s [Combined],
+    /// Its rows, and sums of two of its equations.
+    rows: &'s [&'s Row],
     run: &'s Run<'s>,
     found: Found,
     left: usize,
-    is_flexible: bool,
-    /// Whether curves of zeros were seen, so that nothing is gained by small parts.
-    is_coarse: bool,
+    /// Why the last part that a curve of zeros was seen in stays undecided: nothing is gained by small parts there.
+    curve: Option<Why>,
 }
 
 impl<'s, 'a> Piece<'s, 'a> {
-    fn new(block: &'s Block<'a>, combined: &'s [Combined], run: &'s Run<'s>) -> Self {
+    fn new(block: &'s Block<'a>, rows: &'s [&'s Row], run: &'s Run<'s>) -> Self {
         Piece {
             block,
-            combined,
+            rows,
             run,
             found: Found::default(),
             left: 0,
-            is_flexible: false,
-            is_coarse: false,
+            curve: None,
         }
     }
 
@@ -440,7 +451,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             return;
         }
         let own = &self.block.square.own;
-        let least = match self.left > MANY || self.is_coarse {
+        let least = match self.left > MANY || self.curve.is_some() {
             true => COARSE,
             false => SMALL,
         };
@@ -452,15 +463,13 @@ impl<'s, 'a> Piece<'s, 'a> {
             }
         };
         if widest < least {
-            let why = match self.block.square.on_a_curve(&x) {
-                // A curve of zeros at which a leg vanishes, whatever its heading is, is none of figures.
-                Some(zero) if self.block.positive.iter().any(|&k| zero[k] < NONE) => Why::Vanishing,
-                Some(_) => Why::Flexible,
-                None if self.is_flexible => Why::Flexible,
-                None => Why::Small,
+            let why = match self.curve {
+                Some(Why::Flexible) => Why::Flexible,
+                _ => self.block.curve(&x).unwrap_or(Why::Small),
             };
-            self.is_flexible |= why == Why::Flexible;
-            self.is_coarse |= why != Why::Small;
+            if why != Why::Small {
+                self.curve = Some(why);
+            }
             self.leave(why, share);
             return;
         }
@@ -476,28 +485,12 @@ impl<'s, 'a> Piece<'s, 'a> {
         others.push((other, 0.5 * share));
     }
 
-    /// Narrows a part by single equations, and by sums of two.
-    fn contract(&self, x: &mut [Interval]) -> Result<(), Empty> {
-        let block = self.block;
-        for _ in 0..ROUNDS {
-            contract(&block.rows, &block.is_free, x)?;
-            let mut changed = false;
-            for sum in self.combined {
-                sum.narrow(x, |_| changed = true)?;
-            }
-            if !changed {
-                break;
-            }
-        }
-        Ok(())
-    }
-
     /// Whether nothing is left of a part but zeros that are known.
     fn decided(&mut self, x: &mut [Interval]) -> bool {
         let block = self.block;
         let square = &block.square;
         for _ in 0..6 {
-            if self.contract(x) == Err(Empty) {
+            if contract(self.rows, &block.is_free, x) == Err(Empty) {
                 return true;
             }
             if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
@@ -505,7 +498,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             }
             let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
             if !is_bounded {
-                match far(&block.rows, &block.is_free, x) {
+                match far(self.rows, &block.is_free, x) {
                     Err(Empty) => return true,
                     Ok(true) => continue,
                     Ok(false) => return false,

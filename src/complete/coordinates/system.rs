@@ -16,7 +16,7 @@ pub enum Form {
 #[derive(Debug, Clone, Copy)]
 pub struct Product {
     /// A small whole number, or half of one: exact.
-    pub factor: f64,
+    pub factor: Interval,
     /// The first factor.
     pub left: Form,
     /// The second factor.
@@ -98,14 +98,14 @@ impl Row {
     pub fn value(&self, at: &[Interval]) -> Interval {
         self.products
             .iter()
-            .fold(-self.right, |sum, p| sum + point(p.factor) * product(p, at))
+            .fold(-self.right, |sum, p| sum + p.factor * product(p, at))
     }
 
     /// The same in floats.
     pub fn nearly(&self, at: &[f64]) -> f64 {
         let products = self.products.iter();
         let sum: f64 = products
-            .map(|p| p.factor * p.left.nearly(at) * p.right.nearly(at))
+            .map(|p| p.factor.mid() * p.left.nearly(at) * p.right.nearly(at))
             .sum();
         sum - self.right.mid()
     }
@@ -114,7 +114,7 @@ impl Row {
     pub fn derivatives(&self, at: &[Interval], mut tell: impl FnMut(usize, Interval)) {
         for p in &self.products {
             for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                let slope = point(p.factor) * other.value(at);
+                let slope = p.factor * other.value(at);
                 for (entry, sign) in this.entries() {
                     tell(entry, if sign > 0.0 { slope } else { -slope });
                 }
@@ -126,7 +126,7 @@ impl Row {
     pub fn slopes(&self, at: &[f64], mut tell: impl FnMut(usize, f64)) {
         for p in &self.products {
             for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                let slope = p.factor * other.nearly(at);
+                let slope = p.factor.mid() * other.nearly(at);
                 this.entries()
                     .for_each(|(entry, sign)| tell(entry, sign * slope));
             }
@@ -158,7 +158,7 @@ impl System {
         let row = |e: usize| {
             let terms = homotopy.terms(e).into_iter();
             let products = terms.map(|term| Product {
-                factor: 0.5 * f64::from(term.factor),
+                factor: point(0.5 * f64::from(term.factor)),
                 left: form(term.left),
                 right: form(term.right),
             });
@@ -197,7 +197,7 @@ impl System {
         for (i, &(k, v, u)) in found.iter().enumerate() {
             for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {
                 let product = |factor, left, right| Product {
-                    factor,
+                    factor: point(factor),
                     left,
                     right,
                 };
@@ -211,7 +211,7 @@ impl System {
     /// Adds bounds of the squared distance of two points, given by the entries of their coordinates.
     pub fn bound(&mut self, ends: &[[usize; 2]], square: Interval) {
         let products = ends.iter().map(|&[a, b]| Product {
-            factor: 1.0,
+            factor: point(1.0),
             left: Form::Difference(a, b),
             right: Form::Difference(a, b),
         });

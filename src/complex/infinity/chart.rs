@@ -11,12 +11,11 @@ use crate::complex::ends::EndProver;
 use crate::complex::exact::Exact;
 use crate::complex::number::{Complex, Number};
 use crate::complex::system::{Equation, Kind, Start, System, Unknown, segment};
+use crate::complex::vector::{Z, cross, dot, plus};
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
 use crate::system::Term;
 use num_rational::BigRational;
 use num_traits::Zero;
-
-type Z = Complex<DoubleDouble>;
 
 /// A point belongs to those that go where it is so much farther than the next nearer one, in typical lengths.
 const GAP: f64 = 1e3;
@@ -65,20 +64,6 @@ fn far(last: &[[Z; 3]]) -> Option<Vec<bool>> {
     let gaps = sorted.windows(2).map(|pair| (pair[1] / pair[0], pair[1]));
     let (gap, from) = gaps.max_by(|a, b| a.0.total_cmp(&b.0))?;
     (gap >= GAP).then(|| sizes.iter().map(|&size| size >= from).collect())
-}
-
-fn dot(a: &[Z; 3], b: &[Z; 3]) -> Z {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &[Z; 3], b: &[Z; 3]) -> [Z; 3] {
-    let part = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    [part(1, 2), part(2, 0), part(0, 1)]
-}
-
-/// a + factor b.
-fn plus(a: &[Z; 3], factor: Z, b: &[Z; 3]) -> [Z; 3] {
-    std::array::from_fn(|k| a[k] + factor * b[k])
 }
 
 /// About the coordinates of all points: those of the module's text, for the ε that they have.

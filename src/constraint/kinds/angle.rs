@@ -171,10 +171,14 @@ fn between(
 
 /// Of a cosine and the opposite number the one that is nearer to the cosine of which `now` has the sign.
 fn nearer(low: &mut Lowering, now: &BigRational, target: Real) -> Real {
-    // A right angle is nearer from below and from above alike: the sketch's own cosine counts as positive then too.
-    let opposite = now.is_negative() == (target.enclose().inf() >= 0.0) && !now.is_zero();
-    match low.sense(opposite) {
+    match low.sense(is_opposite_nearer(now, &target)) {
         true => -&target,
         false => target,
     }
+}
+
+/// Whether the opposite of a cosine is nearer than itself to the cosine of which `now` has the sign.
+pub fn is_opposite_nearer(now: &BigRational, cosine: &Real) -> bool {
+    // A right angle is nearer from below and from above alike: the sketch's own cosine counts as positive then too.
+    now.is_negative() == (cosine.enclose().inf() >= 0.0) && !now.is_zero()
 }

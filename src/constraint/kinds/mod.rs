@@ -20,6 +20,8 @@ mod same_distance;
 mod symmetric;
 mod tangent;
 
+pub use angle::is_opposite_nearer;
+
 use super::kind::Kind;
 
 /// All kinds of constraints, in the order in which problem files list them.

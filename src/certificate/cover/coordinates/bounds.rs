@@ -137,26 +137,23 @@ pub fn far<'a>(
         row.squares.is_empty() && all().all(|x| x.is_common_interval())
     };
     let rows = rows.map(|row| Expanded::new(eq, row, unknowns, part.entries()));
-    let rows = rows.filter(|row| is_bounded(row) && row.linear.iter().any(|x| *x != ZERO));
-    let mut rows: Vec<Expanded> = rows.collect();
+    let mut rows: Vec<Expanded> = rows.filter(is_bounded).collect();
     // What each is solved for.
     let mut solved: Vec<Option<usize>> = vec![None; rows.len()];
-    let clear = |row: &Expanded, k: usize| {
+    // How certain it is that an unknown stands in a row, beside all others.
+    let share = |row: &Expanded, k: usize| {
         let sum: f64 = row.linear.iter().map(|x| x.mag()).sum();
-        (row.linear[k].mig() / sum, k)
+        row.linear[k].mig() / sum
     };
     loop {
-        let open = (0..n).filter(|k| !solved.contains(&Some(*k)));
-        let open: Vec<usize> = open.collect();
-        let candidates = (0..rows.len()).filter(|&e| solved[e].is_none());
-        let candidates = candidates.flat_map(|e| {
-            let row = &rows[e];
-            open.iter().map(move |&k| (e, clear(row, k)))
-        });
-        let best = candidates
-            .filter(|(_, (clear, _))| *clear > 0.0)
-            .max_by(|a, b| a.1.0.total_cmp(&b.1.0));
-        let Some((e, (_, k))) = best else { break };
+        let open = (0..rows.len()).filter(|&e| solved[e].is_none());
+        let pairs = open.flat_map(|e| (0..n).map(move |k| (e, k)));
+        let pairs = pairs.filter(|&(_, k)| !solved.contains(&Some(k)));
+        let best = pairs
+            .map(|(e, k)| (share(&rows[e], k), e, k))
+            .filter(|(share, ..)| *share > 0.0)
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, e, k)) = best else { break };
         solved[e] = Some(k);
         let pivot = rows[e].clone();
         for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != e) {

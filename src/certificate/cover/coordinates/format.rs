@@ -41,6 +41,20 @@ pub struct Change {
     pub twins: Vec<usize>,
 }
 
+impl Change {
+    /// With more lines and planes of their own not all sums of changes are looked at.
+    pub const MOST_TWINS: usize = 8;
+
+    /// All sums of reversals of so many axes and of so many changes beside; the first changes nothing.
+    pub fn all(axes: usize, twins: usize) -> impl Iterator<Item = Change> {
+        let bits = |mask: usize, count: usize| (0..count).filter(|k| mask >> k & 1 == 1).collect();
+        (0..1usize << (axes + twins)).map(move |mask| Change {
+            axes: bits(mask, axes),
+            twins: bits(mask >> axes, twins),
+        })
+    }
+}
+
 /// An unknown that is looked at where it is not negative.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Half {

@@ -28,9 +28,6 @@ use space::Rows;
 use std::rc::Rc;
 use sums::Sum;
 
-/// How often sums of equations are gone through. (No zero is lost whatever this number is.)
-const SUMMED: usize = 2;
-
 /// What a cover is about, with all that it says but its marks proved.
 pub struct Space {
     eq: Equations,
@@ -206,15 +203,12 @@ impl Space {
         self.narrow(part)
     }
 
-    /// Narrows a part by sums of two of a block's equations.
+    /// Narrows a part by sums of two of a block's equations, and one by one.
     fn add_up(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
-        if let (Some(block), Some(sums)) = (self.blocks.get(block), self.sums.get(block)) {
-            for _ in 0..SUMMED {
-                self.rows.add_up(&self.eq, (block, sums), part)?;
-                self.narrow(part)?;
-            }
+        match (self.blocks.get(block), self.sums.get(block)) {
+            (Some(block), Some(sums)) => self.rows.add_up(&self.eq, (block, sums), part),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// Whether it is known in a part about where a body's legs stand, so that its rotations can be looked at.

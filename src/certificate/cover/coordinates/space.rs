@@ -3,7 +3,7 @@
 //! A part has a range for every unknown. All that is done to it keeps every zero of the equations that is in it, so that a part in
 //! which a range becomes empty has none.
 
-use super::bounds::{bounds, far};
+use super::bounds::{Expanded, bounds, far};
 use super::format::Block;
 use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
@@ -14,6 +14,9 @@ use crate::interval::{Interval, checked, point};
 const ENOUGH: f64 = 0.05;
 /// How often all equations are gone through at most.
 const ROUNDS: usize = 12;
+
+/// How often sums of equations are gone through. (No zero is lost whatever this number is.)
+const SUMMED: usize = 2;
 
 /// A part in which nothing is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -216,7 +219,7 @@ impl Rows {
             before += values[k];
             let wanted = (row.right - rest) / point(factor as f64);
             if left == right {
-                self.square(eq.forms[left], wanted, part)?;
+                square(eq.forms[left], wanted, part)?;
                 continue;
             }
             for (this, other) in [(left, right), (right, left)] {
@@ -224,48 +227,9 @@ impl Rows {
                 // If 0 may be the product and the other factor, this one may be anything. If 0 is not
                 // the product, it is not the other factor, and the quotient is of all others.
                 if !(by.contains(0.0) && wanted.contains(0.0)) {
-                    self.form(eq.forms[this], wanted / by, part)?;
+                    narrow_form(eq.forms[this], wanted / by, part)?;
                 }
             }
-        }
-        Ok(())
-    }
-
-    /// Narrows by L² in a range.
-    fn square(&self, form: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
-        let range = range.intersection(upper_half());
-        if range.is_empty() {
-            return Err(Empty);
-        }
-        let root = range.sqrt();
-        let most = root.sup();
-        let now = difference(&part.x, form);
-        // Of −root and root what may be.
-        let sides = [-root, root].map(|side| side.intersection(now));
-        let both = match (sides[0].is_empty(), sides[1].is_empty()) {
-            (true, true) => return Err(Empty),
-            (true, false) => sides[1],
-            (false, true) => sides[0],
-            (false, false) => checked(-most, most).unwrap_or_else(entire),
-        };
-        self.form(form, both, part)
-    }
-
-    /// Narrows by L = a − b in a range: a is in L + b, and b in a − L.
-    fn form(&self, [a, b]: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
-        let range = range.intersection(difference(&part.x, [a, b]));
-        if range.is_empty() {
-            return Err(Empty);
-        }
-        if a == b {
-            return Ok(());
-        }
-        let unknowns = part.x.len() - 3;
-        if a < unknowns {
-            part.narrow(a, range + part.x[b])?;
-        }
-        if b < unknowns {
-            part.narrow(b, part.x[a] - range)?;
         }
         Ok(())
     }
@@ -275,14 +239,17 @@ impl Rows {
         sums::choose(&self.expanded(eq, block, part))
     }
 
-    /// The equations of a block in its unknowns.
-    fn expanded(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<sums::Expanded> {
+    /// The equations of a block in its unknowns, all other entries being numbers in their ranges.
+    fn expanded(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<Expanded> {
         let rows = block.equations.iter().map(|&e| &self.rows[e]);
-        let rows = rows.map(|row| (row.products.as_slice(), row.right));
-        sums::expanded(eq, rows, &block.unknowns, part)
+        let expanded = rows.map(|row| {
+            let row = (row.products.as_slice(), row.right);
+            Expanded::new(eq, row, &block.unknowns, part.entries())
+        });
+        expanded.collect()
     }
 
-    /// Narrows by sums of a block's equations, which `sums` says.
+    /// Narrows by sums of a block's equations, which `sums` says, and by the equations one by one.
     pub fn add_up(
         &self,
         eq: &Equations,
@@ -290,7 +257,15 @@ impl Rows {
         part: &mut Part,
     ) -> Result<(), Empty> {
         let rows = self.expanded(eq, block, part);
-        sums::narrow(sums, &rows, &block.unknowns, part)
+        let sums = sums.iter().filter_map(|sum| sum.of(&rows));
+        let sums: Vec<Expanded> = sums.collect();
+        for _ in 0..SUMMED {
+            for sum in &sums {
+                sums::narrow(sum, &block.unknowns, part)?;
+            }
+            self.narrow(eq, part)?;
+        }
+        Ok(())
     }
 
     /// Narrows by a block's equations together, where its unknowns are bounded; all others are numbers in their ranges.
@@ -376,13 +351,53 @@ impl Rows {
         let unbounded: Vec<usize> = unbounded
             .filter(|&u| !part.x[u].is_common_interval())
             .collect();
-        let rows = self.rows.iter();
+        let is_about = |row: &&Row| row.unknowns.iter().any(|u| unbounded.contains(u));
+        let rows = self.rows.iter().filter(is_about);
         let rows = rows.map(|row| (row.products.as_slice(), row.right));
         for (k, range) in far(eq, rows, &unbounded, part) {
             part.narrow(unbounded[k], range)?;
         }
         Ok(())
     }
+}
+
+/// Narrows by L² in a range.
+pub fn square(form: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
+    let range = range.intersection(upper_half());
+    if range.is_empty() {
+        return Err(Empty);
+    }
+    let root = range.sqrt();
+    let most = root.sup();
+    let now = difference(&part.x, form);
+    // Of −root and root what may be.
+    let sides = [-root, root].map(|side| side.intersection(now));
+    let both = match (sides[0].is_empty(), sides[1].is_empty()) {
+        (true, true) => return Err(Empty),
+        (true, false) => sides[1],
+        (false, true) => sides[0],
+        (false, false) => checked(-most, most).unwrap_or_else(entire),
+    };
+    narrow_form(form, both, part)
+}
+
+/// Narrows by L = a − b in a range: a is in L + b, and b in a − L.
+pub fn narrow_form([a, b]: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
+    let range = range.intersection(difference(&part.x, [a, b]));
+    if range.is_empty() {
+        return Err(Empty);
+    }
+    if a == b {
+        return Ok(());
+    }
+    let unknowns = part.x.len() - 3;
+    if a < unknowns {
+        part.narrow(a, range + part.x[b])?;
+    }
+    if b < unknowns {
+        part.narrow(b, part.x[a] - range)?;
+    }
+    Ok(())
 }
 
 /// From v = k u and w = k x follows v x = w u, which says something where k is not known.

@@ -1,9 +1,9 @@
 //! Sums of two equations in which products of unknowns cancel: two spheres meet in a plane, which bounds more than either.
 
-pub use super::bounds::Expanded;
-use super::space::{Empty, Part};
-use crate::certificate::checker::equations::{Equations, Product, ZERO};
-use crate::interval::{Interval, checked, point};
+use super::bounds::Expanded;
+use super::space::{Empty, Part, narrow_form, square};
+use crate::certificate::checker::equations::ZERO;
+use crate::interval::{Interval, point};
 
 /// A whole multiple of one of a block's equations less one of another.
 pub struct Sum {
@@ -14,16 +14,12 @@ pub struct Sum {
 /// More sums than these are not taken for a block.
 const MOST: usize = 200;
 
-/// Equations in a block's unknowns, all other entries being in their ranges.
-pub fn expanded<'a>(
-    eq: &Equations,
-    rows: impl Iterator<Item = (&'a [Product], Interval)>,
-    unknowns: &[usize],
-    part: &Part,
-) -> Vec<Expanded> {
-    let x = part.entries();
-    rows.map(|row| Expanded::new(eq, row, unknowns, x))
-        .collect()
+impl Sum {
+    /// The sum of these equations.
+    pub fn of(&self, rows: &[Expanded]) -> Option<Expanded> {
+        let [one, other] = self.rows;
+        rows[one].combined(self.by[0], &rows[other], self.by[1])
+    }
 }
 
 /// For every two equations the sum with the fewest products of unknowns, if these are fewer than in either. (Any sum would do.)
@@ -47,23 +43,8 @@ pub fn choose(rows: &[Expanded]) -> Vec<Sum> {
     sums
 }
 
-/// Narrows a part by sums of equations.
-pub fn narrow(
-    sums: &[Sum],
-    rows: &[Expanded],
-    unknowns: &[usize],
-    part: &mut Part,
-) -> Result<(), Empty> {
-    for Sum { rows: [e, f], by } in sums {
-        if let Some(sum) = rows[*e].combined(by[0], &rows[*f], by[1]) {
-            narrow_by(&sum, unknowns, part)?;
-        }
-    }
-    Ok(())
-}
-
-/// Each term is in the opposite of all others together.
-fn narrow_by(sum: &Expanded, unknowns: &[usize], part: &mut Part) -> Result<(), Empty> {
+/// Narrows a part by an equation: each term is in the opposite of all others together.
+pub fn narrow(sum: &Expanded, unknowns: &[usize], part: &mut Part) -> Result<(), Empty> {
     // q x_k x_l, or b x_k.
     let squares = sum.squares.iter();
     let squares = squares.map(|(&(k, l), &q)| (point(q as f64), unknowns[k], Some(unknowns[l])));
@@ -80,6 +61,8 @@ fn narrow_by(sum: &Expanded, unknowns: &[usize], part: &mut Part) -> Result<(), 
             Some(v) => x[u] * x[v],
         }
     };
+    // An unknown as a difference: behind the unknowns stand t, the number 0 and the number 1.
+    let zero = part.ranges().len() + 1;
     for (k, term) in terms.iter().enumerate() {
         let others = terms.iter().enumerate().filter(|(j, _)| *j != k);
         let rest = others.fold(sum.constant, |rest, (_, term)| rest + value(part, term));
@@ -89,21 +72,13 @@ fn narrow_by(sum: &Expanded, unknowns: &[usize], part: &mut Part) -> Result<(), 
         }
         let wanted = -(rest / by);
         match v {
-            None => part.narrow(u, wanted)?,
-            Some(v) if v == u => {
-                let root = wanted.intersection(checked(0.0, f64::INFINITY).ok_or(Empty)?);
-                if root.is_empty() {
-                    return Err(Empty);
-                }
-                let root = root.sqrt();
-                let [low, high] = [-root, root].map(|side| side.intersection(part.entries()[u]));
-                part.narrow(u, low.convex_hull(high))?;
-            }
+            None => narrow_form([u, zero], wanted, part)?,
+            Some(v) if v == u => square([u, zero], wanted, part)?,
             Some(v) => {
                 for (u, v) in [(u, v), (v, u)] {
                     let other = part.entries()[v];
                     if !other.contains(0.0) {
-                        part.narrow(u, wanted / other)?;
+                        narrow_form([u, zero], wanted / other, part)?;
                     }
                 }
             }

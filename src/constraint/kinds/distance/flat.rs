@@ -86,10 +86,6 @@ fn skew(name: &str, low: &mut Lowering, a: LineName, b: LineName, then: Real) ->
     let (a, b) = (low.line(a)?, low.line(b)?);
     let what = format!("the common normal of {} and {}", a.along.name, b.along.name);
     let normal = low.cross(&a.along, &b.along, what);
-    let normal = match is_zero(&normal.at) {
-        true => normal,
-        false => low.heading(normal),
-    };
     if is_zero(&normal.at) {
         return Err(
             "the lines are parallel in the sketch: if they are to stay so, say `parallel` too; otherwise turn one \
@@ -97,6 +93,7 @@ fn skew(name: &str, low: &mut Lowering, a: LineName, b: LineName, then: Real) ->
                 .to_owned(),
         );
     }
+    let normal = low.heading(normal);
     let apart = low.between(&a.base, &b.base);
     let products = low.dot(1, &normal.forms, &apart.forms);
     let now = dot(&normal.at, &apart.at);
