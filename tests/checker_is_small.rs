@@ -113,7 +113,7 @@ fn the_checker_is_short() {
         (
             "format, reader, verdict",
             lines(&["format.rs", "reader.rs", "verdict.rs"]),
-            580,
+            590,
         ),
     ];
     // No file is forgotten.
@@ -173,5 +173,5 @@ fn the_checks_of_covers_are_short_and_their_own() {
     assert!(lines_of(&format!("{cover}/plan"), &["problem", "interval"]) <= 1320);
     let kernel = ["problem", "constraint", "interval", "system", "certificate"];
     // A quarter of it is about rotations of bodies.
-    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 1720);
+    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 1880);
 }

@@ -661,3 +661,181 @@ fn three_lines_have_the_angles_of_the_sketch() {
         "{parities:?}"
     );
 }
+
+/// Three lines of their own, of which the third has a right angle with the first, too: that is said by an angle that is as large as
+/// another one. Its one figure, with signs for the directions of the lines and for the mirror image.
+fn lines_with_directions([e, f, g, mirror]: [f64; 4]) -> Vec<Vec<f64>> {
+    let (first, third) = (1.01f64.sqrt(), 1.25f64.sqrt());
+    let x = 1.59375;
+    let y = mirror * f64::sqrt(9.0 - x * x);
+    let unknowns = [
+        [4.0, x, y, 0.0, 0.0, e * first, 0.0],
+        [x, 0.0, 0.0, f * first, 4.0, 0.0, 0.0],
+        [
+            g * third,
+            first,
+            first,
+            first * first,
+            0.0,
+            third,
+            first * third,
+        ],
+    ];
+    let all = unknowns.iter().flatten().chain(&[0.0]);
+    all.map(|&x| vec![x, 0.0]).collect()
+}
+
+#[test]
+fn a_line_is_the_same_the_other_way_round() {
+    let problem = r#"name = "N"
+dimension = 2
+[points]
+a = [0, 0]
+b = [4, 0]
+c = [1, 3]
+[lines]
+e = { point = [0.1, 0.1], direction = [1, 0.1] }
+f = { point = [1.2, 1], direction = [0.1, 1] }
+g = { point = [4.1, 0.5], direction = [-0.2, 1.1] }
+[constraints]
+distances = [["a","b",4],["a","c",3],["b","c",3.5]]
+on = [["a","e"],["b","e"],["c","f"],["b","g"]]
+perpendicular = [["e","f"]]
+equal_angles = [["e","f","e","g"]]
+"#;
+    let set = |all: &[[f64; 4]]| ComplexSet {
+        problem: problem.to_owned(),
+        fixed: Vec::new(),
+        solutions: Vec::new(),
+        unknowns: all
+            .iter()
+            .map(|&signs| lines_with_directions(signs))
+            .collect(),
+        cited: None,
+        at_infinity: Vec::new(),
+        complete: false,
+    };
+    let one = verdict(&set(&[[1.0; 4]]));
+    assert_eq!((one.flaw, one.isometry, one.real), (None, 1, 1));
+    // Each is the same figure, or its mirror image.
+    for mask in 1..16 {
+        let other = [0, 1, 2, 3].map(|k| if mask >> k & 1 == 1 { -1.0 } else { 1.0 });
+        let two = verdict(&set(&[[1.0; 4], other]));
+        assert!(
+            matches!(two.flaw, Some(ComplexFlaw::False(_))),
+            "{other:?}: {:?}",
+            two.flaw
+        );
+    }
+}
+
+/// What `krawl complex` says of a file, and the verdict of its certificate, if it leaves one.
+fn counted(text: &str, folder: &Path) -> (serde_json::Value, Option<ComplexVerdict>) {
+    let (file, cert) = (folder.join("problem.toml"), folder.join("set.krawl"));
+    let _ = fs::remove_file(&cert);
+    fs::write(&file, text).unwrap();
+    let out = krawl()
+        .arg("complex")
+        .arg(&file)
+        .args(["--float", "--quiet", "--json", "-", "--cert"])
+        .arg(&cert)
+        .output()
+        .unwrap();
+    let json = serde_json::from_slice(&out.stdout)
+        .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&out.stderr)));
+    let set = fs::read_to_string(cert).ok();
+    (json, set.map(|set| verify_complex_set(&set).unwrap()))
+}
+
+/// A plane of its own is the same with its normal reversed; three points in space are their own mirror image, turned over.
+#[test]
+fn figures_that_are_the_same_seen_otherwise_count_once() {
+    let plane = r#"
+        name = "a plane of its own"
+        dimension = 3
+        [points]
+        a = [0, 0, 0]
+        b = [4, 0, 0]
+        c = [1, 3, 0]
+        d = [1, 1, 3]
+        [planes]
+        e = { point = [0.3, 0.2, 1], normal = [0.1, 0.2, 1] }
+        [constraints]
+        distances = [["a","b",4],["a","c",3],["b","c",3.5],["a","d",3],["b","d",4],["c","d",3.2]]
+        on = [["a","e"],["b","e"],["d","e"]]
+    "#;
+    let angle = r#"
+        name = "an angle"
+        dimension = 3
+        [points]
+        a = [0, 0, 0]
+        b = [4, 0, 0]
+        c = [1, 3, 0]
+        [constraints]
+        distances = [["a","b",4],["b","c",3]]
+        angles = [["a","b","c",70]]
+    "#;
+    let triangle = r#"
+        name = "no triangle"
+        dimension = 3
+        [points]
+        a = [0, 0, 0]
+        b = [4, 0, 0]
+        c = [1, 3, 0]
+        [constraints]
+        distances = [["a","b",1],["b","c",1],["a","c",3]]
+    "#;
+    let folder = tempfile::tempdir().unwrap();
+    for (text, isometry, rotation, real) in
+        [(plane, 1, 2, 1), (angle, 1, 1, 1), (triangle, 1, 1, 0)]
+    {
+        let (json, verdict) = counted(text, folder.path());
+        let counts = &json["counts"];
+        assert_eq!(counts["isometry"], isometry, "{text}");
+        assert_eq!(counts["rotation"], rotation, "{text}");
+        assert_eq!(json["real"].as_array().unwrap().len(), real, "{text}");
+        // Of lengths of no real triangle there is no certificate.
+        assert_eq!(verdict.is_some(), real > 0);
+        if let Some(verdict) = verdict {
+            assert_eq!(verdict.flaw, None, "{text}");
+            assert_eq!((verdict.isometry, verdict.real), (isometry, real));
+        }
+    }
+}
+
+/// Where c is at d there is no line through both to be at a right angle to another one, and the equations hold.
+#[test]
+fn solutions_that_are_no_figures_are_told() {
+    let kite = r#"
+        name = "kite"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [4, 0.1]
+        c = [1.9, 2.2]
+        d = [2.1, -2.3]
+        [constraints]
+        distances = [["a","b",4],["a","c",3],["b","c",3.5],["a","d",3]]
+        perpendicular = [["a","b","c","d"]]
+    "#;
+    let folder = tempfile::tempdir().unwrap();
+    let (json, verdict) = counted(kite, folder.path());
+    let solutions = json["solutions"].as_array().unwrap();
+    let vanishing = solutions.iter().map(|s| s["vanishing"].as_array().unwrap());
+    let mut vanishing: Vec<usize> = vanishing.map(Vec::len).collect();
+    vanishing.sort_unstable();
+    assert_eq!(vanishing, [0, 1]);
+    let verdict = verdict.unwrap();
+    assert_eq!((verdict.flaw, verdict.isometry), (None, 2));
+    let out = krawl()
+        .arg("complex")
+        .arg(folder.path().join("problem.toml"))
+        .arg("--float")
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&out.stdout);
+    assert!(
+        text.contains("1 of them (1 of the real ones) is no figure"),
+        "{text}"
+    );
+}

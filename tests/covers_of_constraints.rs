@@ -6,7 +6,7 @@ mod common;
 use common::covers::searched;
 use common::edits::Random;
 use common::mixed::Spec;
-use common::sketches::{LEG, apollonius_text};
+use common::sketches::{ARC, LEG, PLATE, apollonius_text};
 use krawl::certificate::cover::coordinates::{Block, Change, CoordinateCover, Half, Image, Mark};
 use krawl::certificate::cover::{CoverVerdict, verify_cover};
 use krawl::complete::{Options, Status, Unserved, all};
@@ -49,6 +49,23 @@ fn triangle() -> Problem {
     )
 }
 
+/// A triangle with two equal sides and an angle at the base: without a base the equations hold, too.
+fn isosceles(sides: &str) -> Problem {
+    parse(&format!(
+        r#"
+        name = "isosceles"
+        dimension = 2
+        [points]
+        a = [0.1, 0.2]
+        b = [7.7, 0]
+        c = [3.8, 3.2]
+        [constraints]
+        angles = [["b", "a", "c", 40]]
+        {sides}
+        "#
+    ))
+}
+
 /// A right angle at c, of which a leg vanishes where c is at a: that is a zero of the equations, and no figure.
 fn leg() -> Problem {
     parse(LEG)
@@ -73,6 +90,30 @@ fn a_circle_that_touches_three_is_proved() {
             .iter()
             .any(|(_, mark)| matches!(mark, Mark::Bound(_)))
     );
+}
+
+#[test]
+fn equations_divided_by_a_length_are_proved() {
+    for sides in [
+        r#"distances = [["a", "c", 5.3], ["b", "c", 5.3]]"#,
+        r#"distances = [["a", "c", 5.3]]
+           equal = [["c", "b", "a", "c"]]"#,
+    ] {
+        let cover = proved(&isosceles(sides));
+        assert_eq!((cover.figures.len(), cover.others.len()), (1, 0));
+    }
+    // A cover of sides that are equal says nothing of sides that are nearly so.
+    let mut cover = proved(&isosceles(
+        r#"distances = [["a", "c", 5.3], ["b", "c", 5.3]]"#,
+    ));
+    cover.problem = cover.problem.replacen("5.3]", "5.2999999]", 1);
+    assert!(verify_cover(&cover.to_bytes()).is_ok_and(|verdict| verdict.flaw.is_some()));
+}
+
+#[test]
+fn arcs_between_lines_are_proved() {
+    assert_eq!(proved(&parse(ARC)).figures.len(), 4);
+    assert_eq!(proved(&parse(PLATE)).figures.len(), 1 << 10);
 }
 
 #[test]

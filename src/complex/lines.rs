@@ -18,7 +18,7 @@ use super::exact::{Exact, Random};
 use super::lower::{half_square, in_unit};
 use super::system::{Equation, Kind, Start, System, Unknown};
 use super::vector::Z;
-use crate::constraint::is_opposite_nearer;
+use crate::constraint::{is_opposite_nearer, null_space};
 use crate::interval::{DoubleDouble, Real};
 use crate::problem::{Item, Problem, Shape, Target};
 use crate::system::Term;
@@ -135,6 +135,9 @@ fn slot(a: usize, b: usize) -> Option<usize> {
     }
 }
 
+/// A line is no line of a frame if the sine of its angle to a plane that it has to meet is not above this.
+const NOT_THERE: f64 = 1e-9;
+
 /// The frames that a problem of this kind can be told in, the best one first; none if it is another. In a template's equations
 /// the frame is the one that was best where it was made.
 pub fn frames(problem: &Problem) -> Vec<Frame> {
@@ -155,8 +158,9 @@ pub fn frames(problem: &Problem) -> Vec<Frame> {
         let up = (1.0 - c3 * c3 - along * along).max(0.0).sqrt();
         // The sign of the last component is not told.
         for (across, size) in [(2, up), (0, c3), (1, along)] {
-            // Orthogonal lines are the axes.
-            if across == 2 || !are_orthogonal {
+            // Orthogonal lines are the axes. A line that is parallel to a plane has no place on it, or one that is as far away as that.
+            let is_there = s2 > NOT_THERE && size.abs() > NOT_THERE;
+            if is_there && (across == 2 || !are_orthogonal) {
                 let frame = Frame {
                     lines,
                     across,
@@ -357,8 +361,56 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
             name(1)
         ),
         is_absolute: false,
+        nonzero: Vec::new(),
     };
-    Some(system.with_groups())
+    let turns = match are_orthogonal {
+        true => vec![vec![false; system.unknowns.len()]],
+        false => turns(&system),
+    };
+    Some(system.with_groups(&turns))
+}
+
+/// The changes of signs that reverse directions of the second and the third line, and leave all points and lines as they are: those of a
+/// line together, and with them the places of points along it, where the equations of the instance allow it.
+fn turns(system: &System) -> Vec<Vec<bool>> {
+    let (n, first) = (system.unknowns.len(), 3 * system.points.len());
+    let [c2, s2, c3, a, b] = DIRECTIONS.map(|k| first + k);
+    let row = |unknowns: &[usize]| {
+        let mut row = vec![false; n];
+        for &u in unknowns.iter().filter(|&&u| u < n) {
+            row[u] ^= true;
+        }
+        row
+    };
+    // Sums of these are no changes: what stays, and what changes together.
+    let mut rows: Vec<Vec<bool>> = (0..c2).map(|u| row(&[u])).collect();
+    rows.extend([[c2, s2], [c3, a], [c3, b]].map(|pair| row(&pair)));
+    for equation in &system.equations {
+        let of = |form: Option<[usize; 2]>| form.unwrap_or([ZERO; 2]);
+        let parities = equation.terms.iter().map(|term| {
+            let (left, right) = (of(term.left), of(term.right));
+            [left[0], right[0]]
+        });
+        let parities: Vec<[usize; 2]> = parities.collect();
+        for (k, [l, r]) in parities.iter().enumerate() {
+            match (k, equation.is_zero()) {
+                (0, true) => {}
+                (_, true) => rows.push(row(&[*l, *r, parities[0][0], parities[0][1]])),
+                (_, false) => rows.push(row(&[*l, *r])),
+            }
+        }
+    }
+    let basis = null_space(rows, n);
+    let sum = |mask: usize| {
+        let mut changes = vec![false; n];
+        for (k, change) in basis.iter().enumerate() {
+            if mask >> k & 1 == 1 {
+                changes.iter_mut().zip(change).for_each(|(x, y)| *x ^= y);
+            }
+        }
+        changes
+    };
+    (0..1usize << basis.len()).map(sum).collect()
 }
 
 /// The frame that a system of this kind is in, if it is one.

@@ -224,6 +224,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         start,
         positions,
         is_absolute,
+        nonzero: nonzero(&homotopy),
         gauge: match d {
             _ if is_absolute => "the coordinates of the file".to_owned(),
             2 => format!("{} at the origin, {} on the x axis", names[0], names[1]),
@@ -233,7 +234,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
             ),
         },
     }
-    .with_groups();
+    .with_groups(&turns(&homotopy, is_absolute)?);
     if is_absolute {
         own_frame::add_groups(&mut system, &problem, &homotopy)?;
     }
@@ -251,6 +252,25 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         system,
         bound,
     })
+}
+
+/// The vectors that vanish in no figure.
+fn nonzero(homotopy: &Homotopy) -> Vec<(String, Vec<[usize; 2]>)> {
+    let names = homotopy.tail.nonzero.iter();
+    let names = names.map(|vector| vector.name.clone());
+    names.zip(homotopy.nonzero_vectors()).collect()
+}
+
+/// The changes of signs that reverse directions of lines and planes of their own, and leave figures as they are; of problems in a frame of
+/// their own see [`own_frame`].
+fn turns(homotopy: &Homotopy, is_absolute: bool) -> Result<Vec<Vec<bool>>, Unserved> {
+    match homotopy.twins() {
+        _ if is_absolute => Ok(vec![vec![false; homotopy.equations]]),
+        Some(turns) => Ok(turns),
+        None => Err(Unserved::Other(
+            "there are too many lines and planes with directions of their own".to_owned(),
+        )),
+    }
 }
 
 /// Makes the distances in the reference equations that say where it stands, instead of equations for squares: lengths

@@ -92,6 +92,9 @@ pub struct System {
     pub gauge: String,
     /// Whether the problem is in a frame of its own: no motion takes a figure to another one.
     pub is_absolute: bool,
+    /// Vectors that vanish in no figure, as zeros of the equations may have them, with their names: per coordinate the unknowns of
+    /// which it is the difference, those behind the last one standing for zero.
+    pub nonzero: Vec<(String, Vec<[usize; 2]>)>,
 }
 
 /// The index of the real part of a complex unknown; the imaginary part comes next.
@@ -142,10 +145,11 @@ impl System {
         slope != 0
     }
 
-    /// Adds the groups to what has been set up.
-    pub(super) fn with_groups(mut self) -> Self {
-        self.group = self.signs(|equation| equation.is_zero_always());
-        self.group_of_instance = self.signs(|equation| equation.is_zero());
+    /// Adds the groups to what has been set up. `turns`: a group of changes of signs that leave every figure of the instance as it is,
+    /// of directions of lines and planes; the first changes nothing.
+    pub(super) fn with_groups(mut self, turns: &[Vec<bool>]) -> Self {
+        self.group = self.signs(turns, |equation| equation.is_zero_always());
+        self.group_of_instance = self.signs(turns, |equation| equation.is_zero());
         self
     }
 
@@ -212,17 +216,18 @@ impl System {
         Homotopy::of_equations(self.real())
     }
 
-    /// The changes of sign by axes that leave every equation as it is, or reverse one that `vanishes`.
-    fn signs(&self, vanishes: impl Fn(&Equation) -> bool) -> Vec<Signs> {
-        let mut group = Vec::new();
-        for axes in 0..1usize << self.dimension {
-            let changes: Vec<bool> = self
-                .unknowns
-                .iter()
-                .map(|u| {
+    /// The changes of sign by axes and directions that leave every equation as it is, or reverse one that `vanishes`.
+    fn signs(&self, turns: &[Vec<bool>], vanishes: impl Fn(&Equation) -> bool) -> Vec<Signs> {
+        let mut group: Vec<Signs> = Vec::new();
+        let all = (0..1usize << self.dimension)
+            .flat_map(|axes| turns.iter().map(move |turn| (axes, turn)));
+        for (axes, turn) in all {
+            let unknowns = self.unknowns.iter().zip(turn);
+            let changes: Vec<bool> = unknowns
+                .map(|(u, turn)| {
                     let reversed =
                         (0..self.dimension).filter(|&k| axes >> k & 1 == 1 && u.flips[k]);
-                    reversed.count() % 2 == 1
+                    (reversed.count() % 2 == 1) ^ turn
                 })
                 .collect();
             let is_symmetry =
@@ -232,12 +237,14 @@ impl System {
                         Some(reversed) => !reversed || vanishes(equation),
                         None => false,
                     });
-            // Two sets of axes may change the same signs.
-            if is_symmetry && !group.iter().any(|s: &Signs| s.changes == changes) {
-                group.push(Signs {
-                    changes,
-                    mirrors: axes.count_ones() % 2 == 1,
-                });
+            if !is_symmetry {
+                continue;
+            }
+            let mirrors = axes.count_ones() % 2 == 1;
+            // Two sets of axes may change the same signs: a figure in a plane is its own mirror image, turned over.
+            match group.iter_mut().find(|s| s.changes == changes) {
+                Some(same) => same.mirrors &= mirrors,
+                None => group.push(Signs { changes, mirrors }),
             }
         }
         group

@@ -23,6 +23,7 @@
 
 mod arguments;
 mod directions;
+mod factors;
 #[cfg(test)]
 mod floats;
 mod frame;
@@ -51,9 +52,10 @@ pub use quadratic::{
 };
 pub(crate) use structure::check_structure;
 pub use structure::{size, size_in_edits};
+pub(crate) use twins::null_space;
 
 use crate::interval::Interval;
-use crate::problem::Problem;
+use crate::problem::{Distance, Problem, Target};
 pub(crate) use arguments::{Arguments, Flat, LineName, Sort, Thing};
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
@@ -92,15 +94,24 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
     }
 }
 
-/// The same equations with vectors divided by their lengths, where these are not dimensions: for sets of all figures, which know
-/// t = 1 alone (see `lowering/heading.rs`).
+/// The same equations for sets of all figures, which know t = 1 alone: with vectors divided by their lengths, where these are not
+/// dimensions (see `lowering/heading.rs`), and without what is zero in all figures and factors that are zero in none (`factors.rs`).
 ///
 /// # Panics
 /// If the problem has not been checked.
 pub fn lower_with_headings(problem: &Problem) -> Tail {
     let low = Lowering::new(problem, Start::Sketch, false).with_headings();
     match try_lower_from(problem, low, false) {
-        Ok(lowered) => lowered.tail,
+        Ok(mut lowered) => {
+            let is_apart = |d: &&Distance| match &d.target {
+                Target::Length(x) | Target::SquaredLength(x) => x.to_f64() > 0.0,
+            };
+            let apart = problem.distances.iter().filter(is_apart);
+            let apart: Vec<[usize; 2]> = apart.map(|d| d.points).collect();
+            let (tail, vanishing) = (&mut lowered.tail, &lowered.vanishing);
+            factors::take_out(tail, vanishing, &apart, problem.dimension);
+            lowered.tail
+        }
         Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
     }
 }

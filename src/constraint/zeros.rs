@@ -113,7 +113,7 @@ pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
 }
 
 /// The right-hand side at t = 1.
-fn at_target(equation: &Equation, vanishing: bool) -> Real {
+pub(super) fn at_target(equation: &Equation, vanishing: bool) -> Real {
     if vanishing {
         return Real::zero();
     }

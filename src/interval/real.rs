@@ -2,6 +2,7 @@
 
 use super::{DoubleDouble, Interval, at_least, enclose_rational};
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -159,8 +160,8 @@ impl Real {
         if ball.radius.is_zero() {
             return enclose_rational(&ball.middle);
         }
-        let low = enclose_rational(&(&ball.middle - &ball.radius));
-        let high = enclose_rational(&(&ball.middle + &ball.radius));
+        let low = enclose_rational(&sum(&ball.middle, &-&ball.radius));
+        let high = enclose_rational(&sum(&ball.middle, &ball.radius));
         low.convex_hull(high)
     }
 
@@ -236,7 +237,7 @@ impl<'a> Div<&'a Real> for &'a Real {
 /// Numbers are kept to 2 to minus this.
 const BITS: u64 = 320;
 
-/// A ratio and how far the exact number may be from it.
+/// A ratio and how far the exact number may be from it. What operations make is not in lowest terms.
 #[derive(Debug, Clone)]
 pub struct Ball {
     /// The ratio.
@@ -263,18 +264,27 @@ impl Ball {
 
     /// The sums of two balls' numbers.
     pub fn plus(&self, other: &Self) -> Self {
+        if self.radius.is_zero() && other.radius.is_zero() {
+            return Self::exactly(&self.middle + &other.middle);
+        }
         Ball {
-            middle: &self.middle + &other.middle,
-            radius: &self.radius + &other.radius,
+            middle: sum(&self.middle, &other.middle),
+            radius: sum(&self.radius, &other.radius),
         }
     }
 
     /// The products of two balls' numbers.
     pub fn times(&self, other: &Self) -> Self {
-        let radius =
-            self.middle.abs() * &other.radius + &self.radius * (other.middle.abs() + &other.radius);
+        if self.radius.is_zero() && other.radius.is_zero() {
+            return Self::exactly(&self.middle * &other.middle);
+        }
+        let most = sum(&other.middle.abs(), &other.radius);
+        let radius = sum(
+            &product(&self.middle.abs(), &other.radius),
+            &product(&self.radius, &most),
+        );
         Ball {
-            middle: &self.middle * &other.middle,
+            middle: product(&self.middle, &other.middle),
             radius,
         }
     }
@@ -292,10 +302,10 @@ impl Ball {
     /// # Panics
     /// If zero is one of them.
     pub fn inverse(&self) -> Self {
-        let least = self.middle.abs() - &self.radius;
+        let least = sum(&self.middle.abs(), &-&self.radius);
         assert!(least.is_positive(), "division by what may be zero");
         // |1/x − 1/m| = |m − x| / |x m|.
-        let radius = &self.radius / (&least * self.middle.abs());
+        let radius = product(&self.radius, &inverse(&product(&least, &self.middle.abs())));
         Ball {
             middle: self.middle.recip(),
             radius,
@@ -321,8 +331,8 @@ impl Ball {
             return near;
         }
         // |√x − √m| = |x − m| / (√x + √m).
-        let least = &near.middle - &near.radius;
-        let radius = near.radius + &self.radius / least;
+        let least = sum(&near.middle, &-&near.radius);
+        let radius = sum(&near.radius, &product(&self.radius, &inverse(&least)));
         Ball {
             middle: near.middle,
             radius,
@@ -345,19 +355,59 @@ impl Ball {
         // Relative to the middle's size, a power of two.
         let size = self.middle.numer().bits() as i64 - self.middle.denom().bits() as i64;
         let shift = BITS as i64 - size;
-        let scale = if shift >= 0 {
-            BigRational::from_integer(BigInt::one() << shift)
-        } else {
-            BigRational::new(BigInt::one(), BigInt::one() << -shift)
-        };
-        let middle = (&self.middle * &scale).round() / &scale;
-        let moved = (&middle - &self.middle).abs();
+        let (above, below) = times_power(&self.middle, shift);
+        // The nearest whole number: below the ratio and a half.
+        let more: BigInt = (&above << 1) + &below;
+        let near = more.div_floor(&(&below << 1));
+        // How far that is, in units of 2 to minus `shift`.
+        let moved = BigRational::new_raw((&near * &below - above).abs(), below);
+        let (above, below) = times_power(&self.radius, shift);
         // A radius of few digits, not smaller.
-        let radius = self.radius + moved;
-        let radius = (&radius * &scale * BigRational::from_integer(BigInt::one() << 64u32)).ceil()
-            / (scale * BigRational::from_integer(BigInt::one() << 64u32));
+        let radius = sum(&BigRational::new_raw(above, below), &moved);
+        let (above, below) = times_power(&radius, 64);
+        let middle = over_power(near, shift);
+        let radius = over_power(above.div_ceil(&below), shift + 64);
         Ball { middle, radius }
     }
+}
+
+// Numbers here have powers of two for denominators, nearly all, and are rounded after each operation. Ratios in lowest terms cost
+// a greatest common divisor each time, which took nine tenths of the time that a problem with angles needed to be set up.
+
+/// A sum, not in lowest terms.
+fn sum(a: &BigRational, b: &BigRational) -> BigRational {
+    let numerator = a.numer() * b.denom() + b.numer() * a.denom();
+    BigRational::new_raw(numerator, a.denom() * b.denom())
+}
+
+/// A product, not in lowest terms.
+fn product(a: &BigRational, b: &BigRational) -> BigRational {
+    BigRational::new_raw(a.numer() * b.numer(), a.denom() * b.denom())
+}
+
+/// The inverse of a positive ratio, not in lowest terms.
+fn inverse(of: &BigRational) -> BigRational {
+    BigRational::new_raw(of.denom().clone(), of.numer().clone())
+}
+
+/// Numerator and denominator of a ratio times 2 to this, not in lowest terms.
+fn times_power(of: &BigRational, exponent: i64) -> (BigInt, BigInt) {
+    let shift = exponent.unsigned_abs();
+    match exponent >= 0 {
+        true => (of.numer() << shift, of.denom().clone()),
+        false => (of.numer().clone(), of.denom() << shift),
+    }
+}
+
+/// A whole number over 2 to this, in lowest terms.
+fn over_power(whole: BigInt, exponent: i64) -> BigRational {
+    if exponent <= 0 || whole.is_zero() {
+        return BigRational::from_integer(whole << exponent.min(0).unsigned_abs());
+    }
+    let common = whole.trailing_zeros().unwrap_or(0);
+    let common = common.min(exponent.unsigned_abs());
+    let left = exponent.unsigned_abs() - common;
+    BigRational::new_raw(whole >> common, BigInt::one() << left)
 }
 
 /// The root of a ratio that is not negative, to a relative 2⁻²⁵⁰.
@@ -370,10 +420,10 @@ pub fn root(squared: &BigRational) -> Ball {
     let wanted = 2 * 256 + below.bits();
     let k = wanted.saturating_sub(above.bits()) / 2 + 1;
     let scaled: BigInt = (above << (2 * k)) / below;
-    let scale = BigInt::one() << k;
+    let k = i64::try_from(k).expect("a number of bits");
     Ball {
-        middle: BigRational::new(scaled.sqrt(), scale.clone()),
-        radius: BigRational::new(BigInt::one(), scale),
+        middle: over_power(scaled.sqrt(), k),
+        radius: over_power(BigInt::one(), k),
     }
 }
 
@@ -383,17 +433,13 @@ fn cosine(degrees: &BigRational) -> Ball {
     let pi = PI.get_or_init(pi);
     // All in units of 2⁻⁴⁰⁰, quotients rounded down, errors counted in units and rounded up.
     let one = BigInt::one() << 400u32;
-    let up = |x: BigRational| {
-        (x * BigRational::from_integer(one.clone()))
-            .ceil()
-            .to_integer()
-    };
     let part = degrees / BigRational::from_integer(180.into());
-    let x = (&pi.middle * &part * BigRational::from_integer(one.clone()))
-        .floor()
-        .to_integer();
+    let units = |of: &BigRational| times_power(&product(of, &part), 400);
+    let (above, below) = units(&pi.middle);
+    let x = above.div_floor(&below);
     // |x| ≤ π < 4: the square is off by less than 8 times what x is, and by one for rounding.
-    let x_error = up(&pi.radius * &part) + 1;
+    let (above, below) = units(&pi.radius);
+    let x_error = above.div_ceil(&below) + 1;
     let square: BigInt = (&x * &x) >> 400u32;
     let square_error = x_error * 8 + 2;
     // Σ (−x²)ᵏ/(2k)!; with |x| ≤ π what comes after 70 terms is below π¹⁴⁰/140! < 2⁻⁵⁰⁰.
@@ -403,8 +449,9 @@ fn cosine(degrees: &BigRational) -> Ball {
         let divisor = BigInt::from((2 * k - 1) * (2 * k));
         // |term · square − their exact product| ≤ |term| δ + ε (|square| + δ).
         let product_error = &term * &square_error + &term_error * (&square + &square_error);
-        term = (&term * &square) / (&divisor << 400u32);
-        term_error = product_error / (&divisor << 400u32) + 2;
+        // All are positive: one quotient rounded down after the other is that of both.
+        term = ((&term * &square) >> 400u32) / &divisor;
+        term_error = (product_error >> 400u32) / &divisor + 2;
         if k % 2 == 1 {
             sum -= &term;
         } else {
@@ -413,8 +460,8 @@ fn cosine(degrees: &BigRational) -> Ball {
         error += &term_error;
     }
     Ball {
-        middle: BigRational::new(sum, one.clone()),
-        radius: BigRational::new(error, one),
+        middle: over_power(sum, 400),
+        radius: over_power(error, 400),
     }
 }
 
@@ -475,6 +522,43 @@ mod tests {
             let (lo, hi) = (&root.middle - &root.radius, &root.middle + &root.radius);
             assert!(&lo * &lo <= exact(x) && exact(x) <= &hi * &hi);
             assert!(root.radius * exact(2f64.powi(200)) < root.middle);
+        }
+    }
+
+    #[test]
+    fn a_rounded_ball_holds_the_one_before() {
+        let ratio = |above: i64, below: i64| BigRational::new(above.into(), below.into());
+        let tiny = exact(2f64.powi(-400));
+        for middle in [
+            ratio(1, 3),
+            ratio(-22, 7),
+            ratio(5, 8),
+            ratio(0, 1),
+            ratio(1 << 60, 3) * exact(2f64.powi(900)),
+            ratio(1, 7) * exact(2f64.powi(-900)),
+        ] {
+            for radius in [tiny.clone(), ratio(1, 3), ratio(1, 1 << 40)] {
+                // Not in lowest terms.
+                let six = BigInt::from(6);
+                let raw = BigRational::new_raw(middle.numer() * &six, middle.denom() * &six);
+                let ball = Ball {
+                    middle: raw,
+                    radius: radius.clone(),
+                };
+                let ball = ball.rounded();
+                let moved = (&ball.middle - &middle).abs();
+                assert!(&moved + &radius <= ball.radius);
+                let most = (&middle * exact(2f64.powi(-319))).abs();
+                assert!(moved <= most);
+                // By few digits more; about zero by a number that is tiny.
+                let more = most + exact(2f64.powi(-380));
+                assert!(ball.radius <= (radius + more) * exact(1.0 + 1e-9));
+                let is_lowest = |x: &BigRational| {
+                    let lowest = BigRational::new(x.numer().clone(), x.denom().clone());
+                    (x.numer(), x.denom()) == (lowest.numer(), lowest.denom())
+                };
+                assert!(is_lowest(&ball.middle) && is_lowest(&ball.radius));
+            }
         }
     }
 

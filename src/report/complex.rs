@@ -45,6 +45,36 @@ fn others(lowered: &Lowered) -> Vec<usize> {
         .collect()
 }
 
+/// The vectors that vanish in no figure and do so in a solution, as far as its box tells.
+fn vanishing<'a>(lowered: &'a Lowered, one: &'a SolutionBox) -> impl Iterator<Item = &'a str> {
+    let part = |unknown: usize, k: usize| one.parts.get(2 * unknown + k).copied();
+    let may_be_zero = move |&[from, to]: &[usize; 2]| {
+        let at = |unknown, k| part(unknown, k).unwrap_or(point(0.0));
+        from == to || (0..2).all(|k| (at(from, k) - at(to, k)).contains(0.0))
+    };
+    let vectors = lowered.system.nonzero.iter();
+    let vectors = vectors.filter(move |(_, vector)| vector.iter().all(may_be_zero));
+    vectors.map(|(name, _)| name.as_str())
+}
+
+/// Which solutions are no figures, for people; empty if all are.
+fn no_figures(lowered: &Lowered, result: &Solutions) -> String {
+    let pairs = result.boxes.boxes().iter().zip(&result.natures);
+    let of: Vec<(&str, Nature)> = pairs
+        .filter_map(|(one, &nature)| Some((vanishing(lowered, one).next()?, nature)))
+        .collect();
+    let Some((vector, _)) = of.first() else {
+        return String::new();
+    };
+    let real = of.iter().filter(|(_, nature)| *nature == Nature::Real);
+    let be = if of.len() == 1 { "is" } else { "are" };
+    format!(
+        " {} of them ({} of the real ones) {be} no figure, as far as its box tells: a vector that must not vanish does, as {vector}.",
+        of.len(),
+        real.count()
+    )
+}
+
 fn name(nature: Nature) -> &'static str {
     match nature {
         Nature::Real => "real",
@@ -98,6 +128,7 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
                 },
                 "points": points.collect::<Map<String, Value>>(),
                 "unknowns": unknowns.collect::<Map<String, Value>>(),
+                "vanishing": vanishing(lowered, one).collect::<Vec<_>>(),
             })
         });
     let counts = result.counts;
@@ -172,14 +203,15 @@ fn write_table(
         (false, true) => "no two are congruent",
         // A flat figure has normals on both sides.
         (false, false) => {
-            "no two agree up to signs of axes in points and auxiliary unknowns together (in points alone they may)"
+            "no two agree up to signs of axes and directions in points and auxiliary unknowns together (in points alone they may)"
         }
     };
     if !result.natures.is_empty() {
         writeln!(
             out,
-            "Each box holds exactly one solution; {different}. {}",
-            natures(lowered, result)
+            "Each box holds exactly one solution; {different}. {}{}",
+            natures(lowered, result),
+            no_figures(lowered, result)
         )?;
     }
     if !result.infinite.is_empty() {
@@ -409,7 +441,7 @@ pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) 
                 bound += &format!(" Of these at infinity are {}.", at_infinity(verdict));
             }
             format!(
-                "VERIFIED: {name} has {counts}, no two congruent. That there are no others is not proved.{bound} Each was \
+                "VERIFIED: {name} has at least {counts}, no two congruent. That there are no others is not proved.{bound} Each was \
                  proved again in {seconds:.2} s.\n"
             )
         }
@@ -420,7 +452,7 @@ pub fn complex_set_theorem(verdict: &ComplexVerdict, took: std::time::Duration) 
 fn general_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> String {
     let others = match verdict.cited {
         Some(cited) => format!(
-            "There is no other isolated one if there are at most {cited}, as whoever made the set cites; that is not checked."
+            "There is no other isolated one if there are at most {cited} up to such signs, as whoever made the set cites; that is not checked."
         ),
         None => "That there are no others is not proved.".to_owned(),
     };
@@ -431,7 +463,7 @@ fn general_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> Strin
         Symmetry::Identity => "of directions",
     };
     format!(
-        "VERIFIED: the equations of {} have {} ({} of them real), of which no two differ by signs \
+        "VERIFIED: the equations of {} have {} at least ({} of those given are real), of which no two differ by signs \
          {signs} alone. {others} Each was proved again in {seconds:.2} s.\n",
         verdict.problem.name,
         counted(verdict.isometry, "complex solution"),

@@ -40,3 +40,60 @@ pub fn apollonius_text(center: &str, radius: &str) -> String {
         "#
     )
 }
+
+/// An arc whose ends are on two horizontal lines and whose centre is on a vertical one; at each end the radius is at a right angle to
+/// the line to a fixed point.
+pub const ARC: &str = r#"
+name = "arc"
+dimension = 2
+[points]
+c = [-5.2, 10]
+p = [-12, 15]
+q = [-12, 5.1]
+r = [-10, 25]
+s = [-10, -5]
+p1 = [0, 15]
+p2 = [2, 15]
+q1 = [0, 5]
+q2 = [3, 5]
+c1 = [-5, 0]
+c2 = [-5, 2]
+[constraints]
+fixed = ["r", "s", "p1", "p2", "q1", "q2", "c1", "c2"]
+on = [["p", "p1", "p2"], ["q", "q1", "q2"], ["c", "c1", "c2"]]
+perpendicular = [["r", "p", "c", "p"], ["s", "q", "c", "q"]]
+equal = [["c", "p", "c", "q"]]
+"#;
+
+/// A plate with rounded corners: four lines along the axes, two of them with lengths, and arcs of one radius between them.
+pub const PLATE: &str = r#"
+name = "plate"
+dimension = 2
+[points]
+m1 = [0, 0]
+m2 = [20, 0.1]
+m3 = [20.1, 10]
+m4 = [0.1, 10.1]
+a1 = [0, -1.5]
+a2 = [20, -1.4]
+b1 = [21.5, 0]
+b2 = [21.6, 10]
+c1 = [20, 11.5]
+c2 = [0, 11.6]
+d1 = [-1.5, 10]
+d2 = [-1.4, 0]
+[circles]
+k1 = { center = "m1", radius = 1.5 }
+k2 = { center = "m2", radius = 1.5 }
+k3 = { center = "m3", radius = 1.5 }
+k4 = { center = "m4", radius = 1.5 }
+[constraints]
+fixed = ["m1"]
+horizontal = [["a1","a2"],["c1","c2"]]
+vertical = [["b1","b2"],["d1","d2"]]
+on = [["d2","k1"],["a1","k1"],["a2","k2"],["b1","k2"],["b2","k3"],["c1","k3"],["c2","k4"],["d1","k4"]]
+perpendicular = [["a1","a2","a1","m1"],["a1","a2","a2","m2"],["b1","b2","b1","m2"],["b1","b2","b2","m3"],["c1","c2","c1","m3"],["c1","c2","c2","m4"],["d1","d2","d1","m4"],["d1","d2","d2","m1"]]
+equal = [["k1","k2","k3","k4"]]
+radii = [["k1", 1.5]]
+distances = [["a1","a2",20],["b1","b2",10]]
+"#;

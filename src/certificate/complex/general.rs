@@ -1,12 +1,12 @@
 //! Sets of complex solutions of problems with other constraints than distances: zeros of the equations that paths follow, with t = 1.
 //!
-//! Zeros are one if changes of signs that keep every equation and take figures to congruent ones take one to the other: of the
-//! coordinates along some axes and the auxiliary unknowns that go with them, and of the directions of lines and planes of their own.
+//! Zeros are one if changes of signs take one to the other: of the coordinates along some axes and the auxiliary unknowns that go with
+//! them, and of the directions of lines and planes of their own. Whether such a change keeps the equations is not asked: where one zero
+//! is another one's image, it did; and a change too many only makes it harder for zeros to be called different.
 
 use super::figure::number;
 use super::zero::{Quadratic, Zero};
-use crate::certificate::checker::equations::Equations;
-use crate::certificate::cover::coordinates::{Change, changes};
+use crate::certificate::cover::coordinates::{Change, signs_changed};
 use crate::constraint::symmetry;
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
@@ -40,12 +40,12 @@ impl General {
         let unit = |i: usize| homotopy.unit.powi(homotopy.power(i));
         let units = (0..m).map(unit).collect();
         let all = Change::all(homotopy.dimension, homotopy.tail.twins.len());
-        let (eq, allowed) = (Equations::new(homotopy), symmetry(problem));
-        let kept = all.filter_map(|by| changes(&eq, (allowed, &[]), &by));
+        let allowed = symmetry(problem);
+        let changes = all.filter_map(|by| signs_changed(&homotopy, allowed, &by));
         Ok(General {
             system,
             units,
-            changes: kept.collect(),
+            changes: changes.collect(),
         })
     }
 

@@ -42,7 +42,7 @@ pub struct ComplexSet {
     /// follow, likewise, in the problem's unit.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unknowns: Vec<Vec<Vec<f64>>>,
-    /// As many solutions there are at most, as somebody says that has made the set: that is not checked.
+    /// As many isolated solutions there are at most, up to signs, as somebody says that has made the set: that is not checked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cited: Option<u64>,
     /// Figures at infinity.

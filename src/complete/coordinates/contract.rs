@@ -2,10 +2,11 @@
 //!
 //! Every step keeps all zeros of the box: from `factor · L · R + rest = right` follows that L · R is in
 //! (right − rest) / factor, also where 0 may be the factor, as it is not if right − rest has no 0; from that, where L = R, that |L| is in the root of it, and otherwise that L is in it
-//! divided by R; and from L = a − b that a is in L + b and b in a − L. All are evaluated in intervals, so that they hold
+//! divided by R; from L = a − b that a is in L + b and b in a − L; and where both factors have an entry in common, (x − a)(x − b), that
+//! (x − (a + b)/2)² is L · R + ((a − b)/2)². All are evaluated in intervals, so that they hold
 //! for every zero in the box and every value that the numbers of blocks before may have.
 
-use super::system::{Form, Row, product};
+use super::system::{Form, Row, Shared, product};
 use crate::interval::{Interval, ZERO, checked, point};
 
 /// A box in which nothing is left.
@@ -93,6 +94,24 @@ fn revise(
             narrow(p.left, within, least, is_free, x, &mut tell)?;
             continue;
         }
+        if let Some(shared) = Shared::of(p, x)
+            && is_free[shared.entry]
+        {
+            let square = shared.square(wanted).intersection(upper_half());
+            if square.is_empty() {
+                return Err(Empty);
+            }
+            let root = square.sqrt();
+            let old = x[shared.entry];
+            let [low, high] = [-root, root].map(|side| old.intersection(shared.middle + side));
+            let new = match (low.is_empty(), high.is_empty()) {
+                (true, true) => return Err(Empty),
+                (false, true) => low,
+                (true, false) => high,
+                (false, false) => low.convex_hull(high),
+            };
+            set(shared.entry, new, x, &mut tell);
+        }
         for (this, other) in [(p.left, p.right), (p.right, p.left)] {
             if this == Form::One {
                 continue;
@@ -163,30 +182,34 @@ fn narrow(
         if !is_free[entry] {
             continue;
         }
-        let old = x[entry];
-        let new = old.intersection(to);
+        let new = x[entry].intersection(to);
         if new.is_empty() {
             return Err(Empty);
         }
-        if new == old {
-            continue;
-        }
-        x[entry] = new;
-        let is_told = match (old.wid().is_finite(), new.wid().is_finite()) {
-            (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
-            (false, finite) => {
-                // Of an unbounded range a bound that is new, or one that moved well.
-                let moved = |old: f64, new: f64| {
-                    new != old && !(old.is_finite() && (new - old).abs() < 0.5 * old.abs())
-                };
-                finite || moved(old.inf(), new.inf()) || moved(old.sup(), new.sup())
-            }
-        };
-        if is_told {
-            tell(entry);
-        }
+        set(entry, new, x, tell);
     }
     Ok(())
+}
+
+/// Puts a narrower range in the place of an entry's, and tells it if it is worth it.
+fn set(entry: usize, new: Interval, x: &mut [Interval], tell: &mut impl FnMut(usize)) {
+    let old = std::mem::replace(&mut x[entry], new);
+    if new == old {
+        return;
+    }
+    let is_told = match (old.wid().is_finite(), new.wid().is_finite()) {
+        (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
+        (false, finite) => {
+            // Of an unbounded range a bound that is new, or one that moved well.
+            let moved = |old: f64, new: f64| {
+                new != old && !(old.is_finite() && (new - old).abs() < 0.5 * old.abs())
+            };
+            finite || moved(old.inf(), new.inf()) || moved(old.sup(), new.sup())
+        }
+    };
+    if is_told {
+        tell(entry);
+    }
 }
 
 #[cfg(test)]
@@ -217,6 +240,38 @@ mod tests {
         assert!(x[1].contains(1.75f64.sqrt()) && x[1].sup() < 1.33);
         x[1] = hull(1.4, 1.5);
         assert_eq!(contract(&[&row], &[true, true, false], &mut x), Err(Empty));
+    }
+
+    /// A right angle at (x, y) between (1, 0) and (3, 2): entries x, y, and the numbers 1, 3, 2 and 0.
+    #[test]
+    fn a_right_angle_bounds_what_was_unbounded() {
+        let product = |i, j, k, l| Product {
+            factor: point(1.0),
+            left: Form::Difference(i, j),
+            right: Form::Difference(k, l),
+        };
+        for across in [product(0, 2, 0, 3), product(2, 0, 3, 0)] {
+            let row = Row::new(vec![across, product(1, 5, 1, 4)], ZERO, 5);
+            let start = || [entire(), entire(), point(1.0), point(3.0), point(2.0), ZERO];
+            let is_free = [true, true, false, false, false, false];
+            // The circle about (2, 1) of which the square of the radius is 2.
+            let mut x = start();
+            contract(&[&row], &is_free, &mut x).unwrap();
+            for (x, middle) in [(x[0], 2.0), (x[1], 1.0)] {
+                let range = hull(middle - 2f64.sqrt(), middle + 2f64.sqrt());
+                assert!(range.subset(x) && x.wid() < range.wid() + 1e-12);
+            }
+            // Beside the middle, on either side.
+            let mut x = start();
+            (x[0], x[1]) = (hull(1.5, 2.5), hull(1.0, 9.0));
+            contract(&[&row], &is_free, &mut x).unwrap();
+            assert!(x[1].contains(2.4) && x[1].inf() > 2.3 && x[1].sup() < 2.5);
+        }
+        // (x − 1)(3 − x) is at most 1.
+        let row = Row::new(vec![product(0, 2, 3, 0)], point(1.5), 5);
+        let mut x = [entire(), entire(), point(1.0), point(3.0), point(2.0), ZERO];
+        let is_free = [true, true, false, false, false, false];
+        assert_eq!(contract(&[&row], &is_free, &mut x), Err(Empty));
     }
 
     #[test]

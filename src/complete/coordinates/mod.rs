@@ -18,6 +18,7 @@
 mod bound;
 mod contract;
 mod cover;
+mod divided;
 mod expanded;
 mod far;
 mod kept;

@@ -23,7 +23,7 @@ pub struct Product {
     pub right: Form,
 }
 
-/// `Σ products ∈ right`: an equation, of which `right` encloses the right-hand side, or bounds that follow from the equations.
+/// `Σ products ∈ right`: an equation, of which `right` encloses the right-hand side, or what follows from the equations in figures.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// The left-hand side.
@@ -34,14 +34,14 @@ pub struct Row {
     pub entries: Vec<usize>,
 }
 
-/// As many equations as unknowns, and bounds that follow from these.
+/// As many equations as unknowns, and what follows from these in figures.
 ///
 /// Entries are numbered: the unknowns first, then the number 0.
 #[derive(Debug, Clone)]
 pub struct System {
     /// The number of unknowns, and of equations.
     pub unknowns: usize,
-    /// The equations, in order, then what follows from them.
+    /// The equations, in order, then what follows from them in figures, where lengths are positive.
     pub rows: Vec<Row>,
     /// The unknowns that are positive in figures.
     pub positive: Vec<usize>,
@@ -137,9 +137,61 @@ impl Row {
 /// left · right, a square where both are the same.
 pub fn product(p: &Product, at: &[Interval]) -> Interval {
     let left = p.left.value(at);
-    match p.left == p.right {
-        true => left.sqr(),
-        false => left * p.right.value(at),
+    if p.left == p.right {
+        return left.sqr();
+    }
+    let product = left * p.right.value(at);
+    match Shared::of(p, at) {
+        None => product,
+        Some(shared) => product.intersection(shared.product(at)),
+    }
+}
+
+/// An entry x in both factors, which are ±(x − a) and ±(x − b): (x − a)(x − b) = (x − (a + b)/2)² − ((a − b)/2)².
+///
+/// That is how right angles at a point which is not known look, and where a range is wide, or unbounded, the square has a least value.
+pub struct Shared {
+    /// x.
+    pub entry: usize,
+    /// (a + b)/2.
+    pub middle: Interval,
+    /// ((a − b)/2)².
+    less: Interval,
+    /// Whether one factor is x − a and the other b − x.
+    is_opposite: bool,
+}
+
+impl Shared {
+    /// `None`: there is none, or it is known.
+    pub fn of(p: &Product, at: &[Interval]) -> Option<Self> {
+        let (Form::Difference(i, j), Form::Difference(k, l)) = (p.left, p.right) else {
+            return None;
+        };
+        let (entry, [a, b], is_opposite) = match () {
+            () if i == k => (i, [j, l], false),
+            () if j == l => (j, [i, k], false),
+            () if i == l => (i, [j, k], true),
+            () if j == k => (j, [i, l], true),
+            () => return None,
+        };
+        let half = point(0.5);
+        (at[entry].wid() > 0.0).then(|| Shared {
+            entry,
+            middle: half * (at[a] + at[b]),
+            less: (half * (at[a] - at[b])).sqr(),
+            is_opposite,
+        })
+    }
+
+    /// The product of the factors.
+    fn product(&self, at: &[Interval]) -> Interval {
+        let product = (at[self.entry] - self.middle).sqr() - self.less;
+        if self.is_opposite { -product } else { product }
+    }
+
+    /// (x − (a + b)/2)², if the product of the factors is in a range.
+    pub fn square(&self, product: Interval) -> Interval {
+        self.less + if self.is_opposite { -product } else { product }
     }
 }
 
@@ -169,30 +221,37 @@ impl System {
             rows: (0..m).map(row).collect(),
             positive: homotopy.positive_unknowns(),
         };
-        let follow = system.cross_products();
+        let mut follow = system.cross_products();
+        follow.extend(system.divided(homotopy));
         system.rows.extend(follow);
         system
+    }
+
+    /// (k, v, u), if a row says v − k u = 0.
+    pub(super) fn parallel(&self, row: &Row) -> Option<(usize, Form, Form)> {
+        let zero = self.unknowns;
+        let single = |form: Form| match form {
+            Form::Difference(k, z) if z == zero && k != zero => Some(k),
+            _ => None,
+        };
+        let [one, other] = row.products.as_slice() else {
+            return None;
+        };
+        if row.right != ZERO || one.right != Form::One || other.factor != -one.factor {
+            return None;
+        }
+        Some((single(other.left)?, one.left, other.right))
     }
 
     /// From v_i = k u_i and v_j = k u_j follows v_i u_j = v_j u_i, which says something where k is not known: vectors that
     /// are parallel.
     fn cross_products(&self) -> Vec<Row> {
         let zero = self.unknowns;
-        let single = |form: Form| match form {
-            Form::Difference(k, z) if z == zero && k != zero => Some(k),
-            _ => None,
-        };
-        // (k, v, u): v − k u = 0.
-        let parallel = |row: &Row| -> Option<(usize, Form, Form)> {
-            let [one, other] = row.products.as_slice() else {
-                return None;
-            };
-            if row.right != ZERO || one.right != Form::One || other.factor != -one.factor {
-                return None;
-            }
-            Some((single(other.left)?, one.left, other.right))
-        };
-        let found: Vec<_> = self.rows.iter().filter_map(parallel).collect();
+        let found: Vec<_> = self
+            .rows
+            .iter()
+            .filter_map(|row| self.parallel(row))
+            .collect();
         let mut out = Vec::new();
         for (i, &(k, v, u)) in found.iter().enumerate() {
             for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {

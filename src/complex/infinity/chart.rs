@@ -217,6 +217,7 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         positions: 1,
         is_absolute: false,
         gauge: String::new(),
+        nonzero: Vec::new(),
     };
     (system.equations.len() == count).then_some(system)
 }

@@ -17,11 +17,20 @@ impl Lowering<'_> {
         if rank(&plain, &shown) == shown.len() {
             return plain;
         }
+        // Those beside that unknowns which are zero allow. They change no sign of such an unknown, which is the same with either.
         let zeros = zeros(&self.tail, &self.vanishing);
-        match zeros.contains(&true) {
-            true => twins(&self.tail, &self.vanishing, &same_sign, &zeros),
-            false => plain,
+        let told: Vec<usize> = (0..zeros.len()).filter(|&u| !zeros[u]).collect();
+        let mut all = plain;
+        if zeros.contains(&true) {
+            for change in twins(&self.tail, &self.vanishing, &same_sign, &zeros) {
+                let before = rank(&all, &told);
+                all.push(change);
+                if rank(&all, &told) == before {
+                    all.pop();
+                }
+            }
         }
+        all
     }
 
     /// Of each line and plane of its own an unknown that changes its sign where the direction is reversed.

@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// The first line.
 pub const FIRST_LINE: &str = "krawl cover of coordinates";
 /// The version of the format.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -6,7 +6,9 @@
 //! the distance around a listed zero in which certificates' test for one figure proves that there is no other.
 
 mod bounds;
+mod divided;
 mod format;
+mod shared;
 mod space;
 mod sums;
 mod symmetry;
@@ -14,7 +16,7 @@ mod turns;
 
 pub use format::{Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark, Turned};
 pub use space::{Empty, Part};
-pub use symmetry::changes;
+pub use symmetry::{changes, signs_changed};
 pub use turns::{Look, Turn};
 
 use super::{CoverError, CoverVerdict};

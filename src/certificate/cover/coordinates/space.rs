@@ -1,10 +1,12 @@
 //! Parts of the space of all unknowns, and what the equations leave of them.
 //!
-//! A part has a range for every unknown. All that is done to it keeps every zero of the equations that is in it, so that a part in
-//! which a range becomes empty has none.
+//! A part has a range for every unknown. All that is done to it keeps every zero of the equations that is in it and has positive lengths, as
+//! figures have, so that a part in which a range becomes empty has no figure.
 
 use super::bounds::{Expanded, bounds, far};
+use super::divided::{Component, divided};
 use super::format::Block;
+use super::shared::Shared;
 use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
@@ -41,7 +43,7 @@ struct Row {
 
 /// The equations at t = 1.
 pub struct Rows {
-    /// Per equation 2 q_e = 2 E_e(1), and then what follows from several.
+    /// Per equation 2 q_e = 2 E_e(1), and then what follows for figures.
     rows: Vec<Row>,
 }
 
@@ -132,10 +134,12 @@ pub fn difference(x: &[Interval], [i, j]: [usize; 2]) -> Interval {
 
 /// factor · left · right, where each is a difference.
 fn value(eq: &Equations, (factor, [left, right]): Product, x: &[Interval]) -> Interval {
-    let value = difference(x, eq.forms[left]);
-    let product = match left == right {
-        true => value.sqr(),
-        false => value * difference(x, eq.forms[right]),
+    let forms = [left, right].map(|form| eq.forms[form]);
+    let [value, other] = forms.map(|form| difference(x, form));
+    let product = match Shared::of(forms[0], forms[1]) {
+        _ if left == right => value.sqr(),
+        None => value * other,
+        Some(shared) => (value * other).intersection(shared.product(x)),
     };
     point(factor as f64) * product
 }
@@ -158,7 +162,11 @@ impl Rows {
         let right = |e: usize| point(2.0) * eq.right_at(e, point(1.0))[0];
         let own = (0..eq.m).map(|e| row(eq.products[e].clone(), right(e)));
         let mut rows: Vec<Row> = own.collect();
-        for products in parallel(eq, &rows) {
+        let components = components(eq, &rows);
+        let equations = rows.iter().map(|row| (row.products.as_slice(), row.right));
+        let equations: Vec<_> = equations.collect();
+        let divided = divided(eq, &equations, &components);
+        for products in parallel(&components).into_iter().chain(divided) {
             rows.push(row(products, ZERO));
         }
         Rows { rows }
@@ -221,6 +229,9 @@ impl Rows {
             if left == right {
                 square(eq.forms[left], wanted, part)?;
                 continue;
+            }
+            if let Some(shared) = Shared::of(eq.forms[left], eq.forms[right]) {
+                shared.narrow(wanted, part)?;
             }
             for (this, other) in [(left, right), (right, left)] {
                 let by = difference(&part.x, eq.forms[other]);
@@ -363,22 +374,26 @@ impl Rows {
 
 /// Narrows by L² in a range.
 pub fn square(form: [usize; 2], range: Interval, part: &mut Part) -> Result<(), Empty> {
-    let range = range.intersection(upper_half());
-    if range.is_empty() {
+    let both = roots(range, difference(&part.x, form))?;
+    narrow_form(form, both, part)
+}
+
+/// A range of a number in which it is, as its square is in another one.
+pub fn roots(square: Interval, now: Interval) -> Result<Interval, Empty> {
+    let square = square.intersection(upper_half());
+    if square.is_empty() {
         return Err(Empty);
     }
-    let root = range.sqrt();
+    let root = square.sqrt();
     let most = root.sup();
-    let now = difference(&part.x, form);
     // Of −root and root what may be.
     let sides = [-root, root].map(|side| side.intersection(now));
-    let both = match (sides[0].is_empty(), sides[1].is_empty()) {
-        (true, true) => return Err(Empty),
-        (true, false) => sides[1],
-        (false, true) => sides[0],
-        (false, false) => checked(-most, most).unwrap_or_else(entire),
-    };
-    narrow_form(form, both, part)
+    match (sides[0].is_empty(), sides[1].is_empty()) {
+        (true, true) => Err(Empty),
+        (true, false) => Ok(sides[1]),
+        (false, true) => Ok(sides[0]),
+        (false, false) => Ok(checked(-most, most).unwrap_or_else(entire)),
+    }
 }
 
 /// Narrows by L = a − b in a range: a is in L + b, and b in a − L.
@@ -400,22 +415,34 @@ pub fn narrow_form([a, b]: [usize; 2], range: Interval, part: &mut Part) -> Resu
     Ok(())
 }
 
-/// From v = k u and w = k x follows v x = w u, which says something where k is not known.
-fn parallel(eq: &Equations, rows: &[Row]) -> Vec<Vec<Product>> {
+/// The equations v = k u.
+fn components(eq: &Equations, rows: &[Row]) -> Vec<Component> {
     let (zero, one) = (eq.m + 1, [eq.m + 2, eq.m + 1]);
-    // (k, v, u)
-    let parts = |row: &Row| -> Option<(usize, usize, usize)> {
-        let &[(factor, [v, number]), (other, [k, u])] = row.products.as_slice() else {
+    let component = |row: &Row| -> Option<Component> {
+        let &[(factor, [vector, number]), (other, [k, heading])] = row.products.as_slice() else {
             return None;
         };
-        let [k, level] = eq.forms[k];
+        let [length, level] = eq.forms[k];
         let fits = row.right == ZERO && eq.forms[number] == one && other == -factor;
-        (fits && level == zero && k < eq.m).then_some((k, v, u))
+        (fits && level == zero && length < eq.m).then_some(Component {
+            length,
+            vector,
+            heading,
+        })
     };
-    let found: Vec<_> = rows.iter().filter_map(parts).collect();
-    let pairs = found.iter().enumerate().flat_map(|(i, &(k, v, u))| {
-        let same = found[..i].iter().filter(move |other| other.0 == k);
-        same.map(move |&(_, w, x)| vec![(1, [v, x]), (-1, [w, u])])
+    rows.iter().filter_map(component).collect()
+}
+
+/// From v = k u and w = k x follows v x = w u, which says something where k is not known.
+fn parallel(found: &[Component]) -> Vec<Vec<Product>> {
+    let pairs = found.iter().enumerate().flat_map(|(i, one)| {
+        let same = found[..i].iter().filter(|other| other.length == one.length);
+        same.map(|other| {
+            vec![
+                (1, [one.vector, other.heading]),
+                (-1, [other.vector, one.heading]),
+            ]
+        })
     });
     pairs.collect()
 }

@@ -4,6 +4,7 @@ use super::format::{Change, Half};
 use crate::certificate::checker::equations::{Equations, ZERO};
 use crate::constraint::Symmetry;
 use crate::interval::point;
+use crate::system::Homotopy;
 
 /// The unknowns that may be taken as not negative: each is changed by a symmetry that changes none before it, so that
 /// of the images of a figure under these symmetries one has none of them negative.
@@ -35,7 +36,15 @@ pub fn changes(
     (allowed, signs): (Symmetry, &[(usize, bool)]),
     by: &Change,
 ) -> Option<Vec<bool>> {
-    let homotopy = &eq.homotopy;
+    let changes = signs_changed(&eq.homotopy, allowed, by)?;
+    let told = signs.iter().map(|(i, _)| i);
+    let stay = eq.positive.iter().chain(told).all(|&i| !changes[i]);
+    (stay && keeps(eq, &changes)).then_some(changes)
+}
+
+/// For each unknown whether a reversal of axes and directions changes it; `None` where mirror images are not congruent, or none
+/// of such a name is known.
+pub fn signs_changed(homotopy: &Homotopy, allowed: Symmetry, by: &Change) -> Option<Vec<bool>> {
     let is_allowed = match allowed {
         _ if by.axes.iter().any(|&axis| axis >= homotopy.dimension) => false,
         Symmetry::Isometries => true,
@@ -55,10 +64,7 @@ pub fn changes(
         let of_twins = twins.iter().filter(|twin| i >= first && twin[i - first]);
         (of_axes.count() + of_twins.count()) % 2 == 1
     };
-    let changes: Vec<bool> = (0..eq.m).map(change).collect();
-    let told = signs.iter().map(|(i, _)| i);
-    let stay = eq.positive.iter().chain(told).all(|&i| !changes[i]);
-    (stay && keeps(eq, &changes)).then_some(changes)
+    Some((0..homotopy.equations).map(change).collect())
 }
 
 /// Whether the equations hold with these signs changed wherever they hold without: each stays as it is, or changes its sign
