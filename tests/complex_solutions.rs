@@ -513,3 +513,33 @@ fn the_true_icosahedron() {
     );
     assert_eq!(solutions.at_infinity(), 1600);
 }
+
+/// Where one of three lines is at a right angle to both others, these may be reversed together; with one right angle, or none, no
+/// line may. And a line that is parallel to the plane on which a template has its place is none for that template.
+#[test]
+fn two_right_angles_of_three_lines_allow_a_reversal() {
+    let shipped = std::fs::read_to_string("problems/constraints/3p3l.toml").unwrap();
+    let with = |angles: [f64; 3]| {
+        let [a, b, c] = angles;
+        let text = shipped.replace(
+            r#"["l1", "l2", 8], ["l1", "l3", 88], ["l2", "l3", 86]"#,
+            &format!(r#"["l1", "l2", {a}], ["l1", "l3", {b}], ["l2", "l3", {c}]"#),
+        );
+        assert_ne!(text, shipped);
+        Problem::parse(&text, "test.toml").unwrap()
+    };
+    let reversals = |angles: [f64; 3]| {
+        let system = lower(&with(angles)).unwrap().system;
+        system.group_of_instance.len() / system.group.len()
+    };
+    assert_eq!(reversals([80.0, 75.0, 86.0]), 1);
+    assert_eq!(reversals([90.0, 88.0, 86.0]), 1);
+    assert_eq!(reversals([90.0, 90.0, 86.0]), 2);
+    assert_eq!(reversals([86.0, 90.0, 90.0]), 2);
+    let text = std::fs::read_to_string("problems/constraints/3p3l.krawl-template").unwrap();
+    let fits = |angles: [f64; 3]| {
+        let lowered = lower_for(&with(angles), &text).unwrap();
+        Template::read(&text, &lowered.system).is_ok()
+    };
+    assert!(fits([80.0, 75.0, 86.0]) && !fits([90.0, 90.0, 86.0]));
+}
