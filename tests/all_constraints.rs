@@ -5,7 +5,7 @@ mod common;
 
 use common::edits::Random;
 use common::mixed::Spec;
-use common::sketches::{ARC, LEG, PLATE, apollonius_text};
+use common::sketches::{ARC, LEG, PLATE, apollonius_text, isosceles_text};
 use krawl::complete::{Complete, Method, Options, Status, Unserved, Why, all};
 use krawl::constraint::{Symmetry, symmetry};
 use krawl::problem::Problem;
@@ -439,20 +439,7 @@ fn headings_of_no_leg_are_no_curve_of_figures() {
 #[test]
 fn triangles_with_two_equal_sides_are_complete() {
     let triangle = |sides: &str, angle: f64| {
-        let text = format!(
-            r#"
-            name = "isosceles"
-            dimension = 2
-            [points]
-            a = [0.1, 0.2]
-            b = [7.7, 0]
-            c = [3.8, 3.2]
-            [constraints]
-            angles = [["b", "a", "c", {angle}]]
-            {sides}
-            "#
-        );
-        let result = searched(&parse(&text));
+        let result = searched(&parse(&isosceles_text(sides, angle)));
         assert_eq!(result.status, Status::Complete, "{sides} {angle}");
         assert!(result.boxes < 200, "{sides} {angle}: {}", result.boxes);
         result.solutions

@@ -662,8 +662,8 @@ fn three_lines_have_the_angles_of_the_sketch() {
     );
 }
 
-/// Three lines of their own, of which the third has a right angle with the first, too: that is said by an angle that is as large as
-/// another one. Its one figure, with signs for the directions of the lines and for the mirror image.
+/// The unknowns of the one figure of three lines of their own, e, f and g, with signs for the directions of the lines and for the mirror
+/// image. f is at a right angle to e, and g is because the angle of e and g is said to be that of e and f.
 fn lines_with_directions([e, f, g, mirror]: [f64; 4]) -> Vec<Vec<f64>> {
     let (first, third) = (1.01f64.sqrt(), 1.25f64.sqrt());
     let x = 1.59375;
@@ -764,30 +764,28 @@ fn figures_that_are_the_same_seen_otherwise_count_once() {
         distances = [["a","b",4],["a","c",3],["b","c",3.5],["a","d",3],["b","d",4],["c","d",3.2]]
         on = [["a","e"],["b","e"],["d","e"]]
     "#;
-    let angle = r#"
-        name = "an angle"
-        dimension = 3
-        [points]
-        a = [0, 0, 0]
-        b = [4, 0, 0]
-        c = [1, 3, 0]
-        [constraints]
-        distances = [["a","b",4],["b","c",3]]
-        angles = [["a","b","c",70]]
-    "#;
-    let triangle = r#"
-        name = "no triangle"
-        dimension = 3
-        [points]
-        a = [0, 0, 0]
-        b = [4, 0, 0]
-        c = [1, 3, 0]
-        [constraints]
-        distances = [["a","b",1],["b","c",1],["a","c",3]]
-    "#;
+    let three_points = |constraints: &str| {
+        format!(
+            r#"
+            name = "three points in space"
+            dimension = 3
+            [points]
+            a = [0, 0, 0]
+            b = [4, 0, 0]
+            c = [1, 3, 0]
+            [constraints]
+            {constraints}
+            "#
+        )
+    };
+    let angle = three_points(
+        r#"distances = [["a","b",4],["b","c",3]]
+           angles = [["a","b","c",70]]"#,
+    );
+    let no_triangle = three_points(r#"distances = [["a","b",1],["b","c",1],["a","c",3]]"#);
     let folder = tempfile::tempdir().unwrap();
     for (text, isometry, rotation, real) in
-        [(plane, 1, 2, 1), (angle, 1, 1, 1), (triangle, 1, 1, 0)]
+        [(plane, 1, 2, 1), (&angle, 1, 1, 1), (&no_triangle, 1, 1, 0)]
     {
         let (json, verdict) = counted(text, folder.path());
         let counts = &json["counts"];

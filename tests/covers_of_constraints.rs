@@ -6,7 +6,7 @@ mod common;
 use common::covers::searched;
 use common::edits::Random;
 use common::mixed::Spec;
-use common::sketches::{ARC, LEG, PLATE, apollonius_text};
+use common::sketches::{ARC, LEG, PLATE, apollonius_text, isosceles_text};
 use krawl::certificate::cover::coordinates::{Block, Change, CoordinateCover, Half, Image, Mark};
 use krawl::certificate::cover::{CoverVerdict, verify_cover};
 use krawl::complete::{Options, Status, Unserved, all};
@@ -49,23 +49,6 @@ fn triangle() -> Problem {
     )
 }
 
-/// A triangle with two equal sides and an angle at the base: without a base the equations hold, too.
-fn isosceles(sides: &str) -> Problem {
-    parse(&format!(
-        r#"
-        name = "isosceles"
-        dimension = 2
-        [points]
-        a = [0.1, 0.2]
-        b = [7.7, 0]
-        c = [3.8, 3.2]
-        [constraints]
-        angles = [["b", "a", "c", 40]]
-        {sides}
-        "#
-    ))
-}
-
 /// A right angle at c, of which a leg vanishes where c is at a: that is a zero of the equations, and no figure.
 fn leg() -> Problem {
     parse(LEG)
@@ -99,13 +82,12 @@ fn equations_divided_by_a_length_are_proved() {
         r#"distances = [["a", "c", 5.3]]
            equal = [["c", "b", "a", "c"]]"#,
     ] {
-        let cover = proved(&isosceles(sides));
+        let cover = proved(&parse(&isosceles_text(sides, 40.0)));
         assert_eq!((cover.figures.len(), cover.others.len()), (1, 0));
     }
     // A cover of sides that are equal says nothing of sides that are nearly so.
-    let mut cover = proved(&isosceles(
-        r#"distances = [["a", "c", 5.3], ["b", "c", 5.3]]"#,
-    ));
+    let sides = r#"distances = [["a", "c", 5.3], ["b", "c", 5.3]]"#;
+    let mut cover = proved(&parse(&isosceles_text(sides, 40.0)));
     cover.problem = cover.problem.replacen("5.3]", "5.2999999]", 1);
     assert!(verify_cover(&cover.to_bytes()).is_ok_and(|verdict| verdict.flaw.is_some()));
 }

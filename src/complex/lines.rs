@@ -18,7 +18,7 @@ use super::exact::{Exact, Random};
 use super::lower::{half_square, in_unit};
 use super::system::{Equation, Kind, Start, System, Unknown};
 use super::vector::Z;
-use crate::constraint::{is_opposite_nearer, null_space};
+use crate::constraint::is_opposite_nearer;
 use crate::interval::{DoubleDouble, Real};
 use crate::problem::{Item, Problem, Shape, Target};
 use crate::system::Term;
@@ -135,7 +135,8 @@ fn slot(a: usize, b: usize) -> Option<usize> {
     }
 }
 
-/// A line is no line of a frame if the sine of its angle to a plane that it has to meet is not above this.
+/// The least sine of the angle between a line and the plane on which a frame has its place: where it is less, the place is more than a
+/// thousand million times as far away as the line, or there is none.
 const NOT_THERE: f64 = 1e-9;
 
 /// The frames that a problem of this kind can be told in, the best one first; none if it is another. In a template's equations
@@ -158,7 +159,7 @@ pub fn frames(problem: &Problem) -> Vec<Frame> {
         let up = (1.0 - c3 * c3 - along * along).max(0.0).sqrt();
         // The sign of the last component is not told.
         for (across, size) in [(2, up), (0, c3), (1, along)] {
-            // Orthogonal lines are the axes. A line that is parallel to a plane has no place on it, or one that is as far away as that.
+            // Orthogonal lines are the axes.
             let is_there = s2 > NOT_THERE && size.abs() > NOT_THERE;
             if is_there && (across == 2 || !are_orthogonal) {
                 let frame = Frame {
@@ -207,7 +208,11 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         let what = format!("{letter} of {} where {zero} is 0", name(2));
         push(what, 1, along(axis));
     }
+    // What changes its sign where the direction of the second line is reversed, or of the third.
+    let mut turned = [Vec::new(), Vec::new()];
     if !are_orthogonal {
+        let [c2, s2, c3, a, b] = DIRECTIONS.map(|k| first + k);
+        turned = [vec![c2, s2], vec![c3, a, b]];
         // Reversing the x axis and the directions of all lines: s₂, a and b change their signs, not c₂ and c₃.
         let (c, s) = ([false; 3], [true, true, false]);
         push(format!("x of the direction of {}", name(1)), 0, c);
@@ -264,6 +269,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         };
         if which > 0 && !are_orthogonal {
             let shadow = unknowns.len();
+            turned[which - 1].push(shadow);
             unknowns.push(Unknown {
                 name: format!("{} along {}", problem.points[*point].name, name(which)),
                 power: 1,
@@ -363,54 +369,17 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         is_absolute: false,
         nonzero: Vec::new(),
     };
-    let turns = match are_orthogonal {
-        true => vec![vec![false; system.unknowns.len()]],
-        false => turns(&system),
-    };
-    Some(system.with_groups(&turns))
-}
-
-/// The changes of signs that reverse directions of the second and the third line, and leave all points and lines as they are: those of a
-/// line together, and with them the places of points along it, where the equations of the instance allow it.
-fn turns(system: &System) -> Vec<Vec<bool>> {
-    let (n, first) = (system.unknowns.len(), 3 * system.points.len());
-    let [c2, s2, c3, a, b] = DIRECTIONS.map(|k| first + k);
-    let row = |unknowns: &[usize]| {
-        let mut row = vec![false; n];
-        for &u in unknowns.iter().filter(|&&u| u < n) {
-            row[u] ^= true;
-        }
-        row
-    };
-    // Sums of these are no changes: what stays, and what changes together.
-    let mut rows: Vec<Vec<bool>> = (0..c2).map(|u| row(&[u])).collect();
-    rows.extend([[c2, s2], [c3, a], [c3, b]].map(|pair| row(&pair)));
-    for equation in &system.equations {
-        let of = |form: Option<[usize; 2]>| form.unwrap_or([ZERO; 2]);
-        let parities = equation.terms.iter().map(|term| {
-            let (left, right) = (of(term.left), of(term.right));
-            [left[0], right[0]]
-        });
-        let parities: Vec<[usize; 2]> = parities.collect();
-        for (k, [l, r]) in parities.iter().enumerate() {
-            match (k, equation.is_zero()) {
-                (0, true) => {}
-                (_, true) => rows.push(row(&[*l, *r, parities[0][0], parities[0][1]])),
-                (_, false) => rows.push(row(&[*l, *r])),
-            }
-        }
-    }
-    let basis = null_space(rows, n);
-    let sum = |mask: usize| {
-        let mut changes = vec![false; n];
-        for (k, change) in basis.iter().enumerate() {
-            if mask >> k & 1 == 1 {
-                changes.iter_mut().zip(change).for_each(|(x, y)| *x ^= y);
-            }
+    // Those that the equations of the instance do not allow are left out.
+    let turn = |reversed: [bool; 2]| {
+        let mut changes = vec![false; system.unknowns.len()];
+        for (own, _) in turned.iter().zip(reversed).filter(|(_, turn)| *turn) {
+            own.iter().for_each(|&u| changes[u] = true);
         }
         changes
     };
-    (0..1usize << basis.len()).map(sum).collect()
+    let turns = [[false, false], [true, false], [false, true], [true, true]];
+    let turns = turns.map(turn);
+    Some(system.with_groups(&turns))
 }
 
 /// The frame that a system of this kind is in, if it is one.

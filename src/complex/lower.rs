@@ -213,7 +213,12 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         .iter()
         .map(|&p| problem.points[p].name.as_str());
     let names: Vec<&str> = names.collect();
-    let mut system = System {
+    let Some(turns) = homotopy.twins() else {
+        return Err(Unserved::Other(
+            "there are too many lines and planes with directions of their own".to_owned(),
+        ));
+    };
+    let system = System {
         dimension: d,
         unknowns,
         equations,
@@ -234,9 +239,9 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
             ),
         },
     }
-    .with_groups(&turns(&homotopy, is_absolute)?);
+    .with_groups(&turns);
     if is_absolute {
-        own_frame::add_groups(&mut system, &problem, &homotopy)?;
+        own_frame::check_directions(&system, &problem, &homotopy)?;
     }
     // The bound is about figures that stand on what it holds fixed.
     let bound = bound.filter(|bound| {
@@ -254,23 +259,11 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     })
 }
 
-/// The vectors that vanish in no figure.
+/// The vectors that must not vanish in a figure.
 fn nonzero(homotopy: &Homotopy) -> Vec<(String, Vec<[usize; 2]>)> {
     let names = homotopy.tail.nonzero.iter();
     let names = names.map(|vector| vector.name.clone());
     names.zip(homotopy.nonzero_vectors()).collect()
-}
-
-/// The changes of signs that reverse directions of lines and planes of their own, and leave figures as they are; of problems in a frame of
-/// their own see [`own_frame`].
-fn turns(homotopy: &Homotopy, is_absolute: bool) -> Result<Vec<Vec<bool>>, Unserved> {
-    match homotopy.twins() {
-        _ if is_absolute => Ok(vec![vec![false; homotopy.equations]]),
-        Some(turns) => Ok(turns),
-        None => Err(Unserved::Other(
-            "there are too many lines and planes with directions of their own".to_owned(),
-        )),
-    }
 }
 
 /// Makes the distances in the reference equations that say where it stands, instead of equations for squares: lengths

@@ -5,7 +5,7 @@
 //! these changes of signs are the group of the system.
 
 use super::lower::Unserved;
-use super::system::{Equation, Kind, Signs, System, sign_of};
+use super::system::{Equation, System};
 use crate::constraint::{self, Entry, Form};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -67,45 +67,20 @@ pub fn is_place(equation: &constraint::Equation) -> bool {
     )
 }
 
-/// Makes the changes of signs that reverse directions the groups of a system whose groups are those of no change.
-///
-/// Fails where constraints tell the two directions of a line or plane of its own apart, as zeros of the equations may have
-/// either, and figures have the one that a path keeps.
-pub fn add_groups(
-    system: &mut System,
+/// Refuses problems in which constraints tell the two directions of a line or plane of its own apart, as zeros of the equations may
+/// have either, and figures have the one that a path keeps.
+pub fn check_directions(
+    system: &System,
     problem: &Problem,
     homotopy: &Homotopy,
 ) -> Result<(), Unserved> {
-    let Some(twins) = homotopy.twins() else {
-        return Err(Unserved::Other(
-            "there are too many lines and planes with directions of their own".to_owned(),
-        ));
-    };
-    let keeps = |changes: &[bool], vanishes: &dyn Fn(&Equation) -> bool| {
-        let mut equations = system.equations.iter();
-        equations.all(|equation| match sign_of(equation, changes) {
-            Some(reversed) => !reversed || vanishes(equation),
-            None => false,
-        })
-    };
-    let directed = homotopy.directed(|changes| keeps(changes, &Equation::is_zero));
-    if let Some(&object) = directed.first() {
-        return Err(Unserved::Other(format!(
+    let directed = homotopy.directed(|changes| system.keeps(changes, Equation::is_zero));
+    match directed.first() {
+        None => Ok(()),
+        Some(&object) => Err(Unserved::Other(format!(
             "constraints tell the two directions of `{}` apart, which has a direction of its own that a path keeps and the \
              equations do not (name two points of it instead)",
             problem.objects[object].name
-        )));
+        ))),
     }
-    let kept = |vanishes: &dyn Fn(&Equation) -> bool| -> Vec<Signs> {
-        let twins = twins.iter().filter(|changes| keeps(changes, vanishes));
-        let signs = twins.map(|changes| Signs {
-            changes: changes.clone(),
-            mirrors: false,
-        });
-        signs.collect()
-    };
-    let of_all = kept(&|equation| matches!(&equation.right, Kind::Fixed(value) if value.is_zero()));
-    let of_instance = kept(&Equation::is_zero);
-    (system.group, system.group_of_instance) = (of_all, of_instance);
-    Ok(())
 }

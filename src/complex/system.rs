@@ -92,8 +92,8 @@ pub struct System {
     pub gauge: String,
     /// Whether the problem is in a frame of its own: no motion takes a figure to another one.
     pub is_absolute: bool,
-    /// Vectors that vanish in no figure, as zeros of the equations may have them, with their names: per coordinate the unknowns of
-    /// which it is the difference, those behind the last one standing for zero.
+    /// Vectors that must not vanish in a figure, and may in a solution of the equations: the name of each and, for every coordinate, the
+    /// two unknowns of which it is the difference. Numbers beyond the last unknown stand for zero.
     pub nonzero: Vec<(String, Vec<[usize; 2]>)>,
 }
 
@@ -145,8 +145,8 @@ impl System {
         slope != 0
     }
 
-    /// Adds the groups to what has been set up. `turns`: a group of changes of signs that leave every figure of the instance as it is,
-    /// of directions of lines and planes; the first changes nothing.
+    /// Adds the groups to what has been set up. `turns`: the changes of signs that reverse directions of lines and planes and leave every
+    /// figure as it is, the first of which changes nothing. Those that do not keep the equations are left out.
     pub(super) fn with_groups(mut self, turns: &[Vec<bool>]) -> Self {
         self.group = self.signs(turns, |equation| equation.is_zero_always());
         self.group_of_instance = self.signs(turns, |equation| equation.is_zero());
@@ -230,14 +230,7 @@ impl System {
                     (reversed.count() % 2 == 1) ^ turn
                 })
                 .collect();
-            let is_symmetry =
-                self.equations
-                    .iter()
-                    .all(|equation| match sign_of(equation, &changes) {
-                        Some(reversed) => !reversed || vanishes(equation),
-                        None => false,
-                    });
-            if !is_symmetry {
+            if !self.keeps(&changes, &vanishes) {
                 continue;
             }
             let mirrors = axes.count_ones() % 2 == 1;
@@ -248,6 +241,15 @@ impl System {
             }
         }
         group
+    }
+
+    /// Whether a change of signs leaves every equation as it is, or reverses one that `vanishes`.
+    pub(super) fn keeps(&self, changes: &[bool], vanishes: impl Fn(&Equation) -> bool) -> bool {
+        let mut equations = self.equations.iter();
+        equations.all(|equation| match sign_of(equation, changes) {
+            Some(reversed) => !reversed || vanishes(equation),
+            None => false,
+        })
     }
 
     /// A text that is the same for all instances of one template, and for no others: hashed.

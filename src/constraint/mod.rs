@@ -52,10 +52,9 @@ pub use quadratic::{
 };
 pub(crate) use structure::check_structure;
 pub use structure::{size, size_in_edits};
-pub(crate) use twins::null_space;
 
 use crate::interval::Interval;
-use crate::problem::{Distance, Problem, Target};
+use crate::problem::Problem;
 pub(crate) use arguments::{Arguments, Flat, LineName, Sort, Thing};
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
@@ -103,11 +102,8 @@ pub fn lower_with_headings(problem: &Problem) -> Tail {
     let low = Lowering::new(problem, Start::Sketch, false).with_headings();
     match try_lower_from(problem, low, false) {
         Ok(mut lowered) => {
-            let is_apart = |d: &&Distance| match &d.target {
-                Target::Length(x) | Target::SquaredLength(x) => x.to_f64() > 0.0,
-            };
-            let apart = problem.distances.iter().filter(is_apart);
-            let apart: Vec<[usize; 2]> = apart.map(|d| d.points).collect();
+            // Lengths are positive in a problem that has been checked.
+            let apart: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
             let (tail, vanishing) = (&mut lowered.tail, &lowered.vanishing);
             factors::take_out(tail, vanishing, &apart, problem.dimension);
             lowered.tail

@@ -84,7 +84,7 @@ pub fn twins(
 }
 
 /// A basis of the vectors that are orthogonal to all rows, modulo 2.
-pub fn null_space(mut rows: Vec<Vec<bool>>, n: usize) -> Vec<Vec<bool>> {
+fn null_space(mut rows: Vec<Vec<bool>>, n: usize) -> Vec<Vec<bool>> {
     let mut pivots = Vec::new();
     for column in 0..n {
         let rank = pivots.len();

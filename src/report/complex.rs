@@ -45,7 +45,7 @@ fn others(lowered: &Lowered) -> Vec<usize> {
         .collect()
 }
 
-/// The vectors that vanish in no figure and do so in a solution, as far as its box tells.
+/// The vectors that vanish in a solution, as far as its box tells, and must not in a figure.
 fn vanishing<'a>(lowered: &'a Lowered, one: &'a SolutionBox) -> impl Iterator<Item = &'a str> {
     let part = |unknown: usize, k: usize| one.parts.get(2 * unknown + k).copied();
     let may_be_zero = move |&[from, to]: &[usize; 2]| {
@@ -67,9 +67,12 @@ fn no_figures(lowered: &Lowered, result: &Solutions) -> String {
         return String::new();
     };
     let real = of.iter().filter(|(_, nature)| *nature == Nature::Real);
-    let be = if of.len() == 1 { "is" } else { "are" };
+    let be = match of.len() {
+        1 => "is no figure, as far as its box tells",
+        _ => "are no figures, as far as their boxes tell",
+    };
     format!(
-        " {} of them ({} of the real ones) {be} no figure, as far as its box tells: a vector that must not vanish does, as {vector}.",
+        " {} of them ({} of the real ones) {be}: {vector} vanishes there, and a constraint needs its direction.",
         of.len(),
         real.count()
     )

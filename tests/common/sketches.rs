@@ -18,6 +18,24 @@ distances = [["c", "d", 3]]
 angles = [["a", "c", "b", 90]]
 "#;
 
+/// A triangle with an angle at a, in degrees, and what is said of the sides at c: if these are equal, the equations also hold without
+/// a base, where b is at a.
+pub fn isosceles_text(sides: &str, angle: f64) -> String {
+    format!(
+        r#"
+        name = "isosceles"
+        dimension = 2
+        [points]
+        a = [0.1, 0.2]
+        b = [7.7, 0]
+        c = [3.8, 3.2]
+        [constraints]
+        angles = [["b", "a", "c", {angle}]]
+        {sides}
+        "#
+    )
+}
+
 /// A circle that touches three fixed ones, all apart, from the sides that its sketch is on.
 pub fn apollonius_text(center: &str, radius: &str) -> String {
     format!(

@@ -84,11 +84,7 @@ fn revise(
             continue;
         }
         if p.left == p.right {
-            let square = wanted.intersection(upper_half());
-            if square.is_empty() {
-                return Err(Empty);
-            }
-            let root = square.sqrt();
+            let root = root(wanted)?;
             let (least, most) = (root.inf(), root.sup());
             let within = checked(-most, most).unwrap_or_else(entire);
             narrow(p.left, within, least, is_free, x, &mut tell)?;
@@ -97,11 +93,7 @@ fn revise(
         if let Some(shared) = Shared::of(p, x)
             && is_free[shared.entry]
         {
-            let square = shared.square(wanted).intersection(upper_half());
-            if square.is_empty() {
-                return Err(Empty);
-            }
-            let root = square.sqrt();
+            let root = root(shared.square(wanted))?;
             let old = x[shared.entry];
             let [low, high] = [-root, root].map(|side| old.intersection(shared.middle + side));
             let new = match (low.is_empty(), high.is_empty()) {
@@ -133,6 +125,15 @@ fn revise(
         }
     }
     Ok(())
+}
+
+/// The absolute value of a number of which the square is in a range.
+fn root(square: Interval) -> Result<Interval, Empty> {
+    let square = square.intersection(upper_half());
+    match square.is_empty() {
+        true => Err(Empty),
+        false => Ok(square.sqrt()),
+    }
 }
 
 /// The greatest absolute value, as an interval that may be unbounded.

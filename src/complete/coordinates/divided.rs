@@ -8,8 +8,8 @@ use super::system::{Form, Product, Row, System};
 use crate::interval::{ZERO, point};
 use crate::system::Homotopy;
 
-/// A vector's component v with that of its heading u: v = L u.
-struct Part {
+/// One component v of a vector with that of its heading u: v = L u.
+struct Component {
     /// L.
     length: usize,
     /// v, an entry less another one.
@@ -24,18 +24,19 @@ type Square = (f64, [usize; 2]);
 impl System {
     /// What follows in figures from differences of squares that are 0.
     pub(super) fn divided(&self, homotopy: &Homotopy) -> Vec<Row> {
-        let parts = self.headings();
-        if parts.is_empty() {
+        let components = self.headings();
+        if components.is_empty() {
             return Vec::new();
         }
-        let mut lengths: Vec<usize> = parts.iter().map(|part| part.length).collect();
+        let mut lengths: Vec<usize> = components.iter().map(|c| c.length).collect();
         lengths.sort_unstable();
         lengths.dedup();
         let mut out = Vec::new();
         for sum in self.differences(homotopy) {
             for &length in &lengths {
-                let parts: Vec<&Part> = parts.iter().filter(|p| p.length == length).collect();
-                if let Some(products) = divide(sum.clone(), &parts) {
+                let components: Vec<&Component> =
+                    components.iter().filter(|c| c.length == length).collect();
+                if let Some(products) = divide(sum.clone(), &components) {
                     out.push(Row::new(products, ZERO, self.unknowns));
                 }
             }
@@ -44,11 +45,11 @@ impl System {
     }
 
     /// The components of vectors that are a positive length times a heading's.
-    fn headings(&self) -> Vec<Part> {
+    fn headings(&self) -> Vec<Component> {
         let rows = self.rows[..self.unknowns].iter();
         let parallel = rows.filter_map(|row| self.parallel(row));
         let part = parallel.filter_map(|(length, vector, heading)| match vector {
-            Form::Difference(a, b) if self.positive.contains(&length) => Some(Part {
+            Form::Difference(a, b) if self.positive.contains(&length) => Some(Component {
                 length,
                 vector: [a, b],
                 heading,
@@ -94,8 +95,8 @@ impl System {
 }
 
 /// How often a vector's component is in the difference of two entries: 1, −1 or not at all, with its heading.
-fn within(difference: [usize; 2], parts: &[&Part]) -> Option<(f64, Form)> {
-    parts.iter().find_map(|part| {
+fn within(difference: [usize; 2], components: &[&Component]) -> Option<(f64, Form)> {
+    components.iter().find_map(|part| {
         let [a, b] = part.vector;
         match difference {
             ends if ends == [a, b] => Some((1.0, part.heading)),
@@ -107,7 +108,7 @@ fn within(difference: [usize; 2], parts: &[&Part]) -> Option<(f64, Form)> {
 
 /// A sum of squares divided by a length, if each square has another one with which it makes a multiple of the length:
 /// p² − q² = (p − q)(p + q), and p − q is a component of the vector.
-fn divide(mut sum: Vec<Square>, parts: &[&Part]) -> Option<Vec<Product>> {
+fn divide(mut sum: Vec<Square>, components: &[&Component]) -> Option<Vec<Product>> {
     let mut out = Vec::new();
     sum.retain(|(_, [a, b])| a != b);
     let mut tell = |factor: f64, heading: Form, [a, b]: [usize; 2]| {
@@ -118,7 +119,7 @@ fn divide(mut sum: Vec<Square>, parts: &[&Part]) -> Option<Vec<Product>> {
         });
     };
     while let Some((factor, p)) = sum.pop() {
-        if let Some((sign, heading)) = within(p, parts) {
+        if let Some((sign, heading)) = within(p, components) {
             tell(factor * sign, heading, p);
             continue;
         }
@@ -130,7 +131,7 @@ fn divide(mut sum: Vec<Square>, parts: &[&Part]) -> Option<Vec<Product>> {
                     (true, _) => [q[1], p[1]],
                     _ => return None,
                 };
-                within(less, parts).map(|found| (q, found))
+                within(less, components).map(|found| (q, found))
             });
             found.map(|found| (k, found))
         });
@@ -147,8 +148,8 @@ mod tests {
     use super::*;
 
     /// v = b − a along two axes, with entries a 0 1, b 2 3, c 4 5, u 6 7 and L 8; 9 is the number 0.
-    fn parts() -> [Part; 2] {
-        [0, 1].map(|axis| Part {
+    fn components() -> [Component; 2] {
+        [0, 1].map(|axis| Component {
             length: 8,
             vector: [2 + axis, axis],
             heading: Form::Difference(6 + axis, 9),
@@ -172,30 +173,30 @@ mod tests {
 
     #[test]
     fn a_difference_of_squares_is_divided_by_the_length() {
-        let parts = parts();
-        let parts: Vec<&Part> = parts.iter().collect();
+        let components = components();
+        let components: Vec<&Component> = components.iter().collect();
         for (first, second) in [([2, 4], [0, 4]), ([4, 2], [0, 4]), ([4, 0], [2, 4])] {
             let one = squares(0.5, first[0], first[1]);
             let other = squares(-0.5, second[0], second[1]);
             let sum = [one, other].concat();
-            let products = divide(sum.clone(), &parts).unwrap();
+            let products = divide(sum.clone(), &components).unwrap();
             assert_eq!(products.len(), 4);
             is_quotient(&sum, &products);
         }
         let own = squares(-2.0, 0, 2).to_vec();
-        is_quotient(&own, &divide(own.clone(), &parts).unwrap());
+        is_quotient(&own, &divide(own.clone(), &components).unwrap());
     }
 
     #[test]
     fn what_is_no_multiple_is_left() {
-        let parts = parts();
-        let parts: Vec<&Part> = parts.iter().collect();
+        let components = components();
+        let components: Vec<&Component> = components.iter().collect();
         // Other factors, a sum, one square too many.
         let b_to_c = squares(1.0, 2, 4);
-        assert!(divide([b_to_c, squares(-2.0, 0, 4)].concat(), &parts).is_none());
-        assert!(divide([b_to_c, squares(1.0, 0, 4)].concat(), &parts).is_none());
+        assert!(divide([b_to_c, squares(-2.0, 0, 4)].concat(), &components).is_none());
+        assert!(divide([b_to_c, squares(1.0, 0, 4)].concat(), &components).is_none());
         let more = [b_to_c, squares(-1.0, 0, 4), squares(1.0, 4, 9)].concat();
-        assert!(divide(more, &parts).is_none());
-        assert!(divide(Vec::new(), &parts).is_none());
+        assert!(divide(more, &components).is_none());
+        assert!(divide(Vec::new(), &components).is_none());
     }
 }

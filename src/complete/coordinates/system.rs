@@ -149,7 +149,8 @@ pub fn product(p: &Product, at: &[Interval]) -> Interval {
 
 /// An entry x in both factors, which are ±(x − a) and ±(x − b): (x − a)(x − b) = (x − (a + b)/2)² − ((a − b)/2)².
 ///
-/// That is how right angles at a point which is not known look, and where a range is wide, or unbounded, the square has a least value.
+/// A right angle at a point that is sought has such products. However wide the range of x is, the square is not negative, which the product
+/// of two ranges does not know.
 pub struct Shared {
     /// x.
     pub entry: usize,

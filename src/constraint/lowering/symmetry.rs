@@ -17,7 +17,7 @@ impl Lowering<'_> {
         if rank(&plain, &shown) == shown.len() {
             return plain;
         }
-        // Those beside that unknowns which are zero allow. They change no sign of such an unknown, which is the same with either.
+        // And those that are changes because some unknowns are zero: new ones if they change other unknowns than these.
         let zeros = zeros(&self.tail, &self.vanishing);
         let told: Vec<usize> = (0..zeros.len()).filter(|&u| !zeros[u]).collect();
         let mut all = plain;

@@ -16,7 +16,7 @@ mod turns;
 
 pub use format::{Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark, Turned};
 pub use space::{Empty, Part};
-pub use symmetry::{changes, signs_changed};
+pub use symmetry::signs_changed;
 pub use turns::{Look, Turn};
 
 use super::{CoverError, CoverVerdict};

@@ -134,12 +134,16 @@ pub fn difference(x: &[Interval], [i, j]: [usize; 2]) -> Interval {
 
 /// factor · left · right, where each is a difference.
 fn value(eq: &Equations, (factor, [left, right]): Product, x: &[Interval]) -> Interval {
-    let forms = [left, right].map(|form| eq.forms[form]);
-    let [value, other] = forms.map(|form| difference(x, form));
-    let product = match Shared::of(forms[0], forms[1]) {
-        _ if left == right => value.sqr(),
-        None => value * other,
-        Some(shared) => (value * other).intersection(shared.product(x)),
+    let value = difference(x, eq.forms[left]);
+    let product = match left == right {
+        true => value.sqr(),
+        false => {
+            let product = value * difference(x, eq.forms[right]);
+            match Shared::of(eq.forms[left], eq.forms[right]) {
+                None => product,
+                Some(shared) => product.intersection(shared.product(x)),
+            }
+        }
     };
     point(factor as f64) * product
 }

@@ -42,8 +42,8 @@ pub fn changes(
     (stay && keeps(eq, &changes)).then_some(changes)
 }
 
-/// For each unknown whether a reversal of axes and directions changes it; `None` where mirror images are not congruent, or none
-/// of such a name is known.
+/// For each unknown whether a reversal of axes and directions changes its sign. `None`: the reversal takes figures to others that are not
+/// congruent, or there is no such axis or direction.
 pub fn signs_changed(homotopy: &Homotopy, allowed: Symmetry, by: &Change) -> Option<Vec<bool>> {
     let is_allowed = match allowed {
         _ if by.axes.iter().any(|&axis| axis >= homotopy.dimension) => false,
