@@ -123,6 +123,19 @@ impl Expanded {
     }
 }
 
+/// Takes an unknown out of all rows but one, by multiples of that one (Gauss and Jordan, in intervals).
+fn eliminate(rows: &mut [Expanded], one: usize, unknown: usize) {
+    let pivot = rows[one].clone();
+    for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != one) {
+        let by = row.linear[unknown] / pivot.linear[unknown];
+        let pairs = row.linear.iter_mut().zip(&pivot.linear);
+        pairs.for_each(|(x, y)| *x -= by * *y);
+        // The same numbers in both, so that nothing is left of this one.
+        row.linear[unknown] = ZERO;
+        row.constant -= by * pivot.constant;
+    }
+}
+
 /// Ranges that hold some unknowns at every zero in a part, from the equations that are linear in them where all else is a number in its
 /// range: each with its place among the unknowns.
 pub fn far<'a>(
@@ -155,15 +168,7 @@ pub fn far<'a>(
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, e, k)) = best else { break };
         solved[e] = Some(k);
-        let pivot = rows[e].clone();
-        for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != e) {
-            let by = row.linear[k] / pivot.linear[k];
-            let pairs = row.linear.iter_mut().zip(&pivot.linear);
-            pairs.for_each(|(x, y)| *x -= by * *y);
-            // The same numbers in both, so that nothing is left of this one.
-            row.linear[k] = ZERO;
-            row.constant -= by * pivot.constant;
-        }
+        eliminate(&mut rows, e, k);
     }
     let found = rows.iter().zip(solved).filter_map(|(row, k)| {
         let k = k?;
@@ -203,7 +208,7 @@ pub fn bounds<'a>(
     if linear.len() + 1 < n {
         return None;
     }
-    // Gauss and Jordan in intervals: for each row the unknown that it is solved for.
+    // For each row the unknown that it is solved for.
     let mut solved: Vec<usize> = Vec::new();
     for k in 0..linear.len() {
         let size = |c: usize| linear[k].linear[c].mig();
@@ -212,16 +217,7 @@ pub fn bounds<'a>(
         if linear[k].linear[best].contains(0.0) {
             return None;
         }
-        let pivot = linear[k].clone();
-        for row in linear.iter_mut().enumerate().filter(|(j, _)| *j != k) {
-            let factor = row.1.linear[best] / pivot.linear[best];
-            for (x, y) in row.1.linear.iter_mut().zip(&pivot.linear) {
-                *x -= factor * *y;
-            }
-            // The same numbers in both, so that nothing is left of this one.
-            row.1.linear[best] = ZERO;
-            row.1.constant -= factor * pivot.constant;
-        }
+        eliminate(&mut linear, k, best);
         solved.push(best);
     }
     let free = (0..n).find(|c| !solved.contains(c));
