@@ -281,7 +281,7 @@ fn place(
         let joins = |d: &crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
         problem.distances.iter().position(joins)
     };
-    let squared = |e: usize| square(&problem.distances[e].target);
+    let squared = |e: usize| problem.distances[e].target.squared();
     let mut put = |e: usize, unknown: usize, value: Real| {
         let per_unit = BigRational::from_float(1.0 / homotopy.unit).expect("a power of two");
         let equation = &mut equations[e];
@@ -342,7 +342,7 @@ fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
     let squared = |a: usize, b: usize| -> Option<BigRational> {
         let joins = |d: &&crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
         let distance = problem.distances.iter().find(joins)?;
-        Some(square(&distance.target))
+        Some(distance.target.squared())
     };
     let zero = BigRational::from_integer(0.into());
     match *fixed {
@@ -360,17 +360,9 @@ fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
     }
 }
 
-/// The square of a target.
-pub(super) fn square(target: &Target) -> BigRational {
-    match target {
-        Target::Length(length) => length.value() * length.value(),
-        Target::SquaredLength(squared) => squared.value().clone(),
-    }
-}
-
 /// Half the square of a target.
 pub(super) fn half_square(target: &Target) -> Real {
-    (square(target) / BigRational::from_integer(2.into())).into()
+    (target.squared() / BigRational::from_integer(2.into())).into()
 }
 
 /// What a right-hand side is: zero throughout, or a dimension.

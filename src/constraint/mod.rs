@@ -94,13 +94,18 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 }
 
 /// The same equations for sets of all figures, which know t = 1 alone: with vectors divided by their lengths, where these are not
-/// dimensions (see `lowering/heading.rs`), and without what is zero in all figures and factors that are zero in none (`factors.rs`).
+/// dimensions (see `lowering/heading.rs`), without what is zero in all figures and factors that are zero in none, and with one name for what
+/// is equal in all figures (`factors.rs`). Distances between points are among them, and come first, if [`has_distances_in_sets`].
 ///
 /// # Panics
 /// If the problem has not been checked.
-pub fn lower_with_headings(problem: &Problem) -> Tail {
+pub fn lower_for_sets(problem: &Problem) -> Tail {
     let low = Lowering::new(problem, Start::Sketch, false).with_headings();
-    match try_lower_from(problem, low, false) {
+    let which = match has_distances_in_sets(problem) {
+        true => Which::AllForSets,
+        false => Which::Constraints,
+    };
+    match try_lower_from(problem, low, which) {
         Ok(mut lowered) => {
             // Lengths are positive in a problem that has been checked.
             let apart: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
@@ -110,6 +115,11 @@ pub fn lower_with_headings(problem: &Problem) -> Tail {
         }
         Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
     }
+}
+
+/// Whether the equations for sets have the distances between points, too: where constraints may say that some of their coordinates are equal.
+pub fn has_distances_in_sets(problem: &Problem) -> bool {
+    !problem.constraints.is_empty()
 }
 
 /// Which other figures satisfy the constraints where one does: what *congruent* means for solutions of a
@@ -155,7 +165,11 @@ pub(crate) enum Owner {
 
 /// The equations of a problem with a reference and known names, or the first object or constraint at fault.
 pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
-    try_lower_from(problem, Lowering::new(problem, Start::Sketch, false), false)
+    try_lower_from(
+        problem,
+        Lowering::new(problem, Start::Sketch, false),
+        Which::Constraints,
+    )
 }
 
 /// All equations of a problem in its own frame, distances among them, which come last. Left-hand sides do not depend
@@ -168,7 +182,7 @@ pub(crate) fn try_lower_all(
     from: Option<&Record>,
 ) -> Result<Lowered, (Owner, Fault)> {
     let from = from.map_or(Start::Sketch, Start::Dimensions);
-    try_lower_from(problem, Lowering::new(problem, from, true), true)
+    try_lower_from(problem, Lowering::new(problem, from, true), Which::AllFree)
 }
 
 /// The equations of all constraints of a problem that are not distances between points, as [`lower`] makes them, but with
@@ -179,14 +193,28 @@ pub(crate) fn try_lower_editable(
     from: Option<&Record>,
 ) -> Result<Lowered, (Owner, Fault)> {
     let from = from.map_or(Start::Sketch, Start::Dimensions);
-    try_lower_from(problem, Lowering::new(problem, from, true), false)
+    try_lower_from(
+        problem,
+        Lowering::new(problem, from, true),
+        Which::Constraints,
+    )
 }
 
-/// `all`: distances among the equations, and nothing pinned.
+/// Which equations are made.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Which {
+    /// Those of constraints that are not distances between points, and what nothing holds is held.
+    Constraints,
+    /// All, and what nothing holds is held where it is chosen, by whoever asks.
+    AllFree,
+    /// All, for t = 1 alone, distances first; and what nothing holds is held.
+    AllForSets,
+}
+
 fn try_lower_from<'a>(
     problem: &'a Problem,
     mut low: Lowering<'a>,
-    all: bool,
+    which: Which,
 ) -> Result<Lowered, (Owner, Fault)> {
     let objects = problem.objects.len();
     for object in 0..objects {
@@ -207,16 +235,20 @@ fn try_lower_from<'a>(
         };
         kind.lower(given, &mut low).map_err(fail)?;
     }
-    low.begin(objects + problem.constraints.len());
-    if all {
-        // What nothing holds is held where it is chosen, by whoever asks.
-        for index in 0..problem.distances.len() {
-            low.begin(objects + problem.constraints.len() + 1 + index);
-            low.distance(index);
-        }
-        return Ok(low.finish());
+    let own = objects + problem.constraints.len();
+    low.begin(own);
+    if which != Which::AllFree {
+        pin(problem, &mut low);
     }
-    pin(problem, &mut low);
+    if which != Which::Constraints {
+        for index in 0..problem.distances.len() {
+            low.begin(own + 1 + index);
+            match which {
+                Which::AllForSets => low.distance_for_sets(index),
+                _ => low.distance(index),
+            }
+        }
+    }
     Ok(low.finish())
 }
 

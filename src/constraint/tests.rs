@@ -1,5 +1,7 @@
 //! What constraints mean, kind by kind.
 
+use super::lower_for_sets;
+use super::quadratic::{Entry, difference, product};
 use super::testing::{Figure, angle, cross, dot, examine, near, read, size};
 use crate::interval::point;
 use crate::problem::Problem;
@@ -526,4 +528,44 @@ fn points_in_the_plane_of_the_reference() {
         assert!(lowered.tail.mirrors);
         near(examine(&text).off_plane("d", "a", "b", "c"), 0.0);
     }
+}
+
+/// In sets of figures what is equal in all of them has one name, in distances, too.
+#[test]
+fn sets_have_one_name_for_what_is_equal() {
+    let problem = read(
+        "name = \"test\"\ndimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nb2 = [3, 0]\nc = [4, 2]\nd = [9, 2]\n\
+         [constraints]\nfixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"], [\"c\", \"d\"]]\ncoincident = [[\"b\", \"b2\"]]\n\
+         distances = [[\"a\", \"b\", 3], [\"b2\", \"c\", 2], [\"a\", \"c\", 4], [\"c\", \"d\", 5]]\n",
+    );
+    let tail = lower_for_sets(&problem);
+    let left = |e: usize| tail.equations[e].products.clone();
+    let at = |point, axis| Entry::Coordinate { point, axis };
+    let square = |a, b| product(1, difference(a, b), difference(a, b));
+    // a is at the origin, so that b is on the x axis.
+    let [ax, bx, cx, cy, dx] = [Entry::Zero, at(1, 0), at(3, 0), at(3, 1), at(4, 0)];
+    let is_square = |e: usize, pairs: &[[Entry; 2]]| {
+        let all = left(e).into_iter().zip(pairs);
+        all.len() == pairs.len()
+            && left(e).len() == pairs.len()
+            && all
+                .into_iter()
+                .all(|(one, &[a, b])| one == square(a, b) || one == square(b, a))
+    };
+    assert!(is_square(0, &[[ax, bx]]), "{:?}", left(0));
+    assert!(
+        is_square(1, &[[bx, cx], [Entry::Zero, cy]]),
+        "{:?}",
+        left(1)
+    );
+    assert!(
+        is_square(2, &[[ax, cx], [Entry::Zero, cy]]),
+        "{:?}",
+        left(2)
+    );
+    assert!(is_square(3, &[[cx, dx]]), "{:?}", left(3));
+    // The search has the same names.
+    let homotopy = Homotopy::for_sets(&problem).unwrap();
+    assert_eq!(homotopy.edges.len(), 0);
+    assert_eq!(homotopy.equations, tail.equations.len());
 }

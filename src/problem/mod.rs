@@ -4,6 +4,7 @@
 //! sure that the system of equations is square and that its parts are neither over- nor
 //! under-constrained. Numbers are [`Decimal`]s, exactly what the file says.
 
+use num_rational::BigRational;
 use std::collections::BTreeMap;
 
 mod bend;
@@ -84,6 +85,16 @@ pub enum Target {
     Length(Decimal),
     /// The square of the length.
     SquaredLength(Decimal),
+}
+
+impl Target {
+    /// The square of the length, exactly.
+    pub fn squared(&self) -> BigRational {
+        match self {
+            Target::Length(length) => length.value().pow(2),
+            Target::SquaredLength(squared) => squared.value().clone(),
+        }
+    }
 }
 
 /// What defines the homotopy beside points and distances (RR 8705, sections 2.2 and 3.1).

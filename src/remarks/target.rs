@@ -8,10 +8,7 @@ use num_traits::{Signed, Zero};
 
 /// The exact square of a target length.
 fn squared(problem: &Problem, distance: usize) -> BigRational {
-    match &problem.distances[distance].target {
-        Target::Length(length) => length.value().pow(2),
-        Target::SquaredLength(squared) => squared.value().clone(),
-    }
+    problem.distances[distance].target.squared()
 }
 
 /// An enclosure of a target length.

@@ -72,7 +72,7 @@ impl Homotopy {
 
     fn set_length(&mut self, index: usize, length: Length, from: &Target, to: &Target) {
         let exact = ExactLength {
-            sketch_squared: squared(from),
+            sketch_squared: from.squared(),
             target: to.clone(),
             bend: None,
             unit: self.unit,
@@ -90,12 +90,5 @@ pub fn is_met(problem: &Problem, index: usize) -> bool {
         let d = a[k].value() - b[k].value();
         sum + &d * &d
     });
-    sum == squared(&distance.target)
-}
-
-fn squared(target: &Target) -> BigRational {
-    match target {
-        Target::Length(length) => length.value().pow(2),
-        Target::SquaredLength(squared) => squared.value().clone(),
-    }
+    sum == distance.target.squared()
 }

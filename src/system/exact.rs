@@ -63,11 +63,7 @@ impl ExactLength {
 
     /// The square of the target length, in the homotopy's unit.
     fn target_squared(&self) -> BigRational {
-        let squared = match &self.target {
-            Target::Length(length) => length.value().pow(2),
-            Target::SquaredLength(squared) => squared.value().clone(),
-        };
-        squared * self.per_unit().pow(2)
+        self.target.squared() * self.per_unit().pow(2)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{ExactLength, Gauge, GaugeError, Length, Right};
 use crate::constraint::{self, Entry, Form, Role, Tail};
 use crate::interval::{Interval, enclose, enclose_rational, point};
-use crate::problem::{Problem, Shape, Target};
+use crate::problem::{Distance, Problem, Shape, Target};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +113,13 @@ impl Homotopy {
     /// # Panics
     /// If `unit` is not a power of two.
     pub fn for_sets_in(problem: &Problem, unit: f64) -> Result<Self, GaugeError> {
-        Self::with_constraints(problem, unit, |_| constraint::lower_with_headings(problem))
+        let distances = match constraint::has_distances_in_sets(problem) {
+            true => &[],
+            false => &problem.distances[..],
+        };
+        Self::with_equations(problem, unit, distances, |_| {
+            constraint::lower_for_sets(problem)
+        })
     }
 
     /// Sets up the homotopy with other constraints in place of the problem's own: `lower` makes their equations from
@@ -121,6 +127,16 @@ impl Homotopy {
     pub(crate) fn with_constraints(
         problem: &Problem,
         unit: f64,
+        lower: impl FnOnce(&[[Interval; 3]]) -> Tail,
+    ) -> Result<Self, GaugeError> {
+        Self::with_equations(problem, unit, &problem.distances, lower)
+    }
+
+    /// The same with some distances in place of the problem's own.
+    fn with_equations(
+        problem: &Problem,
+        unit: f64,
+        distances: &[Distance],
         lower: impl FnOnce(&[[Interval; 3]]) -> Tail,
     ) -> Result<Self, GaugeError> {
         assert!(
@@ -133,7 +149,7 @@ impl Homotopy {
         let equations = gauge.place.len() + tail.unknowns.len();
         assert_eq!(
             equations,
-            problem.distances.len() + tail.equations.len(),
+            distances.len() + tail.equations.len(),
             "as many equations as unknowns"
         );
         gauge.append(tail.unknowns.len());
@@ -148,8 +164,7 @@ impl Homotopy {
             points: problem.points.len(),
             equations,
             unit,
-            edges: problem
-                .distances
+            edges: distances
                 .iter()
                 .map(|d| Edge { points: d.points })
                 .collect(),
@@ -157,7 +172,7 @@ impl Homotopy {
             terms: Vec::new(),
             rights: Vec::new(),
             bend: problem.homotopy.bend,
-            names: (0..problem.distances.len())
+            names: (0..distances.len())
                 .map(|d| problem.distance_name(d))
                 .collect(),
             point_names: problem.points.iter().map(|p| p.name.clone()).collect(),
@@ -169,7 +184,7 @@ impl Homotopy {
             gauge,
             tail,
         };
-        homotopy.add_distances(problem);
+        homotopy.add_distances(problem, distances);
         homotopy.add_constraints();
         Ok(homotopy)
     }
@@ -247,9 +262,9 @@ impl Homotopy {
         Self::without_distances(gauge, 1.0, tail)
     }
 
-    fn add_distances(&mut self, problem: &Problem) {
+    fn add_distances(&mut self, problem: &Problem, distances: &[Distance]) {
         let per_unit = point(1.0 / self.unit);
-        for (index, distance) in problem.distances.iter().enumerate() {
+        for (index, distance) in distances.iter().enumerate() {
             let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
             let squared = (0..3).fold(
                 num_rational::BigRational::from_integer(0.into()),

@@ -197,9 +197,10 @@ fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
     // Both units are powers of two.
     let scale = targets.unit / homotopy.unit;
     let scale = scale * scale;
+    let names = system.names();
     let entry = |p: usize, axis: usize| {
         let unknown = homotopy.coordinate(p, axis);
-        unknown.unwrap_or(system.unknowns)
+        names[unknown.unwrap_or(system.unknowns)]
     };
     let mut bounds = Vec::new();
     for a in 0..targets.points {

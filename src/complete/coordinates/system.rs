@@ -228,6 +228,35 @@ impl System {
         system
     }
 
+    /// For each entry the one that stands for all that equations say it is equal to, as in the equations themselves: the number 0, or the first of
+    /// them.
+    pub fn names(&self) -> Vec<usize> {
+        let zero = self.unknowns;
+        let order = |entry: usize| (entry != zero, entry);
+        let mut names: Vec<usize> = (0..=zero).collect();
+        let root = |names: &[usize], mut entry: usize| {
+            while names[entry] != entry {
+                entry = names[entry];
+            }
+            entry
+        };
+        for row in &self.rows[..zero] {
+            if let [p] = row.products[..]
+                && row.right == ZERO
+                && let (Form::Difference(a, b), Form::One) | (Form::One, Form::Difference(a, b)) =
+                    (p.left, p.right)
+            {
+                let [a, b] = [a, b].map(|entry| root(&names, entry));
+                let (first, other) = match order(a) < order(b) {
+                    true => (a, b),
+                    false => (b, a),
+                };
+                names[other] = first;
+            }
+        }
+        (0..=zero).map(|entry| root(&names, entry)).collect()
+    }
+
     /// (k, v, u), if a row says v − k u = 0.
     pub(super) fn parallel(&self, row: &Row) -> Option<(usize, Form, Form)> {
         let zero = self.unknowns;
@@ -277,5 +306,48 @@ impl System {
         });
         self.rows
             .push(Row::new(products.collect(), square, self.unknowns));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+
+    /// Equations have the names that the search knows, but for those that say that two entries are equal.
+    #[test]
+    fn equations_have_one_name_for_what_is_equal() {
+        let problem = Problem::parse(
+            r#"
+            name = "steps"
+            dimension = 2
+            [points]
+            a = [0, 0]
+            b = [3, 0]
+            b2 = [3, 0]
+            c = [4, 2]
+            c2 = [4, 2]
+            d = [9, 2]
+            [constraints]
+            fixed = ["a"]
+            horizontal = [["a", "b"], ["c", "d"]]
+            coincident = [["b", "b2"], ["c2", "c"]]
+            distances = [["a", "b", 3], ["b2", "c2", 2], ["a", "c2", 4], ["c", "d", 5]]
+            "#,
+            "steps.toml",
+        )
+        .unwrap();
+        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let system = System::new(&homotopy);
+        let names = system.names();
+        let renamed = (0..system.unknowns).filter(|&u| names[u] != u).count();
+        // Both coordinates of a, y of b, both of b2 and of c2, and y of d.
+        assert_eq!(renamed, 8);
+        let is_named = |row: &&Row| row.entries.iter().all(|&e| names[e] == e);
+        let others: Vec<&Row> = system.rows.iter().filter(|row| !is_named(row)).collect();
+        assert_eq!(others.len(), renamed);
+        for row in others {
+            assert_eq!((row.products.len(), row.right), (1, ZERO));
+        }
     }
 }

@@ -61,7 +61,6 @@ mod chart;
 mod split;
 
 use super::boxes::{Found, SolutionSet};
-use super::lower::square;
 use super::number::Complex;
 use super::system::Signs;
 use crate::interval::DoubleDouble;
@@ -91,7 +90,7 @@ impl Graph {
         let unit = BigRational::from_float(unit)?;
         let per_square = (&unit * &unit).recip();
         let edge = |distance: &Distance| {
-            let squared = square(&distance.target) * &per_square;
+            let squared = distance.target.squared() * &per_square;
             Edge {
                 points: distance.points,
                 length: root(&squared),

@@ -16,6 +16,7 @@ use super::quadratic::{
 };
 use crate::interval::Real;
 use crate::problem::{Item, Problem, Target};
+use num_rational::BigRational;
 use num_traits::Zero;
 use std::collections::HashMap;
 
@@ -267,18 +268,33 @@ impl<'a> Lowering<'a> {
     /// The equation ½|a − b|² = right of two points, like that of a distance. It comes before all equations of
     /// other forms, so that trackers find such equations next to the distances.
     pub(super) fn equate_half_square(&mut self, name: &str, points: [usize; 2], right: Polynomial) {
-        let [a, b] = points.map(|point| self.place(point));
-        let span = self.between(&a, &b);
-        let equation = Equation {
-            name: name.to_owned(),
-            products: self.dot(1, &span.forms, &span.forms),
-            right,
-            power: 2,
-        };
+        let equation = self.half_square(name.to_owned(), points, right);
         let mut others = self.tail.equations.iter();
         let at = others.position(|other| other.ends(self.dimension()).is_none());
         let at = at.unwrap_or(self.tail.equations.len());
         self.insert(at, equation, false);
+    }
+
+    /// The equation of a distance of the problem, for t = 1 alone. Those of all distances come first, in order.
+    pub fn distance_for_sets(&mut self, index: usize) {
+        let distance = &self.problem.distances[index];
+        let half = BigRational::new(1.into(), 2.into());
+        let right = vec![Real::from(distance.target.squared() * half)];
+        let name = self.problem.distance_name(index);
+        let equation = self.half_square(name, distance.points, right);
+        self.insert(index, equation, false);
+    }
+
+    /// The equation ½|a − b|² = right of two points.
+    fn half_square(&self, name: String, points: [usize; 2], right: Polynomial) -> Equation {
+        let [a, b] = points.map(|point| self.place(point));
+        let span = self.between(&a, &b);
+        Equation {
+            name,
+            products: self.dot(1, &span.forms, &span.forms),
+            right,
+            power: 2,
+        }
     }
 
     /// The equation Σ products = right.

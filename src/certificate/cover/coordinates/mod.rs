@@ -216,12 +216,12 @@ impl Space {
     /// Whether it is known in a part about where a body's legs stand, so that its rotations can be looked at.
     pub fn stands(&self, body: usize, part: &Part) -> bool {
         let body = self.bodies.get(body);
-        body.is_some_and(|body| body.stands(&self.eq, part))
+        body.is_some_and(|body| body.stands(part))
     }
 
     /// What a body's legs say of a box of rotations for the figures in a part. `None`: there is none.
     pub fn look(&self, body: usize, part: &Part, turn: &Turn) -> Option<Look> {
-        self.bodies[body].look(&self.eq, part, turn)
+        self.bodies[body].look(part, turn)
     }
 
     /// The part with a body's points where a box of rotations allows. `None`: the linear equations do not tell the body's place.

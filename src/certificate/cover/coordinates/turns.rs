@@ -14,7 +14,7 @@
 use super::super::plan::{MAX_SYMBOLS, Model, contracted};
 use super::format::Body as Line;
 use super::space::Part;
-use crate::certificate::checker::equations::Equations;
+use crate::certificate::checker::equations::{Equations, Product};
 use crate::certificate::checker::guess::invert;
 use crate::interval::rounding::largest;
 use crate::interval::{Interval, UNIT, ZERO, checked, enclose, hull, point};
@@ -24,8 +24,8 @@ use crate::problem::{Problem, Shape};
 pub struct Body {
     /// Its points, and where each is from the first leg's point, in its own coordinates.
     points: Vec<(usize, [Interval; 3])>,
-    /// For each leg where its point is from the first one's in the body's coordinates, the point at which it stands, and its length's square.
-    legs: Vec<([Interval; 3], usize, Interval)>,
+    /// For each leg where its point is from the first one's in the body's coordinates, the entries of where it stands, and its length's square.
+    legs: Vec<([Interval; 3], [usize; 3], Interval)>,
 }
 
 /// A box of rotations, and perhaps of one coordinate of p.
@@ -71,16 +71,28 @@ impl Body {
         if problem.dimension != 3 || line.legs.len() != 6 || sorted.len() != 6 {
             return Err(unfit());
         }
-        let index = |p: usize| points.iter().position(|&q| q == p);
+        let coordinate = |p: usize, axis: usize| eq.homotopy.coordinate(p, axis);
+        // The other ends of three squares of which a point of the body is at one. (Whatever these are, the square of the leg's length is the sum of the
+        // squares.)
+        let stands = |products: &[Product], p: usize| -> Option<[usize; 3]> {
+            let other = |axis: usize| match products[axis] {
+                (1, [left, right]) if left == right => {
+                    let [i, j] = eq.forms[left];
+                    let ends = [(i, j), (j, i)].into_iter();
+                    let mut other = ends.filter(|(own, _)| coordinate(p, axis) == Some(*own));
+                    other.next().map(|(_, other)| other)
+                }
+                _ => None,
+            };
+            Some([other(0)?, other(1)?, other(2)?])
+        };
         let mut ends = Vec::new();
         for &e in &line.legs {
-            let edge = eq.homotopy.half_squares().nth(e).ok_or_else(unfit)?;
-            let [a, b] = edge.points;
-            let (own, other) = match (index(a), index(b)) {
-                (Some(own), None) => (own, b),
-                (None, Some(own)) => (own, a),
-                _ => return Err(unfit()),
-            };
+            let products = eq.products.get(e).filter(|all| all.len() == 3);
+            let products = products.ok_or_else(unfit)?;
+            let mut found = points.iter().enumerate();
+            let found = found.find_map(|(k, &p)| Some((k, stands(products, p)?)));
+            let (own, other) = found.ok_or_else(unfit)?;
             // ½ |a − b|² = E(1).
             let square = point(2.0) * eq.right_at(e, point(1.0))[0];
             ends.push((own, other, square));
@@ -88,54 +100,42 @@ impl Body {
         let per_unit = point(1.0 / eq.homotopy.unit);
         let first = ends[0].0;
         let from = |k: usize| -> [Interval; 3] {
-            std::array::from_fn(|axis| {
-                (enclose(&local[k][axis]) - enclose(&local[first][axis])) * per_unit
+            let at = |k: usize, axis: usize| enclose(&local[k][axis]);
+            std::array::from_fn(|axis| match k == first {
+                true => ZERO,
+                false => (at(k, axis) - at(first, axis)) * per_unit,
             })
         };
         let points = points.iter().enumerate();
+        let legs = ends.into_iter();
         Ok(Body {
             points: points.map(|(k, &p)| (p, from(k))).collect(),
-            legs: ends
-                .into_iter()
-                .map(|(own, other, square)| {
-                    (
-                        if own == first { [ZERO; 3] } else { from(own) },
-                        other,
-                        square,
-                    )
-                })
-                .collect(),
+            legs: legs.map(|(k, at, square)| (from(k), at, square)).collect(),
         })
     }
 
-    /// Where a point is in a part of the space, if all its coordinates are bounded.
-    fn at(eq: &Equations, part: &Part, p: usize) -> Option<[Interval; 3]> {
-        let mut at = [ZERO; 3];
-        for (axis, at) in at.iter_mut().enumerate() {
-            if let Some(u) = eq.homotopy.coordinate(p, axis) {
-                *at = part.ranges()[u];
-            }
-        }
+    /// Where a leg stands in a part of the space, if all its coordinates are bounded.
+    fn at(part: &Part, entries: [usize; 3]) -> Option<[Interval; 3]> {
+        let at = entries.map(|entry| part.entries()[entry]);
         at.iter().all(|x| x.is_common_interval()).then_some(at)
     }
 
     /// Whether it is known about where the legs stand.
-    pub fn stands(&self, eq: &Equations, part: &Part) -> bool {
-        let is_known =
-            |&(_, p, _): &([Interval; 3], usize, Interval)| Self::at(eq, part, p).is_some();
-        self.legs.iter().all(is_known)
+    pub fn stands(&self, part: &Part) -> bool {
+        let mut legs = self.legs.iter();
+        legs.all(|leg| Self::at(part, leg.1).is_some())
     }
 
     /// What the legs say of a box of rotations, for all figures in a part in which it is known where the legs stand
     /// ([`Body::stands`]). `None`: there is no figure with such a rotation.
-    pub fn look(&self, eq: &Equations, part: &Part, turn: &Turn) -> Option<Look> {
+    pub fn look(&self, part: &Part, turn: &Turn) -> Option<Look> {
         let symbols = COMPONENTS + usize::from(turn.height.is_some());
         let number = |x: Interval| Model::constant(symbols, x);
         let (turned, square) = turn.matrix(symbols);
-        let foot = Self::at(eq, part, self.legs[0].1)?;
+        let foot = Self::at(part, self.legs[0].1)?;
         let (mut a, mut b) = (Vec::new(), Vec::new());
         for (holds, p, length) in &self.legs[1..] {
-            let stands = Self::at(eq, part, *p)?;
+            let stands = Self::at(part, *p)?;
             let stands: [Interval; 3] = std::array::from_fn(|k| stands[k] - foot[k]);
             let held: [Model; 3] = std::array::from_fn(|k| {
                 (0..3).fold(number(ZERO), |sum, j| sum.plus(holds[j], &turned[k][j]))
@@ -209,7 +209,7 @@ impl Body {
     ) -> Option<Result<Part, super::Empty>> {
         let place = look.place.as_ref()?;
         let over = look.square.reciprocal()?;
-        let foot = Self::at(eq, part, self.legs[0].1)?;
+        let foot = Self::at(part, self.legs[0].1)?;
         let mut out = part.clone();
         for (p, from) in &self.points {
             for axis in 0..3 {

@@ -25,7 +25,7 @@ use crate::complete::Why;
 use crate::complete::model::Number;
 use crate::interval::{Interval, ZERO, enclose, point};
 use crate::problem::{Problem, Shape};
-use crate::system::Homotopy;
+use crate::system::{Homotopy, Term};
 use legs::{Leg, Legs, Look};
 use part::Part;
 use rayon::prelude::*;
@@ -55,6 +55,32 @@ pub struct Poses {
     points: Vec<([Number; 3], [usize; 3])>,
 }
 
+/// The ends of three differences, if an equation is about the sum of their squares.
+fn squares(terms: &[Term]) -> Option<[[usize; 2]; 3]> {
+    let &[x, y, z] = terms else { return None };
+    let square = |term: Term| {
+        term.left
+            .filter(|_| term.factor == 1 && term.left == term.right)
+    };
+    Some([square(x)?, square(y)?, square(z)?])
+}
+
+/// The point of which three differences have the coordinates, in order, and the entries at their other ends.
+fn stand(pairs: &[[usize; 2]; 3], own: &[Option<[usize; 3]>]) -> Option<(usize, [usize; 3])> {
+    own.iter().enumerate().find_map(|(k, of)| {
+        let of = of.as_ref()?;
+        let mut outer = [0; 3];
+        for ((&[a, b], &u), outer) in pairs.iter().zip(of).zip(&mut outer) {
+            *outer = match (a == u, b == u) {
+                (true, false) => b,
+                (false, true) => a,
+                _ => return None,
+            };
+        }
+        Some((k, outer))
+    })
+}
+
 impl Poses {
     /// The body on legs that a block is, if it is one. `x`: what is known of the unknowns.
     pub fn of(problem: &Problem, homotopy: &Homotopy, block: &Cut, x: &[Interval]) -> Option<Self> {
@@ -69,11 +95,11 @@ impl Poses {
             };
             Some([a, b, c])
         };
-        // Where a point stands that the block does not move.
-        let place = |p: usize| -> Option<[Interval; 3]> {
+        // Where a leg stands that the block does not move, by entries of the equations.
+        let place = |entries: [usize; 3]| -> Option<[Interval; 3]> {
             let mut at = [ZERO; 3];
-            for (axis, at) in at.iter_mut().enumerate() {
-                if let Some(u) = homotopy.coordinate(p, axis) {
+            for (at, u) in at.iter_mut().zip(entries) {
+                if u < homotopy.equations {
                     if is_own(u) || !x[u].is_common_interval() {
                         return None;
                     }
@@ -83,7 +109,6 @@ impl Poses {
             Some(at)
         };
         let per_unit = point(1.0 / homotopy.unit);
-        let edges: Vec<_> = homotopy.half_squares().collect();
         problem
             .objects
             .iter()
@@ -92,19 +117,13 @@ impl Poses {
                 let Shape::Body { points, local } = &object.shape else {
                     return None;
                 };
-                let index = |p: usize| points.iter().position(|&q| q == p);
+                let own = points.iter().map(|&p| unknowns(p));
+                let own: Vec<Option<[usize; 3]>> = own.collect();
                 let mut found = Vec::new();
                 for &e in &block.equations {
-                    let Some(edge) = edges.get(e) else { continue };
-                    let [a, b] = edge.points;
-                    let (inner, outer) = match (index(a), index(b)) {
-                        (Some(k), None) => (k, b),
-                        (None, Some(k)) => (k, a),
-                        _ => continue,
-                    };
-                    let (Some(_), Some(foot)) = (unknowns(points[inner]), place(outer)) else {
-                        continue;
-                    };
+                    let leg = squares(&homotopy.terms(e)).and_then(|pairs| stand(&pairs, &own));
+                    let Some((inner, outer)) = leg else { continue };
+                    let Some(foot) = place(outer) else { continue };
                     // The equation is ½|p − q|² = right.
                     let square = homotopy.rights[e].at_target() * point(2.0);
                     found.push((e, inner, foot, square));
