@@ -744,3 +744,40 @@ fn directions_that_constraints_tell_apart_are_both_counted() {
     let sides: Vec<bool> = result.solutions.iter().map(side).collect();
     assert!(sides.contains(&true) && sides.contains(&false), "{sides:?}");
 }
+
+/// A chord through the middle of its circle, at a right angle to a slanted line: however the radii are said to be equal, there are two figures, and
+/// no curve of chords without length is taken for figures.
+#[test]
+fn chords_through_the_middle_are_complete() {
+    let with = |radii: &str, c: &str, fixed: &str| {
+        format!(
+            r#"
+            name = "chord"
+            dimension = 2
+            [points]
+            p = [3, 0.1]
+            q = [-1, 0]
+            c = {c}
+            m = [2, 5]
+            [lines]
+            chord = ["p", "q"]
+            axis = ["c", "m"]
+            [constraints]
+            fixed = [{fixed}]
+            on = [["c", "chord"]]
+            perpendicular = [["chord", "axis"]]
+            {radii}
+            "#
+        )
+    };
+    let both = r#"distances = [["c", "p", 2], ["q", "c", 2]]"#;
+    let one = "equal = [[\"c\", \"p\", \"c\", \"q\"]]\ndistances = [[\"c\", \"q\", 2]]";
+    for radii in [both, one] {
+        for c in ["[1, 0]", "[0, 0]"] {
+            assert_eq!(count(&with(radii, c, r#""c", "m""#)), 2, "{radii}, {c}");
+        }
+    }
+    // Radii that are not the same: a chord that is none, with c between its ends or beyond them.
+    let other = r#"distances = [["c", "p", 2], ["q", "c", 3]]"#;
+    assert_eq!(count(&with(other, "[1, 0]", r#""c", "m""#)), 4);
+}

@@ -8,13 +8,14 @@
 //! What is left holds at a figure where the given equations do: each equality that was used stays an equation, so that what
 //! was left out of others is zero; and an equation that was divided is the quotient times its factor. At t = 1 alone.
 
+use super::diameters;
 use super::quadratic::{Entry, Form, Product, Role, Tail, product};
 use super::zeros::at_target;
 use crate::interval::{Interval, Real};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A coordinate, an unknown or the number 0, in order; the number comes first, and stands for all that is zero.
-type Name = (u8, usize, usize);
+pub type Name = (u8, usize, usize);
 
 fn name(entry: Entry) -> Name {
     match entry {
@@ -26,7 +27,7 @@ fn name(entry: Entry) -> Name {
 
 /// What is equal at t = 1.
 #[derive(Default)]
-struct Equal(BTreeMap<Name, Name>);
+pub struct Equal(BTreeMap<Name, Name>);
 
 impl Equal {
     /// What stands for all that is equal to this.
@@ -37,8 +38,13 @@ impl Equal {
         of
     }
 
-    /// A difference, by what stands for its entries, in order, and its sign. `None`: it is zero.
-    fn ordered(&self, form: Form) -> Option<([Name; 2], i32)> {
+    /// What stands for all that is equal to an entry.
+    pub fn root_of(&self, entry: Entry) -> Name {
+        self.root(name(entry))
+    }
+
+    /// A difference, by what stands for its entries, in order, and its sign. `None`: it is zero, or the number 1.
+    pub fn ordered(&self, form: Form) -> Option<([Name; 2], i32)> {
         let Form::Difference(a, b) = form else {
             return None;
         };
@@ -68,7 +74,7 @@ impl Equal {
     }
 
     /// Products that are not zero.
-    fn left<'a>(&'a self, products: &'a [Product]) -> impl Iterator<Item = &'a Product> {
+    pub fn left<'a>(&'a self, products: &'a [Product]) -> impl Iterator<Item = &'a Product> {
         products
             .iter()
             .filter(|p| !self.is_zero(p.left) && !self.is_zero(p.right))
@@ -122,6 +128,22 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
             break;
         }
     }
+    if dimension == 2 {
+        let vectors = vectors(tail, apart);
+        let is_apart = |[p, q]: [[Name; 2]; 2]| {
+            vectors.iter().any(|forms| {
+                let mut axes = forms.iter().zip(p).zip(q);
+                axes.all(|((&form, p), q)| match form {
+                    Form::Difference(a, b) => {
+                        let ends = [a, b].map(|entry| equal.root_of(entry));
+                        ends == [p, q] || ends == [q, p]
+                    }
+                    Form::One => false,
+                })
+            })
+        };
+        diameters::halve(tail, vanishing, &equal, &is_kept, is_apart);
+    }
     for (equation, is_kept) in tail.equations.iter_mut().zip(is_kept) {
         let left = equal.left(&equation.products).map(|p| Product {
             factor: p.factor,
@@ -134,6 +156,21 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
             equation.products = left;
         }
     }
+}
+
+/// The vectors in the plane that vanish in no figure.
+fn vectors(tail: &Tail, apart: &[[usize; 2]]) -> Vec<[Form; 2]> {
+    let named = tail
+        .nonzero
+        .iter()
+        .map(|vector| [vector.forms[0], vector.forms[1]]);
+    let joined = apart.iter().map(|&[a, b]| {
+        [0, 1].map(|axis| {
+            let [a, b] = [a, b].map(|point| Entry::Coordinate { point, axis });
+            Form::Difference(a, b)
+        })
+    });
+    named.chain(joined).collect()
 }
 
 /// The differences that are zero in no figure: lengths, and what alone is left of a vector that must not vanish, or has a length.
@@ -206,7 +243,7 @@ fn divided(
 }
 
 /// The power of the unit of length that a difference has.
-fn power(unknowns: &[super::Unknown], form: Form) -> i32 {
+pub fn power(unknowns: &[super::Unknown], form: Form) -> i32 {
     let of = |entry: Entry| match entry {
         Entry::Zero => None,
         Entry::Coordinate { .. } => Some(1),

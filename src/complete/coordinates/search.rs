@@ -77,6 +77,8 @@ pub struct Block<'a> {
     zero: usize,
     /// The unknowns, by their places in the block, that are positive in figures.
     positive: Vec<usize>,
+    /// The vectors with unknowns of the block that vanish in no figure, as the system has them.
+    nonzero: Vec<&'a [[usize; 2]]>,
 }
 
 /// A part of the space, with its share.
@@ -102,9 +104,14 @@ impl<'a> Block<'a> {
         });
         let positive = system.positive.iter().map(|&u| place[u]);
         let positive = positive.filter(|&k| k != KNOWN).collect();
+        let nonzero = system.nonzero.iter().filter(|vector| {
+            let mut entries = vector.iter().flatten();
+            entries.clone().any(|&e| is_free[e]) && entries.all(|&e| is_free[e] || is_known(e))
+        });
         let own_rows: Vec<&Row> = equations.iter().map(|&e| &system.rows[e]).collect();
         let rows = own_rows.iter().copied().chain(follow).collect();
         Block {
+            nonzero: nonzero.map(Vec::as_slice).collect(),
             square: Square {
                 rows: own_rows,
                 own: own.to_vec(),
@@ -239,8 +246,15 @@ impl<'a> Block<'a> {
     /// Why a part stays undecided, if a curve of zeros seems to go through it.
     fn curve(&self, x: &[Interval]) -> Option<Why> {
         let zero = self.square.on_a_curve(x)?;
-        // A curve along which a leg has no length, whatever its heading is, is none of figures.
-        let is_none = self.positive.iter().any(|&k| zero[k] < NONE);
+        // A curve along which a leg has no length, whatever its heading is, or another vector vanishes that must not, is none of figures.
+        let at = |entry: usize| match self.square.place[entry] {
+            KNOWN => x[entry].mid(),
+            k => zero[k],
+        };
+        let vanishes =
+            |vector: &&[[usize; 2]]| vector.iter().all(|&[a, b]| (at(a) - at(b)).abs() < NONE);
+        let is_none =
+            self.positive.iter().any(|&k| zero[k] < NONE) || self.nonzero.iter().any(vanishes);
         Some(if is_none {
             Why::Vanishing
         } else {

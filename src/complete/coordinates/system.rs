@@ -45,6 +45,8 @@ pub struct System {
     pub rows: Vec<Row>,
     /// The unknowns that are positive in figures.
     pub positive: Vec<usize>,
+    /// The vectors that vanish in no figure: the entries of which their components are the differences.
+    pub nonzero: Vec<Vec<[usize; 2]>>,
 }
 
 impl Form {
@@ -221,7 +223,12 @@ impl System {
             unknowns: m,
             rows: (0..m).map(row).collect(),
             positive: homotopy.positive_unknowns(),
+            nonzero: homotopy.nonzero_vectors(),
         };
+        let names = system.names();
+        for ends in system.nonzero.iter_mut().flatten() {
+            *ends = ends.map(|end| names[end.min(m)]);
+        }
         let mut follow = system.cross_products();
         follow.extend(system.divided(homotopy));
         system.rows.extend(follow);

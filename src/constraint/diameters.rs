@@ -1,0 +1,238 @@
+//! Chords through the middle of their circle, in the plane, for sets of figures.
+//!
+//! With a = p − c and b = q − c let |a|² = |b|² and a × b = 0: p and q are on a circle about c, and c is on the line through both. All that has
+//! p = q solves these, too, whatever p is, so that a search for all zeros meets curves of what are no figures. Where the
+//! line has a direction, w = p − q is not 0; and then s = a + b is: w · s = |a|² − |b|² = 0 and w × s = 2 a × b = 0, and |w|² |s|² is the sum of the
+//! squares of both. So s = 0 says in two linear equations what the two others say of figures: c is in the middle.
+
+use super::factors::{Equal, Name, power};
+use super::quadratic::{Equation, Form, Product, Tail, product};
+use super::zeros::at_target;
+use crate::interval::Real;
+
+/// A difference from a point c, by what stands for its entries: the other point's coordinate, and that of c.
+type Ends = [Name; 2];
+
+/// Puts linear equations in the place of those that a chord through the middle of a circle has.
+///
+/// `vanishing`: for each equation whether its right-hand side is known to be zero at t = 1. `is_kept`: equations that stay. `apart`: whether two
+/// points, given by their coordinates, are in different places in all figures.
+pub fn halve(
+    tail: &mut Tail,
+    vanishing: &[bool],
+    equal: &Equal,
+    is_kept: &[bool],
+    apart: impl Fn([[Name; 2]; 2]) -> bool,
+) {
+    let count = tail.equations.len();
+    let mut is_done = is_kept.to_vec();
+    for first in 0..count {
+        for second in 0..count {
+            let right = |e: usize| at_target(&tail.equations[e], vanishing[e]);
+            let found = match first == second {
+                _ if is_done[first] || is_done[second] => None,
+                // |a|² − |b|² = 0 by itself.
+                true if right(first).is_zero() => {
+                    let all = keys(&tail.equations[first], equal);
+                    let (one, other): (Vec<Key>, Vec<Key>) = all.into_iter().partition(|k| k.0 > 0);
+                    halves(one, other.into_iter().map(|(f, a, b)| (-f, a, b)).collect())
+                }
+                false if right(first) == right(second) => {
+                    let [one, other] = [first, second].map(|e| keys(&tail.equations[e], equal));
+                    halves(one, other)
+                }
+                _ => None,
+            };
+            for [x, y] in found.into_iter().flatten() {
+                // Of each axis the coordinates of p, q and c.
+                let axes = [x, y].map(|([p, c], [q, _])| [p, q, c]);
+                let line = (0..count).find(|&e| {
+                    let others = ![first, second].contains(&e) && !is_done[e];
+                    others
+                        && at_target(&tail.equations[e], vanishing[e]).is_zero()
+                        && is_cross(&tail.equations[e], equal, &axes)
+                });
+                let [p, q] = [0, 1].map(|k| [axes[0][k], axes[1][k]]);
+                let Some(line) = line.filter(|_| apart([p, q])) else {
+                    continue;
+                };
+                let both = [first, second].map(|e| tail.equations[e].products.clone());
+                for (e, axis) in [(second, x), (line, y)] {
+                    let (a, b) = axis;
+                    let sum = [(&both[0], a), (&both[1], b)].map(|(products, [p, c])| {
+                        let form = form_of(products, equal, [p, c]);
+                        form.expect("one of the equation's differences")
+                    });
+                    let equation = &mut tail.equations[e];
+                    equation.power = power(&tail.unknowns, sum[0]);
+                    equation.products = sum.map(|form| product(2, form, Form::One)).to_vec();
+                    equation.right = vec![Real::zero()];
+                }
+                for e in [first, second, line] {
+                    is_done[e] = true;
+                }
+                break;
+            }
+        }
+    }
+}
+
+/// The difference of two entries in this order among the squares of an equation.
+fn form_of(products: &[Product], equal: &Equal, [p, c]: Ends) -> Option<Form> {
+    products.iter().find_map(|square| {
+        let Form::Difference(a, b) = square.left else {
+            return None;
+        };
+        let names = [a, b].map(|entry| equal.root_of(entry));
+        match square.left == square.right {
+            true if names == [p, c] => Some(Form::Difference(a, b)),
+            true if names == [c, p] => Some(Form::Difference(b, a)),
+            _ => None,
+        }
+    })
+}
+
+/// A product: its factor, and what stands for its factors, in order.
+type Key = (i32, Named, Named);
+type Named = Option<([Name; 2], i32)>;
+
+/// The products of an equation that are not zero.
+fn keys(equation: &Equation, equal: &Equal) -> Vec<Key> {
+    let left = equal.left(&equation.products);
+    let keys = left.map(|p| {
+        let mut ends = [p.left, p.right].map(|form| equal.ordered(form));
+        ends.sort_unstable();
+        (p.factor, ends[0], ends[1])
+    });
+    keys.collect()
+}
+
+/// For two sums that are the same but for two squares in each, which differences of p and of q from c these may be, axis by axis.
+fn halves(mut one: Vec<Key>, mut other: Vec<Key>) -> Option<Vec<[(Ends, Ends); 2]>> {
+    one.retain(|key| match other.iter().position(|same| same == key) {
+        Some(place) => {
+            other.swap_remove(place);
+            false
+        }
+        None => true,
+    });
+    let squares = |keys: &[Key]| match *keys {
+        [(f, a, b), (g, c, d)] if f == g && a == b && c == d => Some((f, [a?.0, c?.0])),
+        _ => None,
+    };
+    let ((f, [a, b]), (g, [c, d])) = (squares(&one)?, squares(&other)?);
+    if f != g {
+        return None;
+    }
+    // What is common to two differences is c, each from both of its ends.
+    let common = |a: Ends, b: Ends| -> Vec<(Ends, Ends)> {
+        let turned = |[i, j]: Ends| [[i, j], [j, i]];
+        let pairs = turned(a)
+            .into_iter()
+            .flat_map(|a| turned(b).map(|b| (a, b)));
+        pairs.filter(|([_, c], [_, d])| c == d).collect()
+    };
+    let mut out = Vec::new();
+    for [(a, c), (b, d)] in [[(a, c), (b, d)], [(a, d), (b, c)]] {
+        for x in common(a, c) {
+            out.extend(common(b, d).into_iter().map(|y| [x, y]));
+        }
+    }
+    Some(out)
+}
+
+/// Whether an equation says that two different ones of p − c, q − c and p − q are parallel.
+fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Name; 3]; 2]) -> bool {
+    let left: Vec<&Product> = equal.left(&equation.products).collect();
+    let &[one, other] = left.as_slice() else {
+        return false;
+    };
+    if one.factor != -other.factor {
+        return false;
+    }
+    // Whether a product is that of two differences of named entries.
+    let is = |p: &Product, x: [Name; 2], y: [Name; 2]| {
+        let named = |form: Form| match form {
+            Form::One => None,
+            Form::Difference(a, b) => Some([a, b].map(|entry| equal.root_of(entry))),
+        };
+        let both = [named(p.left), named(p.right)];
+        both == [Some(x), Some(y)] || both == [Some(y), Some(x)]
+    };
+    let pairs = || (0..3).flat_map(|i| (0..3).filter(move |&j| j != i).map(move |j| [i, j]));
+    pairs().any(|[i, j]| {
+        let others = pairs().filter(|&[k, l]| [k, l] != [i, j] && [l, k] != [i, j]);
+        others.into_iter().any(|[k, l]| {
+            let [x, y] = axes;
+            let [ux, uy] = [[x[i], x[j]], [y[i], y[j]]];
+            let [vx, vy] = [[x[k], x[l]], [y[k], y[l]]];
+            let is_so = |one, other| is(one, ux, vy) && is(other, uy, vx);
+            is_so(one, other) || is_so(other, one)
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::constraint::lower_for_sets;
+    use crate::constraint::quadratic::{Entry, Product, difference, product};
+    use crate::constraint::testing::read;
+
+    /// The left-hand sides that sets have of a chord p-q of a circle about c, and others.
+    fn left(points: &str, constraints: &str) -> Vec<Vec<Product>> {
+        let problem = read(&format!(
+            "name = \"chord\"\ndimension = 2\n[points]\n{points}\n[constraints]\n{constraints}"
+        ));
+        let tail = lower_for_sets(&problem);
+        tail.equations.into_iter().map(|e| e.products).collect()
+    }
+
+    /// p + q − 2 c along an axis, c being where it is, or 0.
+    fn sum(axis: usize, c: Option<usize>) -> Vec<Product> {
+        let at = |point| Entry::Coordinate { point, axis };
+        let middle = c.map_or(Entry::Zero, at);
+        [0, 1]
+            .map(|end| product(2, difference(at(end), middle), super::Form::One))
+            .to_vec()
+    }
+
+    const POINTS: &str = "p = [2, 0.1]\nq = [-2, 0]\nc = [0, 0]\nm = [1, 5]";
+    const REST: &str = "fixed = [\"m\"]\non = [[\"c\", \"p\", \"q\"]]\nperpendicular = [[\"p\", \"q\", \"c\", \"m\"]]";
+
+    fn is_halved(all: &[Vec<Product>], c: Option<usize>) -> bool {
+        let same = |one: &[Product], other: &[Product]| {
+            one.len() == other.len() && one.iter().all(|p| other.contains(p))
+        };
+        (0..2).all(|axis| all.iter().any(|left| same(left, &sum(axis, c))))
+    }
+
+    #[test]
+    fn the_middle_of_a_circle_is_the_middle_of_a_chord_through_it() {
+        let distances = "distances = [[\"p\", \"c\", 2], [\"c\", \"q\", 2], [\"c\", \"m\", 5]]\n";
+        assert!(is_halved(
+            &left(
+                POINTS,
+                &format!("{distances}{REST}\nvertical = [[\"c\", \"m\"]]")
+            ),
+            Some(2)
+        ));
+        // About the origin.
+        let fixed = REST.replace("[\"m\"]", "[\"m\", \"c\"]");
+        let distances = "distances = [[\"p\", \"c\", 2], [\"c\", \"q\", 2]]\n";
+        assert!(is_halved(
+            &left(POINTS, &format!("{distances}{fixed}")),
+            None
+        ));
+    }
+
+    #[test]
+    fn other_chords_and_other_lengths_stay() {
+        let fixed = REST.replace("[\"m\"]", "[\"m\", \"c\"]");
+        let other = "distances = [[\"p\", \"c\", 2], [\"c\", \"q\", 3]]\n";
+        assert!(!is_halved(&left(POINTS, &format!("{other}{fixed}")), None));
+        // m is on the chord, c is not.
+        let equal = "distances = [[\"p\", \"c\", 2], [\"c\", \"q\", 2]]\n";
+        let aside = fixed.replace("[\"c\", \"p\"", "[\"m\", \"p\"");
+        assert!(!is_halved(&left(POINTS, &format!("{equal}{aside}")), None));
+    }
+}
