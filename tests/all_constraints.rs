@@ -781,3 +781,39 @@ fn chords_through_the_middle_are_complete() {
     let other = r#"distances = [["c", "p", 2], ["q", "c", 3]]"#;
     assert_eq!(count(&with(other, "[1, 0]", r#""c", "m""#)), 4);
 }
+
+/// A bar of no length, p = q, has no direction that a spoke could be parallel to, so that the spoke may turn: that is no curve of figures.
+#[test]
+fn a_spoke_along_a_bar_of_no_length_is_not_called_flexible() {
+    let problem = parse(
+        r#"
+        name = "spoke"
+        dimension = 2
+        [points]
+        c = [0, 0]
+        a = [4, 0]
+        m = [1, 5]
+        p = [2, 1]
+        q = [2.1, 1.2]
+        z = [0.5, -0.6]
+        [lines]
+        bar = ["p", "q"]
+        axis = ["c", "m"]
+        spoke = ["c", "z"]
+        [constraints]
+        fixed = ["c", "m", "a"]
+        perpendicular = [["bar", "axis"]]
+        parallel = [["bar", "spoke"]]
+        distances = [["c", "p", 3], ["c", "q", 3], ["a", "p", 2.5], ["c", "z", 1]]
+        "#,
+    );
+    let result = searched(&problem);
+    assert_eq!(result.status, Status::Partial);
+    assert_eq!(result.solutions.len(), 4);
+    let mut undecided = result.undecided.iter();
+    assert!(
+        undecided.all(|part| part.why == Why::Vanishing),
+        "{:?}",
+        result.undecided
+    );
+}

@@ -77,7 +77,7 @@ pub struct Block<'a> {
     zero: usize,
     /// The unknowns, by their places in the block, that are positive in figures.
     positive: Vec<usize>,
-    /// The vectors with unknowns of the block that vanish in no figure, as the system has them.
+    /// The vectors that vanish in no figure and of which all is known in the block, as the system has them.
     nonzero: Vec<&'a [[usize; 2]]>,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Block<'a> {
         let positive = positive.filter(|&k| k != KNOWN).collect();
         let nonzero = system.nonzero.iter().filter(|vector| {
             let mut entries = vector.iter().flatten();
-            entries.clone().any(|&e| is_free[e]) && entries.all(|&e| is_free[e] || is_known(e))
+            entries.all(|&e| is_free[e] || is_known(e))
         });
         let own_rows: Vec<&Row> = equations.iter().map(|&e| &system.rows[e]).collect();
         let rows = own_rows.iter().copied().chain(follow).collect();
