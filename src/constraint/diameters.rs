@@ -5,8 +5,8 @@
 //! line has a direction, w = p − q is not 0; and then s = a + b is: w · s = |a|² − |b|² = 0 and w × s = 2 a × b = 0, and |w|² |s|² is the sum of the
 //! squares of both. So s = 0 says in two linear equations what the two others say of figures: c is in the middle.
 
-use super::factors::{Equal, Name, power};
-use super::quadratic::{Equation, Form, Product, Tail, product};
+use super::factors::{Equal, Name, named, power};
+use super::quadratic::{Equation, Form, Product, Tail, difference, product};
 use super::zeros::at_target;
 use crate::interval::Real;
 
@@ -56,12 +56,10 @@ pub fn halve(
                 let Some(line) = line.filter(|_| apart([p, q])) else {
                     continue;
                 };
-                let both = [first, second].map(|e| tail.equations[e].products.clone());
-                for (e, axis) in [(second, x), (line, y)] {
-                    let (a, b) = axis;
-                    let sum = [(&both[0], a), (&both[1], b)].map(|(products, [p, c])| {
-                        let form = form_of(products, equal, [p, c]);
-                        form.expect("one of the equation's differences")
+                for (e, (a, b)) in [(second, x), (line, y)] {
+                    let sum = [a, b].map(|ends| {
+                        let [p, c] = ends.map(named);
+                        difference(p, c)
                     });
                     let equation = &mut tail.equations[e];
                     equation.power = power(&tail.unknowns, sum[0]);
@@ -77,22 +75,7 @@ pub fn halve(
     }
 }
 
-/// The difference of two entries in this order among the squares of an equation.
-fn form_of(products: &[Product], equal: &Equal, [p, c]: Ends) -> Option<Form> {
-    products.iter().find_map(|square| {
-        let Form::Difference(a, b) = square.left else {
-            return None;
-        };
-        let names = [a, b].map(|entry| equal.root_of(entry));
-        match square.left == square.right {
-            true if names == [p, c] => Some(Form::Difference(a, b)),
-            true if names == [c, p] => Some(Form::Difference(b, a)),
-            _ => None,
-        }
-    })
-}
-
-/// A product: its factor, and what stands for its factors, in order.
+/// A product: its factor, and what stands for its factors, in order, so that one of two differences with the same names is a square.
 type Key = (i32, Named, Named);
 type Named = Option<([Name; 2], i32)>;
 
@@ -223,6 +206,19 @@ mod tests {
             &left(POINTS, &format!("{distances}{fixed}")),
             None
         ));
+    }
+
+    /// A line at a right angle to itself by other names has no length.
+    #[test]
+    fn squares_by_other_names_are_squares() {
+        let points = "a = [1, 2]\na2 = [1, 2]\nb = [0, 0]\nb2 = [0, 0]\nc = [3, 1]\nc2 = [3, 1]";
+        let all = left(
+            points,
+            "fixed = [\"b\"]\ncoincident = [[\"a\", \"a2\"], [\"b\", \"b2\"], [\"c\", \"c2\"]]\n\
+             perpendicular = [[\"a\", \"b\", \"a2\", \"b2\"], [\"a\", \"c\", \"a2\", \"c2\"]]\n\
+             distances = [[\"b\", \"c\", 2]]\non = [[\"a\", \"b\", \"c\"]]",
+        );
+        assert!(all.iter().all(|products| !products.is_empty()));
     }
 
     #[test]

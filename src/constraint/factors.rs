@@ -25,6 +25,15 @@ fn name(entry: Entry) -> Name {
     }
 }
 
+/// The entry that has this name.
+pub fn named(name: Name) -> Entry {
+    match name {
+        (0, ..) => Entry::Zero,
+        (1, point, axis) => Entry::Coordinate { point, axis },
+        (_, u, _) => Entry::Unknown(u),
+    }
+}
+
 /// What is equal at t = 1.
 #[derive(Default)]
 pub struct Equal(BTreeMap<Name, Name>);
@@ -58,11 +67,7 @@ impl Equal {
 
     /// The difference of what stands for its entries.
     fn named(&self, form: Form) -> Form {
-        let entry = |entry: Entry| match self.root(name(entry)) {
-            (0, ..) => Entry::Zero,
-            (1, point, axis) => Entry::Coordinate { point, axis },
-            (_, u, _) => Entry::Unknown(u),
-        };
+        let entry = |entry: Entry| named(self.root(name(entry)));
         match form {
             Form::One => form,
             Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),

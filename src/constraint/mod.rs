@@ -94,9 +94,13 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
     }
 }
 
-/// The same equations for sets of all figures, which know t = 1 alone: with vectors divided by their lengths, where these are not
-/// dimensions (see `lowering/heading.rs`), without what is zero in all figures and factors that are zero in none, and with one name for what
-/// is equal in all figures (`factors.rs`), and with the middle of a chord in place of what says that the middle of its circle is on it (`diameters.rs`). Distances between points are among them, and come first, if [`has_distances_in_sets`].
+/// The same equations for sets of all figures, which know t = 1 alone.
+///
+/// - Vectors are divided by their lengths, where these are no dimensions (`lowering/heading.rs`).
+/// - What is zero in all figures is left out, and factors that are zero in none; what is equal in all has one name (`factors.rs`).
+/// - Where the middle of a circle is on a chord, it is the chord's middle (`diameters.rs`).
+///
+/// The equations of distances between points are among them, and come first, if [`has_distances_in_sets`].
 ///
 /// # Panics
 /// If the problem has not been checked.

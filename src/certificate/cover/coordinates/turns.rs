@@ -72,8 +72,8 @@ impl Body {
             return Err(unfit());
         }
         let coordinate = |p: usize, axis: usize| eq.homotopy.coordinate(p, axis);
-        // The other ends of three squares of which a point of the body is at one. (Whatever these are, the square of the leg's length is the sum of the
-        // squares.)
+        // Three squares of differences of a point's coordinates and other entries, those of where the leg stands: their sum is the square of its
+        // length, whatever entries these are.
         let stands = |products: &[Product], p: usize| -> Option<[usize; 3]> {
             let other = |axis: usize| match products[axis] {
                 (1, [left, right]) if left == right => {
