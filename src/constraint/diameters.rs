@@ -191,12 +191,11 @@ mod tests {
 
     #[test]
     fn the_middle_of_a_circle_is_the_middle_of_a_chord_through_it() {
-        let distances = "distances = [[\"p\", \"c\", 2], [\"c\", \"q\", 2], [\"c\", \"m\", 5]]\n";
+        let fixed = REST.replace("[\"m\"]", "[\"m\", \"n\"]");
+        let distances = "distances = [[\"p\", \"c\", 2], [\"c\", \"q\", 2], [\"c\", \"m\", 5], [\"c\", \"n\", 6]]\n";
+        let points = format!("{POINTS}\nn = [6, 1]");
         assert!(is_halved(
-            &left(
-                POINTS,
-                &format!("{distances}{REST}\nvertical = [[\"c\", \"m\"]]")
-            ),
+            &left(&points, &format!("{distances}{fixed}")),
             Some(2)
         ));
         // About the origin.
