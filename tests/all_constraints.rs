@@ -749,7 +749,7 @@ fn directions_that_constraints_tell_apart_are_both_counted() {
 /// no curve of chords without length is taken for figures.
 #[test]
 fn chords_through_the_middle_are_complete() {
-    let with = |radii: &str, c: &str, fixed: &str| {
+    let with = |radii: &str, c: &str| {
         format!(
             r#"
             name = "chord"
@@ -763,7 +763,7 @@ fn chords_through_the_middle_are_complete() {
             chord = ["p", "q"]
             axis = ["c", "m"]
             [constraints]
-            fixed = [{fixed}]
+            fixed = ["c", "m"]
             on = [["c", "chord"]]
             perpendicular = [["chord", "axis"]]
             {radii}
@@ -774,12 +774,12 @@ fn chords_through_the_middle_are_complete() {
     let one = "equal = [[\"c\", \"p\", \"c\", \"q\"]]\ndistances = [[\"c\", \"q\", 2]]";
     for radii in [both, one] {
         for c in ["[1, 0]", "[0, 0]"] {
-            assert_eq!(count(&with(radii, c, r#""c", "m""#)), 2, "{radii}, {c}");
+            assert_eq!(count(&with(radii, c)), 2, "{radii}, {c}");
         }
     }
     // Radii that are not the same: a chord that is none, with c between its ends or beyond them.
     let other = r#"distances = [["c", "p", 2], ["q", "c", 3]]"#;
-    assert_eq!(count(&with(other, "[1, 0]", r#""c", "m""#)), 4);
+    assert_eq!(count(&with(other, "[1, 0]")), 4);
 }
 
 /// A bar of no length, p = q, has no direction that a spoke could be parallel to, so that the spoke may turn: that is no curve of figures.

@@ -3,7 +3,6 @@
 
 mod common;
 
-use common::covers::searched;
 use common::edits::Random;
 use common::mixed::Spec;
 use common::sketches::{ARC, LEG, PLATE, apollonius_text, isosceles_text};
@@ -20,16 +19,9 @@ fn check(cover: &CoordinateCover) -> CoverVerdict {
     verify_cover(&cover.to_bytes()).unwrap()
 }
 
-/// A set that has to be complete, and proved by its cover.
+/// The cover of a set that has to be complete, and proved by it.
 fn proved(problem: &Problem) -> CoordinateCover {
-    let (result, cover) = searched(problem);
-    assert_eq!(result.status, Status::Complete, "{}", problem.name);
-    let verdict = check(&cover);
-    assert_eq!(verdict.flaw, None, "{}", problem.name);
-    assert_eq!(verdict.undecided, 0, "{}", problem.name);
-    assert_eq!(verdict.solutions, result.solutions.len());
-    assert!(verdict.is_about(problem));
-    cover
+    common::covers::proved(problem).1
 }
 
 /// c on a ray from a, at a distance from b: two figures.

@@ -5,9 +5,8 @@
 //! line has a direction, w = p − q is not 0; and then s = a + b is: w · s = |a|² − |b|² = 0 and w × s = 2 a × b = 0, and |w|² |s|² is the sum of the
 //! squares of both. So s = 0 says in two linear equations what the two others say of figures: c is in the middle.
 
-use super::factors::{Equal, Name, named, power};
+use super::factors::{Equal, Name, entry, power};
 use super::quadratic::{Equation, Form, Product, Tail, difference, product};
-use super::zeros::at_target;
 use crate::interval::Real;
 
 /// A difference from a point c, by what stands for its entries: the other point's coordinate, and that of c.
@@ -15,63 +14,57 @@ type Ends = [Name; 2];
 
 /// Puts linear equations in the place of those that a chord through the middle of a circle has.
 ///
-/// `vanishing`: for each equation whether its right-hand side is known to be zero at t = 1. `is_kept`: equations that stay. `apart`: whether two
+/// `rights`: the right-hand sides at t = 1. `is_kept`: equations that stay. `apart`: whether two
 /// points, given by their coordinates, are in different places in all figures.
 pub fn halve(
     tail: &mut Tail,
-    vanishing: &[bool],
+    rights: &[Real],
     equal: &Equal,
     is_kept: &[bool],
     apart: impl Fn([[Name; 2]; 2]) -> bool,
 ) {
     let count = tail.equations.len();
+    let keys: Vec<Vec<Key>> = tail.equations.iter().map(|e| keys(e, equal)).collect();
+    let squares = |keys: &[Key]| keys.iter().filter(|key| key.1 == key.2).count();
+    let may_be: Vec<bool> = keys.iter().map(|keys| squares(keys) >= 2).collect();
     let mut is_done = is_kept.to_vec();
-    for first in 0..count {
-        for second in 0..count {
-            let right = |e: usize| at_target(&tail.equations[e], vanishing[e]);
-            let found = match first == second {
-                _ if is_done[first] || is_done[second] => None,
-                // |a|² − |b|² = 0 by itself.
-                true if right(first).is_zero() => {
-                    let all = keys(&tail.equations[first], equal);
-                    let (one, other): (Vec<Key>, Vec<Key>) = all.into_iter().partition(|k| k.0 > 0);
-                    halves(one, other.into_iter().map(|(f, a, b)| (-f, a, b)).collect())
-                }
-                false if right(first) == right(second) => {
-                    let [one, other] = [first, second].map(|e| keys(&tail.equations[e], equal));
-                    halves(one, other)
-                }
-                _ => None,
-            };
-            for [x, y] in found.into_iter().flatten() {
-                // Of each axis the coordinates of p, q and c.
-                let axes = [x, y].map(|([p, c], [q, _])| [p, q, c]);
-                let line = (0..count).find(|&e| {
-                    let others = ![first, second].contains(&e) && !is_done[e];
-                    others
-                        && at_target(&tail.equations[e], vanishing[e]).is_zero()
-                        && is_cross(&tail.equations[e], equal, &axes)
-                });
-                let [p, q] = [0, 1].map(|k| [axes[0][k], axes[1][k]]);
-                let Some(line) = line.filter(|_| apart([p, q])) else {
-                    continue;
-                };
-                for (e, (a, b)) in [(second, x), (line, y)] {
-                    let sum = [a, b].map(|ends| {
-                        let [p, c] = ends.map(named);
-                        difference(p, c)
-                    });
-                    let equation = &mut tail.equations[e];
-                    equation.power = power(&tail.unknowns, sum[0]);
-                    equation.products = sum.map(|form| product(2, form, Form::One)).to_vec();
-                    equation.right = vec![Real::zero()];
-                }
-                for e in [first, second, line] {
-                    is_done[e] = true;
-                }
-                break;
-            }
+    for (first, second) in (0..count).flat_map(|e| (0..count).map(move |f| (e, f))) {
+        let is_open = |e: usize| may_be[e] && !is_done[e];
+        if !is_open(first) || !is_open(second) || rights[first] != rights[second] {
+            continue;
         }
+        let found = match first == second {
+            false => halves(keys[first].clone(), keys[second].clone()),
+            // |a|² − |b|² = 0 by itself.
+            true if rights[first].is_zero() => {
+                let (one, other): (Vec<Key>, Vec<Key>) = keys[first].iter().partition(|k| k.0 > 0);
+                halves(one, other.into_iter().map(|(f, a, b)| (-f, a, b)).collect())
+            }
+            true => None,
+        };
+        let chord = found.into_iter().flatten().find_map(|both| {
+            // Of each axis the coordinates of p, q and c.
+            let axes = both.map(|([p, c], [q, _])| [p, q, c]);
+            let is_line = |&e: &usize| {
+                let is_free = e != first && e != second && !is_done[e];
+                is_free && rights[e].is_zero() && is_cross(&tail.equations[e], equal, &axes)
+            };
+            let [p, q] = [0, 1].map(|k| axes.map(|axis| axis[k]));
+            let line = apart([p, q]).then(|| (0..count).find(is_line))?;
+            Some((both, line?))
+        });
+        let Some(([x, y], line)) = chord else {
+            continue;
+        };
+        for (e, (a, b)) in [(second, x), (line, y)] {
+            let sum = [a, b].map(|[p, c]| difference(entry(p), entry(c)));
+            let equation = &mut tail.equations[e];
+            equation.power = power(&tail.unknowns, sum[0]);
+            equation.products = sum.map(|form| product(2, form, Form::One)).to_vec();
+            equation.right = vec![Real::zero()];
+            is_done[e] = true;
+        }
+        is_done[first] = true;
     }
 }
 
@@ -135,17 +128,13 @@ fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Name; 3]; 2]) -> bool {
     }
     // Whether a product is that of two differences of named entries.
     let is = |p: &Product, x: [Name; 2], y: [Name; 2]| {
-        let named = |form: Form| match form {
-            Form::One => None,
-            Form::Difference(a, b) => Some([a, b].map(|entry| equal.root_of(entry))),
-        };
-        let both = [named(p.left), named(p.right)];
+        let both = [p.left, p.right].map(|form| equal.ends(form));
         both == [Some(x), Some(y)] || both == [Some(y), Some(x)]
     };
     let pairs = || (0..3).flat_map(|i| (0..3).filter(move |&j| j != i).map(move |j| [i, j]));
     pairs().any(|[i, j]| {
-        let others = pairs().filter(|&[k, l]| [k, l] != [i, j] && [l, k] != [i, j]);
-        others.into_iter().any(|[k, l]| {
+        let mut others = pairs().filter(|&[k, l]| [k, l] != [i, j] && [l, k] != [i, j]);
+        others.any(|[k, l]| {
             let [x, y] = axes;
             let [ux, uy] = [[x[i], x[j]], [y[i], y[j]]];
             let [vx, vy] = [[x[k], x[l]], [y[k], y[l]]];

@@ -26,7 +26,7 @@ fn name(entry: Entry) -> Name {
 }
 
 /// The entry that has this name.
-pub fn named(name: Name) -> Entry {
+pub fn entry(name: Name) -> Entry {
     match name {
         (0, ..) => Entry::Zero,
         (1, point, axis) => Entry::Coordinate { point, axis },
@@ -47,17 +47,17 @@ impl Equal {
         of
     }
 
-    /// What stands for all that is equal to an entry.
-    pub fn root_of(&self, entry: Entry) -> Name {
-        self.root(name(entry))
+    /// A difference, by what stands for its entries. `None`: it is the number 1.
+    pub fn ends(&self, form: Form) -> Option<[Name; 2]> {
+        match form {
+            Form::One => None,
+            Form::Difference(a, b) => Some([a, b].map(|entry| self.root(name(entry)))),
+        }
     }
 
     /// A difference, by what stands for its entries, in order, and its sign. `None`: it is zero, or the number 1.
     pub fn ordered(&self, form: Form) -> Option<([Name; 2], i32)> {
-        let Form::Difference(a, b) = form else {
-            return None;
-        };
-        let (a, b) = (self.root(name(a)), self.root(name(b)));
+        let [a, b] = self.ends(form)?;
         match a.cmp(&b) {
             std::cmp::Ordering::Equal => None,
             std::cmp::Ordering::Less => Some(([a, b], -1)),
@@ -67,10 +67,9 @@ impl Equal {
 
     /// The difference of what stands for its entries.
     fn named(&self, form: Form) -> Form {
-        let entry = |entry: Entry| named(self.root(name(entry)));
-        match form {
-            Form::One => form,
-            Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
+        match self.ends(form) {
+            None => Form::One,
+            Some([a, b]) => Form::Difference(entry(a), entry(b)),
         }
     }
 
@@ -100,16 +99,18 @@ impl Equal {
 /// `vanishing`: for each equation whether its right-hand side is known to be zero at t = 1. `apart`: pairs of points that have a positive distance.
 pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimension: usize) {
     let mut equal = Equal::default();
-    let is_zero: Vec<bool> = (tail.equations.iter().zip(vanishing))
-        .map(|(equation, &vanishing)| at_target(equation, vanishing).is_zero())
+    // An equation that is changed has 0 on the right, before and after.
+    let rights: Vec<Real> = (tail.equations.iter().zip(vanishing))
+        .map(|(equation, &vanishing)| at_target(equation, vanishing))
         .collect();
+    let vectors = vectors(tail, apart, dimension);
     // Equalities, by which others are changed, stay as they are.
     let mut is_kept = vec![false; tail.equations.len()];
     loop {
         let mut goes_on = false;
-        let nonzero = nonzero(tail, (apart, dimension), &equal, &is_zero);
+        let nonzero = nonzero(tail, &vectors, &equal, &rights);
         for e in 0..tail.equations.len() {
-            if !is_zero[e] || is_kept[e] {
+            if !rights[e].is_zero() || is_kept[e] {
                 continue;
             }
             let equation = &mut tail.equations[e];
@@ -134,20 +135,13 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
         }
     }
     if dimension == 2 {
-        let vectors = vectors(tail, apart);
         let is_apart = |[p, q]: [[Name; 2]; 2]| {
             vectors.iter().any(|forms| {
                 let mut axes = forms.iter().zip(p).zip(q);
-                axes.all(|((&form, p), q)| match form {
-                    Form::Difference(a, b) => {
-                        let ends = [a, b].map(|entry| equal.root_of(entry));
-                        ends == [p, q] || ends == [q, p]
-                    }
-                    Form::One => false,
-                })
+                axes.all(|((&form, p), q)| [Some([p, q]), Some([q, p])].contains(&equal.ends(form)))
             })
         };
-        diameters::halve(tail, vanishing, &equal, &is_kept, is_apart);
+        diameters::halve(tail, &rights, &equal, &is_kept, is_apart);
     }
     for (equation, is_kept) in tail.equations.iter_mut().zip(is_kept) {
         let left = equal.left(&equation.products).map(|p| Product {
@@ -163,27 +157,24 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
     }
 }
 
-/// The vectors in the plane that vanish in no figure.
-fn vectors(tail: &Tail, apart: &[[usize; 2]]) -> Vec<[Form; 2]> {
-    let named = tail
-        .nonzero
-        .iter()
-        .map(|vector| [vector.forms[0], vector.forms[1]]);
-    let joined = apart.iter().map(|&[a, b]| {
-        [0, 1].map(|axis| {
-            let [a, b] = [a, b].map(|point| Entry::Coordinate { point, axis });
-            Form::Difference(a, b)
-        })
-    });
-    named.chain(joined).collect()
+/// The vectors that vanish in no figure, with a difference for each axis: those that are said not to, and those between points that have a distance.
+fn vectors(tail: &Tail, apart: &[[usize; 2]], dimension: usize) -> Vec<Vec<Form>> {
+    let said = tail.nonzero.iter();
+    let said = said.map(|vector| vector.forms[..dimension].to_vec());
+    let between = |&[a, b]: &[usize; 2]| {
+        let at = |point, axis| Entry::Coordinate { point, axis };
+        let form = |axis| Form::Difference(at(a, axis), at(b, axis));
+        (0..dimension).map(form).collect()
+    };
+    said.chain(apart.iter().map(between)).collect()
 }
 
 /// The differences that are zero in no figure: lengths, and what alone is left of a vector that must not vanish, or has a length.
 fn nonzero(
     tail: &Tail,
-    (apart, dimension): (&[[usize; 2]], usize),
+    vectors: &[Vec<Form>],
     equal: &Equal,
-    is_zero: &[bool],
+    rights: &[Real],
 ) -> BTreeSet<[Name; 2]> {
     let mut out = BTreeSet::new();
     for (u, unknown) in tail.unknowns.iter().enumerate() {
@@ -198,22 +189,15 @@ fn nonzero(
             out.extend(equal.ordered(only).map(|(ends, _)| ends));
         }
     };
-    for vector in &tail.nonzero {
-        add(&vector.forms[..dimension]);
-    }
-    for &[a, b] in apart {
-        let form = |axis| {
-            let [a, b] = [a, b].map(|point| Entry::Coordinate { point, axis });
-            Form::Difference(a, b)
-        };
-        add(&(0..dimension).map(form).collect::<Vec<_>>());
+    for vector in vectors {
+        add(vector);
     }
     // Squares whose sum is not zero.
-    for (equation, is_zero) in tail.equations.iter().zip(is_zero) {
+    for (equation, right) in tail.equations.iter().zip(rights) {
         let is_square = |p: &Product| p.left == p.right && p.left != Form::One;
-        let right = || at_target(equation, false).enclose();
         let is_given = |x: Interval| x.inf() > 0.0 || x.sup() < 0.0;
-        if !is_zero && equation.products.iter().all(is_square) && is_given(right()) {
+        if !right.is_zero() && equation.products.iter().all(is_square) && is_given(right.enclose())
+        {
             let forms: Vec<Form> = equation.products.iter().map(|p| p.left).collect();
             add(&forms);
         }

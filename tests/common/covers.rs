@@ -1,7 +1,8 @@
 //! Complete sets with the covers that prove them.
 
 use krawl::certificate::cover::coordinates::CoordinateCover;
-use krawl::complete::{Complete, Options, all};
+use krawl::certificate::cover::verify_cover;
+use krawl::complete::{Complete, Options, Status, all};
 use krawl::problem::Problem;
 
 /// All figures, and the cover of the space of coordinates; its bytes are read as they were written.
@@ -14,5 +15,17 @@ pub fn searched(problem: &Problem) -> (Complete, CoordinateCover) {
     let bytes = result.cover.take().expect("a cover");
     let cover = CoordinateCover::from_bytes(&bytes).unwrap();
     assert_eq!(cover.to_bytes(), bytes);
+    (result, cover)
+}
+
+/// The same of a set that has to be complete, and proved by its cover.
+pub fn proved(problem: &Problem) -> (Complete, CoordinateCover) {
+    let (result, cover) = searched(problem);
+    assert_eq!(result.status, Status::Complete, "{}", problem.name);
+    let verdict = verify_cover(&cover.to_bytes()).unwrap();
+    assert_eq!(verdict.flaw, None, "{}", problem.name);
+    assert_eq!(verdict.undecided, 0, "{}", problem.name);
+    assert_eq!(verdict.solutions, result.solutions.len());
+    assert!(verdict.is_about(problem));
     (result, cover)
 }

@@ -82,12 +82,12 @@ pub struct Block {
     pub unknowns: Vec<usize>,
 }
 
-/// A rigid body, six of whose points have distances from points that are none of its own.
+/// A rigid body on six legs, each from one of its points to where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Body {
     /// Its number among the problem's objects.
     pub object: usize,
-    /// The equations of the six distances.
+    /// The equations of the legs' lengths.
     pub legs: Vec<usize>,
 }
 
