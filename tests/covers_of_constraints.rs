@@ -46,6 +46,27 @@ fn leg() -> Problem {
     parse(LEG)
 }
 
+/// Three bars in a line, and equal gaps: equations that are one of two linear ones.
+fn gaps() -> Problem {
+    parse(
+        r#"
+        name = "gaps"
+        dimension = 2
+        [points]
+        o = [0, 0]
+        e = [9, 0]
+        a = [2, 0]
+        b = [3.5, 0]
+        c = [6, 0]
+        [constraints]
+        fixed = ["o", "e"]
+        horizontal = [["o", "a"], ["o", "b"], ["o", "c"]]
+        distances = [["a", "b", 1.5], ["b", "c", 2.6]]
+        equal = [["o", "a", "c", "e"]]
+        "#,
+    )
+}
+
 #[test]
 fn the_pentahedron_is_proved() {
     let pentahedron = Problem::read("problems/constraints/pentahedron.toml").unwrap();
@@ -128,7 +149,7 @@ fn is_harmless(damaged: &CoordinateCover, truth: &CoordinateCover) -> bool {
 
 #[test]
 fn no_mark_can_hide_a_solution() {
-    for problem in [triangle(), leg()] {
+    for problem in [triangle(), leg(), gaps()] {
         let cover = proved(&problem);
         let all: Vec<Mark> = marks(&cover).into_iter().map(|(_, mark)| mark).collect();
         let (mut refused, mut tried) = (0, 0);
@@ -140,6 +161,9 @@ fn no_mark_can_hide_a_solution() {
             Mark::Other(0),
             Mark::Image(0),
             Mark::Bound(0),
+            Mark::Reduced(0),
+            Mark::Sides(0),
+            Mark::Sides(1),
             Mark::Undecided,
         ];
         for k in 0..all.len() {

@@ -15,6 +15,7 @@ mod part;
 mod reversed;
 mod right;
 mod simplices;
+pub mod told;
 
 pub use edit::is_met;
 pub use exact::ExactLength;

@@ -5,19 +5,90 @@
 //! come of it as there are unknowns, or one fewer, all unknowns are linear in one of them (none), by elimination in intervals; and one
 //! of the equations is then a t² + b t + c = 0 in that unknown t, whence |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|) if a is not 0.
 
+use super::contract::{Empty, entire};
 use super::expanded::Expanded;
 use super::newton::Square;
 use crate::interval::{Interval, ZERO, checked, point};
 
-/// Ranges of the unknowns of a block, in order, that hold all of its zeros. `None`: no better ones than before.
-pub fn bounds(square: &Square, x: &[Interval]) -> Option<Vec<Interval>> {
-    let rows: Option<Vec<Expanded>> = square
-        .rows
-        .iter()
-        .map(|row| Expanded::new(row, square, x))
-        .collect();
-    let rows = rows?;
+/// Ranges of the unknowns of a block, in order, that hold all of its zeros; [`Empty`] where linear equations contradict each other.
+pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let n = square.own.len();
+    let unknown = || Ok(vec![entire(); n]);
+    let rows = square.rows.iter();
+    let rows = rows.filter_map(|row| Expanded::new(row, square, x));
+    let rows: Vec<Expanded> = rows.collect();
+    let Some(mut linear) = without_products(&rows) else {
+        return unknown();
+    };
+    // What each of them is solved for.
+    let mut pivots: Vec<Option<usize>> = vec![None; linear.len()];
+    for k in 0..linear.len() {
+        let left = (0..n).filter(|&c| !pivots.contains(&Some(c)));
+        let best = left.max_by(|&a, &b| {
+            let size = |c: usize| linear[k].linear[c].mig();
+            size(a).total_cmp(&size(b))
+        });
+        let pivot = linear[k].clone();
+        let Some(best) = best.filter(|&c| pivot.linear[c].mig() > 0.0) else {
+            // No unknown is left in it.
+            let is_number = pivot.linear.iter().all(|b| *b == ZERO);
+            if is_number && !pivot.constant.contains(0.0) {
+                return Err(Empty);
+            }
+            continue;
+        };
+        for (j, row) in linear.iter_mut().enumerate() {
+            if j == k || row.linear[best] == ZERO {
+                continue;
+            }
+            let factor = row.linear[best] / pivot.linear[best];
+            for c in 0..n {
+                row.linear[c] -= factor * pivot.linear[c];
+            }
+            row.linear[best] = ZERO;
+            row.constant -= factor * pivot.constant;
+        }
+        pivots[k] = Some(best);
+    }
+    let mut free = (0..n).filter(|&c| !pivots.contains(&Some(c)));
+    let t = free.next();
+    let is_line = free.next().is_none();
+    // x = α + β t, if no other unknown is in its row.
+    let line = |i: usize| -> Option<(Interval, Interval)> {
+        let Some(k) = pivots.iter().position(|&p| p == Some(i)) else {
+            return Some((ZERO, point(1.0)));
+        };
+        let row = &linear[k];
+        let others = (0..n).filter(|&c| c != i && row.linear[c] != ZERO);
+        let by = row.linear[i];
+        let slope = match t {
+            Some(t) if is_line => -(row.linear[t] / by),
+            _ if others.count() == 0 => ZERO,
+            _ => return None,
+        };
+        Some((-(row.constant / by), slope))
+    };
+    let lines: Vec<Option<(Interval, Interval)>> = (0..n).map(line).collect();
+    let whole: Option<Vec<(Interval, Interval)>> = lines.iter().copied().collect();
+    let range = match (t, whole) {
+        (None, _) => ZERO,
+        (Some(_), Some(lines)) if is_line => {
+            let ranges = rows.iter().filter_map(|row| root_range(row, &lines));
+            let least = ranges.min_by(|a, b| a.mag().total_cmp(&b.mag()));
+            least.unwrap_or_else(entire)
+        }
+        _ => entire(),
+    };
+    let range_of = |line: &Option<(Interval, Interval)>| match line {
+        Some((alpha, beta)) if *beta == ZERO => *alpha,
+        Some((alpha, beta)) => *alpha + *beta * range,
+        None => entire(),
+    };
+    Ok(lines.iter().map(range_of).collect())
+}
+
+/// The linear equations that come of rows by adding whole multiples of others.
+fn without_products(rows: &[Expanded]) -> Option<Vec<Expanded>> {
     let mut linear: Vec<Expanded> = Vec::new();
     let mut curved: Vec<Expanded> = Vec::new();
     for mut row in rows.iter().cloned() {
@@ -34,58 +105,7 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Option<Vec<Interval>> {
             false => curved.push(row),
         }
     }
-    if linear.len() + 1 < n {
-        return None;
-    }
-    linear.truncate(n);
-    // Per unknown that was eliminated its line: x = α + β t.
-    let mut pivots: Vec<usize> = Vec::new();
-    for k in 0..linear.len() {
-        let left = (0..n).filter(|c| !pivots.contains(c));
-        let best = left.max_by(|&a, &b| {
-            let size = |c: usize| linear[k].linear[c].mig();
-            size(a).total_cmp(&size(b))
-        })?;
-        let pivot = linear[k].clone();
-        if !(pivot.linear[best].mig() > 0.0) {
-            return None;
-        }
-        for (j, row) in linear.iter_mut().enumerate() {
-            if j == k {
-                continue;
-            }
-            let factor = row.linear[best] / pivot.linear[best];
-            for c in 0..n {
-                row.linear[c] -= factor * pivot.linear[c];
-            }
-            row.linear[best] = ZERO;
-            row.constant -= factor * pivot.constant;
-        }
-        pivots.push(best);
-    }
-    let free = (0..n).find(|c| !pivots.contains(c));
-    let line = |i: usize| -> (Interval, Interval) {
-        let Some(k) = pivots.iter().position(|&p| p == i) else {
-            return (ZERO, point(1.0));
-        };
-        let by = linear[k].linear[i];
-        let slope = free.map_or(ZERO, |t| -(linear[k].linear[t] / by));
-        (-(linear[k].constant / by), slope)
-    };
-    let lines: Vec<(Interval, Interval)> = (0..n).map(line).collect();
-    let range = match free {
-        None => ZERO,
-        Some(_) => {
-            let ranges = rows.iter().filter_map(|row| root_range(row, &lines));
-            ranges.min_by(|a, b| a.mag().total_cmp(&b.mag()))?
-        }
-    };
-    Some(
-        lines
-            .iter()
-            .map(|(alpha, beta)| *alpha + *beta * range)
-            .collect(),
-    )
+    Some(linear)
 }
 
 /// Where t may be, if a row with all unknowns linear in t is quadratic in it.
@@ -119,7 +139,6 @@ fn root_range(row: &Expanded, lines: &[(Interval, Interval)]) -> Option<Interval
 
 #[cfg(test)]
 mod tests {
-    use super::super::contract::entire;
     use super::super::newton::KNOWN;
     use super::super::system::{Form, Product, Row};
     use super::*;

@@ -5,6 +5,7 @@
 
 use super::newton::Square;
 use super::search::{Block as Searched, COARSE, Choice, MANY, SMALL};
+use super::sides::MOST as MOST_REDUCED;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::{
     Block, Body, Change, CoordinateCover, Half, Mark, Part, Space, Turn, Turned,
@@ -154,6 +155,19 @@ impl Writer<'_> {
                 stack.extend(charts.map(|turn| Open::Turn(Rc::clone(&part), b, turn)));
                 return;
             }
+            if !is_turned && !is_over && !part.is_reduced(b) && self.is_reducible(b) {
+                self.put(Mark::Reduced(b));
+                if self.space.reduce(b, &mut part).is_err() {
+                    return;
+                }
+                let mut equations = self.blocks[b].equations.iter();
+                let sides = equations.find_map(|&e| Some((e, self.space.sides(e, &part)?)));
+                let Some((e, parts)) = sides else { continue };
+                self.put(Mark::Sides(e));
+                let parts = parts.into_iter().rev();
+                stack.extend(parts.map(|part| Open::Part(part, b, is_turned)));
+                return;
+            }
             let Some(block) = self.blocks.get(b).filter(|_| !is_over) else {
                 return match self.image_in(&part).filter(|_| !is_over) {
                     Some(mark) => self.put(mark),
@@ -210,6 +224,12 @@ impl Writer<'_> {
             stack.extend([high, low].map(|part| Open::Part(part, b, is_turned)));
             return;
         }
+    }
+
+    /// Whether a block is looked at in exact numbers.
+    fn is_reducible(&self, b: usize) -> bool {
+        let block = self.blocks.get(b);
+        block.is_some_and(|block| block.square.own.len() <= MOST_REDUCED)
     }
 
     fn is_over(&self) -> bool {

@@ -44,10 +44,12 @@ impl Expanded {
         };
         for p in &row.products {
             let quarters = 4.0 * p.factor.mid();
-            if p.factor.wid() > 0.0 || quarters != quarters.round() || quarters.abs() > 1e6 {
+            let (left, right) = (side(p.left), side(p.right));
+            let is_whole =
+                p.factor.wid() == 0.0 && quarters == quarters.round() && quarters.abs() <= 1e6;
+            if !is_whole && !left.0.is_empty() && !right.0.is_empty() {
                 return None;
             }
-            let (left, right) = (side(p.left), side(p.right));
             for &(i, f) in &left.0 {
                 for &(j, g) in &right.0 {
                     *out.quadratic.entry((i.min(j), i.max(j))).or_default() +=

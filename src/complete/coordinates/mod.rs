@@ -25,6 +25,7 @@ mod kept;
 mod newton;
 mod poses;
 mod search;
+mod sides;
 mod sums;
 mod symmetry;
 mod system;
@@ -40,6 +41,7 @@ use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
+use crate::system::told::{self, Told};
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
 use contract::{contract, entire, upper_half};
@@ -47,6 +49,7 @@ use kept::Kept;
 use poses::Poses;
 pub(super) use search::leave;
 use search::{Block, Found, Run, ranges};
+use sides::Sides;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -155,7 +158,7 @@ fn searched(
     let mut figures = Figures::new(problem, (homotopy, signs), &system, run, kept.as_ref());
 
     if space.is_ok() {
-        figures.go(0, &mut Vec::new(), &x, 1.0);
+        figures.go(0, (&mut Vec::new(), &Told::default()), &x, 1.0);
     }
     result.solutions = solutions(homotopy, &figures.found);
     let bodies = figures.bodies.iter().flatten();
@@ -288,7 +291,13 @@ impl<'a> Figures<'a> {
     }
 
     /// All figures of the blocks from this one on, with those before where they are. `share`: of what is searched.
-    fn go(&mut self, b: usize, chosen: &mut Vec<(usize, usize)>, x: &[Interval], share: f64) {
+    fn go(
+        &mut self,
+        b: usize,
+        (chosen, told): (&mut Vec<(usize, usize)>, &Told),
+        x: &[Interval],
+        share: f64,
+    ) {
         if self.found.len() >= MOST_FIGURES {
             leave(&mut self.undecided, Why::GivenUp, 1, share);
             return;
@@ -298,7 +307,7 @@ impl<'a> Figures<'a> {
             return;
         };
         let own = block.unknowns.clone();
-        let found = self.solve(b, chosen, x, share);
+        let found = self.solve(b, (chosen, told), x, share);
         for part in &found.undecided {
             leave(
                 &mut self.undecided,
@@ -321,8 +330,17 @@ impl<'a> Figures<'a> {
             for (&u, range) in own.iter().zip(ranges(zero)) {
                 x[u] = range;
             }
+            let mut told = told.clone();
+            if let Some(values) = found.exact.get(k) {
+                told.learn(values.iter().cloned());
+                for (u, value) in values.iter() {
+                    let exactly = x[*u].intersection(told::range(value));
+                    // Both hold the number.
+                    x[*u] = if exactly.is_empty() { x[*u] } else { exactly };
+                }
+            }
             chosen.push((b, k));
-            self.go(b + 1, chosen, &x, each);
+            self.go(b + 1, (chosen, &told), &x, each);
             chosen.pop();
         }
     }
@@ -352,7 +370,7 @@ impl<'a> Figures<'a> {
     fn solve(
         &mut self,
         b: usize,
-        chosen: &[(usize, usize)],
+        (chosen, told): (&[(usize, usize)], &Told),
         x: &[Interval],
         share: f64,
     ) -> Rc<Found> {
@@ -381,7 +399,15 @@ impl<'a> Figures<'a> {
                         self.bodies[b] = Some(poses.body.clone());
                         poses.search(&block, x, &run)
                     }
-                    None => block.search(x.to_vec(), &run),
+                    None => {
+                        let (whole, homotopy) = (&block, self.homotopy);
+                        let sides = Sides {
+                            whole,
+                            homotopy,
+                            run: &run,
+                        };
+                        sides.search(told.clone(), x.to_vec())
+                    }
                 };
                 if is_whole {
                     found.pieces.fill(None);

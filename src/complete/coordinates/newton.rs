@@ -242,6 +242,15 @@ impl Square<'_> {
         })
     }
 
+    /// A zero that equations proved that have all their zeros in common with these, as a zero of these.
+    pub fn again(&self, zero: &Zero, x: &[Interval]) -> Option<Zero> {
+        let mut x = x.to_vec();
+        for (k, &u) in self.own.iter().enumerate() {
+            x[u] = zero.range(k);
+        }
+        self.prove(&x).filter(|again| self.is_alone(again, &x))
+    }
+
     /// Whether a zero is the only one that the box may hold: all of the box lies where it is alone.
     pub fn is_alone(&self, zero: &Zero, x: &[Interval]) -> bool {
         let pairs = self.own.iter().zip(&zero.centre);

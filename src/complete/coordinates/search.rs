@@ -15,9 +15,11 @@ use super::system::{Row, System};
 use crate::complete::search::Run as Watched;
 use crate::complete::{Part, Why};
 use crate::interval::Interval;
+use num_rational::BigRational;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 /// A search of a block among those of a run.
@@ -46,7 +48,13 @@ pub struct Found {
     /// For each zero the piece it was found in, if the search was cut into pieces.
     #[serde(skip)]
     pub pieces: Vec<Option<usize>>,
+    /// For each zero the unknowns whose numbers are known exactly; none where there are fewer.
+    #[serde(skip)]
+    pub exact: Vec<Arc<Values>>,
 }
+
+/// Unknowns with their exact numbers.
+pub type Values = Vec<(usize, BigRational)>;
 
 /// Parts that are searched each by itself.
 const PIECES: usize = 64;
@@ -74,11 +82,15 @@ pub struct Block<'a> {
     /// For each entry whether it is an unknown of the block.
     pub is_free: Vec<bool>,
     /// The entry that is the number 0.
-    zero: usize,
+    pub zero: usize,
     /// The unknowns, by their places in the block, that are positive in figures.
-    positive: Vec<usize>,
+    pub positive: Vec<usize>,
     /// The vectors that vanish in no figure and of which all is known in the block, as the system has them.
-    nonzero: Vec<&'a [[usize; 2]]>,
+    pub nonzero: Vec<&'a [[usize; 2]]>,
+    /// Their numbers.
+    pub equations: Vec<usize>,
+    /// On which side equations are: for each that has sides its number, and that of its side.
+    pub sides: Vec<[usize; 2]>,
 }
 
 /// A part of the space, with its share.
@@ -121,23 +133,33 @@ impl<'a> Block<'a> {
             is_free,
             zero: system.unknowns,
             positive,
+            equations: equations.to_vec(),
+            sides: Vec::new(),
         }
     }
 
-    /// Searches a box.
-    pub fn search(&self, mut x: Vec<Interval>, run: &Run) -> Found {
-        if let Some(ranges) = bounds(&self.square, &x) {
-            for (&u, range) in self.square.own.iter().zip(ranges) {
-                let both = x[u].intersection(range);
-                if both.is_empty() {
-                    run.watched.add_done(run.weight);
-                    return Found::default();
-                }
-                x[u] = both;
+    /// Narrows a box to the bounds of the unknowns.
+    pub(super) fn bound(&self, x: &mut [Interval]) -> Result<(), Empty> {
+        for (&u, range) in self.square.own.iter().zip(bounds(&self.square, x)?) {
+            let both = x[u].intersection(range);
+            if both.is_empty() {
+                return Err(Empty);
             }
+            x[u] = both;
         }
-        let sums = sums(&self.square, self.zero, &x);
-        let rows: Vec<&Row> = self.rows.iter().copied().chain(&sums).collect();
+        Ok(())
+    }
+
+    /// Searches a box, with every equation as it is. `whole`: the block without any sides; `more`: what follows from the equations beside.
+    pub(super) fn search_all(
+        &self,
+        whole: &Block,
+        mut more: Vec<Row>,
+        x: Vec<Interval>,
+        run: &Run,
+    ) -> Found {
+        more.extend(sums(&whole.square, self.zero, &x));
+        let rows: Vec<&Row> = self.rows.iter().copied().chain(&more).collect();
         let mut first = Piece::new(self, &rows, run);
         let mut nodes: Vec<Node> = vec![(x, 1.0)];
         // Breadth first until there are enough pieces, or few remain however far it goes.
@@ -234,7 +256,10 @@ impl<'a> Block<'a> {
         let entries = self.rows.iter().flat_map(|row| row.entries.iter().copied());
         let entries: BTreeSet<usize> = entries.collect();
         let ranges: Vec<Interval> = entries.iter().map(|&e| x[e]).collect();
-        digest(self.square.own.iter().copied(), ranges, zeros)
+        // No unknown has such a number.
+        let sides = self.sides.iter().flatten();
+        let sides = sides.map(|side| usize::MAX / 2 + side);
+        digest(self.square.own.iter().copied().chain(sides), ranges, zeros)
     }
 
     /// The logarithm of the product of all widths.

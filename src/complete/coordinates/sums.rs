@@ -21,13 +21,15 @@ pub fn sums(square: &Square, zero: usize, x: &[Interval]) -> Vec<Row> {
     let pairs = rows.iter().enumerate();
     let pairs = pairs.flat_map(|(e, one)| rows[..e].iter().map(move |other| (one, other)));
     let sums = pairs.filter_map(|(one, other)| {
-        let least = one.quadratic.len().min(other.quadratic.len());
+        let sizes = [one.quadratic.len(), other.quadratic.len()];
+        let (least, most) = (sizes[0].min(sizes[1]), sizes[0].max(sizes[1]));
         let tried = one.quadratic.iter().filter_map(|(key, &q)| {
             let p = *other.quadratic.get(key)?;
             one.less(p, other, q)
         });
         let best = tried.min_by_key(|sum| sum.quadratic.len())?;
-        (best.quadratic.len() < least).then(|| best.row(&square.own, zero))
+        let left = best.quadratic.len();
+        (left < least || left + 2 <= most).then(|| best.row(&square.own, zero))
     });
     sums.take(MOST).collect()
 }

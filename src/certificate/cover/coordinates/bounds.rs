@@ -4,9 +4,10 @@
 //! equations that come of it, x_k = α_k + β_k t, any equation is a t² + b t + c = 0; if a is not 0 then
 //! |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|).
 
-use super::space::{Part, difference};
+use super::space::difference;
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::interval::{Interval, checked, point};
+use crate::system::told::Flat;
 use std::collections::BTreeMap;
 
 /// Whole numbers beyond this are not reckoned with: all below are floats, exactly.
@@ -68,6 +69,43 @@ impl Expanded {
         }
         out.squares.retain(|_, q| *q != 0);
         out
+    }
+
+    /// The same of terms and a constant that are 0 together, each term a factor, an unknown, and perhaps another one. `None`: two of these
+    /// unknowns are multiplied.
+    pub fn of(flat: &Flat, unknowns: &[usize], x: &[Interval]) -> Option<Self> {
+        let mut out = Expanded {
+            squares: BTreeMap::new(),
+            linear: vec![ZERO; unknowns.len()],
+            constant: flat.constant,
+        };
+        let own = |u: usize| unknowns.iter().position(|&v| v == u);
+        for &(by, u, v) in &flat.terms {
+            match (own(u), v.map(|v| (own(v), x[v]))) {
+                (Some(_), Some((Some(_), _))) => return None,
+                (Some(k), None) => out.linear[k] += by,
+                (Some(k), Some((None, other))) => out.linear[k] += by * other,
+                (None, Some((Some(k), _))) => out.linear[k] += by * x[u],
+                (None, Some((None, other))) if v == Some(u) => out.constant += by * other.sqr(),
+                (None, Some((None, other))) => out.constant += by * x[u] * other,
+                (None, None) => out.constant += by * x[u],
+            }
+        }
+        Some(out)
+    }
+
+    /// Its terms, with the unknowns' own numbers.
+    pub fn flat(&self, unknowns: &[usize]) -> Flat {
+        let squares = self.squares.iter();
+        let squares =
+            squares.map(|(&(k, l), &q)| (point(q as f64), unknowns[k], Some(unknowns[l])));
+        let linear = self.linear.iter().zip(unknowns);
+        let linear = linear.map(|(&b, &u)| (b, u, None));
+        let terms = squares.chain(linear.filter(|term| term.0 != ZERO));
+        Flat {
+            terms: terms.collect(),
+            constant: self.constant,
+        }
     }
 
     /// This times a whole number less another one times one.
@@ -136,20 +174,13 @@ fn eliminate(rows: &mut [Expanded], one: usize, unknown: usize) {
     }
 }
 
-/// Ranges that hold some unknowns at every zero in a part, from the equations that are linear in them where all else is a number in its
+/// Ranges that hold n unknowns at every zero in a part, from the equations that are linear in them where all else is a number in its
 /// range: each with its place among the unknowns.
-pub fn far<'a>(
-    eq: &Equations,
-    rows: impl Iterator<Item = (&'a [Product], Interval)>,
-    unknowns: &[usize],
-    part: &Part,
-) -> Vec<(usize, Interval)> {
-    let n = unknowns.len();
+pub fn far(rows: impl Iterator<Item = Expanded>, n: usize) -> Vec<(usize, Interval)> {
     let is_bounded = |row: &Expanded| {
         let all = || row.linear.iter().chain([&row.constant]);
         row.squares.is_empty() && all().all(|x| x.is_common_interval())
     };
-    let rows = rows.map(|row| Expanded::new(eq, row, unknowns, part.entries()));
     let mut rows: Vec<Expanded> = rows.filter(is_bounded).collect();
     // What each is solved for.
     let mut solved: Vec<Option<usize>> = vec![None; rows.len()];
@@ -178,20 +209,11 @@ pub fn far<'a>(
     found.collect()
 }
 
-/// Ranges that hold the unknowns of a block at every zero in a part. `None`: nothing follows.
-pub fn bounds<'a>(
-    eq: &Equations,
-    rows: impl Iterator<Item = (&'a [Product], Interval)>,
-    unknowns: &[usize],
-    part: &Part,
-) -> Option<Vec<Interval>> {
-    let n = unknowns.len();
-    let rows: Vec<Expanded> = rows
-        .map(|row| Expanded::new(eq, row, unknowns, part.entries()))
-        .collect();
+/// Ranges that hold the n unknowns of a block at every zero of its equations in a part. `None`: nothing follows.
+pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
     // What is linear, and what is not.
     let (mut linear, mut curved): (Vec<Expanded>, Vec<Expanded>) = (Vec::new(), Vec::new());
-    for row in &rows {
+    for row in rows {
         let mut row = row.clone();
         for pivot in &curved {
             let (key, &p) = pivot.squares.first_key_value()?;

@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// The first line.
 pub const FIRST_LINE: &str = "krawl cover of coordinates";
 /// The version of the format.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -110,6 +110,10 @@ pub enum Mark {
     Undecided,
     /// 8: all rotations of a body are looked at, with the part's ranges for all else; marks of rotations follow, chart by chart.
     Body(usize),
+    /// 9: an equation is put on each of its sides in turn; a part for each follows.
+    Sides(usize),
+    /// 10: what linear equations of a block say is put into the others, in exact numbers; more marks follow.
+    Reduced(usize),
 }
 
 /// What is said of a box of rotations of a body: one byte. Boxes that no pose is in have no mark.
@@ -285,6 +289,8 @@ impl Mark {
             Mark::Bound(k) => (6, k),
             Mark::Undecided => return out.push(7),
             Mark::Body(k) => (8, k),
+            Mark::Sides(e) => (9, e),
+            Mark::Reduced(k) => (10, k),
         };
         out.push(tag);
         out.extend((number as u16).to_le_bytes());
@@ -306,6 +312,8 @@ impl Mark {
             5 => Mark::Image(number),
             6 => Mark::Bound(number),
             8 => Mark::Body(number),
+            9 => Mark::Sides(number),
+            10 => Mark::Reduced(number),
             _ => return None,
         };
         Some((mark, at + 3))

@@ -199,8 +199,8 @@ impl Space {
     /// Bounds the unknowns of a block, also by sums of two of its equations, and then narrows the part by the equations one by one.
     pub fn bound(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
         self.add_up(block, part)?;
-        if let Some(block) = self.blocks.get(block) {
-            self.rows.bound(&self.eq, block, part)?;
+        if let (Some(block), Some(sums)) = (self.blocks.get(block), self.sums.get(block)) {
+            self.rows.bound(&self.eq, (block, sums), part)?;
         }
         self.narrow(part)
     }
@@ -211,6 +211,22 @@ impl Space {
             (Some(block), Some(sums)) => self.rows.add_up(&self.eq, (block, sums), part),
             _ => Ok(()),
         }
+    }
+
+    /// The part with an equation on each of its sides, if it has some.
+    pub fn sides(&self, e: usize, part: &Part) -> Option<Vec<Part>> {
+        let mut blocks = self.blocks.iter();
+        let block = blocks.find(|block| block.equations.contains(&e))?;
+        part.sides(&self.eq, block, e)
+    }
+
+    /// Puts what linear equations of a block say into the others, in exact numbers, and narrows the part by what comes of it. A block that there
+    /// is not does nothing.
+    pub fn reduce(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
+        if let Some(of) = self.blocks.get(block) {
+            part.reduce(&self.eq, (block, of))?;
+        }
+        self.narrow(part)
     }
 
     /// Whether it is known in a part about where a body's legs stand, so that its rotations can be looked at.
@@ -382,7 +398,15 @@ impl Check<'_> {
                     self.stack.extend(charts);
                     true
                 }
-                Mark::Block(_) | Mark::Bound(_) | Mark::Body(_) => false,
+                Mark::Reduced(k) if k < self.cover.blocks.len() => {
+                    left = space.reduce(k, &mut part);
+                    continue;
+                }
+                Mark::Sides(e) => space.sides(e, &part).is_some_and(|parts| {
+                    self.stack.extend(parts.into_iter().rev().map(Open::Part));
+                    true
+                }),
+                Mark::Block(_) | Mark::Bound(_) | Mark::Body(_) | Mark::Reduced(_) => false,
             };
             return if proved { Ok(false) } else { Err(UNPROVED) };
         }

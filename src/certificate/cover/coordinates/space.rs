@@ -11,6 +11,8 @@ use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
 use crate::interval::{Interval, checked, point};
+use crate::system::told::{self, Flat, Told, View};
+use std::rc::Rc;
 
 /// A range counts as changed where it became narrower by this part of it. (No zero is lost whatever this number is.)
 const ENOUGH: f64 = 0.05;
@@ -31,6 +33,12 @@ pub struct Part {
     x: Vec<Interval>,
     /// Which of them were narrowed since the equations were gone through.
     fresh: Vec<bool>,
+    /// What is known exactly.
+    told: Rc<Told>,
+    /// Equations that are on a side, what each says there, and whether that may stand in its place.
+    sides: Rc<Vec<(usize, Flat, bool)>>,
+    /// The block whose linear equations were put into the others last, and what came of it.
+    reduced: Option<(usize, Rc<Vec<Flat>>)>,
 }
 
 /// Σ products = right.
@@ -69,6 +77,9 @@ impl Part {
         Part {
             fresh: vec![true; x.len()],
             x,
+            told: Rc::default(),
+            sides: Rc::default(),
+            reduced: None,
         }
     }
 
@@ -80,6 +91,73 @@ impl Part {
     /// The ranges of all entries: also of t and of the numbers 0 and 1.
     pub fn entries(&self) -> &[Interval] {
         &self.x
+    }
+
+    /// Whether what linear equations of a block say was put into the others in this part, since an equation was put on a side.
+    pub fn is_reduced(&self, block: usize) -> bool {
+        self.reduced
+            .as_ref()
+            .is_some_and(|(last, _)| *last == block)
+    }
+
+    fn view<'a>(&'a self, eq: &'a Equations, block: &'a Block) -> View<'a> {
+        View {
+            homotopy: &eq.homotopy,
+            equations: &block.equations,
+            unknowns: &block.unknowns,
+            ranges: self.ranges(),
+        }
+    }
+
+    /// The part with an equation of a block on each of its sides, if it has some: every zero is on one of them.
+    pub fn sides(&self, eq: &Equations, block: &Block, e: usize) -> Option<Vec<Part>> {
+        let view = self.view(eq, block);
+        let on = |told: Told| {
+            let mut part = self.clone();
+            let (flat, is_whole) = told.side(&view, e)?;
+            Rc::make_mut(&mut part.sides).push((e, flat, is_whole));
+            part.told = Rc::new(told);
+            part.reduced = None;
+            part.fresh.fill(true);
+            Some(part)
+        };
+        self.told.sides(&view, e)?.into_iter().map(on).collect()
+    }
+
+    /// What an equation says that is on a side, if that may stand in its place.
+    fn side(&self, e: usize) -> Option<&Flat> {
+        let mut sides = self.sides.iter();
+        sides.find(|side| side.0 == e && side.2).map(|side| &side.1)
+    }
+
+    /// Puts what linear equations of a block say into the others, in exact numbers.
+    pub fn reduce(&mut self, eq: &Equations, (b, block): (usize, &Block)) -> Result<(), Empty> {
+        let mut told = (*self.told).clone();
+        let view = self.view(eq, block);
+        let reduced = told.reduced(&view).map_err(|_| Empty)?;
+        let rows = reduced.rows.iter().map(|row| told.flat(&view, row));
+        let rows: Vec<Flat> = rows.collect();
+        self.reduced = Some((b, Rc::new(rows)));
+        for (i, value) in told.values() {
+            self.narrow(i, told::range(value))?;
+        }
+        self.told = Rc::new(told);
+        self.narrow_by_told()
+    }
+
+    /// Narrows by what was put together in exact numbers.
+    fn narrow_by_told(&mut self) -> Result<(), Empty> {
+        // Shared: the part itself is narrowed.
+        let (sides, reduced) = (Rc::clone(&self.sides), self.reduced.clone());
+        let reduced = reduced.iter().flat_map(|(_, rows)| rows.iter());
+        let mut rows = sides.iter().map(|side| &side.1).chain(reduced);
+        rows.try_for_each(|flat| sums::narrow(flat, self))
+    }
+
+    /// What was put together in exact numbers.
+    fn told_rows(&self) -> impl Iterator<Item = &Flat> {
+        let reduced = self.reduced.iter().flat_map(|(_, rows)| rows.iter());
+        self.sides.iter().map(|side| &side.1).chain(reduced)
     }
 
     /// The part with an unknown in the lower and in the upper half of its range, which share a border.
@@ -201,6 +279,7 @@ impl Rows {
                     self.narrow_by(eq, row, part)?;
                 }
             }
+            part.narrow_by_told()?;
         }
         part.fresh.fill(false);
         Ok(())
@@ -256,12 +335,29 @@ impl Rows {
 
     /// The equations of a block in its unknowns, all other entries being numbers in their ranges.
     fn expanded(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<Expanded> {
-        let rows = block.equations.iter().map(|&e| &self.rows[e]);
-        let expanded = rows.map(|row| {
-            let row = (row.products.as_slice(), row.right);
-            Expanded::new(eq, row, &block.unknowns, part.entries())
+        let expanded = block.equations.iter().map(|&e| {
+            let side = part.side(e);
+            let side = side.and_then(|flat| Expanded::of(flat, &block.unknowns, part.entries()));
+            side.unwrap_or_else(|| self.whole(eq, e, block, part))
         });
         expanded.collect()
+    }
+
+    /// An equation on no side.
+    fn whole(&self, eq: &Equations, e: usize, block: &Block, part: &Part) -> Expanded {
+        let row = (self.rows[e].products.as_slice(), self.rows[e].right);
+        Expanded::new(eq, row, &block.unknowns, part.entries())
+    }
+
+    /// Sums of a block's equations, which `sums` says.
+    fn added(&self, eq: &Equations, (block, sums): (&Block, &[Sum]), part: &Part) -> Vec<Flat> {
+        let rows = block
+            .equations
+            .iter()
+            .map(|&e| self.whole(eq, e, block, part));
+        let rows: Vec<Expanded> = rows.collect();
+        let sums = sums.iter().filter_map(|sum| sum.of(&rows));
+        sums.map(|sum| sum.flat(&block.unknowns)).collect()
     }
 
     /// Narrows by sums of a block's equations, which `sums` says, and by the equations one by one.
@@ -271,12 +367,10 @@ impl Rows {
         (block, sums): (&Block, &[Sum]),
         part: &mut Part,
     ) -> Result<(), Empty> {
-        let rows = self.expanded(eq, block, part);
-        let sums = sums.iter().filter_map(|sum| sum.of(&rows));
-        let sums: Vec<Expanded> = sums.collect();
+        let sums = self.added(eq, (block, sums), part);
         for _ in 0..SUMMED {
             for sum in &sums {
-                sums::narrow(sum, &block.unknowns, part)?;
+                sums::narrow(sum, part)?;
             }
             self.narrow(eq, part)?;
         }
@@ -301,6 +395,13 @@ impl Rows {
         };
         let slopes = |x: &[Interval]| -> Vec<Vec<(usize, Interval)>> {
             let row = |&e: &usize| {
+                if let Some(flat) = part.side(e) {
+                    let own = |u: usize| block.unknowns.iter().position(|&v| v == u);
+                    let terms = flat.terms.iter();
+                    return terms
+                        .filter_map(|&(by, u, _)| Some((own(u)?, by)))
+                        .collect();
+                }
                 let terms = eq.gradient[e].iter().filter_map(|&(i, factor, form)| {
                     let k = block.unknowns.iter().position(|&u| u == i)?;
                     let slope = point(factor as f64) * difference(x, eq.forms[form]);
@@ -320,6 +421,10 @@ impl Rows {
             return Ok(());
         };
         let values = block.equations.iter().map(|&e| {
+            if let Some(flat) = part.side(e) {
+                let terms = flat.terms.iter();
+                return terms.fold(flat.constant, |sum, &(by, u, _)| sum + by * at[u]);
+            }
             let row = &self.rows[e];
             let products = row.products.iter();
             products.fold(-row.right, |sum, &product| sum + value(eq, product, &at))
@@ -352,12 +457,13 @@ impl Rows {
 
 impl Rows {
     /// Bounds the unknowns of a block ([`bounds`]).
-    pub fn bound(&self, eq: &Equations, block: &Block, part: &mut Part) -> Result<(), Empty> {
-        let rows = block.equations.iter().map(|&e| {
-            let row = &self.rows[e];
-            (row.products.as_slice(), row.right)
-        });
-        let found = bounds(eq, rows, &block.unknowns, part);
+    pub fn bound(
+        &self,
+        eq: &Equations,
+        (block, sums): (&Block, &[Sum]),
+        part: &mut Part,
+    ) -> Result<(), Empty> {
+        let found = bounds(&self.expanded(eq, block, part), block.unknowns.len());
         let ranges = block.unknowns.iter().zip(found.into_iter().flatten());
         for (&u, range) in ranges {
             part.narrow(u, range)?;
@@ -368,8 +474,14 @@ impl Rows {
             .collect();
         let is_about = |row: &&Row| row.unknowns.iter().any(|u| unbounded.contains(u));
         let rows = self.rows.iter().filter(is_about);
-        let rows = rows.map(|row| (row.products.as_slice(), row.right));
-        for (k, range) in far(eq, rows, &unbounded, part) {
+        let rows = rows.map(|row| {
+            let row = (row.products.as_slice(), row.right);
+            Expanded::new(eq, row, &unbounded, part.entries())
+        });
+        let more = self.added(eq, (block, sums), part);
+        let more = more.iter().chain(part.told_rows());
+        let more = more.filter_map(|flat| Expanded::of(flat, &unbounded, part.entries()));
+        for (k, range) in far(rows.chain(more), unbounded.len()) {
             part.narrow(unbounded[k], range)?;
         }
         Ok(())

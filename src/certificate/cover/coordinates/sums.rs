@@ -2,8 +2,8 @@
 
 use super::bounds::Expanded;
 use super::space::{Empty, Part, narrow_form, square};
-use crate::certificate::checker::equations::ZERO;
-use crate::interval::{Interval, point};
+use crate::interval::Interval;
+use crate::system::told::Flat;
 
 /// A whole multiple of one of a block's equations less one of another.
 pub struct Sum {
@@ -22,19 +22,21 @@ impl Sum {
     }
 }
 
-/// For every two equations the sum with the fewest products of unknowns, if these are fewer than in either. (Any sum would do.)
+/// For every two equations the sum with the fewest products of unknowns, if these are fewer than in either, or by two fewer than in one. (Any sum
+/// would do.)
 pub fn choose(rows: &[Expanded]) -> Vec<Sum> {
     let mut sums = Vec::new();
     for (e, one) in rows.iter().enumerate() {
         for (f, other) in rows[..e].iter().enumerate() {
-            let least = one.squares.len().min(other.squares.len());
+            let sizes = [one.squares.len(), other.squares.len()];
+            let (least, most) = (sizes[0].min(sizes[1]), sizes[0].max(sizes[1]));
             let tried = one.squares.iter().filter_map(|(key, &q)| {
                 let by = [*other.squares.get(key)?, q];
                 let count = one.combined(by[0], other, by[1])?.squares.len();
                 Some((count, by))
             });
             let best = tried.min_by_key(|(count, _)| *count);
-            if let Some((_, by)) = best.filter(|(count, _)| *count < least) {
+            if let Some((_, by)) = best.filter(|(count, _)| *count < least || count + 2 <= most) {
                 sums.push(Sum { rows: [e, f], by });
             }
         }
@@ -44,15 +46,7 @@ pub fn choose(rows: &[Expanded]) -> Vec<Sum> {
 }
 
 /// Narrows a part by an equation: each term is in the opposite of all others together.
-pub fn narrow(sum: &Expanded, unknowns: &[usize], part: &mut Part) -> Result<(), Empty> {
-    // q x_k x_l, or b x_k.
-    let squares = sum.squares.iter();
-    let squares = squares.map(|(&(k, l), &q)| (point(q as f64), unknowns[k], Some(unknowns[l])));
-    let linear = sum.linear.iter().zip(unknowns);
-    let linear = linear.map(|(&b, &u)| (b, u, None));
-    let terms: Vec<_> = squares
-        .chain(linear.filter(|term| term.0 != ZERO))
-        .collect();
+pub fn narrow(Flat { terms, constant }: &Flat, part: &mut Part) -> Result<(), Empty> {
     let value = |part: &Part, &(by, u, v): &(Interval, usize, Option<usize>)| {
         let x = part.entries();
         by * match v {
@@ -63,9 +57,12 @@ pub fn narrow(sum: &Expanded, unknowns: &[usize], part: &mut Part) -> Result<(),
     };
     // An unknown as a difference: behind the unknowns stand t, the number 0 and the number 1.
     let zero = part.ranges().len() + 1;
+    if terms.is_empty() && !constant.contains(0.0) {
+        return Err(Empty);
+    }
     for (k, term) in terms.iter().enumerate() {
         let others = terms.iter().enumerate().filter(|(j, _)| *j != k);
-        let rest = others.fold(sum.constant, |rest, (_, term)| rest + value(part, term));
+        let rest = others.fold(*constant, |rest, (_, term)| rest + value(part, term));
         let &(by, u, v) = term;
         if rest.is_entire() || by.contains(0.0) {
             continue;

@@ -1,0 +1,624 @@
+//! What the equations of a block tell in exact numbers, before any range is halved.
+//!
+//! Sketches are full of equations that are two linear ones, either of which may hold: (x − y)² = d² along an axis, (a − b)² = (c − d)² for sides of equal length,
+//! a product that is zero. With each of them on one side or the other, much of a block is linear, and can be solved in ratios: unknowns that
+//! linear equations tell by others are replaced by these in all other equations, so that products cancel exactly, a contradiction is one and not nearly one, and
+//! unknowns get exact values. Intervals can do none of this: there x = y + c is nearly so, and a determinant that is 0 is nearly 0.
+//!
+//! # Why nothing is lost
+//!
+//! Every step is an identity in ratios. *Sides*: from L² = M² follows L = M or L = −M; from L² = r > 0, L = √r or L = −√r; from L M = 0, L = 0 or M = 0.
+//! *Putting in*: an equation c x + rest = 0 with a ratio c ≠ 0 and without products says x = −rest/c, which may stand for x wherever it is. *Taking
+//! away*: what is zero at a zero may be subtracted, any number of times. Numbers that are no ratios (an irrational length, what a block before was found
+//! to be) are symbols in this, and ranges only where the result is used.
+
+use super::Homotopy;
+use crate::interval::{Interval, enclose_rational, point};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::collections::BTreeMap;
+
+/// `Σ q_ij z_i z_j + Σ b_i z_i + c`, which is 0. The z are unknowns of the homotopy, and behind these symbols for numbers ([`Told`]).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quadratic {
+    products: BTreeMap<[usize; 2], BigRational>,
+    linear: BTreeMap<usize, BigRational>,
+    constant: BigRational,
+}
+
+/// A [`Quadratic`] with ranges for all that are not unknowns of a block: each term is a factor, an unknown, and perhaps another one.
+#[derive(Debug, Clone)]
+pub struct Flat {
+    /// The terms.
+    pub terms: Vec<(Interval, usize, Option<usize>)>,
+    /// What is added to them.
+    pub constant: Interval,
+}
+
+/// The equations of a block with what linear ones say put into the others.
+#[derive(Debug, Clone)]
+pub struct Reduced {
+    /// Those that changed: all are 0.
+    pub rows: Vec<Quadratic>,
+    /// Whether all are linear and fewer than the unknowns that they tell: if they have a zero, they have a line of them.
+    pub is_curve: bool,
+}
+
+/// Equations that contradict each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Contradiction;
+
+/// What is known exactly where a block is looked at: values of unknowns, and on which side equations are.
+///
+/// The number m + e is the symbol of the right-hand side of equation e, and 2m + e of the root that its square is of.
+#[derive(Debug, Clone, Default)]
+pub struct Told {
+    values: BTreeMap<usize, BigRational>,
+    /// What equations say that are on a side, and whether that says all that the equation says there, without values of the block's own unknowns.
+    sides: BTreeMap<usize, (Quadratic, bool)>,
+    roots: BTreeMap<usize, Interval>,
+}
+
+/// A block with its unknowns, and ranges for all entries.
+pub struct View<'a> {
+    /// The equations.
+    pub homotopy: &'a Homotopy,
+    /// The equations of the block.
+    pub equations: &'a [usize],
+    /// Its unknowns.
+    pub unknowns: &'a [usize],
+    /// The range of every unknown of the homotopy.
+    pub ranges: &'a [Interval],
+}
+
+impl Quadratic {
+    fn constant(c: BigRational) -> Self {
+        Quadratic {
+            products: BTreeMap::new(),
+            linear: BTreeMap::new(),
+            constant: c,
+        }
+    }
+
+    fn symbol(i: usize) -> Self {
+        let mut out = Self::constant(BigRational::zero());
+        out.linear.insert(i, BigRational::one());
+        out
+    }
+
+    fn is_linear(&self) -> bool {
+        self.products.is_empty()
+    }
+
+    /// Adds `by` times another one.
+    fn add(&mut self, by: &BigRational, other: &Self) {
+        for (&key, q) in &other.products {
+            *self.products.entry(key).or_insert_with(BigRational::zero) += by * q;
+        }
+        for (&i, b) in &other.linear {
+            *self.linear.entry(i).or_insert_with(BigRational::zero) += by * b;
+        }
+        self.constant += by * &other.constant;
+        self.products.retain(|_, q| !q.is_zero());
+        self.linear.retain(|_, b| !b.is_zero());
+    }
+
+    /// The product of two without products.
+    fn times(&self, other: &Self) -> Self {
+        debug_assert!(self.is_linear() && other.is_linear());
+        let mut out = Self::constant(&self.constant * &other.constant);
+        for (&i, b) in &self.linear {
+            for (&j, d) in &other.linear {
+                let key = [i.min(j), i.max(j)];
+                *out.products.entry(key).or_insert_with(BigRational::zero) += b * d;
+            }
+        }
+        for (one, by) in [(self, &other.constant), (other, &self.constant)] {
+            for (&i, b) in &one.linear {
+                *out.linear.entry(i).or_insert_with(BigRational::zero) += b * by;
+            }
+        }
+        out.products.retain(|_, q| !q.is_zero());
+        out.linear.retain(|_, b| !b.is_zero());
+        out
+    }
+
+    /// Puts a sum without products in the place of z_p; whether z_p was there.
+    fn put(&mut self, p: usize, sum: &Self) -> bool {
+        let keys: Vec<[usize; 2]> = self.products.keys().copied().collect();
+        let mut is_there = false;
+        for key in keys.into_iter().filter(|key| key.contains(&p)) {
+            let Some(q) = self.products.remove(&key) else {
+                continue;
+            };
+            is_there = true;
+            let product = match key {
+                [i, j] if i == j => sum.times(sum),
+                [i, j] => sum.times(&Self::symbol(if i == p { j } else { i })),
+            };
+            self.add(&q, &product);
+        }
+        if let Some(b) = self.linear.remove(&p) {
+            is_there = true;
+            self.add(&b, sum);
+        }
+        is_there
+    }
+
+    fn has(&self, i: usize) -> bool {
+        self.linear.contains_key(&i) || self.products.keys().any(|key| key.contains(&i))
+    }
+
+    /// The products of two unknowns of a block, which are what keeps it from being linear.
+    fn curved<'a>(
+        &'a self,
+        view: &'a View,
+    ) -> impl Iterator<Item = (&'a [usize; 2], &'a BigRational)> {
+        let is_own = |i: &usize| view.unknowns.contains(i);
+        self.products
+            .iter()
+            .filter(move |(key, _)| key.iter().all(is_own))
+    }
+}
+
+/// An interval around a ratio: all numbers, where it is beyond the floats.
+pub fn range(x: &BigRational) -> Interval {
+    match x.to_f64().is_some_and(f64::is_finite) {
+        true => enclose_rational(x),
+        false => Interval::ENTIRE,
+    }
+}
+
+/// The root of a ratio, if it is one.
+fn root(x: &BigRational) -> Option<BigRational> {
+    let whole = |n: &BigInt| Some(n.sqrt()).filter(|r| r * r == *n);
+    match x.is_negative() {
+        true => None,
+        false => Some(BigRational::new(whole(x.numer())?, whole(x.denom())?)),
+    }
+}
+
+impl Told {
+    /// The unknowns whose values are known.
+    pub fn values(&self) -> impl Iterator<Item = (usize, &BigRational)> {
+        self.values.iter().map(|(&i, x)| (i, x))
+    }
+
+    /// Adds values that were found elsewhere.
+    pub fn learn(&mut self, values: impl IntoIterator<Item = (usize, BigRational)>) {
+        self.values.extend(values);
+    }
+
+    /// An entry of the equations.
+    fn entry(&self, homotopy: &Homotopy, i: usize) -> Quadratic {
+        match self.values.get(&i) {
+            Some(x) => Quadratic::constant(x.clone()),
+            None if i >= homotopy.equations => Quadratic::constant(BigRational::zero()),
+            None => Quadratic::symbol(i),
+        }
+    }
+
+    /// A factor of a term.
+    fn form(&self, homotopy: &Homotopy, form: Option<[usize; 2]>) -> Quadratic {
+        match form {
+            None => Quadratic::constant(BigRational::one()),
+            Some([i, j]) if i == j => Quadratic::constant(BigRational::zero()),
+            Some([i, j]) => {
+                let mut out = self.entry(homotopy, i);
+                out.add(&-BigRational::one(), &self.entry(homotopy, j));
+                out
+            }
+        }
+    }
+
+    /// Twice the right-hand side of an equation.
+    fn right(homotopy: &Homotopy, e: usize) -> Quadratic {
+        let two = BigRational::from(BigInt::from(2));
+        let ball = homotopy.rights[e].ball_at_target();
+        match ball.radius.is_zero() {
+            true => Quadratic::constant(two * ball.middle),
+            false => {
+                let mut out = Quadratic::constant(BigRational::zero());
+                out.linear.insert(homotopy.equations + e, two);
+                out
+            }
+        }
+    }
+
+    /// The factors of an equation's terms: those whose product is not certainly zero.
+    fn terms(&self, homotopy: &Homotopy, e: usize) -> Vec<(BigRational, [Quadratic; 2])> {
+        let terms = homotopy.terms(e).into_iter().map(|term| {
+            let factors = [term.left, term.right].map(|form| self.form(homotopy, form));
+            (BigRational::from(BigInt::from(term.factor)), factors)
+        });
+        let nothing = Quadratic::constant(BigRational::zero());
+        terms
+            .filter(|(_, factors)| !factors.contains(&nothing))
+            .collect()
+    }
+
+    /// An equation, on its side if it is on one.
+    fn equation(&self, homotopy: &Homotopy, e: usize) -> Quadratic {
+        if let Some((side, _)) = self.sides.get(&e) {
+            let mut out = side.clone();
+            let known: Vec<usize> = out.linear.keys().copied().collect();
+            for i in known {
+                if let Some(value) = self.values.get(&i) {
+                    out.put(i, &Quadratic::constant(value.clone()));
+                }
+            }
+            return out;
+        }
+        let mut out = Quadratic::constant(BigRational::zero());
+        for (factor, [left, right]) in self.terms(homotopy, e) {
+            out.add(&factor, &left.times(&right));
+        }
+        out.add(&-BigRational::one(), &Self::right(homotopy, e));
+        out
+    }
+
+    /// What is known with an equation of a block on each of its sides, if it has some and is on none: one of them holds.
+    pub fn sides(&self, view: &View, e: usize) -> Option<Vec<Told>> {
+        if self.sides.contains_key(&e) || !view.equations.contains(&e) {
+            return None;
+        }
+        let homotopy = view.homotopy;
+        let moves = |sum: &Quadratic| sum.linear.keys().any(|i| view.unknowns.contains(i));
+        let (free, known): (Vec<_>, Vec<_>) = self
+            .terms(homotopy, e)
+            .into_iter()
+            .partition(|(_, factors)| factors.iter().any(moves));
+        let mut rest = Self::right(homotopy, e);
+        for (factor, [left, right]) in &known {
+            rest.add(&-factor.clone(), &left.times(right));
+        }
+        let is_zero = rest == Quadratic::constant(BigRational::zero());
+        let sum = |one: &Quadratic, by: &BigRational, other: &Quadratic| {
+            let mut out = one.clone();
+            out.add(by, other);
+            out
+        };
+        // With a value in the place of an unknown, the side does not say any more what that unknown has to do with it.
+        let ends = homotopy.terms(e).into_iter();
+        let ends = ends.flat_map(|term| [term.left, term.right]).flatten();
+        let mut ends = ends.flatten();
+        let is_whole = !ends.any(|i| self.values.contains_key(&i) && view.unknowns.contains(&i));
+        let with = |sides: Vec<Quadratic>, root: Option<Interval>| {
+            let told = sides.into_iter().map(|side| {
+                let mut told = self.clone();
+                told.sides.insert(e, (side, is_whole));
+                told.roots.extend(root.map(|root| (e, root)));
+                told
+            });
+            Some(told.collect())
+        };
+        let minus = -BigRational::one();
+        match free.as_slice() {
+            [(factor, [left, right])] if left == right => {
+                let by = factor.recip();
+                let is_ratio = rest.is_linear() && rest.linear.is_empty();
+                let square = &by * &rest.constant;
+                if is_ratio && square.is_zero() {
+                    return with(vec![left.clone()], None);
+                }
+                let (symbol, range) = match root(&square).filter(|_| is_ratio) {
+                    Some(root) => (Quadratic::constant(root), None),
+                    None => {
+                        let number = 2 * homotopy.equations + e;
+                        let flat = self.flat(view, &rest);
+                        let square = flat.constant * range(&by);
+                        let is_good = flat.terms.is_empty() && square.inf() > 0.0;
+                        let root = square.sqrt();
+                        let is_good = is_good && root.is_common_interval();
+                        is_good.then_some((Quadratic::symbol(number), Some(root)))?
+                    }
+                };
+                let sides = [&minus, &BigRational::one()].map(|by| sum(left, by, &symbol));
+                with(sides.to_vec(), range)
+            }
+            [(_, [left, right])] if is_zero && moves(left) && moves(right) => {
+                with(vec![left.clone(), right.clone()], None)
+            }
+            [(f, [p, q]), (g, [r, s])] if is_zero => {
+                let ratio = -(g / f);
+                if p == q && r == s {
+                    let root = root(&ratio)?;
+                    return with(vec![sum(p, &-root.clone(), r), sum(p, &root, r)], None);
+                }
+                // A factor in common, or its opposite.
+                let pairs = [(p, q, r, s), (p, q, s, r), (q, p, r, s), (q, p, s, r)];
+                pairs.into_iter().find_map(|(shared, other, again, third)| {
+                    let by = match () {
+                        () if shared == again => g / f,
+                        () if sum(shared, &BigRational::one(), again).is_nothing() => -(g / f),
+                        () => return None,
+                    };
+                    let rest = sum(other, &by, third);
+                    let is_new = moves(shared) && rest.is_linear();
+                    is_new.then(|| with(vec![shared.clone(), rest], None))?
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// The equations of a block with what linear ones say put into the others. Values that come of it are learned.
+    pub fn reduced(&mut self, view: &View) -> Result<Reduced, Contradiction> {
+        let all = view
+            .equations
+            .iter()
+            .map(|&e| self.equation(view.homotopy, e));
+        let (mut linear, mut curved) = (Vec::new(), Vec::new());
+        for row in all {
+            match row.is_linear() {
+                true => linear.push(row),
+                false => curved.push((row, false)),
+            }
+        }
+        let mut k = 0;
+        while k < linear.len() {
+            while k < linear.len() {
+                put_everywhere(k, view, &mut linear, &mut curved);
+                k += 1;
+            }
+            subtract(view, &mut linear, &mut curved);
+        }
+        let open = view.unknowns.iter().copied();
+        let open: Vec<usize> = open.filter(|i| !self.values.contains_key(i)).collect();
+        for row in &linear {
+            let mut own = row.linear.iter();
+            match (own.next(), own.next()) {
+                (None, _) if !row.constant.is_zero() => return Err(Contradiction),
+                (Some((&i, b)), None) if open.contains(&i) => {
+                    self.values.insert(i, -(&row.constant / b));
+                }
+                _ => {}
+            }
+        }
+        let is_open = |row: &Quadratic| open.iter().any(|&i| row.has(i));
+        let told = linear.iter().filter(|row| is_open(row)).count();
+        let is_linear = !curved.iter().any(|(row, _)| is_open(row));
+        let is_curve = is_linear && told < open.len();
+        let changed = curved.into_iter().filter(|(_, changed)| *changed);
+        let all = linear.into_iter().chain(changed.map(|(row, _)| row));
+        Ok(Reduced {
+            rows: all.filter(|row| !row.is_nothing()).collect(),
+            is_curve,
+        })
+    }
+
+    /// What an equation says that is on a side; and whether that may stand in its place, where as many equations as unknowns are wanted.
+    pub fn side(&self, view: &View, e: usize) -> Option<(Flat, bool)> {
+        let (side, is_whole) = self.sides.get(&e)?;
+        Some((self.flat(view, side), *is_whole))
+    }
+
+    /// An equation with ranges for all that are not unknowns of the block.
+    pub fn flat(&self, view: &View, of: &Quadratic) -> Flat {
+        let is_own = |i: usize| view.unknowns.contains(&i) && !self.values.contains_key(&i);
+        let m = view.homotopy.equations;
+        let range_of = |i: usize| match self.values.get(&i) {
+            Some(x) => range(x),
+            None if i < m => view.ranges[i],
+            None if i < 2 * m => view.homotopy.rights[i - m].at_target(),
+            None => self
+                .roots
+                .get(&(i - 2 * m))
+                .copied()
+                .unwrap_or(Interval::ENTIRE),
+        };
+        let mut linear: BTreeMap<usize, Interval> = BTreeMap::new();
+        let mut add = |i: usize, by: Interval| {
+            let sum = linear.entry(i).or_insert(point(0.0));
+            *sum += by;
+        };
+        let mut terms = Vec::new();
+        let mut constant = range(&of.constant);
+        for (&[i, j], q) in &of.products {
+            let q = range(q);
+            match (is_own(i), is_own(j)) {
+                (true, true) => terms.push((q, i, Some(j))),
+                (true, false) => add(i, q * range_of(j)),
+                (false, true) => add(j, q * range_of(i)),
+                (false, false) if i == j => constant += q * range_of(i).sqr(),
+                (false, false) => constant += q * range_of(i) * range_of(j),
+            }
+        }
+        for (&i, b) in &of.linear {
+            let b = range(b);
+            match is_own(i) {
+                true => add(i, b),
+                false => constant += b * range_of(i),
+            }
+        }
+        terms.extend(linear.into_iter().map(|(i, b)| (b, i, None)));
+        Flat { terms, constant }
+    }
+}
+
+impl Quadratic {
+    fn is_nothing(&self) -> bool {
+        self.is_linear() && self.linear.is_empty() && self.constant.is_zero()
+    }
+}
+
+/// Puts what a linear equation says of one of the unknowns into all others.
+fn put_everywhere(
+    k: usize,
+    view: &View,
+    linear: &mut [Quadratic],
+    curved: &mut [(Quadratic, bool)],
+) {
+    let mut row = linear[k].clone();
+    // One that is in few products, so that what is left is of as few unknowns.
+    let is_in = |i: usize| curved.iter().filter(|(row, _)| row.has(i)).count();
+    let own = row.linear.keys().copied();
+    let own = own.filter(|i| view.unknowns.contains(i));
+    let Some(pivot) = own.min_by_key(|&i| is_in(i)) else {
+        return;
+    };
+    let Some(by) = row.linear.remove(&pivot) else {
+        return;
+    };
+    let mut sum = Quadratic::constant(BigRational::zero());
+    sum.add(&-by.recip(), &row);
+    for (_, other) in linear.iter_mut().enumerate().filter(|(j, _)| *j != k) {
+        other.put(pivot, &sum);
+    }
+    for (other, changed) in curved {
+        *changed |= other.put(pivot, &sum);
+    }
+}
+
+/// Takes multiples of equations from others so that products of unknowns cancel; those of which no product is left are linear.
+fn subtract(view: &View, linear: &mut Vec<Quadratic>, curved: &mut Vec<(Quadratic, bool)>) {
+    for (mut row, mut changed) in std::mem::take(curved) {
+        for (pivot, _) in curved.iter() {
+            let Some((key, p)) = pivot.curved(view).next() else {
+                continue;
+            };
+            let Some(q) = row.products.get(key) else {
+                continue;
+            };
+            let mut less = row.clone();
+            less.add(&-(q / p), pivot);
+            if less.curved(view).count() < row.curved(view).count() {
+                (row, changed) = (less, true);
+            }
+        }
+        match row.is_linear() {
+            true => linear.push(row),
+            false => curved.push((row, changed)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::checked;
+    use crate::problem::Problem;
+
+    fn ratio(a: i64, b: i64) -> BigRational {
+        BigRational::new(BigInt::from(a), BigInt::from(b))
+    }
+
+    #[test]
+    fn roots_are_those_of_squares_of_ratios() {
+        assert_eq!(root(&ratio(49, 100)), Some(ratio(7, 10)));
+        assert_eq!(root(&ratio(0, 1)), Some(ratio(0, 1)));
+        assert_eq!(root(&ratio(1, 2)), None);
+        assert_eq!(root(&ratio(-1, 4)), None);
+    }
+
+    #[test]
+    fn what_is_put_in_is_an_identity() {
+        // x y + x² − 3 y with x = 2 z − 1/3, at y = 5 and z = 7/2.
+        let (x, y, z) = (0, 1, 2);
+        let mut sum = Quadratic::constant(ratio(-1, 3));
+        sum.add(&ratio(2, 1), &Quadratic::symbol(z));
+        let symbol = Quadratic::symbol;
+        let mut row = symbol(x).times(&symbol(y));
+        row.add(&ratio(1, 1), &symbol(x).times(&symbol(x)));
+        row.add(&ratio(-3, 1), &symbol(y));
+        assert!(row.put(x, &sum) && !row.has(x));
+        for (i, value) in [(y, ratio(5, 1)), (z, ratio(7, 2))] {
+            assert!(row.put(i, &Quadratic::constant(value)));
+        }
+        let at = ratio(20, 3);
+        let wanted = &at * ratio(5, 1) + &at * &at - ratio(15, 1);
+        assert_eq!(row, Quadratic::constant(wanted));
+    }
+
+    /// Every choice of sides, one after the other, of all equations in one block: how many contradict each other, and the values where they do not.
+    fn choices(text: &str) -> (usize, Vec<Vec<(usize, BigRational)>>) {
+        let problem = Problem::parse(text, "test.toml").unwrap();
+        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let all: Vec<usize> = (0..homotopy.equations).collect();
+        let ranges = vec![checked(f64::NEG_INFINITY, f64::INFINITY).unwrap(); all.len()];
+        let view = View {
+            homotopy: &homotopy,
+            equations: &all,
+            unknowns: &all,
+            ranges: &ranges,
+        };
+        let (mut contradictions, mut found) = (0, Vec::new());
+        let mut open = vec![Told::default()];
+        while let Some(mut told) = open.pop() {
+            if told.reduced(&view).is_err() {
+                contradictions += 1;
+                continue;
+            }
+            match all.iter().find_map(|&e| told.sides(&view, e)) {
+                Some(sides) => open.extend(sides),
+                None => {
+                    let values = told.values();
+                    found.push(values.map(|(i, x)| (i, x.clone())).collect());
+                }
+            }
+        }
+        (contradictions, found)
+    }
+
+    #[test]
+    fn each_side_gives_exact_values() {
+        let (contradictions, found) = choices(
+            r#"
+            name = "line"
+            dimension = 2
+            [points]
+            e = [0.4, 0]
+            a = [0.3, 0]
+            [constraints]
+            fixed = ["e"]
+            y = [["a", 0]]
+            distances = [["a", "e", 0.1]]
+            "#,
+        );
+        assert_eq!((contradictions, found.len()), (0, 2));
+        // All unknowns have values, and the two differ in one.
+        let pairs = found[0].iter().zip(&found[1]);
+        let differ: Vec<_> = pairs.filter(|(a, b)| a != b).collect();
+        let [(a, b)] = differ[..] else {
+            panic!("{differ:?}");
+        };
+        // 0.5 and 0.3, in some unit.
+        assert_eq!(
+            a.1.clone().max(b.1.clone()) / a.1.clone().min(b.1.clone()),
+            ratio(5, 3)
+        );
+    }
+
+    #[test]
+    fn products_cancel_exactly() {
+        // Equal gaps on both sides of a bar: a² = (1 − b)² with b = a ± 0.3, linear on either side.
+        let text = |gap: &str, bar: &str| {
+            choices(&format!(
+                r#"
+                name = "gaps"
+                dimension = 2
+                [points]
+                o = [0, 0]
+                e = [{gap}, 0]
+                a = [0.3, 0]
+                b = [0.6, 0]
+                [constraints]
+                fixed = ["o", "e"]
+                y = [["a", 0], ["b", 0]]
+                distances = [["a", "b", {bar}]]
+                equal = [["o", "a", "b", "e"]]
+                "#
+            ))
+        };
+        let (contradictions, found) = text("1", "0.3");
+        assert_eq!((contradictions, found.len()), (0, 2));
+        let counts = found.iter().map(Vec::len);
+        assert_eq!(counts.clone().min(), counts.max());
+        // As long as what it is in: on one side all places serve.
+        let (contradictions, found) = text("0.3", "0.3");
+        assert_eq!((contradictions, found.len()), (0, 2));
+        let fewest = found.iter().map(Vec::len).min();
+        assert!(fewest < found.iter().map(Vec::len).max());
+    }
+}
