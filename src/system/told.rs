@@ -617,7 +617,7 @@ mod tests {
         assert_eq!(counts.clone().min(), counts.max());
         // As long as what it is in: on one side all places serve.
         let (contradictions, found) = text("0.3", "0.3");
-        assert_eq!((contradictions, found.len()), (0, 2));
+        assert_eq!((contradictions, found.len()), (0, 3));
         let fewest = found.iter().map(Vec::len).min();
         assert!(fewest < found.iter().map(Vec::len).max());
     }
