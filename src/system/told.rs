@@ -7,7 +7,8 @@
 //!
 //! # Why nothing is lost
 //!
-//! Every step is an identity in ratios. *Sides*: from L² = M² follows L = M or L = −M; from L² = r > 0, L = √r or L = −√r; from L M = 0, L = 0 or M = 0.
+//! Every step is an identity in ratios. *Sides*: from L² = s² M², s a ratio, follows L = s M or L = −s M; from L² = r, where r is a ratio or in a range and positive, L = √r or L = −√r;
+//! from P Q = 0, and from f P Q + g P T = P (f Q + g T) = 0, that one factor is 0.
 //! *Putting in*: an equation c x + rest = 0 with a ratio c ≠ 0 and without products says x = −rest/c, which may stand for x wherever it is. *Taking
 //! away*: what is zero at a zero may be subtracted, any number of times. Numbers that are no ratios (an irrational length, what a block before was found
 //! to be) are symbols in this, and ranges only where the result is used.
@@ -51,7 +52,8 @@ pub struct Contradiction;
 
 /// What is known exactly where a block is looked at: values of unknowns, and on which side equations are.
 ///
-/// The number m + e is the symbol of the right-hand side of equation e, and 2m + e of the root that its square is of.
+/// The number m + e is the symbol of the right-hand side E(1) of equation e, and 2m + e that of the root that a side of it has. (Entries of equations that are
+/// not below m stand for the number 0, and get no symbol.)
 #[derive(Debug, Clone, Default)]
 pub struct Told {
     values: BTreeMap<usize, BigRational>,
@@ -183,6 +185,28 @@ impl Told {
     /// The unknowns whose values are known.
     pub fn values(&self) -> impl Iterator<Item = (usize, &BigRational)> {
         self.values.iter().map(|(&i, x)| (i, x))
+    }
+
+    /// All values, in whole numbers that are others where a value is another one.
+    pub fn in_numbers(&self) -> Vec<usize> {
+        let digits = |n: &BigInt| {
+            let (sign, digits) = n.to_u32_digits();
+            let count = [sign as usize, digits.len()];
+            let digits = digits.into_iter().map(|digit| digit as usize);
+            count.into_iter().chain(digits).collect::<Vec<_>>()
+        };
+        let all = self.values.iter();
+        let all = all.flat_map(|(&i, x)| [vec![i], digits(x.numer()), digits(x.denom())]);
+        all.flatten().collect()
+    }
+
+    /// The values of some unknowns alone.
+    pub fn of(&self, is_wanted: impl Fn(usize) -> bool) -> Told {
+        let values = self.values.iter().filter(|(i, _)| is_wanted(**i));
+        Told {
+            values: values.map(|(&i, x)| (i, x.clone())).collect(),
+            ..Told::default()
+        }
     }
 
     /// Adds values that were found elsewhere.
@@ -367,6 +391,7 @@ impl Told {
         let open = view.unknowns.iter().copied();
         let open: Vec<usize> = open.filter(|i| !self.values.contains_key(i)).collect();
         for row in &linear {
+            // Without products: a number, or one of the block's unknowns alone.
             let mut own = row.linear.iter();
             match (own.next(), own.next()) {
                 (None, _) if !row.constant.is_zero() => return Err(Contradiction),

@@ -302,6 +302,11 @@ impl<'a> Figures<'a> {
             leave(&mut self.undecided, Why::GivenUp, 1, share);
             return;
         }
+        if self.run.stop.load(Ordering::Relaxed) {
+            // Thousands of figures are put together of few parts.
+            leave(&mut self.undecided, Why::Unfinished, 1, share);
+            return;
+        }
         let Some(block) = self.blocks.get(b) else {
             self.finish(x, share);
             return;
@@ -332,11 +337,14 @@ impl<'a> Figures<'a> {
             }
             let mut told = told.clone();
             if let Some(values) = found.exact.get(k) {
-                told.learn(values.iter().cloned());
+                let mut ranges = x.clone();
                 for (u, value) in values.iter() {
-                    let exactly = x[*u].intersection(told::range(value));
-                    // Both hold the number.
-                    x[*u] = if exactly.is_empty() { x[*u] } else { exactly };
+                    ranges[*u] = ranges[*u].intersection(told::range(value));
+                }
+                // What is not in the zero's box is not its value.
+                if !ranges.iter().any(|range| range.is_empty()) {
+                    told.learn(values.iter().cloned());
+                    x = ranges;
                 }
             }
             chosen.push((b, k));
@@ -406,7 +414,11 @@ impl<'a> Figures<'a> {
                             homotopy,
                             run: &run,
                         };
-                        sides.search(told.clone(), x.to_vec())
+                        let is_before = |u: usize| {
+                            let mut before = self.ancestors[b].iter();
+                            before.any(|&a| self.blocks[a].unknowns.contains(&u))
+                        };
+                        sides.search(told.of(is_before), x.to_vec())
                     }
                 };
                 if is_whole {

@@ -93,6 +93,14 @@ pub struct Block<'a> {
     pub sides: Vec<[usize; 2]>,
 }
 
+/// What the search of a block on some sides depends on, beside its rows and its box.
+pub struct About<'s, 'a> {
+    /// The block without any sides.
+    pub whole: &'s Block<'a>,
+    /// What is known exactly, told in whole numbers.
+    pub told: Vec<usize>,
+}
+
 /// A part of the space, with its share.
 type Node = (Vec<Interval>, f64);
 
@@ -150,15 +158,15 @@ impl<'a> Block<'a> {
         Ok(())
     }
 
-    /// Searches a box, with every equation as it is. `whole`: the block without any sides; `more`: what follows from the equations beside.
+    /// Searches a box, with every equation as it is. `more`: what follows from the equations beside.
     pub(super) fn search_all(
         &self,
-        whole: &Block,
+        about: &About,
         mut more: Vec<Row>,
         x: Vec<Interval>,
         run: &Run,
     ) -> Found {
-        more.extend(sums(&whole.square, self.zero, &x));
+        more.extend(sums(&about.whole.square, self.zero, &x));
         let rows: Vec<&Row> = self.rows.iter().copied().chain(&more).collect();
         let mut first = Piece::new(self, &rows, run);
         let mut nodes: Vec<Node> = vec![(x, 1.0)];
@@ -190,7 +198,7 @@ impl<'a> Block<'a> {
         let mut found: Vec<Found> = nodes
             .into_par_iter()
             .enumerate()
-            .map(|(piece, node)| self.piece((piece, node), (&first.zeros, &rows), run))
+            .map(|(piece, node)| self.piece(about, (piece, node), (&first.zeros, &rows), run))
             .collect();
         all.add(first.zeros, None);
         all.find(&mut found);
@@ -214,6 +222,7 @@ impl<'a> Block<'a> {
     /// Searches one of the pieces, or takes what was found in it before.
     fn piece(
         &self,
+        about: &About,
         (number, node): (usize, Node),
         (zeros, rows): (&[Zero], &[&Row]),
         run: &Run,
@@ -231,7 +240,7 @@ impl<'a> Block<'a> {
             return searched(node);
         };
         let share = node.1;
-        let name = self.name(&node.0, zeros);
+        let name = self.name(about, &node.0, zeros);
         if let Some(found) = kept.known(&name) {
             run.watched.boxes.fetch_add(found.boxes, Ordering::Relaxed);
             run.watched.add_done_before(run.weight * share);
@@ -252,14 +261,17 @@ impl<'a> Block<'a> {
     }
 
     /// The name of a piece in a store: a digest of all that its search depends on.
-    fn name(&self, x: &[Interval], zeros: &[Zero]) -> String {
-        let entries = self.rows.iter().flat_map(|row| row.entries.iter().copied());
+    fn name(&self, about: &About, x: &[Interval], zeros: &[Zero]) -> String {
+        // Of the block without any sides: what stands in the place of an equation has ranges of these in its numbers.
+        let rows = about.whole.rows.iter();
+        let entries = rows.flat_map(|row| row.entries.iter().copied());
         let entries: BTreeSet<usize> = entries.collect();
         let ranges: Vec<Interval> = entries.iter().map(|&e| x[e]).collect();
-        // No unknown has such a number.
-        let sides = self.sides.iter().flatten();
-        let sides = sides.map(|side| usize::MAX / 2 + side);
-        digest(self.square.own.iter().copied().chain(sides), ranges, zeros)
+        let own = self.square.own.iter().copied();
+        let sides = self.sides.iter().flatten().copied();
+        // No unknown has this number.
+        let parted = own.chain([usize::MAX]).chain(sides).chain([usize::MAX]);
+        digest(parted.chain(about.told.iter().copied()), ranges, zeros)
     }
 
     /// The logarithm of the product of all widths.

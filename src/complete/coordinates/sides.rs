@@ -1,12 +1,12 @@
 //! Blocks on each side of those of their equations that are one of two linear ones.
 //!
 //! What exact numbers tell of a block is told first ([`Told`]): with every such equation on one side or the other, most of a sketch that is drawn along axes
-//! is linear. Each choice of sides that is not contradictory is then searched by itself, with the linear equations in the place of the others. Every zero is
-//! on some side of each equation, so that nothing is lost.
+//! is linear. Each choice of sides that is not contradictory is then searched by itself, with the linear equations in the place of the others, or beside them
+//! where they do not say all that the others do ([`Told::side`]). Every zero is on some side of each equation, so that nothing is lost.
 
 use super::contract::contract;
 use super::newton::Square;
-use super::search::{Block, Found, Run, leave};
+use super::search::{About, Block, Found, Run, leave};
 use super::system::{Form, Product, Row};
 use crate::complete::Why;
 use crate::interval::Interval;
@@ -43,7 +43,7 @@ impl Sides<'_, '_> {
     /// Searches a box. `told`: what is known exactly of blocks before.
     pub fn search(&self, told: Told, x: Vec<Interval>) -> Found {
         let mut found = Found::default();
-        self.each(self.whole, told, (x, 1.0), &mut found);
+        self.each(self.whole, (told, &mut Vec::new()), (x, 1.0), &mut found);
         let zeros = found.zeros.into_iter().zip(found.pieces).zip(found.exact);
         let mut zeros: Vec<_> = zeros.collect();
         zeros.sort_by(|((a, _), _), ((b, _), _)| a.order(b));
@@ -57,11 +57,12 @@ impl Sides<'_, '_> {
         }
     }
 
-    /// Searches a box of a block some of whose equations are on a side.
+    /// Searches a box of a block some of whose equations are on a side. `elsewhere`: what is 0 on the other sides of those equations that are in the block as
+    /// they are.
     fn each(
         &self,
         block: &Block,
-        mut told: Told,
+        (mut told, elsewhere): (Told, &mut Vec<Row>),
         (mut x, share): (Vec<Interval>, f64),
         found: &mut Found,
     ) {
@@ -96,13 +97,23 @@ impl Sides<'_, '_> {
             let next = next.find_map(|(place, &e)| Some((place, e, told.sides(&view, e)?)));
             if let Some((place, e, all)) = next {
                 let share = share / all.len() as f64;
+                let says = |told: &Told| {
+                    let (flat, is_whole) = told.side(&view, e)?;
+                    Some((row(&flat, block.zero), is_whole))
+                };
+                let rows: Vec<(Row, bool)> = all.iter().filter_map(says).collect();
                 for (side, told) in all.into_iter().enumerate() {
-                    let told_of = told.side(&view, e);
-                    let row = told_of
-                        .and_then(|(flat, is_whole)| is_whole.then(|| row(&flat, block.zero)));
-                    let row = row.as_ref().unwrap_or(block.square.rows[place]);
+                    let (row, is_whole) = &rows[side];
+                    let before = elsewhere.len();
+                    let mut row = row;
+                    if !is_whole {
+                        let others = rows.iter().enumerate().filter(|(k, _)| *k != side);
+                        elsewhere.extend(others.map(|(_, (other, _))| other.clone()));
+                        row = block.square.rows[place];
+                    }
                     let sided = on_side(block, (place, [e, side]), row);
-                    self.each(&sided, told, (x.clone(), share), found);
+                    self.each(&sided, (told, elsewhere), (x.clone(), share), found);
+                    elsewhere.truncate(before);
                 }
                 return;
             }
@@ -111,7 +122,11 @@ impl Sides<'_, '_> {
             weight: run.weight * share,
             ..*run
         };
-        let here = block.search_all(self.whole, more, x.clone(), &own);
+        let about = About {
+            whole: self.whole,
+            told: told.in_numbers(),
+        };
+        let here = block.search_all(&about, more, x.clone(), &own);
         found.boxes += here.boxes;
         found.is_broken_off |= here.is_broken_off;
         for part in here.undecided {
@@ -131,13 +146,27 @@ impl Sides<'_, '_> {
                 // How far around it there is no other zero on any side.
                 false => self.whole.square.again(&zero, &x),
             };
-            match zero {
-                None => leave(&mut found.undecided, Why::Small, 1, 0.0),
-                Some(zero) if found.zeros.iter().any(|known| known.is_same(&zero)) => {}
-                Some(zero) => {
+            let Some(zero) = zero else {
+                leave(&mut found.undecided, Why::Small, 1, 0.0);
+                continue;
+            };
+            // Newton's method may have left the side for another one, where values are others.
+            let mut at = x.clone();
+            for (k, &u) in unknowns.iter().enumerate() {
+                at[u] = zero.range(k);
+            }
+            let is_here = !elsewhere.iter().any(|row| row.value(&at).contains(0.0));
+            let values = match is_here {
+                true => Arc::clone(&values),
+                false => Arc::default(),
+            };
+            match found.zeros.iter().position(|known| known.is_same(&zero)) {
+                Some(known) if found.exact[known].is_empty() => found.exact[known] = values,
+                Some(_) => {}
+                None => {
                     found.zeros.push(zero);
                     found.pieces.push(piece);
-                    found.exact.push(Arc::clone(&values));
+                    found.exact.push(values);
                 }
             }
         }

@@ -115,6 +115,9 @@ impl Part {
         let on = |told: Told| {
             let mut part = self.clone();
             let (flat, is_whole) = told.side(&view, e)?;
+            // Newton's step takes it to be linear.
+            let is_linear = flat.terms.iter().all(|term| term.2.is_none());
+            is_linear.then_some(())?;
             Rc::make_mut(&mut part.sides).push((e, flat, is_whole));
             part.told = Rc::new(told);
             part.reduced = None;
