@@ -12,7 +12,7 @@ use num_integer::Integer;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// An equation between points of a line, which are numbered; the first two are fixed. Places are in eighths.
+/// An equation between points of a line, which are numbered; the first two are fixed. Places are in tenths, which floats have not exactly.
 enum Said {
     /// |x_i − x_j| is this.
     Length([usize; 2], i64),
@@ -58,10 +58,10 @@ impl Line {
     }
 
     fn problem(&self) -> Problem {
-        let eighths = |x: i64| x as f64 / 8.0;
+        let tenths = |x: i64| x as f64 / 10.0;
         let mut text = String::from("name = \"line\"\ndimension = 2\n[points]\n");
         for (k, &x) in self.places.iter().enumerate() {
-            writeln!(text, "p{k} = [{:?}, 0.0]", eighths(x)).unwrap();
+            writeln!(text, "p{k} = [{:?}, 0.0]", tenths(x)).unwrap();
         }
         text.push_str("[constraints]\nfixed = [\"p0\", \"p1\"]\n");
         let level = (2..self.places.len()).map(|k| format!("[\"p0\", \"p{k}\"]"));
@@ -75,7 +75,7 @@ impl Line {
         for said in &self.said {
             match said {
                 Said::Length([i, j], d) => {
-                    lengths.push(format!("[\"p{i}\", \"p{j}\", {:?}]", eighths(*d)));
+                    lengths.push(format!("[\"p{i}\", \"p{j}\", {:?}]", tenths(*d)));
                 }
                 Said::Equal([i, j], [k, l]) => {
                     equal.push(format!("[\"p{i}\", \"p{j}\", \"p{k}\", \"p{l}\"]"));
@@ -210,7 +210,7 @@ fn points_on_a_line_are_where_some_signs_put_them() {
                 for solution in &result.solutions {
                     let is_it = |figure: &&Vec<Ratio>| {
                         figure.iter().enumerate().all(|(k, &(a, b))| {
-                            let x = a as f64 / b as f64 / 8.0;
+                            let x = a as f64 / b as f64 / 10.0;
                             let range = solution.points[k + 2][0];
                             (range.inf() - 1e-12..=range.sup() + 1e-12).contains(&x)
                         })
@@ -227,29 +227,19 @@ fn points_on_a_line_are_where_some_signs_put_them() {
 #[test]
 fn equal_gaps_are_few_figures() {
     // Four holes between two edges, 0.4 and 2.3 apart, equally far from both edges: x is a sum of signs.
-    let problem = Problem::parse(
-        r#"
-        name = "holes"
-        dimension = 2
-        [points]
-        left = [0, 0]
-        right = [7.1, 0]
-        a = [2, 0]
-        b = [2.4, 0]
-        c = [4.7, 0]
-        d = [5.1, 0]
-        [constraints]
-        fixed = ["left", "right"]
-        horizontal = [["left", "a"], ["left", "b"], ["left", "c"], ["left", "d"]]
-        distances = [["a", "b", 0.4], ["b", "c", 2.3], ["c", "d", 0.4]]
-        equal = [["left", "a", "d", "right"]]
-        "#,
-        "holes.toml",
-    )
-    .unwrap();
+    let holes = Line {
+        places: vec![0, 71, 20, 24, 47, 51],
+        said: vec![
+            Said::Length([2, 3], 4),
+            Said::Length([3, 4], 23),
+            Said::Length([4, 5], 4),
+            Said::Equal([0, 2], [5, 1]),
+        ],
+    };
+    let problem = holes.problem();
     let (result, cover) = searched(&problem);
     assert_eq!(result.status, Status::Complete);
-    // a + d = 7.1, as d − a = 7.1 has no signs: d − a is one of eight numbers, two of which are met twice.
+    // a + d = 7.1, as no signs make d − a = 7.1; two of the eight d − a are met twice, by other figures.
     assert_eq!(result.solutions.len(), 8);
     assert!(result.boxes < 200, "{}", result.boxes);
     assert_eq!(verify_cover(&cover.to_bytes()).unwrap().undecided, 0);
@@ -290,24 +280,11 @@ fn an_arc_goes_on_in_another_one() {
 /// Signs that leave a line of figures end at once.
 #[test]
 fn a_line_of_figures_is_seen_at_once() {
-    let problem = Problem::parse(
-        r#"
-        name = "slides"
-        dimension = 2
-        [points]
-        left = [0, 0]
-        right = [5, 0]
-        a = [1, 0]
-        b = [4, 0]
-        [constraints]
-        fixed = ["left", "right"]
-        horizontal = [["left", "a"], ["left", "b"]]
-        distances = [["a", "b", 5]]
-        equal = [["left", "a", "right", "b"]]
-        "#,
-        "slides.toml",
-    )
-    .unwrap();
+    let slides = Line {
+        places: vec![0, 50, 10, 40],
+        said: vec![Said::Length([2, 3], 50), Said::Equal([0, 2], [1, 3])],
+    };
+    let problem = slides.problem();
     let options = Options::default();
     let result = all(&problem, &options).unwrap();
     assert_eq!(result.status, Status::Flexible);

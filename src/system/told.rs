@@ -1,20 +1,20 @@
 //! What the equations of a block tell in exact numbers, before any range is halved.
 //!
-//! Sketches are full of equations that are two linear ones, either of which may hold: (x − y)² = d² along an axis, (a − b)² = (c − d)² for sides of equal length,
-//! a product that is zero. With each of them on one side or the other, much of a block is linear, and can be solved in ratios: unknowns that
-//! linear equations tell by others are replaced by these in all other equations, so that products cancel exactly, a contradiction is one and not nearly one, and
-//! unknowns get exact values. Intervals can do none of this: there x = y + c is nearly so, and a determinant that is 0 is nearly 0.
+//! Sketches are full of equations that are one of two linear ones, either of which may hold: (x − y)² = d² along an axis, (a − b)² = (c − d)² for
+//! bars of equal length, a product that is zero. With each of them on one side or the other, much of a block is linear, and can be solved in ratios:
+//! unknowns that linear equations tell by others are replaced by these in all other equations, so that products cancel exactly, a contradiction is one
+//! and not nearly one, and unknowns get exact values. Intervals can do none of this: there x = y + c is nearly so, and a determinant that is 0 is nearly 0.
 //!
 //! # Why nothing is lost
 //!
-//! Every step is an identity in ratios. *Sides*: from L² = s² M², s a ratio, follows L = s M or L = −s M; from L² = r, where r is a ratio or in a range and positive, L = √r or L = −√r;
-//! from P Q = 0, and from f P Q + g P T = P (f Q + g T) = 0, that one factor is 0.
+//! Every step is an identity in ratios. *Sides*: from L² = s² M², s a ratio, follows L = s M or L = −s M; from L² = r, where r is positive and a ratio or in
+//! a range, L = √r or L = −√r; from P Q = 0, and from f P Q + g P T = P (f Q + g T) = 0, that one factor is 0.
 //! *Putting in*: an equation c x + rest = 0 with a ratio c ≠ 0 and without products says x = −rest/c, which may stand for x wherever it is. *Taking
 //! away*: what is zero at a zero may be subtracted, any number of times. Numbers that are no ratios (an irrational length, what a block before was found
 //! to be) are symbols in this, and ranges only where the result is used.
 
 use super::Homotopy;
-use crate::interval::{Interval, enclose_rational, point};
+use crate::interval::{Interval, ZERO, enclose_rational};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -46,19 +46,30 @@ pub struct Reduced {
     pub is_curve: bool,
 }
 
+/// A side of an equation.
+#[derive(Debug, Clone)]
+pub struct Side {
+    /// What is known where the equation is on it.
+    pub told: Told,
+    /// What the equation says there: it has no products.
+    pub says: Flat,
+    /// Whether that may stand in the place of the equation, where as many equations as unknowns are wanted: not where it was found with the value of an
+    /// unknown of the block, as it does not say any more what that unknown has to do with it.
+    pub is_whole: bool,
+}
+
 /// Equations that contradict each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Contradiction;
 
 /// What is known exactly where a block is looked at: values of unknowns, and on which side equations are.
 ///
-/// The number m + e is the symbol of the right-hand side E(1) of equation e, and 2m + e that of the root that a side of it has. (Entries of equations that are
-/// not below m stand for the number 0, and get no symbol.)
+/// With m unknowns, the number m + e is the symbol of the right-hand side E(1) of equation e, and 2m + e that of the root that a side of it has. (Entries
+/// of equations that are not below m stand for the number 0, and get no symbol.)
 #[derive(Debug, Clone, Default)]
 pub struct Told {
     values: BTreeMap<usize, BigRational>,
-    /// What equations say that are on a side, and whether that says all that the equation says there, without values of the block's own unknowns.
-    sides: BTreeMap<usize, (Quadratic, bool)>,
+    sides: BTreeMap<usize, Quadratic>,
     roots: BTreeMap<usize, Interval>,
 }
 
@@ -264,7 +275,7 @@ impl Told {
 
     /// An equation, on its side if it is on one.
     fn equation(&self, homotopy: &Homotopy, e: usize) -> Quadratic {
-        if let Some((side, _)) = self.sides.get(&e) {
+        if let Some(side) = self.sides.get(&e) {
             let mut out = side.clone();
             let known: Vec<usize> = out.linear.keys().copied().collect();
             for i in known {
@@ -282,8 +293,8 @@ impl Told {
         out
     }
 
-    /// What is known with an equation of a block on each of its sides, if it has some and is on none: one of them holds.
-    pub fn sides(&self, view: &View, e: usize) -> Option<Vec<Told>> {
+    /// The sides of an equation of a block, if it has some and is on none: every zero is on one of them.
+    pub fn sides(&self, view: &View, e: usize) -> Option<Vec<Side>> {
         if self.sides.contains_key(&e) || !view.equations.contains(&e) {
             return None;
         }
@@ -303,19 +314,23 @@ impl Told {
             out.add(by, other);
             out
         };
-        // With a value in the place of an unknown, the side does not say any more what that unknown has to do with it.
         let ends = homotopy.terms(e).into_iter();
         let ends = ends.flat_map(|term| [term.left, term.right]).flatten();
         let mut ends = ends.flatten();
         let is_whole = !ends.any(|i| self.values.contains_key(&i) && view.unknowns.contains(&i));
         let with = |sides: Vec<Quadratic>, root: Option<Interval>| {
-            let told = sides.into_iter().map(|side| {
+            let sides = sides.into_iter().map(|side| {
                 let mut told = self.clone();
-                told.sides.insert(e, (side, is_whole));
                 told.roots.extend(root.map(|root| (e, root)));
-                told
+                let says = told.flat(view, &side);
+                told.sides.insert(e, side);
+                Side {
+                    told,
+                    says,
+                    is_whole,
+                }
             });
-            Some(told.collect())
+            Some(sides.collect())
         };
         let minus = -BigRational::one();
         match free.as_slice() {
@@ -413,12 +428,6 @@ impl Told {
         })
     }
 
-    /// What an equation says that is on a side; and whether that may stand in its place, where as many equations as unknowns are wanted.
-    pub fn side(&self, view: &View, e: usize) -> Option<(Flat, bool)> {
-        let (side, is_whole) = self.sides.get(&e)?;
-        Some((self.flat(view, side), *is_whole))
-    }
-
     /// An equation with ranges for all that are not unknowns of the block.
     pub fn flat(&self, view: &View, of: &Quadratic) -> Flat {
         let is_own = |i: usize| view.unknowns.contains(&i) && !self.values.contains_key(&i);
@@ -435,7 +444,7 @@ impl Told {
         };
         let mut linear: BTreeMap<usize, Interval> = BTreeMap::new();
         let mut add = |i: usize, by: Interval| {
-            let sum = linear.entry(i).or_insert(point(0.0));
+            let sum = linear.entry(i).or_insert(ZERO);
             *sum += by;
         };
         let mut terms = Vec::new();
@@ -457,7 +466,9 @@ impl Told {
                 false => constant += b * range_of(i),
             }
         }
-        terms.extend(linear.into_iter().map(|(i, b)| (b, i, None)));
+        // Where ranges are numbers that cancel nothing is left: no term, as others divide by factors.
+        let linear = linear.into_iter().filter(|(_, b)| *b != ZERO);
+        terms.extend(linear.map(|(i, b)| (b, i, None)));
         Flat { terms, constant }
     }
 }
@@ -576,7 +587,7 @@ mod tests {
                 continue;
             }
             match all.iter().find_map(|&e| told.sides(&view, e)) {
-                Some(sides) => open.extend(sides),
+                Some(sides) => open.extend(sides.into_iter().map(|side| side.told)),
                 None => {
                     let values = told.values();
                     found.push(values.map(|(i, x)| (i, x.clone())).collect());
@@ -584,6 +595,30 @@ mod tests {
             }
         }
         (contradictions, found)
+    }
+
+    /// A factor that is the number 0 is none: whoever divides by it would find that nothing can be there.
+    #[test]
+    fn factors_that_are_zero_leave_no_term() {
+        let text = "name = \"bar\"\ndimension = 2\n[points]\na = [0, 0]\nb = [1, 0]\n[constraints]\n\
+                    fixed = [\"a\"]\ny = [[\"b\", 0]]\ndistances = [[\"a\", \"b\", 1]]\n";
+        let problem = Problem::parse(text, "bar.toml").unwrap();
+        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let m = homotopy.equations;
+        let view = View {
+            homotopy: &homotopy,
+            equations: &[0],
+            unknowns: &[0],
+            ranges: &vec![crate::interval::point(2.0); m],
+        };
+        // x y − x z + 3, with 2 for y and for z.
+        let symbol = Quadratic::symbol;
+        let mut row = symbol(0).times(&symbol(1));
+        row.add(&ratio(-1, 1), &symbol(0).times(&symbol(2)));
+        row.add(&ratio(3, 1), &Quadratic::constant(ratio(1, 1)));
+        let flat = Told::default().flat(&view, &row);
+        assert!(flat.terms.is_empty());
+        assert!(flat.constant.contains(3.0));
     }
 
     #[test]

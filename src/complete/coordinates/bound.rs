@@ -4,6 +4,8 @@
 //! planes. So whole multiples of equations are added until their products of unknowns cancel, exactly. Where as many linear equations
 //! come of it as there are unknowns, or one fewer, all unknowns are linear in one of them (none), by elimination in intervals; and one
 //! of the equations is then a t² + b t + c = 0 in that unknown t, whence |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|) if a is not 0.
+//! Where fewer come of it, those unknowns are bounded that a linear equation tells by itself; and a linear equation of which elimination
+//! leaves a number that is not 0 has no zero.
 
 use super::contract::{Empty, entire};
 use super::expanded::Expanded;
@@ -53,7 +55,7 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let mut free = (0..n).filter(|&c| !pivots.contains(&Some(c)));
     let t = free.next();
     let is_line = free.next().is_none();
-    // x = α + β t, if no other unknown is in its row.
+    // x = α + β t, if no other unknown that is not eliminated is in its row.
     let line = |i: usize| -> Option<(Interval, Interval)> {
         let Some(k) = pivots.iter().position(|&p| p == Some(i)) else {
             return Some((ZERO, point(1.0)));

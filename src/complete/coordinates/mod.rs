@@ -1,7 +1,7 @@
 //! All figures of any problem, over all coordinates: for other constraints than distances, and where no plan serves.
 //!
 //! The equations are the kernel's ([`Homotopy`]) with t = 1: as many as unknowns, all quadratic. They are cut into blocks that
-//! need only blocks before ([`crate::blocks::Blocks`]); each block is searched by branch and prune ([`search`]) for
+//! need only blocks before ([`crate::blocks::Blocks`]); each block is searched on every side of its equations ([`sides`]) by branch and prune ([`search`]) for
 //! each choice of zeros of those before, whose numbers are known up to small ranges: what is proved holds for all numbers in these. What
 //! comes of all blocks is proved to be a figure in all unknowns at once, by the test that runs along paths use, and told apart
 //! from the others as solutions of a path are.
@@ -353,8 +353,8 @@ impl<'a> Figures<'a> {
         }
     }
 
-    /// A block, with what those that it needs have determined.
-    fn block(&self, b: usize) -> Block<'a> {
+    /// For each entry whether the blocks that a block needs have determined it.
+    fn is_known(&self, b: usize) -> Vec<bool> {
         let m = self.system.unknowns;
         let mut is_known = vec![false; m + 1];
         is_known[m] = true;
@@ -363,6 +363,12 @@ impl<'a> Figures<'a> {
                 is_known[u] = true;
             }
         }
+        is_known
+    }
+
+    /// A block, with what those that it needs have determined.
+    fn block(&self, b: usize) -> Block<'a> {
+        let is_known = self.is_known(b);
         let block = &self.blocks[b];
         Block::new(self.system, &block.equations, &block.unknowns, |u| {
             is_known[u]
@@ -414,11 +420,8 @@ impl<'a> Figures<'a> {
                             homotopy,
                             run: &run,
                         };
-                        let is_before = |u: usize| {
-                            let mut before = self.ancestors[b].iter();
-                            before.any(|&a| self.blocks[a].unknowns.contains(&u))
-                        };
-                        sides.search(told.of(is_before), x.to_vec())
+                        let is_known = self.is_known(b);
+                        sides.search(told.of(|u| is_known[u]), x.to_vec())
                     }
                 };
                 if is_whole {

@@ -48,7 +48,7 @@ pub struct Found {
     /// For each zero the piece it was found in, if the search was cut into pieces.
     #[serde(skip)]
     pub pieces: Vec<Option<usize>>,
-    /// For each zero the unknowns whose numbers are known exactly; none where there are fewer.
+    /// For each zero the unknowns whose numbers are known exactly. (Of a search over rotations there are none.)
     #[serde(skip)]
     pub exact: Vec<Arc<Values>>,
 }
@@ -87,9 +87,9 @@ pub struct Block<'a> {
     pub positive: Vec<usize>,
     /// The vectors that vanish in no figure and of which all is known in the block, as the system has them.
     pub nonzero: Vec<&'a [[usize; 2]]>,
-    /// Their numbers.
+    /// The numbers of its equations in the system.
     pub equations: Vec<usize>,
-    /// On which side equations are: for each that has sides its number, and that of its side.
+    /// The equations that are on a side: the number of each, and that of its side.
     pub sides: Vec<[usize; 2]>,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! What exact numbers tell of a block is told first ([`Told`]): with every such equation on one side or the other, most of a sketch that is drawn along axes
 //! is linear. Each choice of sides that is not contradictory is then searched by itself, with the linear equations in the place of the others, or beside them
-//! where they do not say all that the others do ([`Told::side`]). Every zero is on some side of each equation, so that nothing is lost.
+//! where they do not say all that the others do ([`Side`]). Every zero is on some side of each equation, so that nothing is lost.
 
 use super::contract::contract;
 use super::newton::Square;
@@ -11,7 +11,7 @@ use super::system::{Form, Product, Row};
 use crate::complete::Why;
 use crate::interval::Interval;
 use crate::system::Homotopy;
-use crate::system::told::{self, Flat, Told, View};
+use crate::system::told::{self, Flat, Side, Told, View};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -97,18 +97,14 @@ impl Sides<'_, '_> {
             let next = next.find_map(|(place, &e)| Some((place, e, told.sides(&view, e)?)));
             if let Some((place, e, all)) = next {
                 let share = share / all.len() as f64;
-                let says = |told: &Told| {
-                    let (flat, is_whole) = told.side(&view, e)?;
-                    Some((row(&flat, block.zero), is_whole))
-                };
-                let rows: Vec<(Row, bool)> = all.iter().filter_map(says).collect();
-                for (side, told) in all.into_iter().enumerate() {
-                    let (row, is_whole) = &rows[side];
+                let rows = all.iter().map(|side| row(&side.says, block.zero));
+                let rows: Vec<Row> = rows.collect();
+                for (side, Side { told, is_whole, .. }) in all.into_iter().enumerate() {
                     let before = elsewhere.len();
-                    let mut row = row;
+                    let mut row = &rows[side];
                     if !is_whole {
                         let others = rows.iter().enumerate().filter(|(k, _)| *k != side);
-                        elsewhere.extend(others.map(|(_, (other, _))| other.clone()));
+                        elsewhere.extend(others.map(|(_, other)| other.clone()));
                         row = block.square.rows[place];
                     }
                     let sided = on_side(block, (place, [e, side]), row);

@@ -2,7 +2,8 @@
 //!
 //! Two spheres about given points meet in a plane, and so do other quadrics that have most products in common. Each by itself
 //! bounds a point badly where it holds for many places; the plane does not. So of every two equations of a block the sum of whole multiples in
-//! which most products cancel is taken, if it has fewer than either, and narrows ranges beside them. It is 0 at every zero.
+//! which most products cancel is taken, if it has fewer than either, or by two fewer than one of them, and narrows ranges beside them. It is 0 at every
+//! zero.
 
 use super::expanded::Expanded;
 use super::newton::Square;

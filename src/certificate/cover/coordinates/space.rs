@@ -11,7 +11,7 @@ use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
 use crate::interval::{Interval, checked, point};
-use crate::system::told::{self, Flat, Told, View};
+use crate::system::told::{self, Flat, Side, Told, View};
 use std::rc::Rc;
 
 /// A range counts as changed where it became narrower by this part of it. (No zero is lost whatever this number is.)
@@ -34,11 +34,25 @@ pub struct Part {
     /// Which of them were narrowed since the equations were gone through.
     fresh: Vec<bool>,
     /// What is known exactly.
-    told: Rc<Told>,
+    exact: Rc<Exact>,
+}
+
+/// What is known exactly in a part.
+#[derive(Debug, Clone, Default)]
+struct Exact {
+    told: Told,
     /// Equations that are on a side, what each says there, and whether that may stand in its place.
-    sides: Rc<Vec<(usize, Flat, bool)>>,
-    /// The block whose linear equations were put into the others last, and what came of it.
-    reduced: Option<(usize, Rc<Vec<Flat>>)>,
+    sides: Vec<(usize, Flat, bool)>,
+    /// The block whose linear equations were put into the others, since the last equation was put on a side, and what came of it.
+    reduced: Option<(usize, Vec<Flat>)>,
+}
+
+impl Exact {
+    /// What all this says.
+    fn rows(&self) -> impl Iterator<Item = &Flat> {
+        let reduced = self.reduced.iter().flat_map(|(_, rows)| rows);
+        self.sides.iter().map(|side| &side.1).chain(reduced)
+    }
 }
 
 /// Σ products = right.
@@ -77,9 +91,7 @@ impl Part {
         Part {
             fresh: vec![true; x.len()],
             x,
-            told: Rc::default(),
-            sides: Rc::default(),
-            reduced: None,
+            exact: Rc::default(),
         }
     }
 
@@ -95,9 +107,8 @@ impl Part {
 
     /// Whether what linear equations of a block say was put into the others in this part, since an equation was put on a side.
     pub fn is_reduced(&self, block: usize) -> bool {
-        self.reduced
-            .as_ref()
-            .is_some_and(|(last, _)| *last == block)
+        let reduced = self.exact.reduced.as_ref();
+        reduced.is_some_and(|(last, _)| *last == block)
     }
 
     fn view<'a>(&'a self, eq: &'a Equations, block: &'a Block) -> View<'a> {
@@ -111,56 +122,49 @@ impl Part {
 
     /// The part with an equation of a block on each of its sides, if it has some: every zero is on one of them.
     pub fn sides(&self, eq: &Equations, block: &Block, e: usize) -> Option<Vec<Part>> {
-        let view = self.view(eq, block);
-        let on = |told: Told| {
-            let mut part = self.clone();
-            let (flat, is_whole) = told.side(&view, e)?;
+        let sides = self.exact.told.sides(&self.view(eq, block), e)?;
+        let on = |side: Side| {
             // Newton's step takes it to be linear.
-            let is_linear = flat.terms.iter().all(|term| term.2.is_none());
+            let is_linear = side.says.terms.iter().all(|term| term.2.is_none());
             is_linear.then_some(())?;
-            Rc::make_mut(&mut part.sides).push((e, flat, is_whole));
-            part.told = Rc::new(told);
-            part.reduced = None;
+            let mut sides = self.exact.sides.clone();
+            sides.push((e, side.says, side.is_whole));
+            let mut part = self.clone();
             part.fresh.fill(true);
+            part.exact = Rc::new(Exact {
+                told: side.told,
+                sides,
+                reduced: None,
+            });
             Some(part)
         };
-        self.told.sides(&view, e)?.into_iter().map(on).collect()
+        sides.into_iter().map(on).collect()
     }
 
     /// What an equation says that is on a side, if that may stand in its place.
     fn side(&self, e: usize) -> Option<&Flat> {
-        let mut sides = self.sides.iter();
+        let mut sides = self.exact.sides.iter();
         sides.find(|side| side.0 == e && side.2).map(|side| &side.1)
     }
 
     /// Puts what linear equations of a block say into the others, in exact numbers.
     pub fn reduce(&mut self, eq: &Equations, (b, block): (usize, &Block)) -> Result<(), Empty> {
-        let mut told = (*self.told).clone();
+        let mut exact = (*self.exact).clone();
         let view = self.view(eq, block);
-        let reduced = told.reduced(&view).map_err(|_| Empty)?;
-        let rows = reduced.rows.iter().map(|row| told.flat(&view, row));
-        let rows: Vec<Flat> = rows.collect();
-        self.reduced = Some((b, Rc::new(rows)));
-        for (i, value) in told.values() {
+        let reduced = exact.told.reduced(&view).map_err(|_| Empty)?;
+        let rows = reduced.rows.iter().map(|row| exact.told.flat(&view, row));
+        exact.reduced = Some((b, rows.collect()));
+        for (i, value) in exact.told.values() {
             self.narrow(i, told::range(value))?;
         }
-        self.told = Rc::new(told);
-        self.narrow_by_told()
+        self.exact = Rc::new(exact);
+        self.narrow_by_exact()
     }
 
     /// Narrows by what was put together in exact numbers.
-    fn narrow_by_told(&mut self) -> Result<(), Empty> {
-        // Shared: the part itself is narrowed.
-        let (sides, reduced) = (Rc::clone(&self.sides), self.reduced.clone());
-        let reduced = reduced.iter().flat_map(|(_, rows)| rows.iter());
-        let mut rows = sides.iter().map(|side| &side.1).chain(reduced);
-        rows.try_for_each(|flat| sums::narrow(flat, self))
-    }
-
-    /// What was put together in exact numbers.
-    fn told_rows(&self) -> impl Iterator<Item = &Flat> {
-        let reduced = self.reduced.iter().flat_map(|(_, rows)| rows.iter());
-        self.sides.iter().map(|side| &side.1).chain(reduced)
+    fn narrow_by_exact(&mut self) -> Result<(), Empty> {
+        let exact = Rc::clone(&self.exact);
+        exact.rows().try_for_each(|flat| sums::narrow(flat, self))
     }
 
     /// The part with an unknown in the lower and in the upper half of its range, which share a border.
@@ -282,7 +286,7 @@ impl Rows {
                     self.narrow_by(eq, row, part)?;
                 }
             }
-            part.narrow_by_told()?;
+            part.narrow_by_exact()?;
         }
         part.fresh.fill(false);
         Ok(())
@@ -482,7 +486,7 @@ impl Rows {
             Expanded::new(eq, row, &unbounded, part.entries())
         });
         let more = self.added(eq, (block, sums), part);
-        let more = more.iter().chain(part.told_rows());
+        let more = more.iter().chain(part.exact.rows());
         let more = more.filter_map(|flat| Expanded::of(flat, &unbounded, part.entries()));
         for (k, range) in far(rows.chain(more), unbounded.len()) {
             part.narrow(unbounded[k], range)?;
