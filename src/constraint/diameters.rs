@@ -69,11 +69,11 @@ pub fn halve(
 }
 
 /// A product: its factor, and what stands for its factors, in order, so that one of two differences with the same names is a square.
-type Key = (i32, Named, Named);
-type Named = Option<([Name; 2], i32)>;
+pub type Key = (i32, Named, Named);
+pub type Named = Option<([Name; 2], i32)>;
 
 /// The products of an equation that are not zero.
-fn keys(equation: &Equation, equal: &Equal) -> Vec<Key> {
+pub fn keys(equation: &Equation, equal: &Equal) -> Vec<Key> {
     let left = equal.left(&equation.products);
     let keys = left.map(|p| {
         let mut ends = [p.left, p.right].map(|form| equal.ordered(form));

@@ -10,6 +10,7 @@
 
 use super::diameters;
 use super::quadratic::{Entry, Form, Product, Role, Tail, product};
+use super::subtracted;
 use super::zeros::at_target;
 use crate::interval::{Interval, Real};
 use std::collections::{BTreeMap, BTreeSet};
@@ -143,6 +144,10 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
         };
         diameters::halve(tail, &rights, &equal, &is_kept, is_apart);
     }
+    let rights = tail.equations.iter().zip(vanishing);
+    let rights = rights.map(|(equation, &vanishing)| at_target(equation, vanishing));
+    let mut rights: Vec<Real> = rights.collect();
+    subtracted::subtract(tail, &mut rights, &equal, &is_kept);
     for (equation, is_kept) in tail.equations.iter_mut().zip(is_kept) {
         let left = equal.left(&equation.products).map(|p| Product {
             factor: p.factor,

@@ -36,6 +36,7 @@ mod objects;
 mod polynomial;
 mod quadratic;
 mod structure;
+mod subtracted;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
@@ -99,6 +100,7 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 /// - Vectors are divided by their lengths, where these are no dimensions (`lowering/heading.rs`).
 /// - What is zero in all figures is left out, and factors that are zero in none; what is equal in all has one name (`factors.rs`).
 /// - Where the middle of a circle is on a chord, it is the chord's middle (`diameters.rs`).
+/// - What is as long as a given length has that length (`subtracted.rs`).
 ///
 /// The equations of distances between points are among them, and come first, if [`has_distances_in_sets`].
 ///
