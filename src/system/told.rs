@@ -58,7 +58,7 @@ pub struct Side {
     pub is_whole: bool,
 }
 
-/// Equations that contradict each other.
+/// Equations that contradict each other, or hold only where a vector vanishes that must not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Contradiction;
 
@@ -196,6 +196,11 @@ impl Told {
     /// The unknowns whose values are known.
     pub fn values(&self) -> impl Iterator<Item = (usize, &BigRational)> {
         self.values.iter().map(|(&i, x)| (i, x))
+    }
+
+    /// The value of an unknown, if it is known.
+    pub fn value(&self, unknown: usize) -> Option<&BigRational> {
+        self.values.get(&unknown)
     }
 
     /// All values, in whole numbers that are others where a value is another one.
@@ -382,7 +387,7 @@ impl Told {
         }
     }
 
-    /// The equations of a block with what linear ones say put into the others. Values that come of it are learned.
+    /// The equations of a block with what linear ones say put into the others. Values that come of it are learned. `Err`: no figure meets them.
     pub fn reduced(&mut self, view: &View) -> Result<Reduced, Contradiction> {
         let all = view
             .equations
@@ -395,13 +400,16 @@ impl Told {
                 false => curved.push((row, false)),
             }
         }
-        let mut k = 0;
+        let (mut k, mut pivots) = (0, Vec::new());
         while k < linear.len() {
             while k < linear.len() {
-                put_everywhere(k, view, &mut linear, &mut curved);
+                pivots.push(put_everywhere(k, view, &mut linear, &mut curved));
                 k += 1;
             }
             subtract(view, &mut linear, &mut curved);
+        }
+        if self.is_improper(view, linear.iter().zip(&pivots)) {
+            return Err(Contradiction);
         }
         let open = view.unknowns.iter().copied();
         let open: Vec<usize> = open.filter(|i| !self.values.contains_key(i)).collect();
@@ -426,6 +434,37 @@ impl Told {
             rows: all.filter(|row| !row.is_nothing()).collect(),
             is_curve,
         })
+    }
+
+    /// Whether a vector vanishes that must not, or a length or radius is not positive, wherever these equations hold, each of which tells one unknown
+    /// that is in no other: then there is no figure.
+    fn is_improper<'r>(
+        &self,
+        view: &View,
+        rows: impl Iterator<Item = (&'r Quadratic, &'r Option<usize>)> + Clone,
+    ) -> bool {
+        let homotopy = view.homotopy;
+        let told = |ends: [usize; 2]| {
+            let mut sum = self.form(homotopy, Some(ends));
+            for (row, pivot) in rows.clone() {
+                let pivot = pivot
+                    .and_then(|pivot| Some((sum.linear.get(&pivot)?, row.linear.get(&pivot)?)));
+                if let Some(by) = pivot.map(|(a, b)| -(a / b)) {
+                    sum.add(&by, row);
+                }
+            }
+            sum
+        };
+        let is_here = |ends: &[usize; 2]| ends.iter().any(|i| view.unknowns.contains(i));
+        let vectors = homotopy.nonzero_vectors().into_iter();
+        let mut vectors = vectors.filter(|vector| vector.iter().any(is_here));
+        let positive = homotopy.positive_unknowns().into_iter();
+        let mut positive = positive.filter(|i| view.unknowns.contains(i));
+        vectors.any(|vector| vector.into_iter().all(|ends| told(ends).is_nothing()))
+            || positive.any(|i| {
+                let sum = told([i, homotopy.equations]);
+                sum.is_linear() && sum.linear.is_empty() && !sum.constant.is_positive()
+            })
     }
 
     /// An equation with ranges for all that are not unknowns of the block.
@@ -479,24 +518,20 @@ impl Quadratic {
     }
 }
 
-/// Puts what a linear equation says of one of the unknowns into all others.
+/// Puts what a linear equation says of one of the unknowns into all others; of which.
 fn put_everywhere(
     k: usize,
     view: &View,
     linear: &mut [Quadratic],
     curved: &mut [(Quadratic, bool)],
-) {
+) -> Option<usize> {
     let mut row = linear[k].clone();
     // One that is in few products, so that what is left is of as few unknowns.
     let is_in = |i: usize| curved.iter().filter(|(row, _)| row.has(i)).count();
     let own = row.linear.keys().copied();
     let own = own.filter(|i| view.unknowns.contains(i));
-    let Some(pivot) = own.min_by_key(|&i| is_in(i)) else {
-        return;
-    };
-    let Some(by) = row.linear.remove(&pivot) else {
-        return;
-    };
+    let pivot = own.min_by_key(|&i| is_in(i))?;
+    let by = row.linear.remove(&pivot)?;
     let mut sum = Quadratic::constant(BigRational::zero());
     sum.add(&-by.recip(), &row);
     for (_, other) in linear.iter_mut().enumerate().filter(|(j, _)| *j != k) {
@@ -505,6 +540,7 @@ fn put_everywhere(
     for (other, changed) in curved {
         *changed |= other.put(pivot, &sum);
     }
+    Some(pivot)
 }
 
 /// Takes multiples of equations from others so that products of unknowns cancel; those of which no product is left are linear.
