@@ -172,6 +172,6 @@ fn the_checks_of_covers_are_short_and_their_own() {
     assert!(lines_of(cover, &["problem", "constraint"]) <= 120);
     assert!(lines_of(&format!("{cover}/plan"), &["problem", "interval"]) <= 1320);
     let kernel = ["problem", "constraint", "interval", "system", "certificate"];
-    // A quarter of it is about rotations of bodies.
-    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 2010);
+    // A quarter of it is about rotations of bodies, a tenth about equations that fall apart.
+    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 2340);
 }

@@ -68,6 +68,8 @@ pub struct Complete {
     pub turned: Vec<String>,
     /// The parts of a problem that falls apart, each with what was found of it; otherwise none.
     pub parts: Vec<Searched>,
+    /// Where the equations fall apart into systems beside each other: those that have more than one solution. The figures are all combinations of theirs.
+    pub choices: Vec<Choice>,
     /// The solutions in the problem's gauge and units (where `count` is more, only the first of them, whose boxes were not
     /// compared with those not listed; otherwise each box holding exactly one), the boxes disjoint, no
     /// two solutions congruent.
@@ -91,6 +93,15 @@ pub struct Complete {
     pub seconds_left: Option<f64>,
     /// The cover of the search space, if it was wanted and there was a search.
     pub cover: Option<Vec<u8>>,
+}
+
+/// What is placed in one of several ways, whatever else there is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Choice {
+    /// The points and objects that are placed, beside what they hang on.
+    pub names: Vec<String>,
+    /// In how many ways.
+    pub count: usize,
 }
 
 /// Why a problem cannot be searched.
@@ -270,6 +281,7 @@ impl Complete {
             symmetry: Symmetry::Isometries,
             count: Some(0),
             parts: Vec::new(),
+            choices: Vec::new(),
             both_ways: Vec::new(),
             turned: Vec::new(),
             solutions: Vec::new(),
@@ -379,6 +391,7 @@ impl Complete {
             symmetry: Symmetry::Isometries,
             count: Some(solutions.len() as u64),
             parts: Vec::new(),
+            choices: Vec::new(),
             both_ways: Vec::new(),
             turned: Vec::new(),
             solutions,

@@ -14,7 +14,7 @@ use crate::track::Solution;
 use std::time::Instant;
 
 /// The figures of the whole that are listed at most.
-const LISTED: u64 = 1000;
+pub(super) const LISTED: u64 = 1000;
 
 /// A part that was searched by itself.
 #[derive(Debug, Clone)]

@@ -6,12 +6,15 @@ use super::json::Points;
 use super::objects::Objects;
 use super::table::write_objects;
 use crate::certificate::cover::CoverVerdict;
-use crate::complete::{Among, Complete, Method, Status, Why};
+use crate::complete::{Among, Choice, Complete, Method, Status, Why};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted};
 use crate::track::Mode;
 use std::fmt::Write;
+
+/// Parts that have nothing to do with each other of which so many are shown.
+const SHOWN: usize = 12;
 
 /// One JSON object on one line: what is said of every problem (docs/json.md, "The problem"), and
 ///
@@ -61,6 +64,14 @@ impl<'a> Document<'a> {
                     boxes: part.result.boxes,
                 })
                 .collect(),
+            independent: result
+                .choices
+                .iter()
+                .map(|choice| Independent {
+                    names: &choice.names,
+                    count: choice.count,
+                })
+                .collect(),
             solutions: result
                 .solutions
                 .iter()
@@ -101,6 +112,8 @@ struct Document<'a> {
     count: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     parts: Vec<Piece<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    independent: Vec<Independent<'a>>,
     solutions: Vec<Entry<'a>>,
     undecided: Vec<Undecided>,
     boxes: u64,
@@ -128,6 +141,13 @@ struct Piece<'a> {
     status: &'static str,
     solutions: usize,
     boxes: u64,
+}
+
+/// What is placed in one of several ways, whatever else there is.
+#[derive(serde::Serialize)]
+struct Independent<'a> {
+    names: &'a [String],
+    count: usize,
 }
 
 #[derive(serde::Serialize)]
@@ -201,6 +221,7 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
         )?;
     }
+    write_choices(out, &result.choices)?;
     for part in &result.parts {
         let names: Vec<&str> = part
             .problem
@@ -238,6 +259,41 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             "left                no piece of it was finished: the same time again would lead no farther"
         ),
         None => Ok(()),
+    }
+}
+
+/// Of what the figures are combinations.
+fn write_choices(out: &mut String, choices: &[Choice]) -> std::fmt::Result {
+    if choices.is_empty() {
+        return Ok(());
+    }
+    let mut factors: Vec<(usize, usize)> = Vec::new();
+    for choice in choices {
+        match factors.iter_mut().find(|(count, _)| *count == choice.count) {
+            Some((_, times)) => *times += 1,
+            None => factors.push((choice.count, 1)),
+        }
+    }
+    let factors = factors.iter().map(|&(count, times)| match times {
+        1 => count.to_string(),
+        _ => format!("{count}^{times}"),
+    });
+    writeln!(
+        out,
+        "\nThe sketch falls apart into {} that do not depend on each other; the solutions are all combinations of theirs, {}:",
+        counted(choices.len(), "part"),
+        factors.collect::<Vec<_>>().join(" · ")
+    )?;
+    for choice in choices.iter().take(SHOWN) {
+        let names = match choice.names.is_empty() {
+            true => "what has no name".to_owned(),
+            false => choice.names.join(", "),
+        };
+        writeln!(out, "  {}: {names}", counted(choice.count, "place"))?;
+    }
+    match choices.len().saturating_sub(SHOWN) {
+        0 => Ok(()),
+        more => writeln!(out, "  and {} more", counted(more, "part")),
     }
 }
 
@@ -293,24 +349,22 @@ fn verdict(result: &Complete) -> String {
 
 /// The same but for what is said of sides.
 fn without_sides(result: &Complete) -> String {
-    let count = match result.count {
-        Some(count) => counted(count as usize, "solution"),
-        None => "more than 2^64 solutions".to_owned(),
-    };
+    let count = counted_solutions(result.count);
     let (up_to, different) = counted_once(result.symmetry);
     let space = match result.method {
         Method::Plan => "the parameter space",
         Method::Coordinates => "the space of coordinates",
         Method::Blocks => "the parts' parameter spaces",
     };
+    // Boxes of figures that are not listed were not compared with these.
+    let is_listed = result.count == Some(result.solutions.len() as u64);
     match result.status {
         Status::Complete if result.count == Some(0) => format!(
             "Complete, proved: there is no solution; {}.",
             result.reason.as_deref().unwrap_or("nothing is undecided")
         ),
         Status::Complete => {
-            // Boxes of figures that are not listed were not compared with these.
-            let each = match result.count == Some(result.solutions.len() as u64) {
+            let each = match is_listed {
                 true => "Each box holds exactly one",
                 false => "Each box listed holds one of them",
             };
@@ -328,12 +382,24 @@ fn without_sides(result: &Complete) -> String {
                 .as_deref()
                 .map(|r| format!(" ({r})"))
                 .unwrap_or_default();
+            let each = match is_listed {
+                true => "each box holding exactly one",
+                false => "each box listed holding one of them",
+            };
             format!(
-                "{what}{why}. {count} proved, each box holding exactly one, {}; there may be more, in the undecided \
+                "{what}{why}. {count} proved, {each}, {}; there may be more, in the undecided \
                  parts only.",
                 different.replace(" are", "")
             )
         }
+    }
+}
+
+/// A number of solutions; `None`: it has no place in 64 bits.
+fn counted_solutions(count: Option<u64>) -> String {
+    match count {
+        Some(count) => counted(count as usize, "solution"),
+        None => "more than 2^64 solutions".to_owned(),
     }
 }
 
@@ -369,14 +435,15 @@ pub fn among_in_words(among: Among) -> String {
 /// What a checked cover proves.
 pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> String {
     let name = &verdict.problem.name;
-    let count = counted(verdict.solutions, "solution");
+    let count = counted_solutions(verdict.solutions);
     let seconds = took.as_secs_f64();
     let parts = counted(verdict.parts as usize, "part");
     let (up_to, different) = counted_once(symmetry(&verdict.problem));
+    let exactly = verdict.solutions.map_or("", |_| "exactly ");
     match &verdict.flaw {
         Some(flaw) => format!("NOT PROVED: {name}: {flaw}. Nothing is claimed.\n"),
         None if verdict.undecided == 0 => format!(
-            "VERIFIED: {name} has exactly {count}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.\n"
+            "VERIFIED: {name} has {exactly}{count}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.\n"
         ),
         None => format!(
             "INCOMPLETE: {name} has {count} at least, {different}; nothing is claimed of {} of the {parts} of the \

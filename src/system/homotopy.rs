@@ -325,7 +325,7 @@ impl Homotopy {
     }
 
     /// The unknown that an entry is, or m + 1 if it is zero.
-    pub(super) fn entry(&self, entry: Entry) -> usize {
+    pub(crate) fn entry(&self, entry: Entry) -> usize {
         let zero = self.equations + 1;
         match entry {
             Entry::Zero => zero,

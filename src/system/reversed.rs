@@ -51,6 +51,18 @@ impl Homotopy {
         either || shown.iter().any(|shown| shown.1) && !twins.iter().any(is_shown)
     }
 
+    /// Whether a line or plane of its own has a direction that is unknown.
+    pub fn has_directions(&self) -> bool {
+        let mut objects = self.shapes.iter().zip(&self.tail.objects);
+        objects.any(|(shape, own)| {
+            let split = shape.split_direction(own, self.dimension);
+            split.is_some_and(|[_, turn]| {
+                let mut turn = turn.iter();
+                turn.any(|entry| matches!(entry, Entry::Unknown(_)))
+            })
+        })
+    }
+
     /// Lines and planes of their own, by number, whose direction none of the known changes of sign (`twins`) that `keeps` accepts
     /// reverses alone: constraints tell the two directions of each apart, a path keeps one of them by continuity, and zeros of
     /// the equations may have either.

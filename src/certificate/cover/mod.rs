@@ -31,8 +31,8 @@ pub struct CoverVerdict {
     /// The problem that it is about.
     pub problem: Problem,
     /// How many solutions there are, up to the symmetries of the problem ([`crate::constraint::symmetry`]), each proved to exist,
-    /// no two congruent.
-    pub solutions: usize,
+    /// no two congruent; `None` where that has no place in 64 bits.
+    pub solutions: Option<u64>,
     /// Parts of the space of which nothing is claimed: if there are none, there is no other solution.
     pub undecided: u64,
     /// Parts that were checked.
@@ -48,7 +48,7 @@ impl CoverVerdict {
             .map_err(|error| CoverError(error.to_string()))?;
         Ok(CoverVerdict {
             problem,
-            solutions,
+            solutions: Some(solutions as u64),
             undecided: 0,
             parts: 0,
             flaw: None,
@@ -81,7 +81,7 @@ impl CoverVerdict {
 /// let result = all(&triangle, &Options { cover: true, ..Options::default() }).unwrap();
 /// let verdict = verify_cover(&result.cover.unwrap()).unwrap();
 /// assert!(verdict.proves_all() && verdict.is_about(&triangle));
-/// assert_eq!(verdict.solutions, 1);
+/// assert_eq!(verdict.solutions, Some(1));
 /// ```
 pub fn verify_cover(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
     match bytes.starts_with(format!("{}\n", coordinates::FIRST_LINE).as_bytes()) {

@@ -8,7 +8,7 @@ use super::search::{Block as Searched, COARSE, Choice, MANY, SMALL};
 use super::sides::MOST as MOST_REDUCED;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::{
-    Block, Body, Change, CoordinateCover, Half, Mark, Part, Space, Turn, Turned,
+    Block, Body, Change, CoordinateCover, Half, Independent, Mark, Part, Space, Turn, Turned,
 };
 use crate::interval::{Interval, ZERO};
 use crate::problem::Problem;
@@ -39,6 +39,10 @@ pub struct Results<'a> {
     pub searched: Vec<Searched<'a>>,
     /// For each block the body on legs that it is, if it was searched over how that is turned.
     pub bodies: Vec<Option<Body>>,
+    /// The unknowns that parts have in common, where the equations fall apart.
+    pub base: Vec<usize>,
+    /// The parts, of whose zeros every combination is one; none where the equations do not fall apart.
+    pub independent: Vec<Independent>,
     /// The parts of the search.
     pub boxes: u64,
 }
@@ -71,6 +75,8 @@ pub fn file(
         bodies: results.bodies.iter().flatten().cloned().collect(),
         images: Vec::new(),
         others: results.others,
+        base: results.base,
+        independent: results.independent,
         marks: Vec::new(),
     };
     let counts = [homotopy.equations, cover.figures.len(), cover.others.len()];
@@ -80,7 +86,6 @@ pub fn file(
     // As the check reads it.
     let problem = Problem::parse(&cover.problem, "").ok()?;
     let mut space = Space::new(&problem, &cover).ok()?;
-    let mut stack = vec![Open::Part(space.whole(), 0, false)];
     let mut number = 0;
     let bodies = results.bodies.iter().map(|body| {
         body.as_ref()?;
@@ -99,15 +104,19 @@ pub fn file(
         most: 4 * results.boxes + 10_000,
         stop,
     };
-    while let Some(open) = stack.pop() {
-        writer.parts += 1;
-        match open {
-            Open::Part(mut part, block, is_turned) => {
-                if writer.space.narrow(&mut part).is_ok() {
-                    writer.go(part, (block, is_turned), &mut stack);
+    for slice in writer.space.slices() {
+        writer.space.look_at(slice);
+        let mut stack = vec![Open::Part(writer.space.whole(), 0, false)];
+        while let Some(open) = stack.pop() {
+            writer.parts += 1;
+            match open {
+                Open::Part(mut part, block, is_turned) => {
+                    if writer.space.narrow(&mut part).is_ok() {
+                        writer.go(part, (block, is_turned), &mut stack);
+                    }
                 }
+                Open::Turn(part, block, turn) => writer.turn(part, block, turn, &mut stack),
             }
-            Open::Turn(part, block, turn) => writer.turn(part, block, turn, &mut stack),
         }
     }
     Some(cover.to_bytes())

@@ -60,6 +60,11 @@ impl<'a> Kept<'a> {
         piece % of + 1 == which
     }
 
+    /// Whether all pieces are of it.
+    pub fn is_all(&self) -> bool {
+        self.share == [1, 1]
+    }
+
     /// What was found in a piece before.
     pub fn known(&self, name: &str) -> Option<Found> {
         self.store.lock().ok()?.done.get(name).cloned()

@@ -21,6 +21,7 @@ mod cover;
 mod divided;
 mod expanded;
 mod far;
+mod independent;
 mod kept;
 mod newton;
 mod poses;
@@ -45,6 +46,7 @@ use crate::system::told::{self, Told};
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
 use contract::{contract, entire, upper_half};
+use independent::Parts;
 use kept::Kept;
 use poses::Poses;
 pub(super) use search::leave;
@@ -135,9 +137,10 @@ fn searched(
     let m = system.unknowns;
     let mut x = vec![entire(); m + 1];
     x[m] = ZERO;
-    let halves = symmetry::halves(problem, (homotopy, &signs), &system);
-    let pivots = halves.iter().map(|half| half.unknown);
-    for i in pivots.chain(homotopy.positive_unknowns()) {
+    let blocks = blocks(&system);
+    let halves = symmetry::halves(problem, (homotopy, &signs), &system, &blocks);
+    let pivots: Vec<usize> = halves.iter().map(|half| half.unknown).collect();
+    for i in pivots.iter().copied().chain(homotopy.positive_unknowns()) {
         x[i] = upper_half();
     }
     for &(i, negative) in &signs {
@@ -155,10 +158,27 @@ fn searched(
         Some((keep, store)) => Some(Kept::new(store, keep, (problem, &x), run.stop)?),
         None => None,
     };
-    let mut figures = Figures::new(problem, (homotopy, signs), &system, run, kept.as_ref());
+    let mut figures = Figures::new(
+        problem,
+        (homotopy, signs),
+        (&system, blocks),
+        run,
+        kept.as_ref(),
+    );
 
     if space.is_ok() {
-        figures.go(0, (&mut Vec::new(), &Told::default()), &x, 1.0);
+        figures.parts = figures.fall_apart(&x, &pivots);
+        match &figures.parts {
+            Some(parts) => figures.found = figures.combinations(parts),
+            None => {
+                let begin = State {
+                    x,
+                    told: Told::default(),
+                    chosen: Vec::new(),
+                };
+                figures.go(0, begin, 1.0);
+            }
+        }
     }
     result.solutions = solutions(homotopy, &figures.found);
     let bodies = figures.bodies.iter().flatten();
@@ -187,11 +207,33 @@ fn searched(
                 .to_owned(),
         );
     }
-    result.count = Some(result.solutions.len() as u64);
+    result.count = match &figures.parts {
+        Some(parts) => {
+            result.choices = parts.choices(problem, homotopy);
+            parts.count
+        }
+        None => Some(result.solutions.len() as u64),
+    };
     kept.map_or(Ok(()), Kept::end)?;
     result.seconds = begin.elapsed().as_secs_f64();
     result.tell_what_is_left(run);
     Ok(result)
+}
+
+/// The blocks of a system, each of which needs only blocks before it.
+fn blocks(system: &System) -> Vec<Cut> {
+    let m = system.unknowns;
+    let rows = system.rows[..m].iter();
+    let equations: Vec<Vec<usize>> = rows.map(|row| row.entries.clone()).collect();
+    match Blocks::new(&equations, m) {
+        Some(blocks) => blocks.blocks,
+        // Singular whatever the numbers are: one block, of which nothing will be proved.
+        None => vec![Cut {
+            equations: (0..m).collect(),
+            unknowns: (0..m).collect(),
+            needs: Vec::new(),
+        }],
+    }
 }
 
 /// Adds the bounds of the distances of all pairs that follow from the distances given.
@@ -241,30 +283,39 @@ struct Figures<'a> {
     /// Zeros in which a vector vanishes that must not, exactly.
     others: Vec<Vec<f64>>,
     undecided: Vec<Part>,
+    /// Where the equations fall apart, what comes of that.
+    parts: Option<Parts>,
+}
+
+/// Where blocks are.
+#[derive(Clone)]
+struct State {
+    /// Their unknowns' ranges, and the number 0.
+    x: Vec<Interval>,
+    /// What is known exactly.
+    told: Told,
+    /// The blocks that were solved, and which zero each has.
+    chosen: Vec<(usize, usize)>,
+}
+
+/// What a zero of all equations is.
+enum Judged {
+    /// A figure.
+    Figure(Box<FigureBox>),
+    /// None, as a vector vanishes that must not, or a length is not positive; and where exactly it is, if that is known.
+    Other(Option<Vec<f64>>),
+    /// Neither is certain.
+    Undecided(Why),
 }
 
 impl<'a> Figures<'a> {
     fn new(
         problem: &'a Problem,
         (homotopy, signs): (&'a Homotopy, Vec<(usize, bool)>),
-        system: &'a System,
+        (system, blocks): (&'a System, Vec<Cut>),
         run: &'a Watched<'a>,
         kept: Option<&'a Kept<'a>>,
     ) -> Self {
-        let m = system.unknowns;
-        let equations: Vec<Vec<usize>> = system.rows[..m]
-            .iter()
-            .map(|row| row.entries.clone())
-            .collect();
-        let blocks = match Blocks::new(&equations, m) {
-            Some(blocks) => blocks.blocks,
-            // Singular whatever the numbers are: one block, of which nothing will be proved.
-            None => vec![Cut {
-                equations: (0..m).collect(),
-                unknowns: (0..m).collect(),
-                needs: Vec::new(),
-            }],
-        };
         let mut ancestors: Vec<BTreeSet<usize>> = Vec::new();
         for block in &blocks {
             let mut all: BTreeSet<usize> = block.needs.iter().copied().collect();
@@ -287,17 +338,12 @@ impl<'a> Figures<'a> {
             found: Vec::new(),
             others: Vec::new(),
             undecided: Vec::new(),
+            parts: None,
         }
     }
 
     /// All figures of the blocks from this one on, with those before where they are. `share`: of what is searched.
-    fn go(
-        &mut self,
-        b: usize,
-        (chosen, told): (&mut Vec<(usize, usize)>, &Told),
-        x: &[Interval],
-        share: f64,
-    ) {
+    fn go(&mut self, b: usize, state: State, share: f64) {
         if self.found.len() >= MOST_FIGURES {
             leave(&mut self.undecided, Why::GivenUp, 1, share);
             return;
@@ -307,12 +353,11 @@ impl<'a> Figures<'a> {
             leave(&mut self.undecided, Why::Unfinished, 1, share);
             return;
         }
-        let Some(block) = self.blocks.get(b) else {
-            self.finish(x, share);
+        if b == self.blocks.len() {
+            self.finish(&state.x, share);
             return;
-        };
-        let own = block.unknowns.clone();
-        let found = self.solve(b, (chosen, told), x, share);
+        }
+        let found = self.solve(b, &state, share);
         for part in &found.undecided {
             leave(
                 &mut self.undecided,
@@ -330,27 +375,31 @@ impl<'a> Figures<'a> {
         }
         // What is decided comes to the zeros, in equal parts.
         let each = decided / found.zeros.len().max(1) as f64;
-        for (k, zero) in found.zeros.iter().enumerate() {
-            let mut x = x.to_vec();
-            for (&u, range) in own.iter().zip(ranges(zero)) {
-                x[u] = range;
-            }
-            let mut told = told.clone();
-            if let Some(values) = found.exact.get(k) {
-                let mut ranges = x.clone();
-                for (u, value) in values.iter() {
-                    ranges[*u] = ranges[*u].intersection(told::range(value));
-                }
-                // What is not in the zero's box is not its value.
-                if !ranges.iter().any(|range| range.is_empty()) {
-                    told.learn(values.iter().cloned());
-                    x = ranges;
-                }
-            }
-            chosen.push((b, k));
-            self.go(b + 1, (chosen, &told), &x, each);
-            chosen.pop();
+        for k in 0..found.zeros.len() {
+            let mut state = state.clone();
+            self.take(b, (&found, k), &mut state);
+            self.go(b + 1, state, each);
         }
+    }
+
+    /// Narrows a state to a zero of a block.
+    fn take(&self, b: usize, (found, k): (&Found, usize), state: &mut State) {
+        let own = self.blocks[b].unknowns.iter();
+        for (&u, range) in own.zip(ranges(&found.zeros[k])) {
+            state.x[u] = range;
+        }
+        if let Some(values) = found.exact.get(k) {
+            let mut ranges = state.x.clone();
+            for (u, value) in values.iter() {
+                ranges[*u] = ranges[*u].intersection(told::range(value));
+            }
+            // What is not in the zero's box is not its value.
+            if !ranges.iter().any(|range| range.is_empty()) {
+                state.told.learn(values.iter().cloned());
+                state.x = ranges;
+            }
+        }
+        state.chosen.push((b, k));
     }
 
     /// For each entry whether the blocks that a block needs have determined it.
@@ -381,13 +430,7 @@ impl<'a> Figures<'a> {
     }
 
     /// The zeros of a block with those before chosen. `share`: of what is searched.
-    fn solve(
-        &mut self,
-        b: usize,
-        (chosen, told): (&[(usize, usize)], &Told),
-        x: &[Interval],
-        share: f64,
-    ) -> Rc<Found> {
+    fn solve(&mut self, b: usize, State { x, told, chosen }: &State, share: f64) -> Rc<Found> {
         let weight = share * self.weight(&self.blocks[b]);
         let before = chosen.iter().copied();
         let before: Vec<(usize, usize)> = before
@@ -421,7 +464,7 @@ impl<'a> Figures<'a> {
                             run: &run,
                         };
                         let is_known = self.is_known(b);
-                        sides.search(told.of(|u| is_known[u]), x.to_vec())
+                        sides.search(told.of(|u| is_known[u]), x.clone())
                     }
                 };
                 if is_whole {
@@ -439,6 +482,9 @@ impl<'a> Figures<'a> {
     /// How a block that needs these zeros is searched where others share the search: all of it, if a piece of this share had one of
     /// them; the pieces of this share, if all who share the search find them; not at all (`None`), if others do it.
     fn whose(&self, before: &[(usize, usize)]) -> Option<bool> {
+        if self.kept.is_none_or(Kept::is_all) {
+            return Some(false);
+        }
         let mut is_whole = false;
         for (k, &(c, zero)) in before.iter().enumerate() {
             // What a block needs comes before it, and is needed by all that need it.
@@ -457,36 +503,36 @@ impl<'a> Figures<'a> {
     }
 
     /// The box of one zero of all equations: what figure it is.
-    fn finish(&mut self, x: &[Interval], share: f64) {
+    fn judge(&self, x: &[Interval]) -> Judged {
         let m = self.system.unknowns;
         let near: Vec<f64> = x[..m].iter().map(|x| x.mid()).collect();
         let Ok(figure) = prove_figure(self.homotopy, &near, false) else {
-            leave(&mut self.undecided, Why::Small, 1, share);
-            return;
+            return Judged::Undecided(Why::Small);
         };
         let is_it = (0..m).all(|i| {
             let middle = point(figure.figure.centre[i]) + point(figure.figure.low[i]);
             (x[i] - middle).mag() < figure.alone_within
         });
         if !is_it {
-            leave(&mut self.undecided, Why::Small, 1, share);
-            return;
+            return Judged::Undecided(Why::Small);
         }
         match self.is_proper(&figure) {
-            Some(true) => {}
-            Some(false) => {
-                let exact = self.exact(&figure).map(|mut exact| {
-                    exact.pop();
-                    exact
-                });
-                self.others.extend(exact);
-                return;
-            }
-            None => {
-                leave(&mut self.undecided, Why::Vanishing, 1, share);
-                return;
-            }
+            Some(true) => Judged::Figure(Box::new(figure)),
+            Some(false) => Judged::Other(self.exact(&figure).map(|mut exact| {
+                exact.pop();
+                exact
+            })),
+            None => Judged::Undecided(Why::Vanishing),
         }
+    }
+
+    /// Adds what comes of one zero of all equations.
+    fn finish(&mut self, x: &[Interval], share: f64) {
+        let figure = match self.judge(x) {
+            Judged::Figure(figure) => *figure,
+            Judged::Other(exact) => return self.others.extend(exact),
+            Judged::Undecided(why) => return leave(&mut self.undecided, why, 1, share),
+        };
         for known in &self.found {
             match figure.relation(known, self.homotopy) {
                 Relation::Different => {}
@@ -502,9 +548,13 @@ impl<'a> Figures<'a> {
 
     /// The cover of the space, for the check.
     fn cover(&self, problem: &Problem, halves: Vec<Half>) -> Option<Vec<u8>> {
-        let figures = self.found.iter();
+        let parts = self.parts.as_ref();
+        let figures = parts.map_or(&self.found, |parts| &parts.representatives);
+        let figures = figures.iter();
         let results = cover::Results {
             figures: figures.map(|found| found.figure.centre.clone()).collect(),
+            base: parts.map(|parts| parts.base.clone()).unwrap_or_default(),
+            independent: parts.map(Parts::told).unwrap_or_default(),
             others: self.others.clone(),
             halves,
             blocks: &self.blocks,

@@ -5,6 +5,7 @@
 //! found, up to such changes, where no pivot is negative.
 
 use super::system::{Form, System};
+use crate::blocks::Block;
 use crate::certificate::cover::coordinates::{self, Half};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::ZERO;
@@ -32,11 +33,13 @@ impl Change {
     }
 }
 
-/// The unknowns that may be taken as not negative, each with the symmetry that changes it and none of the others.
+/// The unknowns that may be taken as not negative, each with the symmetry that changes it and none of the others: those of the first `blocks` that a
+/// symmetry changes, so that what comes after them does not have to be searched for both signs.
 pub fn halves(
     problem: &Problem,
     (homotopy, signs): (&Homotopy, &[(usize, bool)]),
     system: &System,
+    blocks: &[Block],
 ) -> Vec<Half> {
     let m = system.unknowns;
     let d = homotopy.dimension;
@@ -64,7 +67,12 @@ pub fn halves(
     positive.extend(signs.iter().map(|(i, _)| i));
     generators.retain(|g| keeps(system, &g.unknowns) && positive.iter().all(|&i| !g.unknowns[i]));
     let mut pivots: Vec<usize> = Vec::new();
-    for column in 0..m {
+    let columns = blocks.iter().flat_map(|block| {
+        let mut own = block.unknowns.clone();
+        own.sort_unstable();
+        own
+    });
+    for column in columns {
         let rank = pivots.len();
         let Some(k) = (rank..generators.len()).find(|&k| generators[k].unknowns[column]) else {
             continue;

@@ -51,6 +51,19 @@ impl FigureBox {
         }
     }
 
+    /// A box with one figure, of which it is not known how far others are.
+    pub fn around(ranges: impl IntoIterator<Item = Interval>) -> Self {
+        let ranges: Vec<Interval> = ranges.into_iter().collect();
+        FigureBox {
+            figure: Figure {
+                centre: ranges.iter().map(|x| x.mid()).collect(),
+                low: vec![0.0; ranges.len()],
+                radius: ranges.iter().map(|x| x.rad()).collect(),
+            },
+            alone_within: 0.0,
+        }
+    }
+
     /// The coordinates of all points, in the problem's units.
     pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
         self.to_solution().points(homotopy)

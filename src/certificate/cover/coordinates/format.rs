@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// The first line.
 pub const FIRST_LINE: &str = "krawl cover of coordinates";
 /// The version of the format.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -28,7 +28,11 @@ pub struct CoordinateCover {
     pub images: Vec<Image>,
     /// Zeros of the equations that are no figures, as a vector vanishes in them that must not: exactly.
     pub others: Vec<Vec<f64>>,
-    /// The marks.
+    /// The unknowns that parts have in common, where the equations fall apart.
+    pub base: Vec<usize>,
+    /// The parts, of whose zeros every combination is one; none where the equations do not fall apart.
+    pub independent: Vec<Independent>,
+    /// The marks: those of the base, if it has unknowns, and then of each part; or of the whole.
     pub marks: Vec<u8>,
 }
 
@@ -80,6 +84,15 @@ pub struct Block {
     pub equations: Vec<usize>,
     /// The unknowns.
     pub unknowns: Vec<usize>,
+}
+
+/// Equations that are about differences of which no others say anything.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Independent {
+    /// The equations.
+    pub equations: Vec<usize>,
+    /// The solutions that are in all other parts as the first one is, beside that one itself.
+    pub figures: Vec<usize>,
 }
 
 /// A rigid body on six legs, each from one of its points to where it stands.
@@ -221,6 +234,13 @@ impl CoordinateCover {
         for other in &self.others {
             let _ = writeln!(out, "other{}", floats(other));
         }
+        if !self.base.is_empty() {
+            let _ = writeln!(out, "base{}", list(&self.base));
+        }
+        for part in &self.independent {
+            let (equations, figures) = (list(&part.equations), list(&part.figures));
+            let _ = writeln!(out, "independent{equations} figures{figures}");
+        }
         let _ = writeln!(out, "marks {}", self.marks.len());
         let mut out = out.into_bytes();
         out.extend(&self.marks);
@@ -263,6 +283,11 @@ impl CoordinateCover {
                 "other" => cover
                     .others
                     .push(words.map(float).collect::<Result<_, _>>()?),
+                "base" => cover.base = until(&mut words, None)?,
+                "independent" => cover.independent.push(Independent {
+                    equations: until(&mut words, Some("figures"))?,
+                    figures: until(&mut words, None)?,
+                }),
                 "marks" => {
                     cover.marks = lines.marks(words.next())?;
                     return Ok(cover);

@@ -8,13 +8,17 @@
 mod bounds;
 mod divided;
 mod format;
+mod independent;
 mod shared;
 mod space;
 mod sums;
 mod symmetry;
 mod turns;
 
-pub use format::{Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Mark, Turned};
+pub use format::{
+    Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Independent, Mark, Turned,
+};
+pub use independent::Slice;
 pub use space::{Empty, Part};
 pub use symmetry::signs_changed;
 pub use turns::{Look, Turn};
@@ -26,9 +30,13 @@ use crate::constraint::{self, Symmetry};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
+use independent::Apart;
 use space::Rows;
 use std::rc::Rc;
 use sums::Sum;
+
+/// How often parts of a slice are narrowed by what moves with what. (No zero is lost whatever this number is.)
+const MOVED: usize = 4;
 
 /// What a cover is about, with all that it says but its marks proved.
 pub struct Space {
@@ -45,6 +53,7 @@ pub struct Space {
     figures: Vec<Place>,
     images: Vec<Seen>,
     others: Vec<Place>,
+    apart: Apart,
 }
 
 /// A zero that is a solution seen otherwise.
@@ -79,6 +88,12 @@ impl Space {
                 return Err("a block has not as many equations as unknowns".to_owned());
             }
         }
+        let single = |&i: &usize| vec![[i, eq.m + 1]];
+        let signed = signs.iter().map(|(i, _)| i).chain(&not_negative);
+        let conditions = eq.positive.iter().chain(signed).map(single);
+        let conditions: Vec<_> = eq.nonzero.iter().cloned().chain(conditions).collect();
+        let apart = Apart::new(&eq, &conditions, cover);
+        let apart = apart.ok_or("the equations do not fall apart as is said")?;
         let bodies = cover.bodies.iter();
         let bodies = bodies.map(|body| turns::Body::new(problem, &eq, body));
         let mut space = Space {
@@ -93,6 +108,7 @@ impl Space {
             figures: Vec::new(),
             images: Vec::new(),
             others: Vec::new(),
+            apart,
         };
         let whole = space.whole();
         let sums = space.blocks.iter();
@@ -112,6 +128,9 @@ impl Space {
                 return Err(format!("the solutions {same} and {number} may be the same"));
             }
             space.figures.push(place);
+        }
+        if !cover.independent.is_empty() && !space.apart.are_different(&space) {
+            return Err("combinations of the solutions of parts may be the same".to_owned());
         }
         for image in &cover.images {
             space.see(image)?;
@@ -183,7 +202,26 @@ impl Space {
 
     /// Narrows a part by the equations one by one.
     pub fn narrow(&self, part: &mut Part) -> Result<(), Empty> {
-        self.rows.narrow(&self.eq, part)
+        for _ in 0..MOVED {
+            self.apart.narrow(part, self.figures.first())?;
+            self.rows.narrow(&self.eq, part)?;
+        }
+        Ok(())
+    }
+
+    /// Where the equations fall apart, what is to be looked at one after the other.
+    pub fn slices(&self) -> Vec<Slice> {
+        self.apart.slices()
+    }
+
+    /// Looks at one of these from now on.
+    pub fn look_at(&mut self, slice: Slice) {
+        self.apart.slice = slice;
+    }
+
+    /// How many figures there are; `None` where that has no place in 64 bits.
+    pub fn count(&self) -> Option<u64> {
+        self.apart.count(self.figures.len())
     }
 
     /// Narrows a part by sums of two of a block's equations, by all of them together, and then one by one. A block that there is not does
@@ -286,6 +324,20 @@ impl Space {
         Ok(())
     }
 
+    /// Whether all of a part lies so near to a solution that there is no other; of the base, in its unknowns.
+    fn is_at(&self, figure: usize, part: &Part) -> bool {
+        let place = self.figures.get(figure);
+        let place = place.filter(|_| self.apart.takes(figure));
+        place.is_some_and(|place| {
+            let ranges = part.ranges().iter().enumerate();
+            let ranges = ranges.map(|(i, &x)| match self.apart.is_looked_at(i) {
+                true => x,
+                false => place.spot.at(i),
+            });
+            place.covers(&ranges.collect::<Vec<_>>())
+        })
+    }
+
     /// Whether all of a part lies so near to a zero that there is no other.
     fn holds(&self, zero: Option<&Place>, part: &Part) -> bool {
         zero.is_some_and(|zero| zero.covers(part.ranges()))
@@ -302,12 +354,14 @@ impl Space {
 
     /// A listed zero to which all of a part lies so near.
     pub fn zero_of(&self, part: &Part) -> Option<Mark> {
-        let of = |zeros: &[Place]| zeros.iter().position(|zero| self.holds(Some(zero), part));
-        let figure = of(&self.figures).map(Mark::Figure);
+        let figure = (0..self.figures.len()).find(|&figure| self.is_at(figure, part));
+        let figure = figure.map(Mark::Figure);
         let image = || self.images.iter().position(|seen| self.shows(seen, part));
-        figure
-            .or_else(|| image().map(Mark::Image))
-            .or_else(|| of(&self.others).map(Mark::Other))
+        figure.or_else(|| image().map(Mark::Image)).or_else(|| {
+            let mut others = self.others.iter();
+            let other = others.position(|zero| self.holds(Some(zero), part));
+            other.map(Mark::Other)
+        })
     }
 }
 
@@ -338,21 +392,25 @@ struct Check<'a> {
 
 fn check(cover: &CoordinateCover, verdict: &mut CoverVerdict) -> Result<(), String> {
     let space = Space::new(&verdict.problem, cover)?;
-    let stack = vec![Open::Part(space.whole())];
+    verdict.solutions = space.count();
     let mut check = Check {
         cover,
         space,
         at: 0,
-        stack,
+        stack: Vec::new(),
     };
-    while let Some(open) = check.stack.pop() {
-        verdict.parts += 1;
-        let undecided = match open {
-            Open::Part(part) => check.part(part),
-            Open::Turn(part, body, turn) => check.turn(part, body, turn),
-        };
-        let undecided = undecided.map_err(|flaw| format!("part {}: {flaw}", verdict.parts))?;
-        verdict.undecided += u64::from(undecided);
+    for slice in check.space.slices() {
+        check.space.look_at(slice);
+        check.stack.push(Open::Part(check.space.whole()));
+        while let Some(open) = check.stack.pop() {
+            verdict.parts += 1;
+            let undecided = match open {
+                Open::Part(part) => check.part(part),
+                Open::Turn(part, body, turn) => check.turn(part, body, turn),
+            };
+            let undecided = undecided.map_err(|flaw| format!("part {}: {flaw}", verdict.parts))?;
+            verdict.undecided += u64::from(undecided);
+        }
     }
     match check.at == cover.marks.len() {
         true => Ok(()),
@@ -380,7 +438,7 @@ impl Check<'_> {
                     self.stack.extend([high, low].map(Open::Part));
                     true
                 }),
-                Mark::Figure(k) => space.holds(space.figures.get(k), &part),
+                Mark::Figure(k) => space.is_at(k, &part),
                 Mark::Image(k) => {
                     let seen = space.images.get(k);
                     seen.is_some_and(|seen| space.shows(seen, &part))

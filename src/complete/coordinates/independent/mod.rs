@@ -1,0 +1,255 @@
+//! Equations that fall apart: parts of which every zero goes with every zero of the others.
+//!
+//! Holes of a plate, each so far from an edge in x and in y, have nothing to do with each other: n of them have 4ⁿ places, of which each hole has 4. Nor has a row of
+//! them each of which is measured from the one before: equations are about differences of entries, and what one of them says of its differences is the same
+//! wherever the others are.
+//!
+//! Blocks with one zero alone come first, the *base*: its unknowns are numbers in what follows. All others are nodes of a graph, with one for the number 0 and
+//! the base; each difference in an equation is an edge. In a spanning tree of it each difference is a sum of differences along tree edges, so that tree edges are unknowns
+//! as good as the nodes. Tree edges that meet in an equation, or in a condition on figures, are of one part; then the parts are systems beside each other, and figures are all
+//! combinations of their zeros. (The check's own words: `certificate/cover/coordinates/independent.rs`.)
+//!
+//! Each part is searched with all differences of the others as they are in one figure, the *reference*: blocks of the part as always, others moved along with what they hang on.
+
+mod apart;
+mod combinations;
+mod slices;
+
+use super::{Cut, Figures, Judged, State};
+use crate::certificate::cover::coordinates::Independent;
+use crate::complete::{Choice, Why};
+use crate::interval::{Interval, ZERO};
+use crate::problem::Problem;
+use crate::system::Homotopy;
+use crate::system::told::Told;
+use crate::track::FigureBox;
+use apart::Apart;
+use slices::Sought;
+use std::sync::atomic::Ordering;
+
+/// The parts of an answer.
+pub struct Parts {
+    /// The unknowns of the base.
+    pub base: Vec<usize>,
+    /// Each with its equations and unknowns and its zeros, by their numbers among the representatives; the first of all is in each of them.
+    pub parts: Vec<One>,
+    /// The reference, and for each other zero of a part the figure that has it and is the reference otherwise.
+    pub representatives: Vec<FigureBox>,
+    /// How many combinations there are; `None` where that has no place in 64 bits.
+    pub count: Option<u64>,
+}
+
+/// One of the parts.
+pub struct One {
+    /// Its equations.
+    pub equations: Vec<usize>,
+    /// The unknowns that it places, beside what they hang on.
+    pub unknowns: Vec<usize>,
+    /// Its zeros but the reference's.
+    pub figures: Vec<usize>,
+}
+
+impl Parts {
+    /// The parts that have more than one zero: what they place, by name, and how many zeros they have.
+    pub fn choices(&self, problem: &Problem, homotopy: &Homotopy) -> Vec<Choice> {
+        let names = |of: &One| {
+            let is_placed = |i: usize| of.unknowns.contains(&i);
+            let points = problem.points.iter().enumerate().filter(|(p, _)| {
+                let mut axes = 0..homotopy.dimension;
+                axes.any(|axis| homotopy.coordinate(*p, axis).is_some_and(is_placed))
+            });
+            let objects = problem.objects.iter().zip(&homotopy.tail.objects);
+            let objects = objects.filter(|(_, entries)| {
+                let mut entries = entries.iter().map(|&entry| homotopy.entry(entry));
+                entries.any(is_placed)
+            });
+            let points = points.map(|(_, point)| point.name.clone());
+            points
+                .chain(objects.map(|(object, _)| object.name.clone()))
+                .collect()
+        };
+        let choices = self.parts.iter().filter(|part| !part.figures.is_empty());
+        let choices = choices.map(|part| Choice {
+            names: names(part),
+            count: part.figures.len() + 1,
+        });
+        choices.collect()
+    }
+
+    /// As a cover tells them.
+    pub fn told(&self) -> Vec<Independent> {
+        let parts = self.parts.iter().map(|part| Independent {
+            equations: part.equations.clone(),
+            figures: part.figures.clone(),
+        });
+        parts.collect()
+    }
+}
+
+impl Figures<'_> {
+    /// Finds the figures part by part, where the equations fall apart into two parts or more that have more than one zero. `None`: they do not, or that it is so could not be shown.
+    pub(super) fn fall_apart(&mut self, x: &[Interval], pivots: &[usize]) -> Option<Parts> {
+        let is_simple = self.homotopy.tail.twins.is_empty()
+            && !self.homotopy.has_directions()
+            && self.kept.is_none_or(|kept| kept.is_all());
+        if !is_simple || self.blocks.len() < 2 {
+            return None;
+        }
+        let begin = State {
+            x: x.to_vec(),
+            told: Told::default(),
+            chosen: Vec::new(),
+        };
+        let mut in_base: Vec<bool> = Vec::new();
+        let mut state = begin.clone();
+        for b in 0..self.blocks.len() {
+            let is_next = self.blocks[b].needs.iter().all(|&need| in_base[need]);
+            let found = is_next.then(|| self.solve(b, &state, 1.0));
+            let found = found.filter(|found| found.zeros.len() == 1 && found.undecided.is_empty());
+            in_base.push(found.is_some());
+            if let Some(found) = found {
+                self.take(b, (&found, 0), &mut state);
+            }
+        }
+        let signed = self.signs.iter().map(|(i, _)| *i);
+        let signed = signed.chain(self.homotopy.positive_unknowns());
+        let m = self.system.unknowns;
+        let signed = signed.chain(pivots.iter().copied()).map(|i| vec![[i, m]]);
+        // Of a vector, what is not zero in all figures.
+        let names = self.system.names();
+        let vectors = self.homotopy.nonzero_vectors().into_iter();
+        let vectors = vectors.map(|mut vector| {
+            vector.retain(|ends| {
+                let [a, b] = ends.map(|i| names[i.min(m)]);
+                a != b
+            });
+            vector
+        });
+        let conditions = vectors.chain(signed).collect();
+        let apart = Apart::new(self, &in_base, conditions)?;
+        if apart.parts < 2 {
+            return None;
+        }
+        let before = self.undecided.clone();
+        let parts = self.of_parts(&apart, &in_base, begin);
+        if parts.is_none() {
+            self.undecided = before;
+        }
+        parts
+    }
+
+    /// The figures of each part.
+    fn of_parts(&mut self, apart: &Apart, in_base: &[bool], begin: State) -> Option<Parts> {
+        let (mut zeros, mut steps) = (vec![0; self.blocks.len()], 0);
+        let mut is_passed = false;
+        let (reference, first) = loop {
+            match self.reference(apart, &mut zeros, &mut steps, &begin) {
+                Sought::Unknown => return None,
+                // Zeros that are no figures were passed over.
+                Sought::Nothing(_) if is_passed => return None,
+                Sought::Nothing(part) => {
+                    // Then there is no figure.
+                    self.leave_of(apart, part);
+                    return Some(Parts {
+                        base: Vec::new(),
+                        parts: Vec::new(),
+                        representatives: Vec::new(),
+                        count: Some(0),
+                    });
+                }
+                Sought::Found(state, at) => {
+                    let branching = self.branching(apart, &state);
+                    if branching < 2 {
+                        return None;
+                    }
+                    zeros = at;
+                    match self.judge(&state.x) {
+                        Judged::Figure(figure) => break (state, *figure),
+                        Judged::Undecided(_) => return None,
+                        Judged::Other(_) => {
+                            // The next one of the part in which a vector vanishes.
+                            let is_bad = |(condition, _): &&(Vec<[usize; 2]>, usize)| {
+                                let m = self.system.unknowns;
+                                let x = |i: usize| if i < m { state.x[i] } else { ZERO };
+                                condition.iter().all(|&[i, j]| (x(i) - x(j)).contains(0.0))
+                            };
+                            let part = apart.conditions.iter().find(is_bad)?.1;
+                            let last = (0..zeros.len()).rfind(|&b| apart.part[b] == Some(part))?;
+                            zeros[last] += 1;
+                            is_passed = true;
+                        }
+                    }
+                }
+            }
+        };
+        let mut representatives = vec![first];
+        let mut parts: Vec<One> = Vec::new();
+        for k in 0..apart.parts {
+            let mut found = Vec::new();
+            let at = (&*reference, &*zeros);
+            self.slice((apart, k), at, (0, begin.clone()), 1.0, &mut found);
+            let mut figures: Vec<usize> = Vec::new();
+            let mut is_first = false;
+            for (state, share) in found {
+                let mut chosen = state.chosen.iter();
+                if chosen.all(|&(b, zero)| zeros[b] == zero) {
+                    // The reference, again.
+                    is_first = true;
+                    continue;
+                }
+                if self.run.stop.load(Ordering::Relaxed) {
+                    super::leave(&mut self.undecided, Why::Unfinished, 1, share);
+                    continue;
+                }
+                match self.judge(&state.x) {
+                    Judged::Figure(figure) => {
+                        figures.push(representatives.len());
+                        representatives.push(*figure);
+                    }
+                    Judged::Other(exact) => self.others.extend(exact),
+                    Judged::Undecided(why) => super::leave(&mut self.undecided, why, 1, share),
+                }
+            }
+            // It is one of them, wherever the search was not ended before.
+            if !is_first && !self.run.stop.load(Ordering::Relaxed) {
+                return None;
+            }
+            let blocks = self.blocks.iter().zip(&apart.part);
+            let own = blocks
+                .filter(|(_, part)| **part == Some(k))
+                .map(|(block, _)| block);
+            let own: Vec<&Cut> = own.collect();
+            let one = One {
+                equations: own
+                    .iter()
+                    .flat_map(|block| block.equations.clone())
+                    .collect(),
+                unknowns: own
+                    .iter()
+                    .flat_map(|block| block.unknowns.clone())
+                    .collect(),
+                figures,
+            };
+            // Those with one zero are one part.
+            match parts.iter_mut().find(|known| known.figures.is_empty()) {
+                Some(known) if one.figures.is_empty() => {
+                    known.equations.extend(one.equations);
+                    known.unknowns.extend(one.unknowns);
+                }
+                _ => parts.push(one),
+            }
+        }
+        let mut numbers = parts.iter();
+        let count = numbers.try_fold(1u64, |all, part| {
+            all.checked_mul(part.figures.len() as u64 + 1)
+        });
+        let base = (0..in_base.len()).filter(|&b| in_base[b]);
+        let parts = Parts {
+            base: base.flat_map(|b| self.blocks[b].unknowns.clone()).collect(),
+            parts,
+            representatives,
+            count,
+        };
+        (self.are_different(&parts) && self.are_apart(&parts)).then_some(parts)
+    }
+}
