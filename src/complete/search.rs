@@ -448,6 +448,7 @@ impl Run<'_> {
 
     /// The share of the parameter space that is done.
     pub fn share_done(&self) -> f64 {
-        self.done.load(Ordering::Relaxed) as f64 / SHARE_UNIT
+        // But for roundings, and for what was looked at again for another figure.
+        (self.done.load(Ordering::Relaxed) as f64 / SHARE_UNIT).min(1.0)
     }
 }

@@ -35,7 +35,9 @@ impl Figures<'_> {
             }
             let b = states.len() - 1;
             let state = &states[b];
-            let found = self.solve(b, state, 1.0);
+            // Half of the work is counted here, and half in the slices.
+            let share = apart.part[b].map_or(0.0, |_| 0.5);
+            let found = self.solve(b, state, share);
             if zeros[b] < found.zeros.len() {
                 let mut state = state.clone();
                 self.take(b, (&found, zeros[b]), &mut state);
@@ -122,7 +124,7 @@ impl Figures<'_> {
         if b == self.blocks.len() {
             return out.push((state, share));
         }
-        let found = self.solve(b, &state, share);
+        let found = self.solve(b, &state, 0.5 * share);
         let mut open = 0.0;
         for part in &found.undecided {
             open += part.share;
