@@ -93,7 +93,9 @@ impl Apart {
         let equations = of_parts().flat_map(|part| part.equations.iter().copied());
         let all = equations.chain((0..eq.m).filter(base));
         let figures = of_parts().flat_map(|part| part.figures.iter().copied());
+        // No more parts than equations.
         let fits = is_square
+            && of_parts().all(|part| !part.equations.is_empty())
             && is_each_once(all.collect(), eq.m)
             && is_each_once(figures.chain([0]).collect(), cover.figures.len())
             && cover.images.is_empty()
