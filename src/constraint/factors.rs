@@ -101,9 +101,7 @@ impl Equal {
 pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimension: usize) {
     let mut equal = Equal::default();
     // An equation that is changed has 0 on the right, before and after.
-    let rights: Vec<Real> = (tail.equations.iter().zip(vanishing))
-        .map(|(equation, &vanishing)| at_target(equation, vanishing))
-        .collect();
+    let rights = rights_at_target(tail, vanishing);
     let vectors = vectors(tail, apart, dimension);
     // Equalities, by which others are changed, stay as they are.
     let mut is_kept = vec![false; tail.equations.len()];
@@ -144,9 +142,8 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
         };
         diameters::halve(tail, &rights, &equal, &is_kept, is_apart);
     }
-    let rights = tail.equations.iter().zip(vanishing);
-    let rights = rights.map(|(equation, &vanishing)| at_target(equation, vanishing));
-    let mut rights: Vec<Real> = rights.collect();
+    // Those of chords are others now.
+    let mut rights = rights_at_target(tail, vanishing);
     subtracted::subtract(tail, &mut rights, &equal, &is_kept);
     for (equation, is_kept) in tail.equations.iter_mut().zip(is_kept) {
         let left = equal.left(&equation.products).map(|p| Product {
@@ -160,6 +157,13 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
             equation.products = left;
         }
     }
+}
+
+/// The right-hand sides at t = 1.
+fn rights_at_target(tail: &Tail, vanishing: &[bool]) -> Vec<Real> {
+    let rights = tail.equations.iter().zip(vanishing);
+    let rights = rights.map(|(equation, &vanishing)| at_target(equation, vanishing));
+    rights.collect()
 }
 
 /// The vectors that vanish in no figure, with a difference for each axis: those that are said not to, and those between points that have a distance.
