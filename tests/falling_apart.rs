@@ -256,6 +256,14 @@ fn each_hole_doubles_what_the_others_have() {
         // All of them, or the first ones.
         let listed = if count < 20 { 1 << count } else { 1000 };
         assert_eq!(result.solutions.len(), listed);
+        // Any two boxes are disjoint along an axis at one of the holes.
+        for (k, one) in result.solutions.iter().take(100).enumerate() {
+            for other in &result.solutions[..k] {
+                let pairs = one.points.iter().zip(&other.points);
+                let mut axes = pairs.flat_map(|(p, q)| p.iter().zip(q));
+                assert!(axes.any(|(x, y)| x.disjoint(*y)), "{k}");
+            }
+        }
         // One for the first figure, and one for the other place of each hole.
         let figures = if count > 1 { 1 + count } else { 2 };
         assert_eq!(cover.figures.len(), figures);

@@ -13,7 +13,7 @@ use crate::problem::{Problem, counted};
 use crate::track::Mode;
 use std::fmt::Write;
 
-/// Parts that have nothing to do with each other of which so many are shown.
+/// Of the parts that a sketch falls apart into, so many are shown.
 const SHOWN: usize = 12;
 
 /// One JSON object on one line: what is said of every problem (docs/json.md, "The problem"), and
@@ -286,7 +286,7 @@ fn write_choices(out: &mut String, choices: &[Choice]) -> std::fmt::Result {
     )?;
     for choice in choices.iter().take(SHOWN) {
         let names = match choice.names.is_empty() {
-            true => "what has no name".to_owned(),
+            true => "a length or direction without a name".to_owned(),
             false => choice.names.join(", "),
         };
         writeln!(out, "  {}: {names}", counted(choice.count, "place"))?;

@@ -169,7 +169,7 @@ fn searched(
     if space.is_ok() {
         figures.parts = figures.fall_apart(&x, &pivots);
         match &figures.parts {
-            Some(parts) => figures.found = figures.combinations(parts),
+            Some(parts) => figures.found.clone_from(&parts.listed),
             None => {
                 let begin = State {
                     x,
@@ -358,6 +358,21 @@ impl<'a> Figures<'a> {
             return;
         }
         let found = self.solve(b, &state, share);
+        let each = self.share_out(&found, share);
+        if found.zeros.is_empty() {
+            // Nor is anything to be searched after.
+            let after = self.blocks[b + 1..].iter().map(|block| self.weight(block));
+            self.run.add_done(each * after.sum::<f64>());
+        }
+        for k in 0..found.zeros.len() {
+            let mut state = state.clone();
+            self.take(b, (&found, k), &mut state);
+            self.go(b + 1, state, each);
+        }
+    }
+
+    /// Leaves open what a block's search left so, of a share of what is searched; what of the share comes to each of its zeros, in equal parts.
+    fn share_out(&mut self, found: &Found, share: f64) -> f64 {
         for part in &found.undecided {
             leave(
                 &mut self.undecided,
@@ -367,19 +382,7 @@ impl<'a> Figures<'a> {
             );
         }
         let open: f64 = found.undecided.iter().map(|part| part.share).sum();
-        let decided = share * (1.0 - open).max(0.0);
-        if found.zeros.is_empty() {
-            // Nor is anything to be searched after.
-            let after = self.blocks[b + 1..].iter().map(|block| self.weight(block));
-            self.run.add_done(decided * after.sum::<f64>());
-        }
-        // What is decided comes to the zeros, in equal parts.
-        let each = decided / found.zeros.len().max(1) as f64;
-        for k in 0..found.zeros.len() {
-            let mut state = state.clone();
-            self.take(b, (&found, k), &mut state);
-            self.go(b + 1, state, each);
-        }
+        share * (1.0 - open).max(0.0) / found.zeros.len().max(1) as f64
     }
 
     /// Narrows a state to a zero of a block.

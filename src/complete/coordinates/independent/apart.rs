@@ -1,6 +1,7 @@
 //! How equations fall apart, whatever their zeros are.
 
 use super::super::{Cut, Figures, State};
+use super::forms;
 
 /// How the equations fall apart, whatever their zeros are.
 pub struct Apart {
@@ -10,12 +11,15 @@ pub struct Apart {
     pub order: Vec<Vec<usize>>,
     /// For each unknown what it hangs on in the tree: another one, or the number 0 and the base.
     pub parent: Vec<usize>,
+    /// How many parts there are.
     pub parts: usize,
     /// What has to hold in figures: the unknowns whose vector does not vanish, or one unknown whose sign is known, and the part.
     pub conditions: Vec<(Vec<[usize; 2]>, usize)>,
 }
 
 impl Apart {
+    /// Of the blocks of a system, some of which are the base, and of conditions on figures: each the differences that are not all 0. `None`: a block's own equations do
+    /// not say what all of its unknowns hang on.
     pub fn new(
         figures: &Figures,
         in_base: &[bool],
@@ -28,9 +32,8 @@ impl Apart {
         }
         let node = |i: usize| node.get(i).copied().unwrap_or(m);
         let edges = |e: usize| {
-            let terms = homotopy.terms(e).into_iter();
-            let forms = terms.flat_map(|term| [term.left, term.right]).flatten();
-            let edges = forms.map(|entries| entries.map(node));
+            let edges = forms(homotopy, e).into_iter();
+            let edges = edges.map(|entries| entries.map(node));
             edges.filter(|[a, b]| a != b).collect::<Vec<_>>()
         };
         // The tree, block by block: what hangs on what, and how far down.

@@ -1,11 +1,10 @@
 //! What comes of the zeros of all parts.
 
 use super::super::{Figures, MOST_FIGURES, entry};
-use super::Parts;
+use super::{One, Parts, forms};
 use crate::certificate::cover::coordinates::{Change, signs_changed};
 use crate::complete::parts::LISTED;
-use crate::interval::{Interval, ZERO, hull, point};
-use crate::system::Homotopy;
+use crate::interval::{Interval, ZERO};
 use crate::track::FigureBox;
 
 impl Figures<'_> {
@@ -36,45 +35,8 @@ impl Figures<'_> {
         })
     }
 
-    /// Whether the boxes of any two combinations ([`Figures::combinations`]) are disjoint, however many there are: in a difference of a part in which they differ.
-    pub(super) fn are_apart(&self, of: &Parts) -> bool {
-        let m = self.system.unknowns;
-        let at = |figure: usize, i: usize| entry(&of.representatives[figure], i);
-        let moved = |figure: usize, i: usize| at(figure, i) - at(0, i);
-        // No box is wider; twice that, for roundings.
-        let width = |i: usize| {
-            let each = of.parts.iter().map(|part| {
-                let widths = part.figures.iter().map(|&figure| moved(figure, i).wid());
-                widths.fold(0.0, f64::max)
-            });
-            point(at(0, i).wid()) + each.map(point).fold(ZERO, |sum, x| sum + x)
-        };
-        let widths: Vec<f64> = (0..m).map(|i| (point(2.0) * width(i)).sup()).collect();
-        of.parts.iter().all(|part| {
-            let all: Vec<usize> = [0]
-                .into_iter()
-                .chain(part.figures.iter().copied())
-                .collect();
-            let edges = part.equations.iter().flat_map(|&e| forms(self.homotopy, e));
-            let edges: Vec<[usize; 2]> = edges.collect();
-            let range = |figure: usize, [a, b]: [usize; 2]| {
-                let end = |i: usize| match i < m {
-                    true => at(figure, i) + hull(-widths[i], widths[i]),
-                    false => ZERO,
-                };
-                end(a) - end(b)
-            };
-            let differ = |one: usize, other: usize| {
-                let mut edges = edges.iter();
-                edges.any(|&edge| range(one, edge).disjoint(range(other, edge)))
-            };
-            let mut pairs = (0..all.len()).flat_map(|k| (0..k).map(move |j| (k, j)));
-            pairs.all(|(k, j)| differ(all[k], all[j]))
-        })
-    }
-
-    /// The first combinations, or all if they are not too many, each in a box.
-    pub(in crate::complete::coordinates) fn combinations(&self, of: &Parts) -> Vec<FigureBox> {
+    /// The first combinations, or all if they are not too many, each in a box. `None`: it is not certain that these are disjoint, and that none holds another combination.
+    pub(super) fn combinations(&self, of: &Parts) -> Option<Vec<FigureBox>> {
         let m = self.system.unknowns;
         let at = |figure: usize, i: usize| entry(&of.representatives[figure], i);
         let moved = |figure: usize, i: usize| at(figure, i) - at(0, i);
@@ -82,34 +44,70 @@ impl Figures<'_> {
             Some(count) if count <= MOST_FIGURES as u64 => count as usize,
             _ => LISTED as usize,
         };
-        let listed = (0..count).map(|number| {
-            let mut number = number;
-            let mut chosen: Vec<usize> = Vec::new();
+        // For each part the zero that it has.
+        let chosen = (0..count).map(|mut number| {
             // The last part's zeros follow each other first.
-            for part in of.parts.iter().rev() {
+            let zeros = of.parts.iter().rev().map(|part| {
                 let own = part.figures.len() + 1;
-                chosen.extend((number % own).checked_sub(1).map(|k| part.figures[k]));
+                let zero = number % own;
                 number /= own;
-            }
+                zero
+            });
+            let mut zeros: Vec<usize> = zeros.collect();
+            zeros.reverse();
+            zeros
+        });
+        let chosen: Vec<Vec<usize>> = chosen.collect();
+        let listed = chosen.iter().map(|zeros| {
+            let other = |(part, &zero): (&One, &usize)| Some(part.figures[zero.checked_sub(1)?]);
+            let others: Vec<usize> = of.parts.iter().zip(zeros).rev().filter_map(other).collect();
             let range = |i: usize| {
-                let moves = chosen.iter().map(|&figure| moved(figure, i));
+                let moves = others.iter().map(|&figure| moved(figure, i));
                 moves.fold(at(0, i), |sum, x| sum + x)
             };
-            match chosen[..] {
+            match others[..] {
                 [] => of.representatives[0].clone(),
                 [one] => of.representatives[one].clone(),
                 _ => FigureBox::around((0..m).map(range)),
             }
         });
-        listed.collect()
+        let listed: Vec<FigureBox> = listed.collect();
+        let mut numbers = 0..of.parts.len();
+        numbers
+            .all(|k| self.are_apart(of, k, (&chosen, &listed)))
+            .then_some(listed)
     }
-}
 
-/// The entries of the differences in an equation.
-fn forms(homotopy: &Homotopy, e: usize) -> Vec<[usize; 2]> {
-    let terms = homotopy.terms(e).into_iter();
-    terms
-        .flat_map(|term| [term.left, term.right])
-        .flatten()
-        .collect()
+    /// Whether boxes with different zeros of a part are disjoint, and none holds a combination with another one: a difference of the part tells any two zeros
+    /// apart, wherever in the boxes it is taken.
+    fn are_apart(
+        &self,
+        of: &Parts,
+        k: usize,
+        (chosen, listed): (&[Vec<usize>], &[FigureBox]),
+    ) -> bool {
+        let m = self.system.unknowns;
+        let part = &of.parts[k];
+        let edges = part.equations.iter();
+        let edges: Vec<[usize; 2]> = edges.flat_map(|&e| forms(self.homotopy, e)).collect();
+        let values = |figure: &FigureBox| -> Vec<Interval> {
+            let at = |i: usize| if i < m { entry(figure, i) } else { ZERO };
+            edges.iter().map(|&[a, b]| at(a) - at(b)).collect()
+        };
+        let own = [0].into_iter().chain(part.figures.iter().copied());
+        let own = own.map(|figure| values(&of.representatives[figure]));
+        let mut of_zeros: Vec<Vec<Interval>> = own.collect();
+        for (zeros, figure) in chosen.iter().zip(listed) {
+            let known = of_zeros[zeros[k]].iter_mut();
+            known
+                .zip(values(figure))
+                .for_each(|(x, y)| *x = x.convex_hull(y));
+        }
+        let differ = |one: &[Interval], other: &[Interval]| {
+            let mut pairs = one.iter().zip(other);
+            pairs.any(|(x, y)| x.disjoint(*y))
+        };
+        let mut pairs = (0..of_zeros.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.all(|(i, j)| differ(&of_zeros[i], &of_zeros[j]))
+    }
 }

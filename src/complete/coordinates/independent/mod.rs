@@ -1,7 +1,7 @@
 //! Equations that fall apart: parts of which every zero goes with every zero of the others.
 //!
-//! Holes of a plate, each so far from an edge in x and in y, have nothing to do with each other: n of them have 4ⁿ places, of which each hole has 4. Nor has a row of
-//! them each of which is measured from the one before: equations are about differences of entries, and what one of them says of its differences is the same
+//! Holes of a plate, each at distances from two fixed corners, have nothing to do with each other: n of them have 2ⁿ places, of which each hole has two. Nor have points of a row,
+//! each of which is measured from the one before: equations are about differences of entries, and what one of them says of its differences is the same
 //! wherever the others are.
 //!
 //! Blocks with one zero alone come first, the *base*: its unknowns are numbers in what follows. All others are nodes of a graph, with one for the number 0 and
@@ -35,6 +35,8 @@ pub struct Parts {
     pub parts: Vec<One>,
     /// The reference, and for each other zero of a part the figure that has it and is the reference otherwise.
     pub representatives: Vec<FigureBox>,
+    /// The first combinations, or all if they are not too many, each in a box of its own.
+    pub listed: Vec<FigureBox>,
     /// How many combinations there are; `None` where that has no place in 64 bits.
     pub count: Option<u64>,
 }
@@ -154,6 +156,7 @@ impl Figures<'_> {
                         base: Vec::new(),
                         parts: Vec::new(),
                         representatives: Vec::new(),
+                        listed: Vec::new(),
                         count: Some(0),
                     });
                 }
@@ -244,12 +247,24 @@ impl Figures<'_> {
             all.checked_mul(part.figures.len() as u64 + 1)
         });
         let base = (0..in_base.len()).filter(|&b| in_base[b]);
-        let parts = Parts {
+        let mut parts = Parts {
             base: base.flat_map(|b| self.blocks[b].unknowns.clone()).collect(),
             parts,
             representatives,
+            listed: Vec::new(),
             count,
         };
-        (self.are_different(&parts) && self.are_apart(&parts)).then_some(parts)
+        if !self.are_different(&parts) {
+            return None;
+        }
+        parts.listed = self.combinations(&parts)?;
+        Some(parts)
     }
+}
+
+/// The entries of the differences in an equation.
+fn forms(homotopy: &Homotopy, e: usize) -> Vec<[usize; 2]> {
+    let terms = homotopy.terms(e).into_iter();
+    let forms = terms.flat_map(|term| [term.left, term.right]);
+    forms.flatten().collect()
 }

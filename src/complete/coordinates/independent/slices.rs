@@ -125,17 +125,7 @@ impl Figures<'_> {
             return out.push((state, share));
         }
         let found = self.solve(b, &state, 0.5 * share);
-        let mut open = 0.0;
-        for part in &found.undecided {
-            open += part.share;
-            leave(
-                &mut self.undecided,
-                part.why,
-                part.count,
-                share * part.share,
-            );
-        }
-        let each = share * (1.0 - open).max(0.0) / found.zeros.len().max(1) as f64;
+        let each = self.share_out(&found, share);
         for zero in 0..found.zeros.len() {
             let mut state = state.clone();
             self.take(b, (&found, zero), &mut state);
