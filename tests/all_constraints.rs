@@ -487,6 +487,7 @@ fn arcs_between_lines_are_complete() {
     let result = searched(&parse(PLATE));
     assert_eq!(result.status, Status::Complete);
     // Either direction of two lines, and either side of a line for each of eight ends of arcs.
+    assert_eq!(result.solutions.len(), 1 << 10);
     assert_eq!(result.count, Some(1 << 10));
     assert!(result.boxes < 2000, "{}", result.boxes);
 }

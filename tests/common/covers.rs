@@ -25,7 +25,7 @@ pub fn proved(problem: &Problem) -> (Complete, CoordinateCover) {
     let verdict = verify_cover(&cover.to_bytes()).unwrap();
     assert_eq!(verdict.flaw, None, "{}", problem.name);
     assert_eq!(verdict.undecided, 0, "{}", problem.name);
-    assert_eq!(verdict.solutions, result.count);
+    assert_eq!(verdict.solutions, Some(result.solutions.len() as u64));
     assert!(verdict.is_about(problem));
     (result, cover)
 }
