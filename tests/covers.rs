@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::edits::Random;
 use common::random::{recipe, same_each_time};
 use krawl::certificate::cover::{Cover, CoverVerdict, Kind, Mark, Radius, verify_cover};
 use krawl::complete::{Complete, Options, Status, all};
@@ -327,6 +328,129 @@ fn a_solution_left_out_added_or_moved_is_noticed() {
         let mut moved = cover.clone();
         moved.figures[index][cover.steps[0].0][0] += 1e-3;
         assert!(damaged(&moved).unwrap().flaw.is_some(), "{index} moved");
+    }
+}
+
+/// Two parts of which the same is said are one, of which that is said: what the check does not see at once it sees in halves.
+#[test]
+fn parts_that_are_too_large_to_be_proved_at_once_are_proved_in_halves() {
+    /// Goes over one claim; how many parts it leaves.
+    fn claim(all: &[(usize, Mark)], next: &mut usize) -> usize {
+        let mark = all[*next].1;
+        *next += 1;
+        match mark {
+            Mark::Sides(_) => claim(all, next) + claim(all, next),
+            Mark::Halves(..) => 2,
+            Mark::Within(..) => 1,
+            _ => 0,
+        }
+    }
+    fn part(all: &[(usize, Mark)], next: &mut usize, firsts: &mut Vec<usize>) {
+        firsts.push(*next);
+        (0..claim(all, next)).for_each(|_| part(all, next, firsts));
+    }
+    let cover = without_folds();
+    let all = marks(&cover);
+    let (mut next, mut firsts, mut joined) = (0, Vec::new(), 0);
+    while next < all.len() {
+        part(&all, &mut next, &mut firsts);
+    }
+    for first in firsts {
+        let [(at, Mark::Halves(..)), (one, said), (two, also)] =
+            all[first..(first + 3).min(all.len())]
+        else {
+            continue;
+        };
+        let is_end = matches!(
+            said,
+            Mark::NoPlace(_) | Mark::WrongDistance(..) | Mark::WrongPair(..) | Mark::Excluded(_)
+        );
+        if said != also || !is_end {
+            continue;
+        }
+        let mut whole = cover.clone();
+        whole.marks.drain(at..two);
+        assert!(proves_all(&damaged(&whole).unwrap()), "{said:?} at {one}");
+        joined += 1;
+    }
+    assert!(joined > 0);
+}
+
+/// Numbers and steps of any kind in marks whose order is right: no panic, and nothing that is proved of a problem with figures but without any listed.
+#[test]
+fn marks_at_random_prove_nothing() {
+    const NUMBERS: [f64; 12] = [
+        0.0,
+        1.0,
+        -1.0,
+        0.5,
+        -0.25,
+        1e300,
+        -1e300,
+        f64::MAX,
+        f64::MIN,
+        5e-324,
+        -5e-324,
+        1e-170,
+    ];
+    fn claim(
+        random: &mut Random,
+        depth: usize,
+        symbols: usize,
+        marks: &mut Vec<u8>,
+        children: &mut Vec<usize>,
+    ) {
+        let step = random.below(12);
+        let mut range = || {
+            let [a, b] = [0; 2].map(|_| NUMBERS[random.below(NUMBERS.len())]);
+            [a.min(b), a.max(b)]
+        };
+        let (one, all) = (range(), std::array::from_fn(|_| range()));
+        let kind = random.below(if depth == 0 { 5 } else { 10 });
+        let (other, stands) = (random.below(14), random.below(2) == 1);
+        match kind {
+            0 => Mark::NoPlace(step).put(symbols, marks),
+            1 => Mark::WrongDistance(step, other % 3).put(symbols, marks),
+            2 => Mark::Excluded(step).put(symbols, marks),
+            3 => Mark::Figure.put(symbols, marks),
+            4 => Mark::WrongPair(step, other).put(symbols, marks),
+            5 => {
+                Mark::Sides(step % 4).put(symbols, marks);
+                (0..2).for_each(|_| claim(random, depth - 1, symbols, marks, children));
+            }
+            6 => {
+                Mark::Fold(step, one).put(symbols, marks);
+                children.push(symbols + 1);
+            }
+            7 => {
+                Mark::Within(step, all).put(symbols, marks);
+                children.push(symbols);
+            }
+            _ => {
+                Mark::Halves(step, stands, other % symbols.max(1)).put(symbols, marks);
+                children.extend([symbols; 2]);
+            }
+        }
+    }
+    fn part(random: &mut Random, depth: usize, symbols: usize, marks: &mut Vec<u8>) {
+        let mut children = Vec::new();
+        claim(random, depth, symbols, marks, &mut children);
+        for symbols in children {
+            part(random, depth.saturating_sub(1), symbols.min(6), marks);
+        }
+    }
+    let mut random = Random(11);
+    for name in ["octahedron", "k33", "dodecagon"] {
+        let (_, bytes) = searched(&shipped(name));
+        let mut cover = Cover::from_bytes(&bytes).unwrap();
+        cover.figures.clear();
+        for _ in 0..2000 {
+            cover.marks.clear();
+            for _ in 0..4 {
+                part(&mut random, 3, cover.drives.len(), &mut cover.marks);
+            }
+            assert!(damaged(&cover).unwrap().flaw.is_some(), "{:?}", cover.marks);
+        }
     }
 }
 

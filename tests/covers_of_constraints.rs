@@ -361,6 +361,89 @@ fn any_byte_may_be_wrong() {
     }
 }
 
+/// a and b are 2 apart on a line of its own, and c, on the line through a and b, is beside it: where c is far away the search leaves parts
+/// open, and the check none.
+const BESIDE: &str = r#"name = "beside"
+dimension = 2
+[points]
+a = [0.0, 0.0]
+b = [0.5, 1.9]
+c = [-0.5, 2.0]
+[lines]
+f = { point = [0.1, 0.0], direction = [0.2, 1.0] }
+ac = ["a", "c"]
+[constraints]
+distances = [["a", "b", 2], ["c", "f", 1.5]]
+on = [["b", "ac"], ["a", "f"], ["b", "f"]]
+"#;
+
+#[test]
+fn a_cover_settles_what_the_search_left_open() {
+    let problem = Problem::parse(BESIDE, "beside").unwrap();
+    let options = Options {
+        cover: true,
+        ..Options::default()
+    };
+    let before = all(&problem, &options).unwrap();
+    assert_eq!((before.status, before.count), (Status::Partial, Some(0)));
+    let verdict = verify_cover(before.cover.as_ref().unwrap()).unwrap();
+    // Nothing is settled by the cover of another set, or by one that is not proved or leaves something.
+    let others = [
+        CoverVerdict {
+            solutions: Some(1),
+            ..verdict.clone()
+        },
+        CoverVerdict {
+            solutions: None,
+            ..verdict.clone()
+        },
+        CoverVerdict {
+            undecided: 1,
+            ..verdict.clone()
+        },
+        CoverVerdict {
+            flaw: Some("some".to_owned()),
+            ..verdict.clone()
+        },
+    ];
+    for other in &others {
+        let mut result = before.clone();
+        assert!(!result.settle(other) && result.status == Status::Partial);
+        assert_eq!(result.undecided, before.undecided);
+    }
+    let mut result = before.clone();
+    assert!(result.settle(&verdict) && !result.settle(&verdict));
+    assert_eq!((result.status, result.count), (Status::Complete, Some(0)));
+    assert!(result.undecided.is_empty());
+
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("beside.toml"), BESIDE).unwrap();
+    let run = |more: &[&str], code: i32| {
+        let mut krawl = assert_cmd::Command::cargo_bin("krawl").unwrap();
+        krawl.current_dir(folder.path());
+        let arguments = ["all", "beside.toml", "--cert", "C", "--json", "J"];
+        let assert = krawl.args(arguments).args(more).assert().code(code);
+        let told = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+        (
+            told,
+            std::fs::read_to_string(folder.path().join("J")).unwrap(),
+        )
+    };
+    let (told, json) = run(&[], 0);
+    assert!(
+        told.starts_with("beside: Complete")
+            && told.contains("The check of the certificate in C decided"),
+        "{told}"
+    );
+    assert!(json.contains("\"status\":\"complete\""), "{json}");
+    let (told, json) = run(&["--no-verify"], 1);
+    assert!(
+        told.starts_with("beside: Partial") && !told.contains("certificate"),
+        "{told}"
+    );
+    assert!(json.contains("\"status\":\"partial\""), "{json}");
+}
+
 /// For people: what the command says, and the check.
 #[test]
 fn the_commands_write_and_check_covers() {
@@ -381,6 +464,16 @@ fn the_commands_write_and_check_covers() {
         told.starts_with("VERIFIED: triangle has exactly 2 solutions"),
         "{told}"
     );
+    // What is written is checked, if nobody says otherwise.
+    let said = |more: &[&str]| {
+        let all = ["all", "triangle.toml", "--cert", "all.cover"];
+        let assert = krawl().args(all).args(more).assert().success();
+        String::from_utf8(assert.get_output().stdout.clone()).unwrap()
+    };
+    let checked = "The certificate in all.cover was checked";
+    assert!(said(&[]).contains(checked) && !said(&["--no-verify"]).contains(checked));
+    let alone = ["all", "triangle.toml", "--no-verify"];
+    krawl().args(alone).assert().code(2);
     // A problem that has one constraint more is another one, and may have no figure.
     let more = triangle()
         .to_toml()

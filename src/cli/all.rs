@@ -2,13 +2,15 @@
 
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
-use krawl::complete::{Keep, Options, Progress, Status, Unserved, all};
+use super::verify::check_cover;
+use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
+use krawl::complete::{Complete, Keep, Options, Progress, Status, Unserved, all};
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Find all real solutions, with a proof that there is no other
@@ -26,7 +28,8 @@ Examples:
 Two machines share a search: one runs it with --store a --share 1/2, the other with --store b --share 2/2. Then
 --store a --merge b, with neither share, brings both together.
 
-Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input.")]
+Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input, 3 or 4 the set is complete, and its
+certificate does not prove that.")]
 pub struct Arguments {
     /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
     file: PathBuf,
@@ -36,9 +39,13 @@ pub struct Arguments {
     /// Write the results as JSON; `-` writes them to standard output in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write why there is no other solution, part by part of the space searched, which `verify` can check
+    /// Write why there is no other solution, part by part of the space searched, and check that as `verify` does. Where it
+    /// does not prove a complete set, the exit code is that of `verify`; where it proves what the search left open, the set is complete
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
+    /// Do not check the certificate that was written
+    #[arg(long, requires = "cert")]
+    no_verify: bool,
     /// Threads to use [default: one per processor]; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -128,7 +135,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Ok(line) = line.into_inner() {
         line.clear();
     }
-    let result = match result {
+    let mut result = match result {
         Ok(result) => result,
         Err(Unserved::Store(what)) => return Err(what),
         Err(unserved) => {
@@ -141,10 +148,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let page = Page::from_result(&complete_to_value(&problem, &result));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
-    match (&cert, &result.cover) {
+    let mut said = Said::default();
+    match (&cert, result.cover.take()) {
         (Some(beside), Some(cover)) => {
-            let whole = (&mut beside.file()).write_all(cover);
-            written &= beside.commit(whole);
+            let whole = (&mut beside.file()).write_all(&cover);
+            drop(cover);
+            let is_there = beside.commit(whole);
+            written &= is_there;
+            if is_there && !arguments.no_verify {
+                said = check(arguments, &mut result, cancel)?;
+            }
         }
         (Some(_), None) => output::complain(match result.reason {
             Some(_) => "no certificate is written: the reason above is proved without a search",
@@ -166,11 +179,73 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             text +=
                 &format!("\nThe sketch was searched with as many equations as unknowns{made}.\n");
         }
+        text += &said.text;
         written &= output::print(&text);
     }
     Ok(match result.status {
         _ if !written => BAD_INPUT,
+        _ if said.code.is_some() => said.code.unwrap_or(CLOSED),
         Status::Complete => CLOSED,
         Status::Partial | Status::Flexible => STOPPED,
     })
+}
+
+/// What is said of a certificate that was written.
+#[derive(Default)]
+struct Said {
+    /// Behind the table.
+    text: String,
+    /// Where it does not pass.
+    code: Option<u8>,
+}
+
+/// Checks the certificate that was written, and takes over what it proves beyond the search.
+fn check(
+    arguments: &Arguments,
+    result: &mut Complete,
+    cancel: &AtomicBool,
+) -> Result<Said, String> {
+    let mut said = Said::default();
+    let Some(path) = arguments.cert.as_deref() else {
+        return Ok(said);
+    };
+    if cancel.load(Ordering::Relaxed) {
+        return Ok(said);
+    }
+    let (name, clock) = (path.display(), Instant::now());
+    let Some(verdict) = check_cover(path, arguments.threads, arguments.quiet, cancel)? else {
+        output::complain(&format!(
+            "{name}: the certificate is whole, but was not checked"
+        ));
+        return Ok(said);
+    };
+    let seconds = clock.elapsed().as_secs_f64();
+    let left: u64 = result.undecided.iter().map(|part| part.count).sum();
+    let what = match &verdict.flaw {
+        Some(flaw) => Some((format!("NOT PROVED: {flaw}"), NOT_PROVED)),
+        None if verdict.undecided > 0 && result.status == Status::Complete => {
+            let undecided = verdict.undecided;
+            Some((
+                format!("INCOMPLETE: it leaves {undecided} parts undecided"),
+                INCOMPLETE,
+            ))
+        }
+        None => None,
+    };
+    if let Some((what, code)) = what {
+        output::complain(&format!(
+            "{name}: the certificate does not pass the checker. {what}"
+        ));
+        said.code = Some(code);
+        return Ok(said);
+    }
+    said.text = format!(
+        "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again.\n"
+    );
+    if result.settle(&verdict) {
+        said.text = format!(
+            "\nThe search had left parts open, {left} of them. The check of the certificate in {name} decided them in {seconds:.2} s.\n"
+        );
+    }
+    Ok(said)
 }

@@ -2,14 +2,15 @@
 
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
-use krawl::certificate::cover::{FIRST_WORDS, verify_cover};
+use krawl::certificate::cover::{CoverVerdict, FIRST_WORDS, verify_cover_while};
 use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::edit::Decomposition;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Prove all claims of a certificate again
@@ -179,7 +180,14 @@ fn verify_the_cover(
     file.read_to_end(&mut bytes)
         .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
-    let verdict = verify_cover(&bytes).map_err(|error| format!("{name}: {error}"))?;
+    let mut line = ProgressLine::new(!arguments.quiet, "");
+    let mut show = |stage| {
+        line.show_cover(stage);
+        true
+    };
+    let verdict = super::in_pool(arguments.threads, || verify_cover_while(&bytes, &mut show))?;
+    line.clear();
+    let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
     if !print_with_problem(arguments, text, same, found) {
@@ -191,6 +199,26 @@ fn verify_the_cover(
         true => CLOSED,
         false => INCOMPLETE,
     })
+}
+
+/// Checks a cover that was just written, until the flag is set: `None` then, and there is nothing to be said of it.
+pub(super) fn check_cover(
+    path: &Path,
+    threads: Option<u16>,
+    quiet: bool,
+    cancel: &AtomicBool,
+) -> Result<Option<CoverVerdict>, String> {
+    let name = path.display();
+    let bytes = fs::read(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
+    let mut line = ProgressLine::new(!quiet, "");
+    let mut goes_on = |stage| {
+        line.show_cover(stage);
+        !cancel.load(Ordering::Relaxed)
+    };
+    let verdict = super::in_pool(threads, || verify_cover_while(&bytes, &mut goes_on))?;
+    line.clear();
+    let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
+    Ok((!cancel.load(Ordering::Relaxed)).then_some(verdict))
 }
 
 /// Checks a certificate that was just written, on all processors, and says on standard error whether it does

@@ -5,6 +5,7 @@ use super::parts::Searched;
 use super::search::{Run, Search, different};
 use super::store::Keep;
 use super::visit::{Found, Why};
+use crate::certificate::cover::CoverVerdict;
 use crate::constraint::Symmetry;
 use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
@@ -93,6 +94,20 @@ pub struct Complete {
     pub seconds_left: Option<f64>,
     /// The cover of the search space, if it was wanted and there was a search.
     pub cover: Option<Vec<u8>>,
+}
+
+impl Complete {
+    /// Takes over what the check of the [cover](Complete::cover) proves: it parts the space anew, and may decide what the search left
+    /// open. True if the result is complete by that, and was not.
+    pub fn settle(&mut self, verdict: &CoverVerdict) -> bool {
+        let same = self.count.is_some() && verdict.solutions == self.count;
+        let settles = self.status != Status::Complete && verdict.proves_all() && same;
+        if settles {
+            self.status = Status::Complete;
+            (self.undecided, self.reason, self.seconds_left) = (Vec::new(), None, None);
+        }
+        settles
+    }
 }
 
 /// What is placed in one of several ways, whatever else there is.

@@ -1,5 +1,6 @@
 //! A line that shows where a run is.
 
+use crate::certificate::cover::CoverStage;
 use crate::complete::Progress as Searched;
 use crate::track::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -51,6 +52,16 @@ impl ProgressLine {
             let what = &self.what;
             line.set_message(format!(
                 "{what}tubes checked {tubes}   solutions {solutions}"
+            ));
+        }
+    }
+
+    /// Shows where the check of a cover is.
+    pub fn show_cover(&mut self, now: CoverStage) {
+        if let Some(line) = &self.line {
+            let (parts, percent) = (now.parts, 100.0 * now.share);
+            line.set_message(format!(
+                "parts proved {parts}   {percent:.1} % of the cover"
             ));
         }
     }

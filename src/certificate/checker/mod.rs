@@ -10,7 +10,7 @@ pub(super) mod equations;
 mod extended;
 pub(super) mod guess;
 mod krawczyk;
-mod matrix;
+pub(super) mod matrix;
 pub(super) mod place;
 mod refute;
 mod sparse;

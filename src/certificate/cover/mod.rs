@@ -41,6 +41,18 @@ pub struct CoverVerdict {
     pub flaw: Option<String>,
 }
 
+/// Where a check is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoverStage {
+    /// Parts that are proved.
+    pub parts: u64,
+    /// The share of the marks that is read, from 0 to 1.
+    pub share: f64,
+}
+
+/// What becomes of a check that is told not to go on.
+const ENDED: &str = "the check was ended before its end";
+
 impl CoverVerdict {
     /// Of a cover that lists so many solutions, before anything is checked.
     fn about(problem: &str, solutions: usize) -> Result<Self, CoverError> {
@@ -84,8 +96,17 @@ impl CoverVerdict {
 /// assert_eq!(verdict.solutions, Some(1));
 /// ```
 pub fn verify_cover(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
+    verify_cover_while(bytes, &mut |_| true)
+}
+
+/// Checks a cover of either kind, and tells time and again where it is. It goes on as long as it is told `true`; otherwise
+/// nothing is proved ([`CoverVerdict::flaw`]).
+pub fn verify_cover_while(
+    bytes: &[u8],
+    goes_on: &mut (dyn FnMut(CoverStage) -> bool + Send),
+) -> Result<CoverVerdict, CoverError> {
     match bytes.starts_with(format!("{}\n", coordinates::FIRST_LINE).as_bytes()) {
-        true => coordinates::verify(bytes),
-        false => plan::verify(bytes),
+        true => coordinates::verify(bytes, goes_on),
+        false => plan::verify(bytes, goes_on),
     }
 }

@@ -23,7 +23,7 @@ pub use space::{Empty, Part};
 pub use symmetry::signs_changed;
 pub use turns::{Look, Turn};
 
-use super::{CoverError, CoverVerdict};
+use super::{CoverError, CoverStage, CoverVerdict, ENDED};
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::checker::place::Place;
 use crate::constraint::{self, Symmetry};
@@ -366,10 +366,13 @@ impl Space {
 }
 
 /// Checks a cover.
-pub fn verify(bytes: &[u8]) -> Result<CoverVerdict, CoverError> {
+pub fn verify(
+    bytes: &[u8],
+    goes_on: &mut dyn FnMut(CoverStage) -> bool,
+) -> Result<CoverVerdict, CoverError> {
     let cover = CoordinateCover::from_bytes(bytes)?;
     let mut verdict = CoverVerdict::about(&cover.problem, cover.figures.len())?;
-    verdict.flaw = check(&cover, &mut verdict).err();
+    verdict.flaw = check(&cover, &mut verdict, goes_on).err();
     Ok(verdict)
 }
 
@@ -381,6 +384,9 @@ enum Open {
     Turn(Rc<Part>, usize, Turn),
 }
 
+/// Parts between two words of where the check is.
+const BATCH: u64 = 256;
+
 /// The check of the marks, one after the other.
 struct Check<'a> {
     cover: &'a CoordinateCover,
@@ -390,7 +396,11 @@ struct Check<'a> {
     stack: Vec<Open>,
 }
 
-fn check(cover: &CoordinateCover, verdict: &mut CoverVerdict) -> Result<(), String> {
+fn check(
+    cover: &CoordinateCover,
+    verdict: &mut CoverVerdict,
+    goes_on: &mut dyn FnMut(CoverStage) -> bool,
+) -> Result<(), String> {
     let space = Space::new(&verdict.problem, cover)?;
     verdict.solutions = space.count();
     let mut check = Check {
@@ -410,6 +420,11 @@ fn check(cover: &CoordinateCover, verdict: &mut CoverVerdict) -> Result<(), Stri
             };
             let undecided = undecided.map_err(|flaw| format!("part {}: {flaw}", verdict.parts))?;
             verdict.undecided += u64::from(undecided);
+            let share = check.at as f64 / cover.marks.len().max(1) as f64;
+            let parts = verdict.parts;
+            if parts.is_multiple_of(BATCH) && !goes_on(CoverStage { parts, share }) {
+                return Err(ENDED.to_owned());
+            }
         }
     }
     match check.at == cover.marks.len() {

@@ -1,6 +1,8 @@
 //! Krawczyk's test: which figures exist, and how far around them there is no other.
 
 use super::geometry::Plan;
+use crate::certificate::checker::guess::invert;
+use crate::certificate::checker::matrix::{Columns, exact};
 use crate::interval::{Interval, hull, point};
 
 /// A figure, proved.
@@ -66,14 +68,19 @@ pub fn prove(plan: &Plan, centre: &[[f64; 3]]) -> Option<Figure> {
         let unknowns = |k: usize| free[a][k].iter().chain(&free[b][k]).count();
         (0..d).map(|k| (unknowns(k) * unknowns(k)) as f64).sum()
     };
-    let y = inverse(&rows, m)?;
+    let mut columns: Columns = vec![Vec::new(); m];
+    for (e, row) in rows.iter().enumerate() {
+        row.iter().for_each(|&(i, x)| columns[i].push((e, x.mid())));
+    }
+    // Any matrix will do.
+    let y = invert(&columns)?;
     let (mut q0, mut kappa, mut step) = (0.0f64, 0.0f64, 0.0f64);
     for i in 0..m {
         let mut product = vec![point(0.0); m];
         product[i] = point(-1.0);
         let (mut varied, mut off) = (point(0.0), point(0.0));
         for e in 0..m {
-            let factor = point(y[i][e]);
+            let factor = exact(y.entries[e * m + i]);
             for &(k, x) in &rows[e] {
                 product[k] += factor * x;
             }
@@ -107,34 +114,6 @@ pub fn prove(plan: &Plan, centre: &[[f64; 3]]) -> Option<Figure> {
         radius,
         alone,
     })
-}
-
-/// An approximate inverse. Not trusted.
-fn inverse(rows: &[Vec<(usize, Interval)>], m: usize) -> Option<Vec<Vec<f64>>> {
-    let mut a = vec![vec![0.0; 2 * m]; m];
-    for (e, row) in rows.iter().enumerate() {
-        row.iter().for_each(|(k, x)| a[e][*k] += x.mid());
-        a[e][m + e] = 1.0;
-    }
-    for k in 0..m {
-        let best = (k..m).max_by(|&r, &s| a[r][k].abs().total_cmp(&a[s][k].abs()))?;
-        a.swap(k, best);
-        let pivot = a[k].clone();
-        if !(pivot[k].abs() > 1e-200) {
-            return None;
-        }
-        a[k].iter_mut().for_each(|x| *x /= pivot[k]);
-        let pivot = a[k].clone();
-        for (r, row) in a.iter_mut().enumerate() {
-            let factor = row[k];
-            if r != k && factor != 0.0 {
-                row.iter_mut()
-                    .zip(&pivot)
-                    .for_each(|(x, p)| *x -= factor * p);
-            }
-        }
-    }
-    Some(a.into_iter().map(|row| row[m..].to_vec()).collect())
 }
 
 impl Figure {

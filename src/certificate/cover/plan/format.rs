@@ -148,21 +148,14 @@ impl Cover {
                     let mut bound = || float(words.next().unwrap_or_default());
                     cover.drives.push(Some([bound()?, bound()?]));
                 }
-                "arm" => {
-                    let point = number(words.next())?;
-                    let kind = Kind::Arm(number(words.next())?, number(words.next())?);
-                    cover.steps.push((point, kind));
-                }
-                "hinge" => {
-                    let point = number(words.next())?;
-                    let frame = [
-                        number(words.next())?,
-                        number(words.next())?,
-                        number(words.next())?,
-                    ];
-                    cover
-                        .steps
-                        .push((point, Kind::Hinge(frame, number(words.next())?)));
+                "arm" | "hinge" => {
+                    let numbers: Vec<usize> =
+                        words.map(|w| number(Some(w))).collect::<Result<_, _>>()?;
+                    cover.steps.push(match (kind, &numbers[..]) {
+                        ("arm", &[p, centre, by]) => (p, Kind::Arm(centre, by)),
+                        ("hinge", &[p, a, b, c, by]) => (p, Kind::Hinge([a, b, c], by)),
+                        _ => return Err(error("a step")),
+                    });
                 }
                 "meet" => {
                     let point = number(words.next())?;

@@ -41,14 +41,13 @@ pub struct Node {
 }
 
 impl Node {
-    /// Middle and radius of a symbol's range.
+    /// A number in the middle of a symbol's range, and at least how far the others are from it.
     pub fn middle(&self, i: usize) -> (f64, f64) {
         let [lo, hi] = self.ranges[i];
-        let middle = 0.5 * (lo + hi);
-        let reach = (point(hi) - point(middle))
-            .sup()
-            .max((point(middle) - point(lo)).sup());
-        (middle, reach.max(0.0))
+        let middle = 0.5 * lo + 0.5 * hi;
+        // A difference is rounded once.
+        let reach = (hi - middle).max(middle - lo);
+        (middle, if reach > 0.0 { reach.next_up() } else { 0.0 })
     }
 }
 
@@ -214,7 +213,8 @@ impl<'a> Plan<'a> {
 
     /// Whether a step's point has two places.
     pub fn is_signed(&self, step: usize) -> bool {
-        matches!(self.cover.steps[step].1, Kind::Meet(_))
+        let kind = self.cover.steps.get(step).map(|step| &step.1);
+        matches!(kind, Some(Kind::Meet(_)))
     }
 
     /// The parts that all figures lie in, up to reflection: all angles and, if the first step has two places,
@@ -290,7 +290,7 @@ impl<'a> Plan<'a> {
     /// p = c₁ + ((q₁B − q₂C) a + (q₂A − q₁C) b ± √N n)/Δ, Δ = AB − C², N = r₁²Δ − (q₁²B − 2q₁q₂C + q₂²A), n = a × b;
     /// in the plane Δ = A, N = r₁²A − q₁², n = a turned by a right angle.
     pub fn meet(&self, step: usize, node: &Node, points: &[Place]) -> Option<Meeting> {
-        let (new, Kind::Meet(centres)) = &self.cover.steps[step] else {
+        let (new, Kind::Meet(centres)) = self.cover.steps.get(step)? else {
             return None;
         };
         let s = node.ranges.len();

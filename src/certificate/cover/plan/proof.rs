@@ -1,0 +1,217 @@
+//! The proof of what marks claim of one part.
+
+use super::contract::contracted;
+use super::figure::Figure;
+use super::format::Mark;
+use super::geometry::{Node, Place, Plan, dot, minus};
+use super::model::Model;
+use super::parts::{Claim, Part};
+use crate::certificate::checker::matrix::exact;
+use crate::interval::{Interval, hull, point};
+
+/// What claims are proved with.
+pub struct Proof<'a> {
+    plan: &'a Plan<'a>,
+    figures: &'a [Figure],
+}
+
+/// Where a proof is within a part.
+struct Standing {
+    node: Node,
+    /// The first step whose point does not stand.
+    step: usize,
+    /// Of all points: those that do not stand are anywhere.
+    points: Vec<Place>,
+    /// Of the points that stand.
+    equations: Vec<Model>,
+}
+
+/// A part is halved so many times in each symbol, where what its mark claims is not proved at once.
+const FINER: usize = 3;
+
+impl Claim {
+    /// Whether it is true whatever it is about: that a part is that and its other half, or undecided.
+    fn is_true(&self) -> bool {
+        match self {
+            Claim::Mark(mark) => matches!(mark, Mark::Halves(..) | Mark::Undecided),
+            Claim::Sides(_, both) => both.iter().all(Claim::is_true),
+        }
+    }
+}
+
+impl<'a> Proof<'a> {
+    pub fn new(plan: &'a Plan<'a>, figures: &'a [Figure]) -> Self {
+        Proof { plan, figures }
+    }
+
+    /// Proves what is claimed of a part.
+    pub fn of(&self, part: &Part) -> Result<(), String> {
+        let proved = part.claim.is_true() || self.all_of(&part.claim, &part.node, 0);
+        let unproved = || match part.claim {
+            Claim::Mark(Mark::Figure) => "no solution listed accounts for this part",
+            _ => "what the mark says is not proved",
+        };
+        proved.then_some(()).ok_or_else(|| unproved().to_owned())
+    }
+
+    /// Proves a claim of a part of the space, or else of both its halves, as it is about figures wherever they are. (Who searched may have
+    /// had bounds that are a little better.)
+    fn all_of(&self, claim: &Claim, node: &Node, depth: usize) -> bool {
+        let symbols = node.ranges.len();
+        let again = |half: &Node| self.all_of(claim, half, depth + 1);
+        let by_halves = || {
+            let halves = node.halved(depth % symbols);
+            halves.is_ok_and(|halves| halves.iter().all(again))
+        };
+        self.at_once(claim, node) || (depth < FINER * symbols && by_halves())
+    }
+
+    fn at_once(&self, claim: &Claim, node: &Node) -> bool {
+        let symbols = node.ranges.len();
+        let zero = std::array::from_fn(|_| Model::constant(symbols, point(0.0)));
+        let mut points = vec![zero; self.plan.points];
+        for (&p, place) in self.plan.cover.base.iter().zip(&self.plan.base) {
+            points[p] = place.map(|x| Model::constant(symbols, x));
+        }
+        let mut standing = Standing {
+            node: node.clone(),
+            step: 0,
+            points,
+            equations: Vec::new(),
+        };
+        self.prove(claim, &mut standing)
+            .is_some_and(|proved| proved)
+    }
+
+    /// `None` and false: not proved.
+    fn prove(&self, claim: &Claim, at: &mut Standing) -> Option<bool> {
+        let steps = self.plan.cover.steps.len();
+        let (step, stands) = match claim {
+            Claim::Mark(mark) => mark.place(steps),
+            Claim::Sides(step, _) => (*step, false),
+        };
+        if claim.is_true() {
+            return Some(true);
+        }
+        let upto = step + usize::from(stands);
+        // None is about a step that is past.
+        if step < at.step || upto > steps {
+            return None;
+        }
+        while at.step < upto {
+            self.stand(at)?;
+        }
+        match claim {
+            Claim::Sides(_, both) => self.sides(both, at),
+            Claim::Mark(Mark::Figure) => Some(self.is_figure(&at.points)),
+            Claim::Mark(mark) if stands => self.after(step, *mark, at),
+            Claim::Mark(mark) => self.before(step, *mark, at),
+        }
+    }
+
+    /// Places the next step's point, its side being decided.
+    fn stand(&self, at: &mut Standing) -> Option<()> {
+        let (plan, step, node) = (self.plan, at.step, &at.node);
+        let (symbols, points) = (node.ranges.len(), &mut at.points);
+        let new = plan.cover.steps[step].0;
+        points[new] = if !plan.is_signed(step) {
+            plan.driven(step, node, points)?
+        } else {
+            let index = plan.sign(step);
+            let sign = *node.signs.get(index)?;
+            let meeting = plan.meet(step, node, points)?;
+            let (middle, normal) = (meeting.middle?, meeting.normal?);
+            let height = if sign == 0 {
+                let folds = node.signs[..index].iter().filter(|&&s| s == 0).count();
+                let symbol = plan.cover.drives.len() + folds;
+                let (centre, reach) = node.middle(symbol);
+                let w = Model::symbol(symbols, symbol, centre, reach);
+                let equation = meeting.square.plus(point(-1.0), &w.times(&w));
+                at.equations.push(equation);
+                w
+            } else {
+                meeting.square.square_root()?.by(point(f64::from(sign)))
+            };
+            std::array::from_fn(|k| middle[k].plus(point(1.0), &normal[k].times(&height)))
+        };
+        for &e in &plan.closing[step] {
+            let [a, b] = plan.edges[e];
+            let d = minus(&points[a], &points[b]);
+            let wanted = Model::constant(symbols, plan.squares[e]);
+            at.equations.push(dot(&d, &d).plus(point(-1.0), &wanted));
+        }
+        at.step += 1;
+        Some(())
+    }
+
+    /// Both sides of a step's point, one after the other.
+    fn sides(&self, both: &[Claim; 2], at: &mut Standing) -> Option<bool> {
+        let (step, before) = (at.step, at.equations.len());
+        for (claim, sign) in both.iter().zip([1, -1]) {
+            at.node.signs.push(sign);
+            if !self.prove(claim, at)? {
+                return None;
+            }
+            at.node.signs.pop();
+            at.equations.truncate(before);
+            at.step = step;
+        }
+        Some(true)
+    }
+
+    /// Claims of a step whose point does not stand. `None` and false: not proved.
+    fn before(&self, step: usize, mark: Mark, at: &Standing) -> Option<bool> {
+        let square = self.plan.meet(step, &at.node, &at.points)?.square.range();
+        Some(match mark {
+            Mark::NoPlace(_) => square.sup() < 0.0,
+            // No height is beyond the range of the symbol, on a side that is not decided otherwise.
+            Mark::Fold(_, [lo, hi]) => {
+                let sign = at.node.signs.get(self.plan.sign(step)).copied();
+                let holds = |x: f64| (point(x).sqr()).inf() >= square.sup();
+                let low = lo <= 0.0 && (sign == Some(1) || holds(lo));
+                let high = hi >= 0.0 && (sign == Some(-1) || holds(hi));
+                low && high
+            }
+            _ => false,
+        })
+    }
+
+    /// Claims of a step whose point stands. `None` and false: not proved.
+    fn after(&self, step: usize, mark: Mark, at: &Standing) -> Option<bool> {
+        let (plan, node, symbols) = (self.plan, &at.node, at.node.ranges.len());
+        Some(match mark {
+            Mark::WrongDistance(_, place) => {
+                let first = at.equations.len() - plan.closing[step].len();
+                !at.equations[first..].get(place)?.range().contains(0.0)
+            }
+            Mark::WrongPair(_, other) if plan.stands(other, step) => {
+                let new = plan.cover.steps[step].0;
+                let d = minus(&at.points[new], &at.points[other]);
+                dot(&d, &d).range().disjoint(plan.pairs.square(new, other))
+            }
+            Mark::Excluded(_) => contracted(symbols, &at.equations).is_none(),
+            Mark::Within(_, ranges) => {
+                let holds = |i: usize, left: Interval| {
+                    let ([lo, hi], (middle, reach)) = (node.ranges[i], node.middle(i));
+                    let x = (exact(middle) + exact(reach) * left).intersection(hull(lo, hi));
+                    x.is_empty() || ranges[i][0] <= x.inf() && x.sup() <= ranges[i][1]
+                };
+                let left = contracted(symbols, &at.equations);
+                left.is_none_or(|left| (0..symbols).all(|i| holds(i, left[i])))
+            }
+            _ => false,
+        })
+    }
+
+    /// Whether all figures of this part lie where one of those listed (or its mirror image) is alone.
+    fn is_figure(&self, points: &[Place]) -> bool {
+        let d = self.plan.dimension;
+        let near = |centre: &[[f64; 3]], alone: f64| {
+            let mut pairs = points.iter().zip(centre);
+            pairs.all(|(p, at)| (0..d).all(|k| p[k].distance(at[k]) < alone))
+        };
+        self.figures.iter().any(|figure| {
+            near(&figure.centre, figure.alone) || near(&figure.mirrored(d), figure.alone)
+        })
+    }
+}
