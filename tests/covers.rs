@@ -42,6 +42,100 @@ fn shipped_problems_verify() {
     }
 }
 
+/// Nearly degenerate figures, in which bounds are made of what is rounded: nothing that the search says is too fine for the check.
+#[test]
+fn covers_of_hard_problems_are_proved_as_far_as_they_go() {
+    let mut problems: Vec<Problem> = std::fs::read_dir("problems/hard")
+        .unwrap()
+        .map(|file| file.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .map(|path| Problem::read(path).unwrap())
+        .filter(Problem::is_distances_only)
+        .collect();
+    assert!(problems.len() > 10);
+    let mut random = Random(3);
+    for _ in 0..60 {
+        // Two of four or five points are near each other; lengths are those of the sketch.
+        let count = 4 + random.below(2);
+        let mut points: Vec<[f64; 2]> = (0..count)
+            .map(|_| [0; 2].map(|_| random.below(2000) as f64 / 1000.0))
+            .collect();
+        let near = 10f64.powi(-3 - random.below(5) as i32);
+        points[1] = [points[0][0] + near, points[0][1] + 0.5 * near];
+        let name = |p: usize| format!("p{p}");
+        let mut build = Problem::build("near", 2);
+        for (p, at) in points.iter().enumerate() {
+            build = build.point(
+                &name(p),
+                at.map(|x| format!("{x:e}")).each_ref().map(String::as_str),
+            );
+        }
+        for p in 1..count {
+            for q in p.saturating_sub(2)..p {
+                let length = (points[p][0] - points[q][0]).hypot(points[p][1] - points[q][1]);
+                build = build.distance(&name(p), &name(q), &*format!("{length:e}"));
+            }
+        }
+        problems.extend(build.finish());
+    }
+    let (mut proved, mut complete) = (0, 0);
+    for problem in problems {
+        let options = Options {
+            cover: true,
+            most_boxes: 3000,
+            ..Options::default()
+        };
+        let Ok(result) = all(&problem, &options) else {
+            continue;
+        };
+        let Some(cover) = result.cover else { continue };
+        let verdict = verify_cover(&cover).unwrap();
+        assert_eq!(verdict.flaw, None, "{}", problem.to_toml());
+        assert_eq!(verdict.undecided == 0, result.status == Status::Complete);
+        (proved, complete) = (proved + 1, complete + usize::from(verdict.undecided == 0));
+    }
+    assert!(proved > 40 && complete > 20, "{proved}, {complete}");
+}
+
+/// One side after the other of the points of a long strip: no more than a thread's stack holds.
+#[test]
+fn sides_within_sides_are_bounded() {
+    let mut build = Problem::build("strip", 2);
+    for p in 0..200 {
+        build = build.point(
+            &format!("p{p}"),
+            [&*format!("{}", p / 2), &*format!("{}", p % 2)],
+        );
+    }
+    for p in 1..200usize {
+        for q in p.saturating_sub(2)..p {
+            let is_diagonal = p - q == 1 && p % 2 == 0;
+            let length = if is_diagonal { "1.4142" } else { "1" };
+            build = build.distance(&format!("p{p}"), &format!("p{q}"), length);
+        }
+    }
+    let problem = build.finish().unwrap();
+    let steps = (2..200usize).map(|p| {
+        let centres = [p - 2, p - 1].map(|q| (q, Radius::Given));
+        (p, Kind::Meet(centres.to_vec()))
+    });
+    let mut cover = Cover {
+        problem: problem.to_toml(),
+        base: vec![0, 1],
+        steps: steps.collect(),
+        drives: Vec::new(),
+        figures: Vec::new(),
+        unit_exponent: 0,
+        marks: Vec::new(),
+    };
+    for step in 1..198 {
+        Mark::Sides(step).put(0, &mut cover.marks);
+    }
+    Mark::Excluded(197).put(0, &mut cover.marks);
+    let flaw = damaged(&cover).unwrap().flaw.unwrap();
+    assert!(flaw.contains("more sides"), "{flaw}");
+}
+
 #[test]
 fn the_cover_is_the_same_for_any_number_of_threads() {
     let problem = shipped("disulfide");

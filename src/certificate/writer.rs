@@ -175,6 +175,18 @@ impl<'a, W: Write> Writer<'a, W> {
         }
     }
 
+    /// The last tube that is not held, if it is not written yet.
+    fn last_tube(&mut self) -> Option<&mut TubeClaim> {
+        let tube = |record| match record {
+            &mut Record::Tube(ref mut tube) => Some(tube),
+            _ => None,
+        };
+        match &mut self.back {
+            Some((records, _)) => records.iter_mut().rev().find_map(tube),
+            None => self.tail.iter_mut().rev().find_map(tube),
+        }
+    }
+
     fn flush(&mut self) {
         for record in std::mem::take(&mut self.tail) {
             self.write(&record);
@@ -236,6 +248,14 @@ fn tube_claim(tube: &TubeSeen) -> TubeClaim {
     }
 }
 
+/// Makes a tube one of more digits, so that the checker encloses the point where it is left with these: the next one may be narrower than
+/// 53 bits tell that point.
+fn lengthen(tube: &mut TubeClaim) {
+    if tube.low.is_empty() {
+        tube.low = vec![0.0; tube.centre.len()];
+    }
+}
+
 /// As much of a reason as fits.
 fn shortened(reason: &str) -> String {
     let end = (0..=reason.len().min(MAX_TEXT)).rev();
@@ -254,7 +274,14 @@ impl<W: Write> Witness for Writer<'_, W> {
     fn tube(&mut self, tube: TubeSeen) {
         let tube = tube_claim(&tube);
         match (&mut self.arc, &mut self.piece) {
-            (Some(arc), _) => arc.tubes.push(tube),
+            (Some(arc), _) => {
+                if !tube.low.is_empty()
+                    && let Some(last) = arc.tubes.last_mut()
+                {
+                    lengthen(last);
+                }
+                arc.tubes.push(tube);
+            }
             (None, Some(piece)) => piece.push(Record::Tube(tube)),
             (None, None) => {
                 self.tubes += 1;
@@ -262,6 +289,11 @@ impl<W: Write> Witness for Writer<'_, W> {
                     self.release();
                     self.put(Record::Tube(tube));
                 } else {
+                    if self.held.is_empty()
+                        && let Some(last) = self.last_tube()
+                    {
+                        lengthen(last);
+                    }
                     self.held.push(Record::Tube(tube));
                 }
             }

@@ -8,9 +8,9 @@ use krawl::complete::{Complete, Keep, Options, Progress, Status, Unserved, all};
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// Find all real solutions, with a proof that there is no other
@@ -28,8 +28,8 @@ Examples:
 Two machines share a search: one runs it with --store a --share 1/2, the other with --store b --share 2/2. Then
 --store a --merge b, with neither share, brings both together.
 
-Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input, 3 or 4 the set is complete, and its
-certificate does not prove that.")]
+Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input, 3 or 4 the certificate
+does not prove what is said (see `krawl verify --help`).")]
 pub struct Arguments {
     /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
     file: PathBuf,
@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write why there is no other solution, part by part of the space searched, and check that as `verify` does. Where it
-    /// does not prove a complete set, the exit code is that of `verify`; where it proves what the search left open, the set is complete
+    /// does not pass, the exit code is that of `verify`; where it proves what the search left open, the set is complete
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
@@ -107,6 +107,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             results.display()
         ));
     }
+    if arguments.cert.is_some() && arguments.cert == arguments.json {
+        return Err("--cert and --json name the same file".to_owned());
+    }
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
@@ -144,19 +147,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let mut written = true;
-    if !pictures.is_empty() {
-        let page = Page::from_result(&complete_to_value(&problem, &result));
-        written &= pictures.write(&page.map_err(|error| error.to_string())?);
-    }
     let mut said = Said::default();
     match (&cert, result.cover.take()) {
         (Some(beside), Some(cover)) => {
             let whole = (&mut beside.file()).write_all(&cover);
-            drop(cover);
             let is_there = beside.commit(whole);
             written &= is_there;
             if is_there && !arguments.no_verify {
-                said = check(arguments, &mut result, cancel)?;
+                said = check(arguments, &cover, &mut result, cancel)?;
             }
         }
         (Some(_), None) => output::complain(match result.reason {
@@ -167,6 +165,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             }
         }),
         _ => {}
+    }
+    if !pictures.is_empty() {
+        let page = Page::from_result(&complete_to_value(&problem, &result));
+        written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     if let Some(json) = &json {
         written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
@@ -202,49 +204,43 @@ struct Said {
 /// Checks the certificate that was written, and takes over what it proves beyond the search.
 fn check(
     arguments: &Arguments,
+    cover: &[u8],
     result: &mut Complete,
     cancel: &AtomicBool,
 ) -> Result<Said, String> {
     let mut said = Said::default();
-    let Some(path) = arguments.cert.as_deref() else {
-        return Ok(said);
-    };
-    if cancel.load(Ordering::Relaxed) {
-        return Ok(said);
-    }
-    let (name, clock) = (path.display(), Instant::now());
-    let Some(verdict) = check_cover(path, arguments.threads, arguments.quiet, cancel)? else {
+    let cert = arguments.cert.as_deref().unwrap_or(Path::new("-"));
+    let (name, clock) = (cert.display(), Instant::now());
+    let verdict = check_cover(cover, arguments.threads, arguments.quiet, cancel)?;
+    let Some(verdict) = verdict else {
         output::complain(&format!(
-            "{name}: the certificate is whole, but was not checked"
+            "{name}: was not checked, as the run was ended; `krawl verify {name}` does that"
         ));
         return Ok(said);
     };
     let seconds = clock.elapsed().as_secs_f64();
     let left: u64 = result.undecided.iter().map(|part| part.count).sum();
-    let what = match &verdict.flaw {
+    let undecided = verdict.undecided;
+    let failure = match &verdict.flaw {
         Some(flaw) => Some((format!("NOT PROVED: {flaw}"), NOT_PROVED)),
-        None if verdict.undecided > 0 && result.status == Status::Complete => {
-            let undecided = verdict.undecided;
-            Some((
-                format!("INCOMPLETE: it leaves {undecided} parts undecided"),
-                INCOMPLETE,
-            ))
-        }
+        None if undecided > 0 && result.status == Status::Complete => Some((
+            format!("INCOMPLETE: it leaves {undecided} parts undecided"),
+            INCOMPLETE,
+        )),
         None => None,
     };
-    if let Some((what, code)) = what {
+    if let Some((what, code)) = failure {
         output::complain(&format!(
             "{name}: the certificate does not pass the checker. {what}"
         ));
         said.code = Some(code);
-        return Ok(said);
-    }
-    said.text = format!(
-        "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again.\n"
-    );
-    if result.settle(&verdict) {
+    } else if result.settle(&verdict) {
         said.text = format!(
             "\nThe search had left parts open, {left} of them. The check of the certificate in {name} decided them in {seconds:.2} s.\n"
+        );
+    } else {
+        said.text = format!(
+            "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again.\n"
         );
     }
     Ok(said)

@@ -7,7 +7,7 @@ use krawl::certificate::{Outcome, Settings, Stage, verify};
 use krawl::edit::Decomposition;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -201,24 +201,26 @@ fn verify_the_cover(
     })
 }
 
-/// Checks a cover that was just written, until the flag is set: `None` then, and there is nothing to be said of it.
+/// Checks a cover, until the flag is set: `None` then, and there is nothing to be said of it.
 pub(super) fn check_cover(
-    path: &Path,
+    cover: &[u8],
     threads: Option<u16>,
     quiet: bool,
     cancel: &AtomicBool,
 ) -> Result<Option<CoverVerdict>, String> {
-    let name = path.display();
-    let bytes = fs::read(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
+    let is_ended = || cancel.load(Ordering::Relaxed);
+    if is_ended() {
+        return Ok(None);
+    }
     let mut line = ProgressLine::new(!quiet, "");
     let mut goes_on = |stage| {
         line.show_cover(stage);
-        !cancel.load(Ordering::Relaxed)
+        !is_ended()
     };
-    let verdict = super::in_pool(threads, || verify_cover_while(&bytes, &mut goes_on))?;
+    let verdict = super::in_pool(threads, || verify_cover_while(cover, &mut goes_on))?;
     line.clear();
-    let verdict = verdict.map_err(|error| format!("{name}: {error}; please report this"))?;
-    Ok((!cancel.load(Ordering::Relaxed)).then_some(verdict))
+    let verdict = verdict.map_err(|error| format!("{error}; please report this"))?;
+    Ok((!is_ended()).then_some(verdict))
 }
 
 /// Checks a certificate that was just written, on all processors, and says on standard error whether it does

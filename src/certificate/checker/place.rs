@@ -129,6 +129,12 @@ impl Place {
         let mut place = Place::prove(eq, (&near, extended), (&c, &u), claimed)?;
         // In this cross-section t is what it is in the middle.
         place.spot.rest[eq.m] = ZERO;
+        // F(X) is quadratic: between two zeros, in the middle, J is singular, and no such place is within these distances. So another zero
+        // is twice as far away, less what this one is off.
+        for (i, alone) in place.alone_within.iter_mut().enumerate() {
+            let off = size(place.spot.at(i) - place.middle[i]);
+            *alone = alone.max((point(2.0) * exact(*alone) - off).inf());
+        }
         let other = Fault::because("its cross-section is not t = 1");
         let is_there = place.middle[eq.m] == point(1.0) && place.spot.near[eq.m] == 1.0;
         is_there.then_some(place).ok_or(other)
@@ -288,6 +294,16 @@ mod tests {
         for radius in [3.1e-17, 1e-16, 1e-10] {
             assert!(solution(&eq, radius).is_ok(), "{radius:e}");
         }
+    }
+
+    /// Of two figures that are each other's mirror images, 2 c_y apart, either is alone twice as far as J is seen to be regular, and not up to the other.
+    #[test]
+    fn the_other_zero_is_twice_as_far_away_as_a_singular_place() {
+        let eq = triangle();
+        let place = Place::at_target(&eq, (&[1.0, 0.5, 0.5], false), Vec::new()).unwrap();
+        let other = [1.0, 0.5, -0.5].map(exact);
+        // |I − Y J| < 1 is proved up to 0.11.
+        assert!(!place.covers(&other) && place.alone_within[2] > 0.2);
     }
 
     /// Boxes that touch after rounding may be apart.

@@ -65,6 +65,10 @@ impl<'a> Plan<'a> {
     /// Checks that the plan places every point once, from points that stand, by distances that are given.
     pub fn new(problem: &Problem, cover: &'a Cover) -> Result<Self, String> {
         let d = problem.dimension;
+        // Steps have a byte in marks. (And bounds of pairs take the cube of this.)
+        if problem.points.len() > 256 {
+            return Err("a plan with more than 256 points".to_owned());
+        }
         let per_unit = point(2f64.powi(-cover.unit_exponent));
         let squares = problem.distances.iter().map(|e| {
             let square = match &e.target {

@@ -3,6 +3,9 @@
 use super::format::{MAX_SYMBOLS, Mark};
 use super::geometry::{Node, Plan};
 
+/// Steps with two places have a side each, up to so many.
+const MOST_SIDES: usize = 64;
+
 /// A part, and what its marks claim.
 pub struct Part {
     pub node: Node,
@@ -57,6 +60,9 @@ impl<'a> Parts<'a> {
                 if !self.plan.is_signed(step) || node.signs.len() != self.plan.sign(step) {
                     return Err("a mark for two sides where there are not two".to_owned());
                 }
+                if node.signs.len() >= MOST_SIDES {
+                    return Err("more sides than there may be".to_owned());
+                }
                 let mut side = |sign| {
                     node.signs.push(sign);
                     let claim = self.claim(node);
@@ -71,7 +77,7 @@ impl<'a> Parts<'a> {
                 }
             }
             Mark::Fold(step, range) => self.push(self.plan.folded(node, step, range)?)?,
-            Mark::Within(_, ranges) => self.push(node.within(&ranges))?,
+            Mark::Within(_, ranges) => self.push(node.within(&ranges)?)?,
             Mark::Undecided => self.undecided += 1,
             _ => {}
         }
@@ -116,11 +122,15 @@ impl Node {
         }))
     }
 
-    fn within(&self, ranges: &[[f64; 2]; MAX_SYMBOLS]) -> Node {
+    fn within(&self, ranges: &[[f64; 2]; MAX_SYMBOLS]) -> Result<Node, String> {
         let mut child = self.clone();
-        let symbols = child.ranges.len();
-        child.ranges.copy_from_slice(&ranges[..symbols]);
-        child
+        for (range, to) in child.ranges.iter_mut().zip(ranges) {
+            if !(range[0] <= to[0] && to[1] <= range[1]) {
+                return Err("ranges that are not within those before".to_owned());
+            }
+            *range = *to;
+        }
+        Ok(child)
     }
 }
 

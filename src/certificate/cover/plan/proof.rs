@@ -26,8 +26,8 @@ struct Standing {
     equations: Vec<Model>,
 }
 
-/// A part is halved so many times in each symbol, where what its mark claims is not proved at once.
-const FINER: usize = 3;
+/// Where what a mark claims of a part is not proved at once, that is tried of so many parts of it.
+const PIECES: usize = 64;
 
 impl Claim {
     /// Whether it is true whatever it is about: that a part is that and its other half, or undecided.
@@ -46,7 +46,8 @@ impl<'a> Proof<'a> {
 
     /// Proves what is claimed of a part.
     pub fn of(&self, part: &Part) -> Result<(), String> {
-        let proved = part.claim.is_true() || self.all_of(&part.claim, &part.node, 0);
+        let proved =
+            part.claim.is_true() || self.all_of(&part.claim, &part.node, (0, &mut PIECES.clone()));
         let unproved = || match part.claim {
             Claim::Mark(Mark::Figure) => "no solution listed accounts for this part",
             _ => "what the mark says is not proved",
@@ -56,14 +57,22 @@ impl<'a> Proof<'a> {
 
     /// Proves a claim of a part of the space, or else of both its halves, as it is about figures wherever they are. (Who searched may have
     /// had bounds that are a little better.)
-    fn all_of(&self, claim: &Claim, node: &Node, depth: usize) -> bool {
+    fn all_of(&self, claim: &Claim, node: &Node, (depth, left): (usize, &mut usize)) -> bool {
+        if self.at_once(claim, node) {
+            return true;
+        }
         let symbols = node.ranges.len();
-        let again = |half: &Node| self.all_of(claim, half, depth + 1);
-        let by_halves = || {
-            let halves = node.halved(depth % symbols);
-            halves.is_ok_and(|halves| halves.iter().all(again))
-        };
-        self.at_once(claim, node) || (depth < FINER * symbols && by_halves())
+        if *left == 0 || symbols == 0 {
+            return false;
+        }
+        let halves = node.halved(depth % symbols);
+        halves.is_ok_and(|halves| {
+            let mut halves = halves.iter();
+            halves.all(|half| {
+                *left = left.saturating_sub(1);
+                self.all_of(claim, half, (depth + 1, left))
+            })
+        })
     }
 
     fn at_once(&self, claim: &Claim, node: &Node) -> bool {
