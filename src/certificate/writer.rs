@@ -175,15 +175,18 @@ impl<'a, W: Write> Writer<'a, W> {
         }
     }
 
-    /// The last tube that is not held, if it is not written yet.
+    /// The last tube of the edit or the piece at hand; or of the path, those that are held left out, if it is not written yet.
     fn last_tube(&mut self) -> Option<&mut TubeClaim> {
         let tube = |record| match record {
             &mut Record::Tube(ref mut tube) => Some(tube),
             _ => None,
         };
-        match &mut self.back {
-            Some((records, _)) => records.iter_mut().rev().find_map(tube),
-            None => self.tail.iter_mut().rev().find_map(tube),
+        match (&mut self.arc, &mut self.piece, &mut self.back) {
+            (Some(arc), _, _) => arc.tubes.last_mut(),
+            (None, Some(records), _) | (None, None, Some((records, _))) => {
+                records.iter_mut().rev().find_map(tube)
+            }
+            (None, None, None) => self.tail.iter_mut().rev().find_map(tube),
         }
     }
 
@@ -248,14 +251,6 @@ fn tube_claim(tube: &TubeSeen) -> TubeClaim {
     }
 }
 
-/// Makes a tube one of more digits, so that the checker encloses the point where it is left with these: the next one may be narrower than
-/// 53 bits tell that point.
-fn lengthen(tube: &mut TubeClaim) {
-    if tube.low.is_empty() {
-        tube.low = vec![0.0; tube.centre.len()];
-    }
-}
-
 /// As much of a reason as fits.
 fn shortened(reason: &str) -> String {
     let end = (0..=reason.len().min(MAX_TEXT)).rev();
@@ -273,15 +268,16 @@ impl<W: Write> Witness for Writer<'_, W> {
 
     fn tube(&mut self, tube: TubeSeen) {
         let tube = tube_claim(&tube);
+        // The tube before one of more digits is told with as many, so that the checker encloses the point where it is left with these: the next
+        // may be narrower than 53 bits tell that point.
+        if !tube.low.is_empty()
+            && let Some(last) = self.last_tube()
+            && last.low.is_empty()
+        {
+            last.low = vec![0.0; last.centre.len()];
+        }
         match (&mut self.arc, &mut self.piece) {
-            (Some(arc), _) => {
-                if !tube.low.is_empty()
-                    && let Some(last) = arc.tubes.last_mut()
-                {
-                    lengthen(last);
-                }
-                arc.tubes.push(tube);
-            }
+            (Some(arc), _) => arc.tubes.push(tube),
             (None, Some(piece)) => piece.push(Record::Tube(tube)),
             (None, None) => {
                 self.tubes += 1;
@@ -289,11 +285,6 @@ impl<W: Write> Witness for Writer<'_, W> {
                     self.release();
                     self.put(Record::Tube(tube));
                 } else {
-                    if self.held.is_empty()
-                        && let Some(last) = self.last_tube()
-                    {
-                        lengthen(last);
-                    }
                     self.held.push(Record::Tube(tube));
                 }
             }

@@ -1,5 +1,6 @@
 //! `krawl all`: searches all figures that meet the dimensions.
 
+use super::check::counted;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::verify::check_cover;
@@ -10,7 +11,7 @@ use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Find all real solutions, with a proof that there is no other
@@ -107,8 +108,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             results.display()
         ));
     }
-    if arguments.cert.is_some() && arguments.cert == arguments.json {
-        return Err("--cert and --json name the same file".to_owned());
+    if let Some(cert) = &arguments.cert
+        && Some(cert) == arguments.json.as_ref()
+    {
+        let cert = cert.display();
+        return Err(format!(
+            "{cert}: is the file of both --cert and --json; name another one for one of them"
+        ));
     }
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
@@ -147,14 +153,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let mut written = true;
-    let mut said = Said::default();
+    let mut checked = Checked::default();
     match (&cert, result.cover.take()) {
         (Some(beside), Some(cover)) => {
             let whole = (&mut beside.file()).write_all(&cover);
             let is_there = beside.commit(whole);
             written &= is_there;
-            if is_there && !arguments.no_verify {
-                said = check(arguments, &cover, &mut result, cancel)?;
+            if let Some(path) = &arguments.cert
+                && is_there
+                && !arguments.no_verify
+            {
+                checked = check(arguments, (path, &cover), &mut result, cancel);
             }
         }
         (Some(_), None) => output::complain(match result.reason {
@@ -181,67 +190,88 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             text +=
                 &format!("\nThe sketch was searched with as many equations as unknowns{made}.\n");
         }
-        text += &said.text;
+        text += &checked.text;
         written &= output::print(&text);
     }
-    Ok(match result.status {
-        _ if !written => BAD_INPUT,
-        _ if said.code.is_some() => said.code.unwrap_or(CLOSED),
+    let of_status = match result.status {
         Status::Complete => CLOSED,
         Status::Partial | Status::Flexible => STOPPED,
+    };
+    Ok(match written {
+        true => checked.code.unwrap_or(of_status),
+        false => BAD_INPUT,
     })
 }
 
-/// What is said of a certificate that was written.
+/// What comes of the check of a certificate.
 #[derive(Default)]
-struct Said {
-    /// Behind the table.
+struct Checked {
+    /// What is said of it behind the table.
     text: String,
-    /// Where it does not pass.
+    /// The exit code, where it does not pass.
     code: Option<u8>,
 }
 
-/// Checks the certificate that was written, and takes over what it proves beyond the search.
+/// Checks the certificate that was written, and takes over what it proves beyond the search. Whatever comes of it, the results are there to be told.
 fn check(
     arguments: &Arguments,
-    cover: &[u8],
+    (path, cover): (&Path, &[u8]),
     result: &mut Complete,
     cancel: &AtomicBool,
-) -> Result<Said, String> {
-    let mut said = Said::default();
-    let cert = arguments.cert.as_deref().unwrap_or(Path::new("-"));
-    let (name, clock) = (cert.display(), Instant::now());
-    let verdict = check_cover(cover, arguments.threads, arguments.quiet, cancel)?;
-    let Some(verdict) = verdict else {
-        output::complain(&format!(
-            "{name}: was not checked, as the run was ended; `krawl verify {name}` does that"
-        ));
-        return Ok(said);
+) -> Checked {
+    let (name, clock) = (path.display(), Instant::now());
+    let complain = |what: String, code: Option<u8>| {
+        output::complain(&format!("{name}: {what}"));
+        let text = String::new();
+        Checked { text, code }
     };
-    let seconds = clock.elapsed().as_secs_f64();
-    let left: u64 = result.undecided.iter().map(|part| part.count).sum();
-    let undecided = verdict.undecided;
-    let failure = match &verdict.flaw {
-        Some(flaw) => Some((format!("NOT PROVED: {flaw}"), NOT_PROVED)),
-        None if undecided > 0 && result.status == Status::Complete => Some((
-            format!("INCOMPLETE: it leaves {undecided} parts undecided"),
-            INCOMPLETE,
+    let is_ended = || cancel.load(Ordering::Relaxed);
+    let verdict = match is_ended() {
+        true => None,
+        false => Some(check_cover(
+            cover,
+            arguments.threads,
+            arguments.quiet,
+            || !is_ended(),
         )),
-        None => None,
     };
-    if let Some((what, code)) = failure {
-        output::complain(&format!(
-            "{name}: the certificate does not pass the checker. {what}"
-        ));
-        said.code = Some(code);
-    } else if result.settle(&verdict) {
-        said.text = format!(
-            "\nThe search had left parts open, {left} of them. The check of the certificate in {name} decided them in {seconds:.2} s.\n"
-        );
-    } else {
-        said.text = format!(
-            "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again.\n"
+    let verdict = match verdict.filter(|_| !is_ended()) {
+        Some(Ok(verdict)) => verdict,
+        Some(Err(why)) => {
+            let what = format!("the certificate could not be checked: {why}; please report this");
+            return complain(what, Some(NOT_PROVED));
+        }
+        None => {
+            let what = format!(
+                "the certificate was not checked, as the run was ended; `krawl verify {name}` does that"
+            );
+            return complain(what, None);
+        }
+    };
+    let not_passed = |what: String, code| {
+        let what = format!("the certificate does not pass the checker. {what}");
+        complain(what, Some(code))
+    };
+    if let Some(flaw) = &verdict.flaw {
+        return not_passed(format!("NOT PROVED: {flaw}"), NOT_PROVED);
+    }
+    if verdict.undecided > 0 && result.status == Status::Complete {
+        let left = counted(verdict.undecided as usize, "part", "parts");
+        return not_passed(
+            format!("INCOMPLETE: it leaves {left} undecided"),
+            INCOMPLETE,
         );
     }
-    Ok(said)
+    let left: u64 = result.undecided.iter().map(|part| part.count).sum();
+    let seconds = clock.elapsed().as_secs_f64();
+    let text = match result.settle(&verdict) {
+        true => format!(
+            "\nThe search had left {} open. The check of the certificate in {name} decided all of that, in {seconds:.2} s.\n",
+            counted(left as usize, "part", "parts")
+        ),
+        false => format!(
+            "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again.\n"
+        ),
+    };
+    Checked { text, code: None }
 }

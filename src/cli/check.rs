@@ -153,7 +153,8 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
     Ok(text)
 }
 
-fn counted(count: usize, one: &str, many: &str) -> String {
+/// `1 sketch`, `2 sketches`.
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 

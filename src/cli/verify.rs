@@ -10,7 +10,6 @@ use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Prove all claims of a certificate again
@@ -180,13 +179,7 @@ fn verify_the_cover(
     file.read_to_end(&mut bytes)
         .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
-    let mut line = ProgressLine::new(!arguments.quiet, "");
-    let mut show = |stage| {
-        line.show_cover(stage);
-        true
-    };
-    let verdict = super::in_pool(arguments.threads, || verify_cover_while(&bytes, &mut show))?;
-    line.clear();
+    let verdict = check_cover(&bytes, arguments.threads, arguments.quiet, || true);
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
@@ -201,26 +194,21 @@ fn verify_the_cover(
     })
 }
 
-/// Checks a cover, until the flag is set: `None` then, and there is nothing to be said of it.
+/// Checks a cover, and shows where it is, for as long as `goes_on` says so.
 pub(super) fn check_cover(
     cover: &[u8],
     threads: Option<u16>,
     quiet: bool,
-    cancel: &AtomicBool,
-) -> Result<Option<CoverVerdict>, String> {
-    let is_ended = || cancel.load(Ordering::Relaxed);
-    if is_ended() {
-        return Ok(None);
-    }
+    goes_on: impl Fn() -> bool + Sync + Send,
+) -> Result<CoverVerdict, String> {
     let mut line = ProgressLine::new(!quiet, "");
-    let mut goes_on = |stage| {
+    let mut show = |stage| {
         line.show_cover(stage);
-        !is_ended()
+        goes_on()
     };
-    let verdict = super::in_pool(threads, || verify_cover_while(cover, &mut goes_on))?;
+    let verdict = super::in_pool(threads, || verify_cover_while(cover, &mut show));
     line.clear();
-    let verdict = verdict.map_err(|error| format!("{error}; please report this"))?;
-    Ok((!is_ended()).then_some(verdict))
+    verdict?.map_err(|error| error.to_string())
 }
 
 /// Checks a certificate that was just written, on all processors, and says on standard error whether it does

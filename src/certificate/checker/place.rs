@@ -131,7 +131,7 @@ impl Place {
         place.spot.rest[eq.m] = ZERO;
         // F(X) is quadratic: between two zeros, in the middle, J is singular, and no such place is within these distances. So another zero
         // is twice as far away, less what this one is off.
-        for (i, alone) in place.alone_within.iter_mut().enumerate() {
+        for (i, alone) in place.alone_within.iter_mut().enumerate().take(eq.m) {
             let off = size(place.spot.at(i) - place.middle[i]);
             *alone = alone.max((point(2.0) * exact(*alone) - off).inf());
         }

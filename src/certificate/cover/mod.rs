@@ -50,6 +50,14 @@ pub struct CoverStage {
     pub share: f64,
 }
 
+impl CoverStage {
+    /// Behind so many parts, with so many of the marks read.
+    fn new(parts: u64, read: usize, marks: &[u8]) -> Self {
+        let share = read as f64 / marks.len().max(1) as f64;
+        CoverStage { parts, share }
+    }
+}
+
 /// What becomes of a check that is told not to go on.
 const ENDED: &str = "the check was ended before its end";
 

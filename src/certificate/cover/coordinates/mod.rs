@@ -420,9 +420,8 @@ fn check(
             };
             let undecided = undecided.map_err(|flaw| format!("part {}: {flaw}", verdict.parts))?;
             verdict.undecided += u64::from(undecided);
-            let share = check.at as f64 / cover.marks.len().max(1) as f64;
-            let parts = verdict.parts;
-            if parts.is_multiple_of(BATCH) && !goes_on(CoverStage { parts, share }) {
+            let stage = || CoverStage::new(verdict.parts, check.at, &cover.marks);
+            if verdict.parts.is_multiple_of(BATCH) && !goes_on(stage()) {
                 return Err(ENDED.to_owned());
             }
         }

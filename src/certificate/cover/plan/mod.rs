@@ -62,16 +62,15 @@ fn check(
             return Err(format!("part {}: {what}", verdict.parts + k as u64 + 1));
         }
         verdict.parts += batch.len() as u64;
-        let (parts, share) = (verdict.parts, parts.share());
         if batch.is_empty() {
             break;
         }
-        if !goes_on(CoverStage { parts, share }) {
+        if !goes_on(CoverStage::new(verdict.parts, parts.at, &cover.marks)) {
             return Err(ENDED.to_owned());
         }
     }
     verdict.undecided = parts.undecided;
-    match parts.is_at_end() {
+    match parts.at == cover.marks.len() {
         true => Ok(()),
         false => Err("there are more marks than parts".to_owned()),
     }

@@ -3,7 +3,7 @@
 use super::format::{MAX_SYMBOLS, Mark};
 use super::geometry::{Node, Plan};
 
-/// Steps with two places have a side each, up to so many.
+/// The greatest number of steps whose sides are decided at a time: claims of sides stand within each other no deeper than that.
 const MOST_SIDES: usize = 64;
 
 /// A part, and what its marks claim.
@@ -22,7 +22,8 @@ pub enum Claim {
 /// All parts, one after the other.
 pub struct Parts<'a> {
     plan: &'a Plan<'a>,
-    at: usize,
+    /// How many of the marks' bytes are read.
+    pub at: usize,
     /// Parts whose marks are to come, the next one last.
     stack: Vec<Node>,
     /// Parts of which nothing is claimed, so far.
@@ -39,16 +40,6 @@ impl<'a> Parts<'a> {
             stack,
             undecided,
         }
-    }
-
-    /// Whether all marks are read.
-    pub fn is_at_end(&self) -> bool {
-        self.at == self.plan.cover.marks.len()
-    }
-
-    /// How much of the marks is read.
-    pub fn share(&self) -> f64 {
-        self.at as f64 / self.plan.cover.marks.len().max(1) as f64
     }
 
     fn claim(&mut self, node: &mut Node) -> Result<Claim, String> {

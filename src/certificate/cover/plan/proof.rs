@@ -26,7 +26,7 @@ struct Standing {
     equations: Vec<Model>,
 }
 
-/// Where what a mark claims of a part is not proved at once, that is tried of so many parts of it.
+/// The number of smaller parts of a part of which a claim is tried, where it is not proved at once of the whole.
 const PIECES: usize = 64;
 
 impl Claim {
@@ -46,8 +46,8 @@ impl<'a> Proof<'a> {
 
     /// Proves what is claimed of a part.
     pub fn of(&self, part: &Part) -> Result<(), String> {
-        let proved =
-            part.claim.is_true() || self.all_of(&part.claim, &part.node, (0, &mut PIECES.clone()));
+        let mut left = PIECES;
+        let proved = part.claim.is_true() || self.all_of(&part.claim, &part.node, (0, &mut left));
         let unproved = || match part.claim {
             Claim::Mark(Mark::Figure) => "no solution listed accounts for this part",
             _ => "what the mark says is not proved",
@@ -88,19 +88,18 @@ impl<'a> Proof<'a> {
             points,
             equations: Vec::new(),
         };
-        self.prove(claim, &mut standing)
-            .is_some_and(|proved| proved)
+        self.prove(claim, &mut standing).is_some()
     }
 
-    /// `None` and false: not proved.
-    fn prove(&self, claim: &Claim, at: &mut Standing) -> Option<bool> {
+    /// Proves a claim from where a proof is. `None`: not proved.
+    fn prove(&self, claim: &Claim, at: &mut Standing) -> Option<()> {
         let steps = self.plan.cover.steps.len();
         let (step, stands) = match claim {
             Claim::Mark(mark) => mark.place(steps),
             Claim::Sides(step, _) => (*step, false),
         };
         if claim.is_true() {
-            return Some(true);
+            return Some(());
         }
         let upto = step + usize::from(stands);
         // None is about a step that is past.
@@ -110,12 +109,13 @@ impl<'a> Proof<'a> {
         while at.step < upto {
             self.stand(at)?;
         }
-        match claim {
-            Claim::Sides(_, both) => self.sides(both, at),
-            Claim::Mark(Mark::Figure) => Some(self.is_figure(&at.points)),
-            Claim::Mark(mark) if stands => self.after(step, *mark, at),
-            Claim::Mark(mark) => self.before(step, *mark, at),
-        }
+        let proved = match claim {
+            Claim::Sides(_, both) => return self.sides(both, at),
+            Claim::Mark(Mark::Figure) => self.is_figure(&at.points),
+            Claim::Mark(mark) if stands => self.after(step, *mark, at)?,
+            Claim::Mark(mark) => self.before(step, *mark, at)?,
+        };
+        proved.then_some(())
     }
 
     /// Places the next step's point, its side being decided.
@@ -154,18 +154,16 @@ impl<'a> Proof<'a> {
     }
 
     /// Both sides of a step's point, one after the other.
-    fn sides(&self, both: &[Claim; 2], at: &mut Standing) -> Option<bool> {
+    fn sides(&self, both: &[Claim; 2], at: &mut Standing) -> Option<()> {
         let (step, before) = (at.step, at.equations.len());
         for (claim, sign) in both.iter().zip([1, -1]) {
             at.node.signs.push(sign);
-            if !self.prove(claim, at)? {
-                return None;
-            }
+            self.prove(claim, at)?;
             at.node.signs.pop();
             at.equations.truncate(before);
             at.step = step;
         }
-        Some(true)
+        Some(())
     }
 
     /// Claims of a step whose point does not stand. `None` and false: not proved.
