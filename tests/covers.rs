@@ -4,7 +4,7 @@ mod common;
 
 use common::edits::Random;
 use common::random::{recipe, same_each_time};
-use krawl::certificate::cover::{Cover, CoverVerdict, Kind, Mark, Radius, verify_cover};
+use krawl::certificate::cover::{Cover, CoverVerdict, Kind, Left, Mark, Radius, verify_cover};
 use krawl::complete::{Complete, Options, Status, all};
 use krawl::problem::{Problem, Target};
 use proptest::prelude::*;
@@ -19,6 +19,18 @@ fn searched(problem: &Problem) -> (Complete, Vec<u8>) {
     let mut result = all(problem, &options).unwrap();
     let cover = result.cover.take().unwrap();
     (result, cover)
+}
+
+/// A mark without ranges, in bytes.
+fn bytes_of(mark: Mark) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    mark.put(0, &mut bytes);
+    bytes
+}
+
+/// The next mark of a cover without folds. (What ranges it leaves is not told: those before are taken to be from -1 to 1.)
+fn read(cover: &Cover, at: usize) -> Option<(Mark, usize)> {
+    Mark::read(&cover.marks, at, &vec![[-1.0, 1.0]; cover.drives.len()])
 }
 
 fn proves_all(verdict: &CoverVerdict) -> bool {
@@ -193,9 +205,8 @@ fn marks(cover: &Cover) -> Vec<(usize, Mark)> {
     let mut out = Vec::new();
     let mut at = 0;
     // Only covers without folds are damaged mark by mark: then the number of symbols never changes.
-    let symbols = cover.drives.len();
     while at < cover.marks.len() {
-        let (mark, next) = Mark::read(&cover.marks, at, symbols).unwrap();
+        let (mark, next) = read(cover, at).unwrap();
         assert!(!matches!(mark, Mark::Fold(..)));
         out.push((at, mark));
         at = next;
@@ -236,7 +247,7 @@ fn without_folds_and(
         assert_eq!(Cover::from_bytes(&cover.to_bytes()).unwrap(), cover);
         let (mut at, mut seen, mut folded) = (0, Vec::new(), false);
         while !folded && at < cover.marks.len() {
-            let (mark, next) = Mark::read(&cover.marks, at, cover.drives.len()).unwrap();
+            let (mark, next) = read(&cover, at).unwrap();
             folded = matches!(mark, Mark::Fold(..));
             seen.push(mark);
             at = next;
@@ -290,14 +301,14 @@ fn a_mark_left_out_or_turned_into_another_is_noticed() {
             Mark::NoPlace(_) | Mark::Excluded(_) | Mark::WrongDistance(..) | Mark::WrongPair(..)
         ) {
             let mut other = cover.clone();
-            other.marks.splice(*at..*end, [8]);
+            other.marks.splice(*at..*end, bytes_of(Mark::Figure));
             assert!(
                 damaged(&other).is_none_or(|v| v.flaw.is_some()),
                 "{mark:?} for a figure"
             );
             // Nothing claimed is no flaw, and no proof either.
             let mut open = cover.clone();
-            open.marks.splice(*at..*end, [9]);
+            open.marks.splice(*at..*end, bytes_of(Mark::Undecided));
             let verdict = damaged(&open).unwrap();
             assert!(verdict.flaw.is_none() && verdict.undecided == 1);
         }
@@ -357,7 +368,7 @@ fn a_parameter_that_ranges_over_less_than_it_must_is_noticed() {
     ];
     cover.steps[0].1 = Kind::Meet(radii.to_vec());
     cover.figures.clear();
-    cover.marks = vec![9];
+    cover.marks = bytes_of(Mark::Undecided);
     let flaw = |range: [f64; 2]| {
         let mut other = cover.clone();
         other.drives[0] = Some(range);
@@ -499,7 +510,10 @@ fn marks_at_random_prove_nothing() {
             let [a, b] = [0; 2].map(|_| NUMBERS[random.below(NUMBERS.len())]);
             [a.min(b), a.max(b)]
         };
-        let (one, all) = (range(), std::array::from_fn(|_| range()));
+        let (one, all) = (
+            range(),
+            std::array::from_fn(|_| Left::holding(range(), range())),
+        );
         let kind = random.below(if depth == 0 { 5 } else { 10 });
         let (other, stands) = (random.below(14), random.below(2) == 1);
         match kind {

@@ -353,8 +353,8 @@ impl Complete {
         let figures = different(&found.figures, dimension);
         let apart = figures.is_err();
         let figures = figures.unwrap_or_default();
-        let marks = found.marks.bytes.take();
-        let cover = marks.map(|marks| super::cover::file(problem, search, &figures, marks));
+        let marks = std::mem::take(&mut found.marks);
+        let cover = super::cover::file(problem, search, &figures, marks);
         let mut solutions = Vec::new();
         let mut reference = problem.homotopy.reference.clone();
         for reference_tried in [&problem.homotopy.reference, &search.plan.base] {

@@ -1,5 +1,6 @@
 //! The search: depth first, its parts on all threads, the answer the same for any number of them.
 
+use super::cover::Marks;
 use super::krawczyk::{Figure, Prover};
 use super::model::Number;
 use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
@@ -151,7 +152,7 @@ impl Search {
     fn descend(&self, run: &Run, node: Node, depth: usize) -> Found {
         let mut found = Found::default();
         if run.cover {
-            found.marks.bytes = Some(Vec::new());
+            found.marks = Marks::wanted();
         }
         if depth >= TASK_DEPTH || rayon::current_num_threads() == 1 {
             self.subtree(run, node, &mut found);
@@ -199,7 +200,7 @@ impl Search {
     pub fn one(&self, run: &Run, node: Node) -> (Found, Vec<Node>) {
         let (mut found, mut children) = (Found::default(), Vec::new());
         if run.cover {
-            found.marks.bytes = Some(Vec::new());
+            found.marks = Marks::wanted();
         }
         self.look_at(node, run, &mut Rooms::default(), &mut found, &mut children);
         run.boxes.fetch_add(1, Ordering::Relaxed);

@@ -8,7 +8,7 @@ use super::model::{Model, Range};
 use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::place::{Place, Placed, place, squared_distance};
 use super::search::Search;
-use crate::certificate::cover::Mark;
+use crate::certificate::cover::{Left, Mark};
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 
@@ -108,9 +108,7 @@ impl Found {
         self.undecided_share += other.undecided_share;
         self.unfinished += other.unfinished;
         self.boxes += other.boxes;
-        if let (Some(mine), Some(mut more)) = (&mut self.marks.bytes, other.marks.bytes) {
-            mine.append(&mut more);
-        }
+        self.marks.append(other.marks);
     }
 }
 
@@ -361,18 +359,18 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             return false;
         }
         let mut child = self.node.clone();
-        let mut ranges = [[0.0; 2]; MAX_SYMBOLS];
+        let mut all = [Left::default(); MAX_SYMBOLS];
         for i in 0..S {
             let (middle, reach) = self.node.middle(i);
             // A little more than what is left, so that who checks it comes to less.
             let at = |x: f64, out: f64| middle + reach * (x + out * 1e-6);
             let low = at(u[i].lo, -1.0).next_down().next_down();
             let high = at(u[i].hi, 1.0).next_up().next_up();
-            ranges[i] = [low.max(child.lo[i]), high.min(child.hi[i])];
-            [child.lo[i], child.hi[i]] = ranges[i];
+            all[i] = Left::holding([child.lo[i], child.hi[i]], [low, high]);
+            [child.lo[i], child.hi[i]] = all[i].range;
         }
         child.depth = child.depth.saturating_add(1);
-        self.found.marks.put(Mark::Within(step, ranges), S);
+        self.found.marks.put(Mark::Within(step, all), S);
         self.children.push(child);
         true
     }
@@ -482,8 +480,10 @@ mod tests {
     #[test]
     fn what_is_undecided_stays_so_beside_what_is_done() {
         let part = |undecided: bool| {
-            let mut found = Found::default();
-            found.marks.bytes = Some(Vec::new());
+            let mut found = Found {
+                marks: Marks::wanted(),
+                ..Found::default()
+            };
             if undecided {
                 found.leave(0.5, Why::Unfinished);
             } else {
@@ -499,7 +499,7 @@ mod tests {
                 (1, 1, 7)
             );
             assert_eq!((found.undecided.len(), found.undecided_share), (1, 0.5));
-            assert_eq!(found.marks.bytes.unwrap().len(), 3);
+            assert_eq!(found.marks.bytes(), Some(2));
         }
     }
 

@@ -70,9 +70,9 @@ impl<'a> Lines<'a> {
     }
 
     /// The bytes behind the last line, which said how many they are.
-    pub fn marks(&self, length: Option<&str>) -> Result<Vec<u8>, CoverError> {
+    pub fn marks(&self, length: Option<&str>) -> Result<&'a [u8], CoverError> {
         match self.rest.len() == number(length)? {
-            true => Ok(self.rest.to_vec()),
+            true => Ok(self.rest),
             false => Err(error("the length of the marks")),
         }
     }

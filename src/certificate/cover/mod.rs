@@ -12,7 +12,7 @@ pub mod coordinates;
 mod lines;
 mod plan;
 
-pub use plan::{Cover, Kind, MAX_SYMBOLS, Mark, Radius};
+pub use plan::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 
 use super::verdict::are_same;
 use crate::problem::Problem;

@@ -289,7 +289,7 @@ impl CoordinateCover {
                     figures: until(&mut words, None)?,
                 }),
                 "marks" => {
-                    cover.marks = lines.marks(words.next())?;
+                    cover.marks = lines.marks(words.next())?.to_vec();
                     return Ok(cover);
                 }
                 _ => return Err(error("an unknown line")),

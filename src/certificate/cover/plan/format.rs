@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// The first line of every cover.
 pub const FIRST_LINE: &str = "krawl cover";
 /// The version of the format.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Most symbols at a time.
 pub const MAX_SYMBOLS: usize = 6;
 
@@ -53,7 +53,42 @@ pub struct Cover {
     pub marks: Vec<u8>,
 }
 
-/// One mark of the cover (the tags are its bytes).
+/// The range that is left of a symbol's, which is told in parts of it, in 2¹⁶ths.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Left {
+    /// So much is cut off at its lower end, and at its upper end.
+    cut: [u16; 2],
+    /// What is left, in floats, in and out of the search alike.
+    pub range: [f64; 2],
+}
+
+impl Left {
+    /// Cuts parts off a range.
+    fn of([lo, hi]: [f64; 2], cut: [u16; 2]) -> Left {
+        let [low, high] = cut.map(|parts| (hi - lo) * (f64::from(parts) / 65536.0));
+        let range = [lo + low, hi - high];
+        Left { cut, range }
+    }
+
+    /// The smallest that holds a range.
+    pub fn holding(within: [f64; 2], wanted: [f64; 2]) -> Left {
+        let width = within[1] - within[0];
+        let off = [wanted[0] - within[0], within[1] - wanted[1]];
+        // A conversion to whole numbers rounds down, and takes what is no number for 0.
+        let mut cut = off.map(|off| (off / width * 65536.0) as u16);
+        loop {
+            let left = Left::of(within, cut);
+            let holds = [left.range[0] <= wanted[0], wanted[1] <= left.range[1]];
+            let less = [0, 1].map(|end| cut[end].saturating_sub(u16::from(!holds[end])));
+            if less == cut {
+                return left;
+            }
+            cut = less;
+        }
+    }
+}
+
+/// One mark of the cover, by its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mark {
     /// 1: the point of this step has no place.
@@ -69,7 +104,7 @@ pub enum Mark {
     /// 6: the equations exclude each other when this step's point stands.
     Excluded(usize),
     /// 7: the equations leave these ranges when this step's point stands.
-    Within(usize, [[f64; 2]; MAX_SYMBOLS]),
+    Within(usize, [Left; MAX_SYMBOLS]),
     /// 8: all points stand, and only a figure listed can be here.
     Figure,
     /// 9: undecided.
@@ -81,6 +116,13 @@ pub enum Mark {
 impl Cover {
     /// The bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
+        let mut out = self.head(self.marks.len());
+        out.extend(&self.marks);
+        out
+    }
+
+    /// The bytes of the file up to its marks, if these are so many bytes.
+    pub fn head(&self, marks: usize) -> Vec<u8> {
         let mut out = format!(
             "{FIRST_LINE}\nversion {VERSION}\nunit {}\n",
             self.unit_exponent
@@ -118,14 +160,19 @@ impl Cover {
             let numbers: String = figure.iter().flatten().map(|x| format!(" {x:e}")).collect();
             let _ = writeln!(out, "figure{numbers}");
         }
-        let _ = writeln!(out, "marks {}", self.marks.len());
-        let mut out = out.into_bytes();
-        out.extend(&self.marks);
-        out
+        let _ = writeln!(out, "marks {marks}");
+        out.into_bytes()
     }
 
     /// Reads the bytes of a file.
     pub fn from_bytes(bytes: &[u8]) -> Result<Cover, CoverError> {
+        let (mut cover, marks) = Cover::read(bytes)?;
+        cover.marks = marks.to_vec();
+        Ok(cover)
+    }
+
+    /// Reads the bytes of a file, all but the marks, and finds those.
+    pub(super) fn read(bytes: &[u8]) -> Result<(Cover, &[u8]), CoverError> {
         let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
         let unit_exponent = lines.unit()?;
         let problem = lines.problem()?;
@@ -179,8 +226,8 @@ impl Cover {
                         .push(all.chunks(3).map(|p| [p[0], p[1], p[2]]).collect());
                 }
                 "marks" => {
-                    cover.marks = lines.marks(words.next())?;
-                    return Ok(cover);
+                    let marks = lines.marks(words.next())?;
+                    return Ok((cover, marks));
                 }
                 _ => return Err(error("an unknown line")),
             }
@@ -188,62 +235,92 @@ impl Cover {
     }
 }
 
+/// Steps from this one on have a byte of their own.
+const LONG: usize = 24;
+
 impl Mark {
     /// Appends the mark; of ranges as many as there are symbols.
     pub fn put(self, symbols: usize, out: &mut Vec<u8>) {
+        let mut head = |number: u8, step: usize| {
+            out.push(number - 1 + 10 * step.min(LONG) as u8);
+            if step >= LONG {
+                out.push(step as u8);
+            }
+        };
         match self {
-            Mark::NoPlace(step) => out.extend([1, step as u8]),
-            Mark::Sides(step) => out.extend([2, step as u8]),
+            Mark::NoPlace(step) => head(1, step),
+            Mark::Sides(step) => head(2, step),
             Mark::Fold(step, range) => {
-                out.extend([3, step as u8]);
+                head(3, step);
                 out.extend(range.iter().flat_map(|x| x.to_le_bytes()));
             }
             Mark::Halves(step, stands, symbol) => {
-                out.extend([4, step as u8, stands as u8, symbol as u8]);
+                head(4, step);
+                out.push(2 * symbol as u8 + u8::from(stands));
             }
-            Mark::WrongDistance(step, place) => out.extend([5, step as u8, place as u8]),
-            Mark::Excluded(step) => out.extend([6, step as u8]),
-            Mark::Within(step, ranges) => {
-                out.extend([7, step as u8]);
-                out.extend(
-                    ranges[..symbols]
-                        .iter()
-                        .flatten()
-                        .flat_map(|x| x.to_le_bytes()),
-                );
+            Mark::WrongDistance(step, place) => {
+                head(5, step);
+                out.push(place as u8);
             }
-            Mark::Figure => out.push(8),
-            Mark::Undecided => out.push(9),
-            Mark::WrongPair(step, other) => out.extend([10, step as u8, other as u8]),
+            Mark::Excluded(step) => head(6, step),
+            Mark::Within(step, left) => {
+                head(7, step);
+                let cut = left[..symbols].iter().flat_map(|left| left.cut);
+                out.extend(cut.flat_map(u16::to_le_bytes));
+            }
+            Mark::Figure => head(8, 0),
+            Mark::Undecided => head(9, 0),
+            Mark::WrongPair(step, other) => {
+                head(10, step);
+                out.push(other as u8);
+            }
         }
     }
 
-    /// Reads the mark at `at`, with so many symbols, and where the next one begins.
-    pub fn read(bytes: &[u8], at: usize, symbols: usize) -> Option<(Mark, usize)> {
-        let byte = |k: usize| bytes.get(at + k).map(|&b| usize::from(b));
-        let float = |k: usize| {
-            let eight = bytes.get(at + k..at + k + 8)?;
-            Some(f64::from_le_bytes(eight.try_into().ok()?)).filter(|x| x.is_finite())
+    /// Reads the mark at `at` of a part with these ranges, and where the next one begins.
+    pub fn read(bytes: &[u8], at: usize, part: &[[f64; 2]]) -> Option<(Mark, usize)> {
+        let mut at = at;
+        let mut take = |count: usize| {
+            let taken = bytes.get(at..at + count);
+            at += count;
+            taken
         };
-        Some(match byte(0)? {
-            1 => (Mark::NoPlace(byte(1)?), at + 2),
-            2 => (Mark::Sides(byte(1)?), at + 2),
-            3 => (Mark::Fold(byte(1)?, [float(2)?, float(10)?]), at + 18),
-            4 => (Mark::Halves(byte(1)?, byte(2)? == 1, byte(3)?), at + 4),
-            5 => (Mark::WrongDistance(byte(1)?, byte(2)?), at + 3),
-            6 => (Mark::Excluded(byte(1)?), at + 2),
-            7 => {
-                let mut ranges = [[0.0; 2]; MAX_SYMBOLS];
-                for (i, range) in ranges[..symbols].iter_mut().enumerate() {
-                    *range = [float(2 + 16 * i)?, float(10 + 16 * i)?];
-                }
-                (Mark::Within(byte(1)?, ranges), at + 2 + 16 * symbols)
-            }
-            8 => (Mark::Figure, at + 1),
-            9 => (Mark::Undecided, at + 1),
-            10 => (Mark::WrongPair(byte(1)?, byte(2)?), at + 3),
+        let head = take(1)?[0];
+        let step = match usize::from(head / 10) {
+            LONG => usize::from(take(1)?[0]),
+            step if step < LONG => step,
             _ => return None,
-        })
+        };
+        let mark = match head % 10 + 1 {
+            1 => Mark::NoPlace(step),
+            2 => Mark::Sides(step),
+            3 => {
+                let mut end = || Some(f64::from_le_bytes(take(8)?.try_into().ok()?));
+                let range = [end()?, end()?];
+                range.iter().all(|x| x.is_finite()).then_some(())?;
+                Mark::Fold(step, range)
+            }
+            4 => {
+                let of = take(1)?[0];
+                Mark::Halves(step, of % 2 == 1, usize::from(of / 2))
+            }
+            5 => Mark::WrongDistance(step, usize::from(take(1)?[0])),
+            6 => Mark::Excluded(step),
+            7 => {
+                let mut all = [Left::default(); MAX_SYMBOLS];
+                for (left, range) in all.iter_mut().zip(part) {
+                    let cut = take(4)?;
+                    let cut = [[cut[0], cut[1]], [cut[2], cut[3]]].map(u16::from_le_bytes);
+                    *left = Left::of(*range, cut);
+                }
+                Mark::Within(step, all)
+            }
+            8 if step == 0 => Mark::Figure,
+            9 if step == 0 => Mark::Undecided,
+            10 => Mark::WrongPair(step, usize::from(take(1)?[0])),
+            _ => return None,
+        };
+        Some((mark, at))
     }
 
     /// The step that the mark is about, and whether that step's point stands then. `Figure` is about the whole plan, of
@@ -258,6 +335,82 @@ impl Mark {
             | Mark::Within(s, _) => (s, true),
             Mark::Figure => (steps, false),
             Mark::Undecided => (0, false),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_are_read_as_they_were_written() {
+        let part = [[-1.0, 3.0], [0.25, 0.5]];
+        let mut left = [Left::default(); MAX_SYMBOLS];
+        left[0] = Left::holding(part[0], [-0.3, 2.9]);
+        left[1] = Left::holding(part[1], [0.25, 0.4999999]);
+        let mut marks = vec![Mark::Figure, Mark::Undecided];
+        for step in [0, 1, 9, LONG - 1, LONG, 200, 255] {
+            marks.extend([
+                Mark::NoPlace(step),
+                Mark::Sides(step),
+                Mark::Fold(step, [-0.125, 1e-30]),
+                Mark::Halves(step, true, 5),
+                Mark::Halves(step, false, 0),
+                Mark::WrongDistance(step, 255),
+                Mark::Excluded(step),
+                Mark::Within(step, left),
+                Mark::WrongPair(step, 254),
+            ]);
+        }
+        let mut bytes = Vec::new();
+        marks.iter().for_each(|mark| mark.put(2, &mut bytes));
+        let mut at = 0;
+        for mark in marks {
+            let (read, next) = Mark::read(&bytes, at, &part).unwrap();
+            assert_eq!(read, mark);
+            at = next;
+        }
+        assert_eq!(at, bytes.len());
+        assert_eq!(Mark::read(&bytes, at, &part), None);
+        let ends = (1..bytes.len()).filter(|&end| {
+            let (mut at, mut count) = (0, 0);
+            while let Some((_, next)) = Mark::read(&bytes[..end], at, &part) {
+                (at, count) = (next, count + 1);
+            }
+            at == end && count > 0
+        });
+        // Nothing is read beyond the end.
+        assert!(ends.count() < 66);
+        for head in 250..=255 {
+            assert_eq!(Mark::read(&[head, 0, 0, 0], 0, &part), None);
+        }
+    }
+
+    #[test]
+    fn what_is_left_holds_what_was_wanted_and_little_more() {
+        let mut state = 7u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        for _ in 0..10_000 {
+            let lo = 4.0 * random() - 2.0;
+            let hi = lo + 2f64.powf(-50.0 * random());
+            let [a, b] = [0; 2].map(|_| lo + (hi - lo) * random());
+            let wanted = [a.min(b).clamp(lo, hi), a.max(b).clamp(lo, hi)];
+            let Left { cut, range } = Left::holding([lo, hi], wanted);
+            assert!(lo <= range[0] && range[0] <= wanted[0]);
+            assert!(wanted[1] <= range[1] && range[1] <= hi);
+            let much = (hi - lo) / 32768.0 + 1e-15;
+            assert!(wanted[0] - range[0] <= much && range[1] - wanted[1] <= much);
+            assert_eq!(Left::of([lo, hi], cut).range, range);
+        }
+        for odd in [[0.0, 0.0], [f64::MIN, f64::MAX], [-1e-320, 1e-320]] {
+            let Left { range, .. } = Left::holding(odd, odd);
+            assert!(!(range[0] > odd[0]) && !(range[1] < odd[1]), "{range:?}");
         }
     }
 }

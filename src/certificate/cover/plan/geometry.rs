@@ -19,7 +19,7 @@ pub struct Plan<'a> {
     pub edges: Vec<[usize; 2]>,
     /// Their squares.
     pub squares: Vec<Interval>,
-    /// What the file says.
+    /// What the file says (without its marks).
     pub cover: &'a Cover,
     /// The coordinates of the base.
     pub base: Vec<[Interval; 3]>,

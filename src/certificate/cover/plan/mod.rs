@@ -14,7 +14,7 @@ mod parts;
 mod proof;
 
 pub use contract::contracted;
-pub use format::{Cover, Kind, MAX_SYMBOLS, Mark, Radius};
+pub use format::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 pub use model::Model;
 
 use super::{CoverError, CoverStage, CoverVerdict, ENDED};
@@ -32,14 +32,14 @@ pub fn verify(
     bytes: &[u8],
     goes_on: &mut dyn FnMut(CoverStage) -> bool,
 ) -> Result<CoverVerdict, CoverError> {
-    let cover = Cover::from_bytes(bytes)?;
+    let (cover, marks) = Cover::read(bytes)?;
     let mut verdict = CoverVerdict::about(&cover.problem, cover.figures.len())?;
-    verdict.flaw = check(&cover, &mut verdict, goes_on).err();
+    verdict.flaw = check((&cover, marks), &mut verdict, goes_on).err();
     Ok(verdict)
 }
 
 fn check(
-    cover: &Cover,
+    (cover, marks): (&Cover, &[u8]),
     verdict: &mut CoverVerdict,
     goes_on: &mut dyn FnMut(CoverStage) -> bool,
 ) -> Result<(), String> {
@@ -49,7 +49,7 @@ fn check(
     let plan = Plan::new(&verdict.problem, cover)?;
     let figures = figures(&plan)?;
     let proof = Proof::new(&plan, &figures);
-    let mut parts = Parts::new(&plan);
+    let mut parts = Parts::new(&plan, marks);
     loop {
         let batch: Vec<_> = parts.by_ref().take(BATCH).collect();
         let flaw = |part: &Result<Part, String>| match part {
@@ -65,12 +65,12 @@ fn check(
         if batch.is_empty() {
             break;
         }
-        if !goes_on(CoverStage::new(verdict.parts, parts.at, &cover.marks)) {
+        if !goes_on(CoverStage::new(verdict.parts, parts.at, marks)) {
             return Err(ENDED.to_owned());
         }
     }
     verdict.undecided = parts.undecided;
-    match parts.at == cover.marks.len() {
+    match parts.at == marks.len() {
         true => Ok(()),
         false => Err("there are more marks than parts".to_owned()),
     }

@@ -1,6 +1,6 @@
 //! The parts of the search space, as the marks of a cover cut it: which there are is read before anything is proved.
 
-use super::format::{MAX_SYMBOLS, Mark};
+use super::format::{Left, MAX_SYMBOLS, Mark};
 use super::geometry::{Node, Plan};
 
 /// The greatest number of steps whose sides are decided at a time: claims of sides stand within each other no deeper than that.
@@ -22,6 +22,7 @@ pub enum Claim {
 /// All parts, one after the other.
 pub struct Parts<'a> {
     plan: &'a Plan<'a>,
+    marks: &'a [u8],
     /// How many of the marks' bytes are read.
     pub at: usize,
     /// Parts whose marks are to come, the next one last.
@@ -31,11 +32,12 @@ pub struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    pub fn new(plan: &'a Plan<'a>) -> Self {
+    pub fn new(plan: &'a Plan<'a>, marks: &'a [u8]) -> Self {
         let stack = plan.roots().into_iter().rev().collect();
         let (at, undecided) = (0, 0);
         Parts {
             plan,
+            marks,
             at,
             stack,
             undecided,
@@ -43,7 +45,7 @@ impl<'a> Parts<'a> {
     }
 
     fn claim(&mut self, node: &mut Node) -> Result<Claim, String> {
-        let read = Mark::read(&self.plan.cover.marks, self.at, node.ranges.len());
+        let read = Mark::read(self.marks, self.at, &node.ranges);
         let (mark, next) = read.ok_or("the marks end, or are damaged")?;
         self.at = next;
         match mark {
@@ -68,7 +70,7 @@ impl<'a> Parts<'a> {
                 }
             }
             Mark::Fold(step, range) => self.push(self.plan.folded(node, step, range)?)?,
-            Mark::Within(_, ranges) => self.push(node.within(&ranges)?)?,
+            Mark::Within(_, left) => self.push(node.within(&left)?)?,
             Mark::Undecided => self.undecided += 1,
             _ => {}
         }
@@ -113,9 +115,9 @@ impl Node {
         }))
     }
 
-    fn within(&self, ranges: &[[f64; 2]; MAX_SYMBOLS]) -> Result<Node, String> {
+    fn within(&self, left: &[Left; MAX_SYMBOLS]) -> Result<Node, String> {
         let mut child = self.clone();
-        for (range, to) in child.ranges.iter_mut().zip(ranges) {
+        for (range, Left { range: to, .. }) in child.ranges.iter_mut().zip(left) {
             if !(range[0] <= to[0] && to[1] <= range[1]) {
                 return Err("ranges that are not within those before".to_owned());
             }

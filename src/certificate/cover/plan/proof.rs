@@ -197,11 +197,12 @@ impl<'a> Proof<'a> {
                 dot(&d, &d).range().disjoint(plan.pairs.square(new, other))
             }
             Mark::Excluded(_) => contracted(symbols, &at.equations).is_none(),
-            Mark::Within(_, ranges) => {
+            Mark::Within(_, claimed) => {
                 let holds = |i: usize, left: Interval| {
                     let ([lo, hi], (middle, reach)) = (node.ranges[i], node.middle(i));
                     let x = (exact(middle) + exact(reach) * left).intersection(hull(lo, hi));
-                    x.is_empty() || ranges[i][0] <= x.inf() && x.sup() <= ranges[i][1]
+                    let [least, most] = claimed[i].range;
+                    x.is_empty() || least <= x.inf() && x.sup() <= most
                 };
                 let left = contracted(symbols, &at.equations);
                 left.is_none_or(|left| (0..symbols).all(|i| holds(i, left[i])))
