@@ -127,7 +127,7 @@ fn round_lengths_agree_with_complete_real_sets() {
         );
         // The certificate proves the same.
         let set = to_certificate(&problem, &lowered, &solutions).unwrap();
-        let verdict = verify_complex_set(&set.to_text()).unwrap();
+        let verdict = verify_complex_set(&set.to_bytes()).unwrap();
         assert!(
             set.complete && verdict.proves_all(),
             "{lengths:?}: {verdict:?}"

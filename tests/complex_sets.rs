@@ -28,7 +28,7 @@ fn set_from(file: &str, template: &str, folder: &Path) -> ComplexSet {
         .arg(&cert)
         .output()
         .unwrap();
-    ComplexSet::from_text(&fs::read_to_string(cert).unwrap()).unwrap()
+    ComplexSet::from_bytes(&fs::read(cert).unwrap()).unwrap()
 }
 
 /// The set of the octahedron with another length of p2-p6.
@@ -49,7 +49,7 @@ fn octahedron_with([a, b, old]: [&str; 3], length: &str, folder: &Path) -> Compl
 }
 
 fn verdict(set: &ComplexSet) -> ComplexVerdict {
-    verify_complex_set(&set.to_text()).unwrap()
+    verify_complex_set(&set.to_bytes()).unwrap()
 }
 
 #[test]
@@ -158,13 +158,23 @@ fn sabotage_never_passes() {
     let mut swapped = set.clone();
     swapped.solutions.swap(0, 1);
     assert!(verdict(&swapped).proves_all());
-    for text in [
-        "",
-        "krawl complex set 1\n",
-        "krawl complex set 2\n{}\n",
-        "{}",
+    let bytes = set.to_bytes();
+    let json = bytes.iter().rposition(|&byte| byte == 14).unwrap() + 1;
+    let mut another = bytes.clone();
+    another[json - 1] = 13;
+    let of_path = fs::read("certs/octahedron.krawl").unwrap();
+    let [empty, braces]: [Vec<u8>; 2] = [&b""[..], b"{}"].map(|end| [&bytes[..json], end].concat());
+    let cut = bytes[..bytes.len() - 9].to_vec();
+    for bytes in [
+        Vec::new(),
+        b"{}".to_vec(),
+        another,
+        of_path,
+        empty,
+        braces,
+        cut,
     ] {
-        assert!(verify_complex_set(text).is_err());
+        assert!(verify_complex_set(&bytes).is_err());
     }
 }
 
@@ -461,7 +471,7 @@ fn verify_prints_the_theorem() {
     assert!(said.starts_with(theorem), "{said}");
     assert_eq!(verify("problems/disulfide.toml").0, 1);
     // With figures at infinity.
-    fs::write(&cert, octahedron("1.22", folder.path()).to_text()).unwrap();
+    fs::write(&cert, octahedron("1.22", folder.path()).to_bytes()).unwrap();
     let (code, said) = verify(&folder.path().join("octahedron.toml").to_string_lossy());
     assert_eq!(code, 0);
     let theorem = "VERIFIED: octahedron has exactly 7 complex solutions up to isometry";
@@ -471,7 +481,7 @@ fn verify_prints_the_theorem() {
     assert!(said.contains(reason), "{said}");
     let mut fewer = set;
     fewer.solutions.pop();
-    fs::write(&cert, fewer.to_text()).unwrap();
+    fs::write(&cert, fewer.to_bytes()).unwrap();
     let (code, said) = verify("problems/octahedron.toml");
     assert_eq!(code, 3, "{said}");
 }
@@ -743,7 +753,7 @@ fn counted(text: &str, folder: &Path) -> (serde_json::Value, Option<ComplexVerdi
         .unwrap();
     let json = serde_json::from_slice(&out.stdout)
         .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&out.stderr)));
-    let set = fs::read_to_string(cert).ok();
+    let set = fs::read(cert).ok();
     (json, set.map(|set| verify_complex_set(&set).unwrap()))
 }
 

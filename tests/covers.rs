@@ -388,7 +388,7 @@ fn a_parameter_that_ranges_over_less_than_it_must_is_noticed() {
     let most = bound(&|x| flaw([0.0, x]).is_none(), 100.0, 0.0);
     let least = bound(&|x| flaw([x, 100.0]).is_none(), 0.0, 100.0);
     let problem = shipped("octahedron");
-    let unit = 2f64.powi(cover.unit_exponent);
+    let unit = 2f64.powi(cover.unit_exponent.into());
     let length = |a: usize, b: usize| {
         let is_it = |d: &&krawl::problem::Distance| d.points == [a, b] || d.points == [b, a];
         let found = problem.distances.iter().find(is_it).unwrap();

@@ -48,6 +48,12 @@ pub const TAG_ARC_OF_DIMENSIONS: u8 = 9;
 pub const TAG_DIVIDE: u8 = 10;
 /// See [`TAG_TUBE`].
 pub const TAG_RETURN: u8 = 11;
+/// A cover of the parameters of a construction plan. It is all of a certificate behind its header, as those below are.
+pub const TAG_COVER: u8 = 12;
+/// A cover of all coordinates.
+pub const TAG_COVER_OF_COORDINATES: u8 = 13;
+/// A set of complex solutions.
+pub const TAG_COMPLEX_SET: u8 = 14;
 
 /// What stands before the chain of tubes.
 #[derive(Debug, Clone, PartialEq)]

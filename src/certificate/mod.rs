@@ -24,22 +24,26 @@
 //! assert!(verdict.is_about(&problem));
 //! ```
 
+mod begun;
 mod checker;
 pub mod complex;
 pub mod cover;
 mod format;
+mod head;
 mod reader;
 mod verdict;
 mod writer;
 
+pub use begun::write_header;
 pub use checker::{Settings, Stage, verify};
 pub use format::{
     ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, Record, SolutionClaim, TubeClaim,
     VERSION,
 };
+pub use head::{Contents, contents};
 pub use reader::Reader;
 pub use verdict::{Arc, Fault, Flaw, Outcome, Verdict};
-pub use writer::{Writer, write_header, write_record};
+pub use writer::{Writer, write_record};
 
 // Not beside the type: the checker's files use nothing but what they check with.
 crate::debug_in_words!(FormatError);

@@ -1,17 +1,16 @@
 //! Reading certificates, record by record.
 
 use super::format::{
-    ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAGIC, MAX_DECIMAL,
-    MAX_FREE_COORDINATES, MAX_LISTED, MAX_NUMBER, MAX_PROBLEM, MAX_SOLUTIONS, MAX_TEXT,
-    MAX_UNIT_EXPONENT, Record, SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END,
-    TAG_EXTENDED, TAG_FOLD, TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim,
-    VERSION,
+    ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAX_DECIMAL, MAX_FREE_COORDINATES,
+    MAX_LISTED, MAX_NUMBER, MAX_SOLUTIONS, MAX_TEXT, Record, SolutionClaim, TAG_ARC,
+    TAG_ARC_OF_DIMENSIONS, TAG_COMPLEX_SET, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD,
+    TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim,
 };
+use super::head::{Head, array, fill, malformed, text};
 use crate::constraint;
 use crate::problem::{Decimal, Problem};
 use crate::system::Heights;
-use sha2::{Digest, Sha256};
-use std::io::{ErrorKind, Read};
+use std::io::Read;
 
 /// Reads a certificate from a stream. Memory is bounded by one record, whatever the file says.
 ///
@@ -58,25 +57,8 @@ type Result<T> = std::result::Result<T, FormatError>;
 impl<R: Read> Reader<R> {
     /// Reads the header.
     pub fn new(mut input: R) -> Result<Self> {
-        let mut magic = [0; MAGIC.len()];
-        match fill(&mut input, &mut magic, "its first line") {
-            Err(FormatError::Truncated(_)) => return Err(FormatError::NotACertificate),
-            other => other?,
-        }
-        if &magic != MAGIC {
-            return Err(FormatError::NotACertificate);
-        }
-        let version = u32::from_le_bytes(array(&mut input, "its version")?);
-        if version != VERSION {
-            return Err(FormatError::Version(version));
-        }
-        let program = text(&mut input, MAX_TEXT, "the name of the program")?;
-        let hash = array(&mut input, "the hash")?;
-        let source = text(&mut input, MAX_PROBLEM, "the problem")?;
-        if hash != <[u8; 32]>::from(Sha256::digest(source.as_bytes())) {
-            return Err(malformed("the hash is not that of the problem"));
-        }
-        let problem = Problem::parse(&source, "the problem in the certificate")
+        let head = Head::read(&mut input)?;
+        let problem = Problem::parse(&head.problem, "the problem in the certificate")
             .map_err(|error| FormatError::Malformed(error.to_string()))?;
         let free = problem.free_coordinates();
         let unknowns = match problem.constraints.is_empty() && problem.objects.is_empty() {
@@ -84,17 +66,13 @@ impl<R: Read> Reader<R> {
             false => constraint::size(&problem).0,
         };
         check_size(free.max(unknowns))?;
-        let unit_exponent = i16::from_le_bytes(array(&mut input, "the unit")?);
-        if unit_exponent.abs() > MAX_UNIT_EXPONENT {
-            return Err(malformed("the unit is out of range"));
-        }
         Ok(Reader {
             input,
             header: Header {
-                program,
+                program: head.program,
                 problem,
-                hash,
-                unit_exponent,
+                hash: head.hash,
+                unit_exponent: head.unit_exponent,
             },
             unknowns,
             others: None,
@@ -130,7 +108,7 @@ impl<R: Read> Reader<R> {
             (TAG_REACHED, Stage::Along) => Stage::Reached,
             (TAG_FOLD, Stage::Along) => Stage::Fold,
             (TAG_END, stage) => stage,
-            (1..=TAG_RETURN, _) => {
+            (1..=TAG_COMPLEX_SET, _) => {
                 return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
             }
             _ => return Err(self.fault(&format!("there is no kind {tag} of record"))),
@@ -331,10 +309,6 @@ impl<R: Read> Reader<R> {
     }
 }
 
-fn malformed(what: &str) -> FormatError {
-    FormatError::Malformed(what.to_owned())
-}
-
 fn check_size(unknowns: usize) -> Result<()> {
     match unknowns > MAX_FREE_COORDINATES {
         true => Err(FormatError::Malformed(format!(
@@ -362,33 +336,8 @@ fn count(input: &mut impl Read, most: usize) -> Result<u32> {
     }
 }
 
-fn fill(input: &mut impl Read, buffer: &mut [u8], what: &'static str) -> Result<()> {
-    input
-        .read_exact(buffer)
-        .map_err(|error| match error.kind() {
-            ErrorKind::UnexpectedEof => FormatError::Truncated(what),
-            _ => FormatError::Unreadable(error),
-        })
-}
-
-fn array<const N: usize>(input: &mut impl Read, what: &'static str) -> Result<[u8; N]> {
-    let mut bytes = [0; N];
-    fill(input, &mut bytes, what)?;
-    Ok(bytes)
-}
-
 fn floats(input: &mut impl Read, count: usize, what: &'static str) -> Result<Vec<f64>> {
     (0..count)
         .map(|_| Ok(f64::from_le_bytes(array(input, what)?)))
         .collect()
-}
-
-fn text(input: &mut impl Read, longest: usize, what: &'static str) -> Result<String> {
-    let length = u32::from_le_bytes(array(input, what)?) as usize;
-    if length > longest {
-        return Err(malformed(&format!("{what} is too long: {length} bytes")));
-    }
-    let mut bytes = vec![0; length];
-    fill(input, &mut bytes, what)?;
-    String::from_utf8(bytes).map_err(|_| malformed(&format!("{what} is not a text in UTF-8")))
 }

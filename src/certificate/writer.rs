@@ -1,15 +1,15 @@
 //! Writing a certificate while a run goes on.
 
+use super::begun::{PROGRAM, write_header, write_text};
 use super::checker::Trial;
 use super::format::{
-    ArcClaim, EndClaim, Ending, FoldClaim, MAGIC, MAX_FREE_COORDINATES, MAX_TEXT, Record,
-    SolutionClaim, TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD,
-    TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, VERSION, WEIGHT_UNIT,
+    ArcClaim, EndClaim, Ending, FoldClaim, MAX_FREE_COORDINATES, MAX_TEXT, Record, SolutionClaim,
+    TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED,
+    TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, WEIGHT_UNIT,
 };
 use crate::problem::{Decimal, Problem, Target};
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::{LARGEST_SQUARE, Status, TubeSeen, Witness};
-use sha2::{Digest, Sha256};
 use std::collections::VecDeque;
 use std::io::{self, Write};
 
@@ -261,9 +261,8 @@ fn shortened(reason: &str) -> String {
 impl<W: Write> Witness for Writer<'_, W> {
     fn begin(&mut self, unit: f64) {
         let exponent = unit.log2() as i16;
-        let program = concat!("krawl ", env!("CARGO_PKG_VERSION"));
         self.unit = unit;
-        self.result = write_header(&mut self.out, program, &self.problem.to_toml(), exponent);
+        self.result = write_header(&mut self.out, PROGRAM, &self.problem.to_toml(), exponent);
     }
 
     fn tube(&mut self, tube: TubeSeen) {
@@ -450,21 +449,6 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 }
 
-/// Writes what stands before the records: the problem as the text of a problem file.
-pub fn write_header(
-    out: &mut impl Write,
-    program: &str,
-    problem: &str,
-    unit_exponent: i16,
-) -> io::Result<()> {
-    out.write_all(MAGIC)?;
-    out.write_all(&VERSION.to_le_bytes())?;
-    write_text(out, program)?;
-    out.write_all(&Sha256::digest(problem.as_bytes()))?;
-    write_text(out, problem)?;
-    out.write_all(&unit_exponent.to_le_bytes())
-}
-
 /// Writes one record.
 pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
     match record {
@@ -545,9 +529,4 @@ fn write_figure(out: &mut impl Write, tag: u8, figure: &SolutionClaim) -> io::Re
         out.write_all(&x.to_le_bytes())?;
     }
     out.write_all(&figure.radius.to_le_bytes())
-}
-
-fn write_text(out: &mut impl Write, text: &str) -> io::Result<()> {
-    out.write_all(&(text.len() as u32).to_le_bytes())?;
-    out.write_all(text.as_bytes())
 }

@@ -1,12 +1,13 @@
 //! `krawl complex`: all complex solutions of a problem.
 
-use super::output::{self, Destination};
+use super::output::{self, Beside, Destination};
 use super::template::{Search, TemplateText, read};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Lowered, Status, Template, Ways, solve, to_certificate};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -92,11 +93,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .as_deref()
         .map(Destination::new)
         .transpose()?;
-    let cert = arguments
-        .cert
-        .as_deref()
-        .map(Destination::new)
-        .transpose()?;
+    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
     let tell = |done: usize, all: usize| {
         if let Ok(mut line) = line.lock() {
@@ -133,9 +130,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(cert) = &cert {
         match to_certificate(&problem, &lowered, &result) {
             Some(set) => {
-                let text = set.to_text();
-                written &= cert.write(&text);
-                let verdict = arguments.search.in_pool(|| verify_complex_set(&text))?;
+                let bytes = set.to_bytes();
+                written &= cert.commit(cert.file().write_all(&bytes));
+                let verdict = arguments.search.in_pool(|| verify_complex_set(&bytes))?;
                 let verdict = verdict.map_err(|e| format!("{file}: {e}"))?;
                 if let Some(ComplexFlaw::False(why) | ComplexFlaw::NotProved(why)) = verdict.flaw {
                     output::complain(&format!(

@@ -2,13 +2,13 @@
 
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
-use krawl::certificate::cover::{CoverVerdict, FIRST_WORDS, verify_cover_while};
-use krawl::certificate::{Outcome, Settings, Stage, verify};
+use krawl::certificate::cover::{CoverVerdict, verify_cover_while};
+use krawl::certificate::{Contents, Outcome, Settings, Stage, contents, verify};
 use krawl::edit::Decomposition;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -47,12 +47,11 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let name = arguments.cert.display();
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
-    let mut file = BufReader::new(file);
-    let is_cover = begins(&mut file, FIRST_WORDS);
-    let is_set = begins(&mut file, krawl::certificate::complex::FIRST_LINE);
+    let opened = contents(BufReader::new(file)).map_err(|error| format!("{name}: {error}"));
+    let (contents, file) = opened?;
     let read = |path: &PathBuf| {
         let sketch = arguments.sketch.as_deref();
-        if is_cover || is_set {
+        if contents != Contents::Path {
             return input::whole(path, sketch);
         }
         let problem = input::load(path, sketch)?.problem;
@@ -61,11 +60,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let problem = arguments.file.as_ref().map(read).transpose()?;
     let (problem, found) = problem.unzip();
     let found = found.flatten();
-    if is_cover {
-        return verify_the_cover(arguments, file, problem.as_ref(), found.as_ref());
-    }
-    if is_set {
-        return verify_the_set(arguments, file, problem.as_ref(), found.as_ref());
+    match contents {
+        Contents::Cover => {
+            return verify_the_cover(arguments, file, problem.as_ref(), found.as_ref());
+        }
+        Contents::ComplexSet => {
+            return verify_the_set(arguments, file, problem.as_ref(), found.as_ref());
+        }
+        Contents::Path => {}
     }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
@@ -110,12 +112,6 @@ fn about(file: &Path, found: Option<&Decomposition>) -> String {
     )
 }
 
-/// Whether the file begins with these words.
-fn begins(file: &mut BufReader<File>, words: &str) -> bool {
-    file.fill_buf()
-        .is_ok_and(|bytes| bytes.starts_with(words.as_bytes()))
-}
-
 /// Prints what was proved of a set of solutions, and whether it is about the `same` points and constraints as the problem
 /// file, if there is one, of which `found` was made. False: it could not be printed.
 fn print_with_problem(
@@ -143,16 +139,16 @@ fn print_with_problem(
 /// Checks a set of complex solutions.
 fn verify_the_set(
     arguments: &Arguments,
-    mut file: BufReader<File>,
+    mut file: impl Read,
     problem: Option<&Problem>,
     found: Option<&Decomposition>,
 ) -> Result<u8, String> {
     let name = arguments.cert.display();
-    let mut text = String::new();
-    file.read_to_string(&mut text)
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)
         .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
-    let verdict = super::in_pool(arguments.threads, || verify_complex_set(&text))?;
+    let verdict = super::in_pool(arguments.threads, || verify_complex_set(&bytes))?;
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
@@ -170,7 +166,7 @@ fn verify_the_set(
 /// Checks what a search for all solutions left.
 fn verify_the_cover(
     arguments: &Arguments,
-    mut file: BufReader<File>,
+    mut file: impl Read,
     problem: Option<&Problem>,
     found: Option<&Decomposition>,
 ) -> Result<u8, String> {

@@ -113,7 +113,7 @@ pub fn file(
             })
             .collect(),
         figures: figures.iter().map(|figure| figure.centre.clone()).collect(),
-        unit_exponent: unit as i32,
+        unit_exponent: unit as i16,
         marks: Vec::new(),
     };
     let mut bytes = cover.head(length);

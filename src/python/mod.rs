@@ -3,7 +3,7 @@
 
 mod work;
 
-use crate::certificate::{self, Settings, Writer, cover};
+use crate::certificate::{self, Contents, Settings, Writer, cover};
 use crate::complete;
 use crate::edit;
 use crate::problem::Problem;
@@ -182,7 +182,8 @@ fn verify(
     let bytes = fs::read(&path).map_err(|error| unwritten(&path, &error))?;
     let in_file = |error: &dyn std::fmt::Display| bad(format!("{}: {error}", path.display()));
     let begin = std::time::Instant::now();
-    if bytes.starts_with(cover::FIRST_WORDS.as_bytes()) {
+    let contents = certificate::contents(&bytes[..]).map(|(contents, _)| contents);
+    if matches!(contents, Ok(Contents::Cover)) {
         let verdict = interruptible(py, |_| cover::verify_cover(&bytes))?;
         let verdict = verdict.map_err(|error| in_file(&error))?;
         let what = match verdict.proves_all() {

@@ -13,6 +13,9 @@ mod infinity;
 mod numbers;
 mod zero;
 
+use super::begun::before_one_record;
+use super::format::TAG_COMPLEX_SET;
+use super::head::Head;
 use super::verdict::are_same;
 use crate::interval::Interval;
 use crate::problem::Problem;
@@ -23,13 +26,11 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use zero::Zero;
 
-/// The first line of a file.
-pub const FIRST_LINE: &str = "krawl complex set 1";
-
-/// A set as it stands in a file: after the first line, one line of JSON.
+/// A set. In a certificate all but its problem, which stands in the header, is a record of JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ComplexSet {
     /// The text of the problem's file.
+    #[serde(skip)]
     pub problem: String,
     /// The points that stand still, by name: two joined ones in the plane, three mutually joined ones in space. With other
     /// constraints than distances none.
@@ -113,27 +114,30 @@ impl ComplexVerdict {
 }
 
 impl ComplexSet {
-    /// The text of a file.
-    pub fn to_text(&self) -> String {
-        let json = serde_json::to_string(self).expect("numbers and strings have a form in JSON");
-        format!("{FIRST_LINE}\n{json}\n")
+    /// The bytes of a file.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = before_one_record(&self.problem, 0, TAG_COMPLEX_SET);
+        serde_json::to_writer(&mut bytes, self).expect("numbers and strings have a form in JSON");
+        bytes.push(b'\n');
+        bytes
     }
 
-    /// Reads the text of a file.
-    pub fn from_text(text: &str) -> Result<Self, ComplexSetError> {
-        let rest = text
-            .strip_prefix(FIRST_LINE)
-            .and_then(|rest| rest.strip_prefix('\n'))
-            .ok_or_else(|| {
-                ComplexSetError(format!("it does not begin with the line `{FIRST_LINE}`"))
-            })?;
-        serde_json::from_str(rest).map_err(|error| ComplexSetError(format!("line 2: {error}")))
+    /// Reads the bytes of a file.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, ComplexSetError> {
+        let opened = Head::of_one_record(bytes, TAG_COMPLEX_SET);
+        let (head, json) = opened.map_err(|error| ComplexSetError(error.to_string()))?;
+        let set: ComplexSet = serde_json::from_slice(json)
+            .map_err(|error| ComplexSetError(format!("the set: {error}")))?;
+        Ok(ComplexSet {
+            problem: head.problem,
+            ..set
+        })
     }
 }
 
 /// Checks a set.
-pub fn verify_complex_set(text: &str) -> Result<ComplexVerdict, ComplexSetError> {
-    let set = ComplexSet::from_text(text)?;
+pub fn verify_complex_set(bytes: &[u8]) -> Result<ComplexVerdict, ComplexSetError> {
+    let set = ComplexSet::from_bytes(bytes)?;
     let problem = Problem::parse(&set.problem, "the set's problem")
         .map_err(|e| ComplexSetError(e.to_string()))?;
     let mut verdict = ComplexVerdict {

@@ -1,6 +1,7 @@
-//! The lines of text that a cover begins with.
+//! The lines of text that the record of a cover begins with.
 
 use super::CoverError;
+use crate::certificate::head::Head;
 
 /// What is left of a file.
 pub struct Lines<'a> {
@@ -28,13 +29,11 @@ pub fn float(text: &str) -> Result<f64, CoverError> {
 }
 
 impl<'a> Lines<'a> {
-    /// Of a file that begins with this line and this version.
-    pub fn new(bytes: &'a [u8], first: &str, version: u32) -> Result<Self, CoverError> {
-        let mut lines = Lines { rest: bytes };
-        match lines.line()? == first && lines.line()? == format!("version {version}") {
-            true => Ok(lines),
-            false => Err(error("another format or version")),
-        }
+    /// Of the record with this tag, and what stands before it.
+    pub fn new(bytes: &'a [u8], tag: u8) -> Result<(Head, Self), CoverError> {
+        let opened = Head::of_one_record(bytes, tag);
+        let (head, rest) = opened.map_err(|what| error(&what.to_string()))?;
+        Ok((head, Lines { rest }))
     }
 
     /// The next line.
@@ -52,21 +51,6 @@ impl<'a> Lines<'a> {
         let text = std::str::from_utf8(&self.rest[..length]);
         self.rest = &self.rest[length + 1..];
         text.map_err(|_| error("a line is not text"))
-    }
-
-    /// The power of two that is the unit of length.
-    pub fn unit(&mut self) -> Result<i32, CoverError> {
-        let exponent = self.line()?.strip_prefix("unit ");
-        let exponent = exponent.and_then(|t| t.parse().ok());
-        exponent
-            .filter(|e: &i32| (-220..=220).contains(e))
-            .ok_or_else(|| error("the unit"))
-    }
-
-    /// The problem: a line that says how long its text is, and the text.
-    pub fn problem(&mut self) -> Result<String, CoverError> {
-        let length = number(self.line()?.strip_prefix("problem "))?;
-        Ok(self.take(length)?.to_owned())
     }
 
     /// The bytes behind the last line, which said how many they are.

@@ -14,11 +14,10 @@ mod plan;
 
 pub use plan::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 
+use super::format::TAG_COVER_OF_COORDINATES;
+use super::head::Head;
 use super::verdict::are_same;
 use crate::problem::Problem;
-
-/// The beginning of the first line of every cover.
-pub const FIRST_WORDS: &str = "krawl cover";
 
 /// Why bytes are no cover.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -113,8 +112,8 @@ pub fn verify_cover_while(
     bytes: &[u8],
     goes_on: &mut (dyn FnMut(CoverStage) -> bool + Send),
 ) -> Result<CoverVerdict, CoverError> {
-    match bytes.starts_with(format!("{}\n", coordinates::FIRST_LINE).as_bytes()) {
-        true => coordinates::verify(bytes, goes_on),
-        false => plan::verify(bytes, goes_on),
+    match Head::of_one_record(bytes, TAG_COVER_OF_COORDINATES) {
+        Ok(_) => coordinates::verify(bytes, goes_on),
+        Err(_) => plan::verify(bytes, goes_on),
     }
 }

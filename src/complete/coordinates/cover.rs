@@ -67,7 +67,7 @@ pub fn file(
         unknowns: block.unknowns.clone(),
     };
     let mut cover = CoordinateCover {
-        unit_exponent: homotopy.unit.log2() as i32,
+        unit_exponent: homotopy.unit.log2() as i16,
         problem: problem.to_toml(),
         halves: results.halves,
         blocks: results.blocks.iter().map(block).collect(),

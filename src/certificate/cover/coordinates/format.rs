@@ -1,13 +1,10 @@
-//! Covers of the space of coordinates on disk: lines of text, and then as many bytes of marks as the last line says.
+//! Covers of the space of coordinates on disk, the record of a certificate: lines of text, and then as many bytes of marks as the last line says.
 
 use super::super::CoverError;
 use super::super::lines::{Lines, error, float, number};
+use crate::certificate::begun::before_one_record;
+use crate::certificate::format::TAG_COVER_OF_COORDINATES;
 use std::fmt::Write;
-
-/// The first line.
-pub const FIRST_LINE: &str = "krawl cover of coordinates";
-/// The version of the format.
-const VERSION: u32 = 5;
 
 /// A cover of the space of all unknowns. Unknowns and equations are those of the kernel, numbered from 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,7 +12,7 @@ pub struct CoordinateCover {
     /// The problem's text.
     pub problem: String,
     /// Lengths are in units of two to the power of this.
-    pub unit_exponent: i32,
+    pub unit_exponent: i16,
     /// The unknowns that are looked at where they are not negative, in order.
     pub halves: Vec<Half>,
     /// Equations that are taken together.
@@ -211,11 +208,9 @@ impl Change {
 impl CoordinateCover {
     /// The bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let unit = self.unit_exponent;
-        let mut out = format!("{FIRST_LINE}\nversion {VERSION}\nunit {unit}\n");
-        // Writing to a string cannot fail.
-        let _ = write!(out, "problem {}\n{}\n", self.problem.len(), self.problem);
+        let mut out = String::new();
         for half in &self.halves {
+            // Writing to a string cannot fail.
             let _ = writeln!(out, "half {} {}", half.unknown, half.by.text());
         }
         for block in &self.blocks {
@@ -242,17 +237,19 @@ impl CoordinateCover {
             let _ = writeln!(out, "independent{equations} figures{figures}");
         }
         let _ = writeln!(out, "marks {}", self.marks.len());
-        let mut out = out.into_bytes();
-        out.extend(&self.marks);
-        out
+        let tag = TAG_COVER_OF_COORDINATES;
+        let mut bytes = before_one_record(&self.problem, self.unit_exponent, tag);
+        bytes.extend(out.into_bytes());
+        bytes.extend(&self.marks);
+        bytes
     }
 
     /// Reads the bytes of a file.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CoverError> {
-        let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
+        let (head, mut lines) = Lines::new(bytes, TAG_COVER_OF_COORDINATES)?;
         let mut cover = CoordinateCover {
-            unit_exponent: lines.unit()?,
-            problem: lines.problem()?,
+            unit_exponent: head.unit_exponent,
+            problem: head.problem,
             ..CoordinateCover::default()
         };
         loop {

@@ -15,9 +15,7 @@ mod sums;
 mod symmetry;
 mod turns;
 
-pub use format::{
-    Block, Body, Change, CoordinateCover, FIRST_LINE, Half, Image, Independent, Mark, Turned,
-};
+pub use format::{Block, Body, Change, CoordinateCover, Half, Image, Independent, Mark, Turned};
 pub use independent::Slice;
 pub use space::{Empty, Part};
 pub use symmetry::signs_changed;
@@ -66,7 +64,7 @@ struct Seen {
 impl Space {
     /// Proves that the zeros listed exist, that the figures among them are figures and no two congruent, and the others none.
     pub fn new(problem: &Problem, cover: &CoordinateCover) -> Result<Space, String> {
-        let unit = 2f64.powi(cover.unit_exponent);
+        let unit = 2f64.powi(cover.unit_exponent.into());
         let homotopy = Homotopy::for_sets_in(problem, unit).map_err(|error| error.to_string())?;
         let eq = Equations::new(homotopy);
         let signs = eq.homotopy.fixed_signs(problem).map_err(|object| {

@@ -1,15 +1,13 @@
 //! Covers on disk: what the search for all solutions leaves to be checked (`docs/complete.md`).
 //!
-//! Lines of text, and then as many bytes of marks as the last line says.
+//! The record of a certificate: lines of text, and then as many bytes of marks as the last line says.
 
 use super::super::CoverError;
 use super::super::lines::{Lines, error, float, number};
+use crate::certificate::begun::before_one_record;
+use crate::certificate::format::TAG_COVER;
 use std::fmt::Write;
 
-/// The first line of every cover.
-pub const FIRST_LINE: &str = "krawl cover";
-/// The version of the format.
-pub const VERSION: u32 = 3;
 /// Most symbols at a time.
 pub const MAX_SYMBOLS: usize = 6;
 
@@ -48,7 +46,7 @@ pub struct Cover {
     /// two to the power of `unit_exponent`.
     pub figures: Vec<Vec<[f64; 3]>>,
     /// The coordinates in `figures` are in units of two to the power of this.
-    pub unit_exponent: i32,
+    pub unit_exponent: i16,
     /// The marks.
     pub marks: Vec<u8>,
 }
@@ -123,12 +121,7 @@ impl Cover {
 
     /// The bytes of the file up to its marks, if these are so many bytes.
     pub fn head(&self, marks: usize) -> Vec<u8> {
-        let mut out = format!(
-            "{FIRST_LINE}\nversion {VERSION}\nunit {}\n",
-            self.unit_exponent
-        );
-        // Writing to a string cannot fail.
-        let _ = write!(out, "problem {}\n{}\n", self.problem.len(), self.problem);
+        let mut out = String::new();
         let list =
             |points: &[usize]| -> String { points.iter().map(|p| format!(" {p}")).collect() };
         let _ = writeln!(out, "base{}", list(&self.base));
@@ -161,7 +154,9 @@ impl Cover {
             let _ = writeln!(out, "figure{numbers}");
         }
         let _ = writeln!(out, "marks {marks}");
-        out.into_bytes()
+        let mut bytes = before_one_record(&self.problem, self.unit_exponent, TAG_COVER);
+        bytes.extend(out.into_bytes());
+        bytes
     }
 
     /// Reads the bytes of a file.
@@ -173,16 +168,14 @@ impl Cover {
 
     /// Reads the bytes of a file, all but the marks, and finds those.
     pub(super) fn read(bytes: &[u8]) -> Result<(Cover, &[u8]), CoverError> {
-        let mut lines = Lines::new(bytes, FIRST_LINE, VERSION)?;
-        let unit_exponent = lines.unit()?;
-        let problem = lines.problem()?;
+        let (head, mut lines) = Lines::new(bytes, TAG_COVER)?;
         let mut cover = Cover {
-            problem,
+            problem: head.problem,
             base: Vec::new(),
             steps: Vec::new(),
             drives: Vec::new(),
             figures: Vec::new(),
-            unit_exponent,
+            unit_exponent: head.unit_exponent,
             marks: Vec::new(),
         };
         loop {

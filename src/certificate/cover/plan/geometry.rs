@@ -69,7 +69,7 @@ impl<'a> Plan<'a> {
         if problem.points.len() > 256 {
             return Err("a plan with more than 256 points".to_owned());
         }
-        let per_unit = point(2f64.powi(-cover.unit_exponent));
+        let per_unit = point(2f64.powi(-i32::from(cover.unit_exponent)));
         let squares = problem.distances.iter().map(|e| {
             let square = match &e.target {
                 Target::Length(length) => enclose(length).sqr(),
