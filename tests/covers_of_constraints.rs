@@ -6,7 +6,9 @@ mod common;
 use common::edits::Random;
 use common::mixed::Spec;
 use common::sketches::{ARC, LEG, PLATE, apollonius_text, isosceles_text};
-use krawl::certificate::cover::coordinates::{Block, Change, CoordinateCover, Half, Image, Mark};
+use krawl::certificate::cover::coordinates::{
+    Block, Case, Change, CoordinateCover, Half, Image, Mark,
+};
 use krawl::certificate::cover::{CoverVerdict, verify_cover};
 use krawl::complete::{Options, Status, Unserved, Why, all};
 use krawl::problem::Problem;
@@ -143,10 +145,13 @@ fn with_marks(cover: &CoordinateCover, all: impl Iterator<Item = Mark>) -> Coord
 
 /// How many figures a cover lists, with all combinations of those of parts.
 fn count(cover: &CoordinateCover) -> Option<u64> {
-    let parts = cover.independent.iter();
-    match cover.independent.is_empty() {
+    let of_case = |case: &Case| -> u64 {
+        let parts = case.parts.iter();
+        parts.map(|part| part.figures.len() as u64 + 1).product()
+    };
+    match cover.cases.is_empty() {
         true => Some(cover.figures.len() as u64),
-        false => Some(parts.map(|part| part.figures.len() as u64 + 1).product()),
+        false => Some(cover.cases.iter().map(of_case).sum()),
     }
 }
 

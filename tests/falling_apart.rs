@@ -5,7 +5,9 @@ mod common;
 
 use common::covers::{proved, searched};
 use common::edits::Random;
-use krawl::certificate::cover::coordinates::{CoordinateCover, Independent, Mark, signs_changed};
+use krawl::certificate::cover::coordinates::{
+    Case, CoordinateCover, Independent, Mark, signs_changed,
+};
 use krawl::certificate::cover::verify_cover;
 use krawl::complete::{Options, Status, all};
 use krawl::constraint::symmetry;
@@ -378,12 +380,13 @@ fn equations_that_begin_in_the_base_are_of_a_part() {
     for unknown in 0..cover.figures[0].len() {
         let mut other = cover.clone();
         other.base = vec![unknown];
-        other.independent = vec![Independent {
+        let parts = vec![Independent {
             equations: (0..cover.figures[0].len())
                 .filter(|&e| e != unknown)
                 .collect(),
             figures: vec![1, 2],
         }];
+        other.cases = vec![Case { first: 0, parts }];
         assert!(verify_cover(&other.to_bytes()).unwrap().flaw.is_some());
     }
 }
@@ -450,7 +453,7 @@ fn damaged_covers_prove_no_other_number() {
     for (problem, count) in [(holes(3), 8), (rays(4, ""), 8)] {
         let (_, cover) = searched(&problem);
         assert!(verify_cover(&cover.to_bytes()).unwrap().proves_all());
-        let parts = cover.independent.len();
+        let parts = cover.cases[0].parts.len();
         assert!(parts >= 3);
         let mut refused = 0;
         let mut is_refused = |changed: CoordinateCover| {
@@ -461,10 +464,10 @@ fn damaged_covers_prove_no_other_number() {
         for k in 0..parts {
             // A place less, with all that names it.
             let mut fewer = cover.clone();
-            if let Some(figure) = fewer.independent[k].figures.pop() {
+            if let Some(figure) = fewer.cases[0].parts[k].figures.pop() {
                 is_refused(fewer.clone());
                 fewer.figures.remove(figure);
-                for part in &mut fewer.independent {
+                for part in &mut fewer.cases[0].parts {
                     part.figures
                         .iter_mut()
                         .filter(|f| **f > figure)
@@ -476,7 +479,7 @@ fn damaged_covers_prove_no_other_number() {
             let mut twice = cover.clone();
             twice.figures.push(twice.figures[0].clone());
             let last = twice.figures.len() - 1;
-            twice.independent[k].figures.push(last);
+            twice.cases[0].parts[k].figures.push(last);
             is_refused(twice.clone());
             // One that differs in several parts: its combinations are others.
             let mixed = (0..twice.figures[0].len()).map(|i| {
@@ -491,30 +494,30 @@ fn damaged_covers_prove_no_other_number() {
                 }
                 // Two parts as one, whose combinations are not listed; and an equation in the wrong one.
                 let mut merged = cover.clone();
-                let taken = std::mem::take(&mut merged.independent[other]);
-                merged.independent[k].equations.extend(&taken.equations);
-                merged.independent[k].figures.extend(&taken.figures);
-                merged.independent.remove(other);
+                let taken = std::mem::take(&mut merged.cases[0].parts[other]);
+                merged.cases[0].parts[k].equations.extend(&taken.equations);
+                merged.cases[0].parts[k].figures.extend(&taken.figures);
+                merged.cases[0].parts.remove(other);
                 is_refused(merged);
                 let mut moved = cover.clone();
-                if let Some(equation) = moved.independent[other].equations.pop() {
-                    moved.independent[k].equations.push(equation);
+                if let Some(equation) = moved.cases[0].parts[other].equations.pop() {
+                    moved.cases[0].parts[k].equations.push(equation);
                 }
                 is_refused(moved);
                 let mut moved = cover.clone();
-                if let Some(figure) = moved.independent[other].figures.pop() {
-                    moved.independent[k].figures.push(figure);
+                if let Some(figure) = moved.cases[0].parts[other].figures.pop() {
+                    moved.cases[0].parts[k].figures.push(figure);
                 }
                 is_refused(moved);
             }
         }
         let mut without = cover.clone();
-        without.independent.clear();
+        without.cases.clear();
         is_refused(without.clone());
         without.base.clear();
         is_refused(without);
         let mut moved = cover.clone();
-        moved.independent.push(Independent::default());
+        moved.cases[0].parts.push(Independent::default());
         is_refused(moved);
         for unknown in 0..cover.figures[0].len() {
             let mut other = cover.clone();

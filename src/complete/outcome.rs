@@ -71,6 +71,9 @@ pub struct Complete {
     pub parts: Vec<Searched>,
     /// Where the equations fall apart into systems beside each other: those that have more than one solution. The figures are all combinations of theirs.
     pub choices: Vec<Choice>,
+    /// Where they fall apart once something is decided that has more than one solution: what that is, and its number of solutions. The figures are, for each of these, all
+    /// combinations of what the rest falls apart into.
+    pub first_choice: Option<Choice>,
     /// The solutions in the problem's gauge and units (where `count` is more, only the first of them, whose boxes were not
     /// compared with those not listed; otherwise each box holding exactly one), the boxes disjoint, no
     /// two solutions congruent.
@@ -297,6 +300,7 @@ impl Complete {
             count: Some(0),
             parts: Vec::new(),
             choices: Vec::new(),
+            first_choice: None,
             both_ways: Vec::new(),
             turned: Vec::new(),
             solutions: Vec::new(),
@@ -407,6 +411,7 @@ impl Complete {
             count: Some(solutions.len() as u64),
             parts: Vec::new(),
             choices: Vec::new(),
+            first_choice: None,
             both_ways: Vec::new(),
             turned: Vec::new(),
             solutions,

@@ -10,7 +10,7 @@ use super::quadratic::{Equation, Form, Product, Tail, difference, product};
 use crate::interval::Real;
 
 /// A difference from a point c, by what stands for its entries: the other point's coordinate, and that of c.
-type Ends = [Name; 2];
+pub type Ends = [Name; 2];
 
 /// Puts linear equations in the place of those that a chord through the middle of a circle has.
 ///
@@ -68,17 +68,21 @@ pub fn halve(
     }
 }
 
-/// A product: its factor, and what stands for its factors, in order, so that one of two differences with the same names is a square.
-pub type Key = (i32, Named, Named);
-pub type Named = Option<([Name; 2], i32)>;
+/// A product: its factor, and what stands for its factors, in order, so that one of two differences with the same names is a square, whichever way they are taken.
+pub type Key = (i32, Option<Ends>, Option<Ends>);
+type Named = Option<(Ends, i32)>;
 
 /// The products of an equation that are not zero.
 pub fn keys(equation: &Equation, equal: &Equal) -> Vec<Key> {
     let left = equal.left(&equation.products);
     let keys = left.map(|p| {
-        let mut ends = [p.left, p.right].map(|form| equal.ordered(form));
+        let ends = [p.left, p.right].map(|form| equal.ordered(form));
+        // A difference the other way has the other sign.
+        let sign = |ends: &Named| ends.map_or(1, |(_, sign)| sign);
+        let factor = p.factor * sign(&ends[0]) * sign(&ends[1]);
+        let mut ends = ends.map(|ends| ends.map(|(ends, _)| ends));
         ends.sort_unstable();
-        (p.factor, ends[0], ends[1])
+        (factor, ends[0], ends[1])
     });
     keys.collect()
 }
@@ -93,7 +97,7 @@ fn halves(mut one: Vec<Key>, mut other: Vec<Key>) -> Option<Vec<[(Ends, Ends); 2
         None => true,
     });
     let squares = |keys: &[Key]| match *keys {
-        [(f, a, b), (g, c, d)] if f == g && a == b && c == d => Some((f, [a?.0, c?.0])),
+        [(f, a, b), (g, c, d)] if f == g && a == b && c == d => Some((f, [a?, c?])),
         _ => None,
     };
     let ((f, [a, b]), (g, [c, d])) = (squares(&one)?, squares(&other)?);

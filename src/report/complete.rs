@@ -72,6 +72,10 @@ impl<'a> Document<'a> {
                     count: choice.count,
                 })
                 .collect(),
+            decided_first: result.first_choice.as_ref().map(|choice| Independent {
+                names: &choice.names,
+                count: choice.count,
+            }),
             solutions: result
                 .solutions
                 .iter()
@@ -114,6 +118,8 @@ struct Document<'a> {
     parts: Vec<Piece<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     independent: Vec<Independent<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    decided_first: Option<Independent<'a>>,
     solutions: Vec<Entry<'a>>,
     undecided: Vec<Undecided>,
     boxes: u64,
@@ -222,6 +228,14 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
         )?;
     }
     write_choices(out, &result.choices)?;
+    if let Some(first) = &result.first_choice {
+        writeln!(
+            out,
+            "\nThe sketch falls apart once these are placed, in one of {}: {}. Beside each of them the solutions are all combinations of what the rest has.",
+            counted(first.count, "way"),
+            first.names.join(", ")
+        )?;
+    }
     for part in &result.parts {
         let names: Vec<&str> = part
             .problem

@@ -8,7 +8,7 @@ use super::search::{Block as Searched, COARSE, Choice, MANY, SMALL};
 use super::sides::MOST as MOST_REDUCED;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::{
-    Block, Body, Change, CoordinateCover, Half, Independent, Mark, Part, Space, Turn, Turned,
+    Block, Body, Case, Change, CoordinateCover, Half, Mark, Part, Space, Turn, Turned,
 };
 use crate::interval::{Interval, ZERO};
 use crate::problem::Problem;
@@ -42,7 +42,7 @@ pub struct Results<'a> {
     /// The unknowns that parts have in common, where the equations fall apart.
     pub base: Vec<usize>,
     /// The parts, of whose zeros every combination is one; none where the equations do not fall apart.
-    pub independent: Vec<Independent>,
+    pub cases: Vec<Case>,
     /// The parts of the search.
     pub boxes: u64,
 }
@@ -76,7 +76,7 @@ pub fn file(
         images: Vec::new(),
         others: results.others,
         base: results.base,
-        independent: results.independent,
+        cases: results.cases,
         marks: Vec::new(),
     };
     let counts = [homotopy.equations, cover.figures.len(), cover.others.len()];

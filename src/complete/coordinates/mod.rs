@@ -209,6 +209,7 @@ fn searched(
     }
     result.count = match &figures.parts {
         Some(parts) => {
+            result.first_choice = parts.first_choice(problem, homotopy);
             result.choices = parts.choices(problem, homotopy);
             parts.count
         }
@@ -557,7 +558,7 @@ impl<'a> Figures<'a> {
         let results = cover::Results {
             figures: figures.map(|found| found.figure.centre.clone()).collect(),
             base: parts.map(|parts| parts.base.clone()).unwrap_or_default(),
-            independent: parts.map(Parts::told).unwrap_or_default(),
+            cases: parts.map(Parts::told).unwrap_or_default(),
             others: self.others.clone(),
             halves,
             blocks: &self.blocks,

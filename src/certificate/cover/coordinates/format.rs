@@ -27,10 +27,19 @@ pub struct CoordinateCover {
     pub others: Vec<Vec<f64>>,
     /// The unknowns that parts have in common, where the equations fall apart.
     pub base: Vec<usize>,
-    /// The parts, of whose zeros every combination is one; none where the equations do not fall apart.
-    pub independent: Vec<Independent>,
-    /// The marks: those of the base, if it has unknowns, and then of each part; or of the whole.
+    /// What the others fall apart into, for each zero that these have in a figure; none where the equations do not fall apart.
+    pub cases: Vec<Case>,
+    /// The marks: those of the base, if it has unknowns, and then of each part of each case; or of the whole.
     pub marks: Vec<u8>,
+}
+
+/// What the equations fall apart into where the base is at one of its zeros.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Case {
+    /// A solution there.
+    pub first: usize,
+    /// The parts, of whose zeros every combination is one.
+    pub parts: Vec<Independent>,
 }
 
 /// A symmetry: changes of the signs of unknowns that take figures to congruent ones.
@@ -232,9 +241,12 @@ impl CoordinateCover {
         if !self.base.is_empty() {
             let _ = writeln!(out, "base{}", list(&self.base));
         }
-        for part in &self.independent {
-            let (equations, figures) = (list(&part.equations), list(&part.figures));
-            let _ = writeln!(out, "independent{equations} figures{figures}");
+        for case in &self.cases {
+            let _ = writeln!(out, "case {}", case.first);
+            for part in &case.parts {
+                let (equations, figures) = (list(&part.equations), list(&part.figures));
+                let _ = writeln!(out, "independent{equations} figures{figures}");
+            }
         }
         let _ = writeln!(out, "marks {}", self.marks.len());
         let tag = TAG_COVER_OF_COORDINATES;
@@ -281,10 +293,18 @@ impl CoordinateCover {
                     .others
                     .push(words.map(float).collect::<Result<_, _>>()?),
                 "base" => cover.base = until(&mut words, None)?,
-                "independent" => cover.independent.push(Independent {
-                    equations: until(&mut words, Some("figures"))?,
-                    figures: until(&mut words, None)?,
+                "case" => cover.cases.push(Case {
+                    first: number(words.next())?,
+                    parts: Vec::new(),
                 }),
+                "independent" => {
+                    let case = cover.cases.last_mut();
+                    let case = case.ok_or_else(|| error("a part of no case"))?;
+                    case.parts.push(Independent {
+                        equations: until(&mut words, Some("figures"))?,
+                        figures: until(&mut words, None)?,
+                    });
+                }
                 "marks" => {
                     cover.marks = lines.marks(words.next())?.to_vec();
                     return Ok(cover);

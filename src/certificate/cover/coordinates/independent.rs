@@ -3,22 +3,27 @@
 //! Unknowns of the *base* have as many equations of their own. All others are nodes of a graph, with one node more for the base and the number 0.
 //! An equation is made of differences of entries, which are edges of it. If the edges of a part's equations have as many nodes less components as the part has
 //! equations, and the edges of all parts join all nodes, then the differences of one part say nothing of those of another, and those of all of them say
-//! where every unknown is, beside the base: in them, the equations are systems beside each other. So, where the base has one zero,
+//! where every unknown is, beside the base: in them, the equations are systems beside each other. So, where the base is at one of its zeros (a *case*),
 //!
 //! - any zeros of the parts are together one of the whole;
-//! - every figure has a zero in common, in the differences of a part, with one whose differences of the other parts are those of the first solution; as that one is in
+//! - every figure has a zero in common, in the differences of a part, with one whose differences of the other parts are those of the case's first solution; as that one is in
 //!   the space that is looked at, where some unknowns are not negative, this one is, too. The check looks at each part's zeros there (its *slice*), so that a
 //!   figure is a combination of what is listed.
 //!
-//! Conditions on figures (what is positive, has a sign, or must not vanish) have to be about the differences of one part. The base is looked at by itself, in all of the
-//! space: its matrix is a block of the whole matrix, which is regular where the first solution is alone, so that the base has one zero there.
+//! Conditions on figures (what is positive, has a sign, or must not vanish) have to be about the differences of one part, or about the base. The base is looked at by itself, in all of the
+//! space: its matrix is a block of the whole matrix, which is regular where a case's first solution is alone, so that the base has one zero there. So each figure's base is that of a
+//! case, of one alone as these differ, and all figures are the combinations of all cases.
 
-use super::format::{Change, CoordinateCover, Independent};
+use super::format::{Case, Change, CoordinateCover, Independent};
 use super::space::{Empty, Part};
 use super::symmetry::signs_changed;
 use super::{Place, Space};
 use crate::certificate::checker::equations::{Equations, ZERO};
 use crate::interval::{Interval, point};
+use std::rc::Rc;
+
+/// The greatest number of cases, any two of which are compared.
+const MOST_CASES: usize = 1024;
 
 /// Sets of nodes that are joined: each node leads to another one of its set, or to itself.
 struct Joined(Vec<usize>);
@@ -47,19 +52,32 @@ pub enum Slice {
     Whole,
     /// Those of the base.
     Base,
-    /// Those that a part's differences move, by its number.
-    Part(usize),
+    /// Those that a part's differences move, by the numbers of its case and its own.
+    Part(usize, usize),
 }
 
 /// Equations that fall apart.
 pub struct Apart {
     in_base: Vec<bool>,
-    /// For each part the entries of its differences, and the solutions that are the first one in all other parts.
-    parts: Vec<(Vec<[usize; 2]>, Vec<usize>)>,
-    /// For each part, for each unknown another one that it moves with in the part's slice, or itself; behind all of them stands the base.
-    moved_with: Vec<Vec<usize>>,
+    cases: Vec<One>,
     /// The slice that is looked at.
     pub slice: Slice,
+}
+
+/// A case.
+struct One {
+    first: usize,
+    parts: Rc<[Edges]>,
+    /// For each part the solutions that are the first one in all other parts, that one before all others.
+    figures: Vec<Vec<usize>>,
+}
+
+/// The equations of a part.
+struct Edges {
+    /// The entries of their differences.
+    own: Vec<[usize; 2]>,
+    /// For each unknown another one that it moves with in the part's slice, or itself; behind all of them stands the base.
+    moved_with: Vec<usize>,
 }
 
 impl Apart {
@@ -71,36 +89,70 @@ impl Apart {
     ) -> Option<Apart> {
         let mut apart = Apart {
             in_base: (0..eq.m).map(|i| cover.base.contains(&i)).collect(),
-            parts: Vec::new(),
-            moved_with: Vec::new(),
+            cases: Vec::new(),
             slice: Slice::Whole,
         };
-        if cover.independent.is_empty() {
+        if cover.cases.is_empty() {
             return cover.base.is_empty().then_some(apart);
         }
+        let of_parts = || cover.cases.iter().flat_map(|case| &case.parts);
+        let figures = of_parts().flat_map(|part| part.figures.iter().copied());
+        let firsts = cover.cases.iter().map(|case| case.first);
+        // Each solution is of one part, but for the first ones of cases.
+        let fits = cover.cases.len() <= MOST_CASES
+            && is_each_once(firsts.chain(figures).collect(), cover.figures.len())
+            && cover.images.is_empty()
+            && eq.homotopy.tail.twins.is_empty()
+            && !eq.homotopy.has_directions();
+        if !fits {
+            return None;
+        }
+        let mut before: Option<(&Case, Rc<[Edges]>)> = None;
+        for case in &cover.cases {
+            let same = before.as_ref().filter(|(known, _)| {
+                let mut pairs = known.parts.iter().zip(&case.parts);
+                known.parts.len() == case.parts.len()
+                    && pairs.all(|(a, b)| a.equations == b.equations)
+            });
+            let parts = match same {
+                Some((_, parts)) => Rc::clone(parts),
+                None => apart.parts(eq, conditions, &case.parts)?,
+            };
+            before = Some((case, Rc::clone(&parts)));
+            let figures = case.parts.iter();
+            let figures = figures.map(|part| [&[case.first], &part.figures[..]].concat());
+            apart.cases.push(One {
+                first: case.first,
+                parts,
+                figures: figures.collect(),
+            });
+        }
+        Some(apart)
+    }
+
+    /// Proves that equations fall apart into these parts beside the base.
+    fn parts(
+        &self,
+        eq: &Equations,
+        conditions: &[Vec<[usize; 2]>],
+        parts: &[Independent],
+    ) -> Option<Rc<[Edges]>> {
         let edges: Vec<Vec<[usize; 2]>> = (0..eq.m)
             .map(|e| {
                 let forms = eq.products[e].iter().flat_map(|(_, forms)| forms);
                 forms.map(|&form| eq.forms[form]).collect()
             })
             .collect();
-        let base = |e: &usize| edges[*e].iter().all(|edge| apart.edge(*edge) == [eq.m; 2]);
-        let in_base = apart.in_base.iter().filter(|is| **is).count();
-        // As many, each named once.
-        let is_square = in_base == cover.base.len() && (0..eq.m).filter(base).count() == in_base;
-        // Each equation is of the base or of one part, and each solution but the first of one part.
-        let of_parts = || cover.independent.iter();
-        let equations = of_parts().flat_map(|part| part.equations.iter().copied());
+        let base = |e: &usize| edges[*e].iter().all(|edge| self.edge(*edge) == [eq.m; 2]);
+        let in_base = self.in_base.iter().filter(|is| **is).count();
+        let is_square = (0..eq.m).filter(base).count() == in_base;
+        // Each equation is of the base or of one part.
+        let equations = parts.iter().flat_map(|part| part.equations.iter().copied());
         let all = equations.chain((0..eq.m).filter(base));
-        let figures = of_parts().flat_map(|part| part.figures.iter().copied());
         // No more parts than equations.
         let fits = is_square
-            && of_parts().all(|part| !part.equations.is_empty())
-            && is_each_once(all.collect(), eq.m)
-            && is_each_once(figures.chain([0]).collect(), cover.figures.len())
-            && cover.images.is_empty()
-            && eq.homotopy.tail.twins.is_empty()
-            && !eq.homotopy.has_directions();
+            && parts.iter().all(|part| !part.equations.is_empty())
+            && is_each_once(all.collect(), eq.m);
         if !fits {
             return None;
         }
@@ -108,16 +160,17 @@ impl Apart {
             let mut joined = Joined((0..=eq.m).collect());
             let equations = parts.flat_map(|part| &part.equations);
             let of_equations = equations.flat_map(|&e| &edges[e]);
-            let count = of_equations.filter(|edge| joined.join(apart.edge(**edge)));
+            let count = of_equations.filter(|edge| joined.join(self.edge(**edge)));
             (count.count(), joined)
         };
-        let nodes = eq.m - cover.base.len();
-        let own: Vec<(usize, Joined)> = of_parts()
+        let nodes = eq.m - in_base;
+        let own: Vec<(usize, Joined)> = parts
+            .iter()
             .map(|part| joined(&mut [part].into_iter()))
             .collect();
-        let mut counts = own.iter().zip(of_parts());
+        let mut counts = own.iter().zip(parts);
         let is_direct = counts.all(|((count, _), part)| *count == part.equations.len())
-            && joined(&mut of_parts()).0 == nodes;
+            && joined(&mut parts.iter()).0 == nodes;
         let mut same = Joined((0..=eq.m).collect());
         for e in 0..eq.m {
             let is_zero = eq.right_at(e, point(1.0))[0] == ZERO;
@@ -133,31 +186,32 @@ impl Apart {
                 let [a, b] = edge.map(|i| same.of(i.min(eq.m)));
                 a != b
             };
+            let mut left = condition.iter().filter(is_left);
+            let of_base = |edge: &[usize; 2]| self.edge(*edge) == [eq.m; 2];
             let is_joined = |joined: &Joined| {
                 let ends = condition.iter().filter(is_left);
-                let mut ends = ends.map(|edge| apart.edge(*edge));
+                let mut ends = ends.map(|edge| self.edge(*edge));
                 ends.all(|[a, b]| joined.of(a) == joined.of(b))
             };
-            own.iter().any(|(_, joined)| is_joined(joined))
+            left.all(of_base) || own.iter().any(|(_, joined)| is_joined(joined))
         };
         if !(is_direct && conditions.iter().all(is_of_a_part)) {
             return None;
         }
-        let moved_with = (0..own.len()).map(|k| {
-            let others = of_parts().enumerate().filter(|(other, _)| *other != k);
+        let told = parts.iter().enumerate().map(|(k, part)| {
+            let others = parts.iter().enumerate().filter(|(other, _)| *other != k);
             let (_, joined) = joined(&mut others.map(|(_, part)| part));
-            (0..eq.m)
-                .map(|i| joined.of(apart.edge([i, i])[0]))
-                .collect()
+            let moved_with = (0..eq.m).map(|i| joined.of(self.edge([i, i])[0]));
+            Edges {
+                own: part
+                    .equations
+                    .iter()
+                    .flat_map(|&e| edges[e].clone())
+                    .collect(),
+                moved_with: moved_with.collect(),
+            }
         });
-        apart.moved_with = moved_with.collect();
-        let parts = of_parts().map(|part| {
-            let edges = part.equations.iter().flat_map(|&e| edges[e].clone());
-            let figures = [&[0], &part.figures[..]].concat();
-            (edges.collect(), figures)
-        });
-        apart.parts = parts.collect();
-        Some(apart)
+        Some(told.collect())
     }
 
     /// The nodes of a difference.
@@ -171,20 +225,26 @@ impl Apart {
 
     /// The slices to be looked at, one after the other.
     pub fn slices(&self) -> Vec<Slice> {
-        let parts = (0..self.parts.len()).map(Slice::Part);
-        match (self.parts.is_empty(), self.in_base.contains(&true)) {
-            (true, _) => vec![Slice::Whole],
-            (false, true) => [Slice::Base].into_iter().chain(parts).collect(),
-            (false, false) => parts.collect(),
+        if self.cases.is_empty() {
+            return vec![Slice::Whole];
         }
+        let base = self.in_base.contains(&true).then_some(Slice::Base);
+        let cases = self.cases.iter().enumerate();
+        let parts =
+            cases.flat_map(|(c, case)| (0..case.parts.len()).map(move |k| Slice::Part(c, k)));
+        base.into_iter().chain(parts).collect()
     }
 
     /// How many figures there are; `None` where that has no place in 64 bits.
     pub fn count(&self, figures: usize) -> Option<u64> {
-        let mut parts = self.parts.iter();
-        match self.parts.is_empty() {
+        let of_case = |case: &One| {
+            let mut figures = case.figures.iter();
+            figures.try_fold(1u64, |all, own| all.checked_mul(own.len() as u64))
+        };
+        let mut cases = self.cases.iter();
+        match self.cases.is_empty() {
             true => Some(figures as u64),
-            false => parts.try_fold(1u64, |all, part| all.checked_mul(part.1.len() as u64)),
+            false => cases.try_fold(0u64, |all, case| all.checked_add(of_case(case)?)),
         }
     }
 
@@ -192,8 +252,8 @@ impl Apart {
     pub fn takes(&self, figure: usize) -> bool {
         match self.slice {
             Slice::Whole => true,
-            Slice::Base => figure == 0,
-            Slice::Part(k) => self.parts[k].1.contains(&figure),
+            Slice::Base => self.cases.iter().any(|case| case.first == figure),
+            Slice::Part(c, k) => self.cases[c].figures[k].contains(&figure),
         }
     }
 
@@ -202,13 +262,14 @@ impl Apart {
         self.slice != Slice::Base || self.in_base[i]
     }
 
-    /// Narrows a part of the slice: all that the slice's differences do not move is where it is in the first solution, or moves with something else.
-    pub fn narrow(&self, part: &mut Part, first: Option<&Place>) -> Result<(), Empty> {
-        let (Slice::Part(k), Some(first)) = (self.slice, first) else {
+    /// Narrows a part of the slice: all that the slice's differences do not move is where it is in the case's first solution, or moves with something else.
+    pub fn narrow(&self, part: &mut Part, figures: &[Place]) -> Result<(), Empty> {
+        let Slice::Part(c, k) = self.slice else {
             return Ok(());
         };
+        let first = &figures[self.cases[c].first];
         let m = self.in_base.len();
-        for (i, &with) in self.moved_with[k].iter().enumerate() {
+        for (i, &with) in self.cases[c].parts[k].moved_with.iter().enumerate() {
             let at = |i: usize| first.spot.at(i);
             if with == m {
                 part.narrow(i, at(i))?;
@@ -221,60 +282,115 @@ impl Apart {
         Ok(())
     }
 
-    /// Whether the solutions of each part are surely different in its differences, all are in the space that is looked at and have the same base, and no combination is
-    /// another one seen in a mirror.
+    /// Whether the solutions of each part are surely different in its differences, all are in the space that is looked at, those of a case have the same base and those of
+    /// different cases different ones, and no combination is another one seen in a mirror.
     pub fn are_different(&self, space: &Space) -> bool {
-        let m = self.in_base.len();
-        let at = |figure: usize, i: usize| match i < m {
+        let cases = || self.cases.iter();
+        let pairs = cases().enumerate();
+        let mut pairs = pairs.flat_map(|(c, case)| cases().take(c).map(move |other| (case, other)));
+        let mut places = space.figures.iter();
+        // All of them are in the space that is looked at.
+        let is_inside = |place: &Place| {
+            let mut not_negative = space.not_negative.iter();
+            not_negative.all(|&i| place.spot.at(i).inf() >= 0.0)
+        };
+        places.all(is_inside)
+            && cases().all(|case| self.is_told(case, space))
+            && pairs.all(|(one, other)| self.differ(space, one, other, &|_| false))
+            && self.are_no_images(space)
+    }
+
+    /// An entry in a solution.
+    fn at(&self, space: &Space, figure: usize, i: usize) -> Interval {
+        match i < self.in_base.len() {
             true => space.figures[figure].spot.at(i),
             false => ZERO,
+        }
+    }
+
+    /// Whether any two solutions of a part of a case are different in its differences, and all have the case's base.
+    fn is_told(&self, case: &One, space: &Space) -> bool {
+        let m = self.in_base.len();
+        let value = |figure: usize, [a, b]: [usize; 2]| {
+            self.at(space, figure, a) - self.at(space, figure, b)
         };
-        let value = |figure: usize, [a, b]: [usize; 2]| at(figure, a) - at(figure, b);
-        let is_told = self.parts.iter().all(|(edges, figures)| {
+        let first = &space.figures[case.first];
+        let is_based = |&figure: &usize| {
+            let of = |i: usize| match self.in_base[i] {
+                true => space.figures[figure].spot.at(i),
+                false => first.spot.at(i),
+            };
+            first.covers(&(0..m).map(of).collect::<Vec<_>>())
+        };
+        let mut parts = case.parts.iter().zip(&case.figures);
+        parts.all(|(part, figures)| {
             let differ = |one: usize, other: usize| {
-                let mut edges = edges.iter();
+                let mut edges = part.own.iter();
                 edges.any(|&edge| value(one, edge).disjoint(value(other, edge)))
             };
             let pairs = figures.iter().enumerate();
             let mut pairs =
                 pairs.flat_map(|(k, &one)| figures[..k].iter().map(move |&other| (one, other)));
-            pairs.all(|(one, other)| differ(one, other))
-        });
-        // Those of the base are the same in all of them.
-        let is_based = |place: &Place| {
-            let of = |i: usize| match self.in_base[i] {
-                true => place.spot.at(i),
-                false => space.figures[0].spot.at(i),
-            };
-            space.figures[0].covers(&(0..m).map(of).collect::<Vec<_>>())
-        };
-        // And all of them are in the space that is looked at.
-        let is_inside = |place: &Place| {
-            let mut not_negative = space.not_negative.iter();
-            not_negative.all(|&i| place.spot.at(i).inf() >= 0.0)
-        };
-        let mut places = space.figures.iter();
-        let is_told = is_told && places.all(|place| is_based(place) && is_inside(place));
+            figures.iter().all(is_based) && pairs.all(|(one, other)| differ(one, other))
+        })
+    }
+
+    /// Whether the base is surely not in the same place in two cases, the signs of these unknowns being changed in one of them.
+    fn differ(
+        &self,
+        space: &Space,
+        one: &One,
+        other: &One,
+        turned: &dyn Fn(usize) -> bool,
+    ) -> bool {
+        let mut base = (0..self.in_base.len()).filter(|&i| self.in_base[i]);
+        base.any(|i| {
+            let x = self.at(space, one.first, i);
+            let x = if turned(i) { -x } else { x };
+            x.disjoint(self.at(space, other.first, i))
+        })
+    }
+
+    /// Whether no combination, of any case, is another one seen in a mirror: some unknown of the base has another value then, or a difference that has the same sign in all of both
+    /// cases the other one.
+    fn are_no_images(&self, space: &Space) -> bool {
         let mut changes = Change::all(space.eq.homotopy.dimension, 0)
             .filter_map(|by| signs_changed(&space.eq.homotopy, space.allowed, &by))
             .filter(|changes| changes.contains(&true));
         let sign = |x: Interval| (!x.contains(0.0)).then_some(x.inf() > 0.0);
-        is_told
-            && changes.all(|changes| {
-                let mut base = (0..m).filter(|&i| self.in_base[i] && changes[i]);
-                let of_base = base.any(|i| sign(at(0, i)).is_some());
-                let mut parts = self.parts.iter();
-                of_base
-                    || parts.any(|(edges, figures)| {
-                        let turn = |i: usize| changes.get(i).copied().unwrap_or(true);
-                        let mut edges = edges.iter().filter(|[a, b]| turn(*a) && turn(*b));
-                        edges.any(|&edge| {
-                            let first = sign(value(0, edge));
-                            let mut all = figures.iter().map(|&figure| sign(value(figure, edge)));
-                            first.is_some() && all.all(|sign| sign == first)
-                        })
+        changes.all(|changes| {
+            let zero = space.eq.m + 1;
+            let turn = |i: usize| changes.get(i).copied().unwrap_or(i == zero);
+            // The differences of a case that are turned and have one sign in all of it.
+            let signed = |case: &One| -> Vec<([usize; 2], bool)> {
+                let parts = case.parts.iter().zip(&case.figures);
+                let each = parts.flat_map(|(part, figures)| {
+                    let edges = part.own.iter().filter(|[a, b]| turn(*a) && turn(*b));
+                    edges.filter_map(|&[a, b]| {
+                        let of = |figure: usize| {
+                            sign(self.at(space, figure, a) - self.at(space, figure, b))
+                        };
+                        let all = of(figures[0])?;
+                        let is_same = figures.iter().all(|&figure| of(figure) == Some(all));
+                        is_same.then_some(([a, b], all))
                     })
+                });
+                let mut all: Vec<_> = each.collect();
+                all.sort_unstable();
+                all.dedup();
+                all
+            };
+            let signed: Vec<_> = self.cases.iter().map(signed).collect();
+            let cases = || self.cases.iter().zip(&signed);
+            cases().enumerate().all(|(c, (one, of_one))| {
+                cases().take(c + 1).all(|(other, of_other)| {
+                    self.differ(space, one, other, &turn)
+                        || of_one
+                            .iter()
+                            .any(|edge| of_other.binary_search(edge).is_ok())
+                })
             })
+        })
     }
 }
 

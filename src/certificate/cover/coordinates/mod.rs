@@ -15,7 +15,9 @@ mod sums;
 mod symmetry;
 mod turns;
 
-pub use format::{Block, Body, Change, CoordinateCover, Half, Image, Independent, Mark, Turned};
+pub use format::{
+    Block, Body, Case, Change, CoordinateCover, Half, Image, Independent, Mark, Turned,
+};
 pub use independent::Slice;
 pub use space::{Empty, Part};
 pub use symmetry::signs_changed;
@@ -127,7 +129,7 @@ impl Space {
             }
             space.figures.push(place);
         }
-        if !cover.independent.is_empty() && !space.apart.are_different(&space) {
+        if !cover.cases.is_empty() && !space.apart.are_different(&space) {
             return Err("combinations of the solutions of parts may be the same".to_owned());
         }
         for image in &cover.images {
@@ -201,7 +203,7 @@ impl Space {
     /// Narrows a part by the equations one by one.
     pub fn narrow(&self, part: &mut Part) -> Result<(), Empty> {
         for _ in 0..MOVED {
-            self.apart.narrow(part, self.figures.first())?;
+            self.apart.narrow(part, &self.figures)?;
             self.rows.narrow(&self.eq, part)?;
         }
         Ok(())

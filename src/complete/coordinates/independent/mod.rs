@@ -12,11 +12,12 @@
 //! Each part is searched with all differences of the others as they are in one figure, the *reference*: blocks of the part as always, others moved along with what they hang on.
 
 mod apart;
+mod base;
 mod combinations;
 mod slices;
 
-use super::{Cut, Figures, Judged, State};
-use crate::certificate::cover::coordinates::Independent;
+use super::{Cut, Figures, Judged, MOST_FIGURES, State};
+use crate::certificate::cover::coordinates::{Case as ToldCase, Independent};
 use crate::complete::{Choice, Why};
 use crate::interval::{Interval, ZERO};
 use crate::problem::Problem;
@@ -28,17 +29,28 @@ use slices::Sought;
 use std::sync::atomic::Ordering;
 
 /// The parts of an answer.
+#[derive(Default)]
 pub struct Parts {
     /// The unknowns of the base.
     pub base: Vec<usize>,
-    /// Each with its equations and unknowns and its zeros, by their numbers among the representatives; the first of all is in each of them.
-    pub parts: Vec<One>,
-    /// The reference, and for each other zero of a part the figure that has it and is the reference otherwise.
+    /// What the equations fall apart into, for each zero of the base that figures have.
+    pub cases: Vec<Case>,
+    /// The reference of each case, and for each other zero of a part the figure that has it and is the reference otherwise.
     pub representatives: Vec<FigureBox>,
     /// The first combinations, or all if they are not too many, each in a box of its own.
     pub listed: Vec<FigureBox>,
     /// How many combinations there are; `None` where that has no place in 64 bits.
     pub count: Option<u64>,
+    /// The unknowns of the base that are not the same in all cases.
+    pub decided: Vec<usize>,
+}
+
+/// The parts beside one zero of the base.
+pub struct Case {
+    /// The reference, by its number among the representatives; it is in each of the parts.
+    pub first: usize,
+    /// Each with its equations and unknowns and its zeros.
+    pub parts: Vec<One>,
 }
 
 /// One of the parts.
@@ -51,41 +63,78 @@ pub struct One {
     pub figures: Vec<usize>,
 }
 
+impl Case {
+    /// How many combinations there are; `None` where that has no place in 64 bits.
+    pub fn count(&self) -> Option<u64> {
+        let mut parts = self.parts.iter();
+        parts.try_fold(1u64, |all, part| {
+            all.checked_mul(part.figures.len() as u64 + 1)
+        })
+    }
+}
+
 impl Parts {
-    /// The parts that have more than one zero: what they place, by name, and how many zeros they have.
+    /// The names of what some unknowns place.
+    fn names(problem: &Problem, homotopy: &Homotopy, of: &[usize]) -> Vec<String> {
+        let is_placed = |i: usize| of.contains(&i);
+        let points = problem.points.iter().enumerate().filter(|(p, _)| {
+            let mut axes = 0..homotopy.dimension;
+            axes.any(|axis| homotopy.coordinate(*p, axis).is_some_and(is_placed))
+        });
+        let objects = problem.objects.iter().zip(&homotopy.tail.objects);
+        let objects = objects.filter(|(_, entries)| {
+            let mut entries = entries.iter().map(|&entry| homotopy.entry(entry));
+            entries.any(is_placed)
+        });
+        let points = points.map(|(_, point)| point.name.clone());
+        points
+            .chain(objects.map(|(object, _)| object.name.clone()))
+            .collect()
+    }
+
+    /// The parts that have more than one zero: what they place, by name, and how many zeros they have. Where there are several cases, none.
     pub fn choices(&self, problem: &Problem, homotopy: &Homotopy) -> Vec<Choice> {
-        let names = |of: &One| {
-            let is_placed = |i: usize| of.unknowns.contains(&i);
-            let points = problem.points.iter().enumerate().filter(|(p, _)| {
-                let mut axes = 0..homotopy.dimension;
-                axes.any(|axis| homotopy.coordinate(*p, axis).is_some_and(is_placed))
-            });
-            let objects = problem.objects.iter().zip(&homotopy.tail.objects);
-            let objects = objects.filter(|(_, entries)| {
-                let mut entries = entries.iter().map(|&entry| homotopy.entry(entry));
-                entries.any(is_placed)
-            });
-            let points = points.map(|(_, point)| point.name.clone());
-            points
-                .chain(objects.map(|(object, _)| object.name.clone()))
-                .collect()
+        let [case] = &self.cases[..] else {
+            return Vec::new();
         };
-        let choices = self.parts.iter().filter(|part| !part.figures.is_empty());
+        let choices = case.parts.iter().filter(|part| !part.figures.is_empty());
         let choices = choices.map(|part| Choice {
-            names: names(part),
+            names: Parts::names(problem, homotopy, &part.unknowns),
             count: part.figures.len() + 1,
         });
         choices.collect()
     }
 
-    /// As a cover tells them.
-    pub fn told(&self) -> Vec<Independent> {
-        let parts = self.parts.iter().map(|part| Independent {
-            equations: part.equations.clone(),
-            figures: part.figures.clone(),
-        });
-        parts.collect()
+    /// Where there are several cases: what they differ in, by name, and how many there are.
+    pub fn first_choice(&self, problem: &Problem, homotopy: &Homotopy) -> Option<Choice> {
+        (self.cases.len() > 1).then(|| Choice {
+            names: Parts::names(problem, homotopy, &self.decided),
+            count: self.cases.len(),
+        })
     }
+
+    /// As a cover tells them.
+    pub fn told(&self) -> Vec<ToldCase> {
+        let cases = self.cases.iter().map(|case| {
+            let parts = case.parts.iter().map(|part| Independent {
+                equations: part.equations.clone(),
+                figures: part.figures.clone(),
+            });
+            ToldCase {
+                first: case.first,
+                parts: parts.collect(),
+            }
+        });
+        cases.collect()
+    }
+}
+
+/// What came of one case.
+enum Solved {
+    /// Its reference first, and its parts, of which zeros are numbered among these.
+    Figures(Vec<FigureBox>, Vec<One>),
+    /// There is no figure.
+    Nothing,
 }
 
 impl Figures<'_> {
@@ -127,42 +176,113 @@ impl Figures<'_> {
             });
             vector
         });
-        let conditions = vectors.chain(signed).collect();
-        let apart = Apart::new(self, &in_base, conditions)?;
+        let conditions: Vec<_> = vectors.chain(signed).collect();
+        let apart = Apart::new(self, &in_base, conditions.clone())?;
+        let before = self.undecided.clone();
+        let others = self.others.len();
+        let wider = self.wider_base((&in_base, &apart), &conditions, &begin);
+        if let Some((in_base, apart, zeros)) = wider {
+            let parts = self.of_cases(&apart, (&in_base, &zeros), &begin);
+            if parts.is_some() {
+                return parts;
+            }
+            self.undecided.clone_from(&before);
+            self.others.truncate(others);
+        }
         if apart.parts < 2 {
             return None;
         }
-        let before = self.undecided.clone();
-        let parts = self.of_parts(&apart, &in_base, begin);
+        let only = vec![vec![0; self.blocks.len()]];
+        let parts = self.of_cases(&apart, (&in_base, &only), &begin);
         if parts.is_none() {
             self.undecided = before;
+            self.others.truncate(others);
         }
         parts
     }
 
-    /// The figures of each part.
-    fn of_parts(&mut self, apart: &Apart, in_base: &[bool], begin: State) -> Option<Parts> {
-        let (mut zeros, mut steps) = (vec![0; self.blocks.len()], 0);
+    /// The figures of all cases: of each of these zeros of the base.
+    fn of_cases(
+        &mut self,
+        apart: &Apart,
+        (in_base, zeros): (&[bool], &[Vec<usize>]),
+        begin: &State,
+    ) -> Option<Parts> {
+        let is_only = zeros.len() == 1;
+        let share = 1.0 / zeros.len() as f64;
+        let mut representatives: Vec<FigureBox> = Vec::new();
+        let mut cases = Vec::new();
+        for zeros in zeros {
+            if self.run.stop.load(Ordering::Relaxed) && !is_only {
+                super::leave(&mut self.undecided, Why::Unfinished, 1, share);
+                continue;
+            }
+            let (mut figures, mut parts) =
+                match self.of_parts(apart, (zeros, is_only), (begin, share))? {
+                    Solved::Figures(figures, parts) => (figures, parts),
+                    Solved::Nothing => continue,
+                };
+            let first = representatives.len();
+            representatives.append(&mut figures);
+            if representatives.len() > MOST_FIGURES {
+                return None;
+            }
+            for figure in parts.iter_mut().flat_map(|part| &mut part.figures) {
+                *figure += first;
+            }
+            cases.push(Case { first, parts });
+        }
+        if cases.is_empty() {
+            // No figure, as far as all is decided.
+            return Some(Parts {
+                count: Some(0),
+                ..Parts::default()
+            });
+        }
+        let mut counts = cases.iter();
+        let count = counts.try_fold(0u64, |all, case| all.checked_add(case.count()?));
+        let of_base = |b: &usize| in_base[*b];
+        let base = (0..in_base.len()).filter(of_base);
+        let decided = (0..in_base.len()).filter(of_base);
+        let decided = decided.filter(|&b| zeros.iter().any(|other| other[b] != zeros[0][b]));
+        let unknowns = |b: usize| self.blocks[b].unknowns.clone();
+        let mut parts = Parts {
+            base: base.flat_map(unknowns).collect(),
+            decided: decided.flat_map(unknowns).collect(),
+            cases,
+            representatives,
+            listed: Vec::new(),
+            count,
+        };
+        if !self.are_different(&parts) {
+            return None;
+        }
+        parts.listed = self.combinations(&parts)?;
+        Some(parts)
+    }
+
+    /// The figures of each part, where the base's blocks have given zeros. `is_only`: the base has no others. `share`: of what is searched.
+    fn of_parts(
+        &mut self,
+        apart: &Apart,
+        (zeros, is_only): (&[usize], bool),
+        (begin, share): (&State, f64),
+    ) -> Option<Solved> {
+        let (mut zeros, mut steps) = (zeros.to_vec(), 0);
         let mut is_passed = false;
         let (reference, first) = loop {
-            match self.reference(apart, &mut zeros, &mut steps, &begin) {
+            match self.reference(apart, &mut zeros, &mut steps, (begin, share)) {
                 Sought::Unknown => return None,
                 // Zeros that are no figures were passed over.
                 Sought::Nothing(_) if is_passed => return None,
                 Sought::Nothing(part) => {
                     // Then there is no figure.
                     self.leave_of(apart, part);
-                    return Some(Parts {
-                        base: Vec::new(),
-                        parts: Vec::new(),
-                        representatives: Vec::new(),
-                        listed: Vec::new(),
-                        count: Some(0),
-                    });
+                    return Some(Solved::Nothing);
                 }
                 Sought::Found(state, at) => {
                     let branching = self.branching(apart, &state);
-                    if branching < 2 {
+                    if is_only && branching < 2 {
                         return None;
                     }
                     zeros = at;
@@ -190,7 +310,7 @@ impl Figures<'_> {
         for k in 0..apart.parts {
             let mut found = Vec::new();
             let at = (&*reference, &*zeros);
-            self.slice((apart, k), at, (0, begin.clone()), 1.0, &mut found);
+            self.slice((apart, k), at, (0, begin.clone()), share, &mut found);
             let mut figures: Vec<usize> = Vec::new();
             let mut is_first = false;
             for (state, share) in found {
@@ -242,23 +362,7 @@ impl Figures<'_> {
                 _ => parts.push(one),
             }
         }
-        let mut numbers = parts.iter();
-        let count = numbers.try_fold(1u64, |all, part| {
-            all.checked_mul(part.figures.len() as u64 + 1)
-        });
-        let base = (0..in_base.len()).filter(|&b| in_base[b]);
-        let mut parts = Parts {
-            base: base.flat_map(|b| self.blocks[b].unknowns.clone()).collect(),
-            parts,
-            representatives,
-            listed: Vec::new(),
-            count,
-        };
-        if !self.are_different(&parts) {
-            return None;
-        }
-        parts.listed = self.combinations(&parts)?;
-        Some(parts)
+        Some(Solved::Figures(representatives, parts))
     }
 }
 

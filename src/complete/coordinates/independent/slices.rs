@@ -19,13 +19,13 @@ pub enum Sought {
 }
 
 impl Figures<'_> {
-    /// Looks for a zero of all blocks, from given ones on.
+    /// Looks for a zero of all blocks, from given ones on; those of the base stay as they are. `share`: of what is searched.
     pub(super) fn reference(
         &mut self,
         apart: &Apart,
         zeros: &mut [usize],
         steps: &mut usize,
-        begin: &State,
+        (begin, share): (&State, f64),
     ) -> Sought {
         let mut states = vec![begin.clone()];
         while states.len() <= self.blocks.len() {
@@ -36,7 +36,7 @@ impl Figures<'_> {
             let b = states.len() - 1;
             let state = &states[b];
             // Half of the work is counted here, and half in the slices.
-            let share = apart.part[b].map_or(0.0, |_| 0.5);
+            let share = apart.part[b].map_or(0.0, |_| 0.5 * share);
             let found = self.solve(b, state, share);
             if zeros[b] < found.zeros.len() {
                 let mut state = state.clone();
@@ -112,7 +112,7 @@ impl Figures<'_> {
             match apart.part[b] {
                 None => {
                     let found = self.solve(b, &state, 0.0);
-                    self.take(b, (&found, 0), &mut state);
+                    self.take(b, (&found, zeros[b]), &mut state);
                 }
                 Some(_) => {
                     apart.move_along(b, reference, &mut state);
