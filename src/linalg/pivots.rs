@@ -54,7 +54,8 @@ impl Bits {
             let filled = all.filter(move |b| word >> (b * BLOCK) & ((1 << BLOCK) - 1) != 0);
             filled.map(move |b| w * 64 + b * BLOCK)
         };
-        self.row(row).iter().enumerate().flat_map(blocks)
+        let words = self.row(row).iter().enumerate();
+        words.filter(|(_, word)| **word != 0).flat_map(blocks)
     }
 }
 
@@ -155,14 +156,17 @@ impl Pivots {
         free_rows.clear();
         free_rows.extend(0..n);
         refill(free_columns, bits.words, u64::MAX);
+        let mut is_known = false;
         for _ in 0..n {
-            largest.fill(0.0);
-            for &row in &*free_rows {
-                for at in bits.blocks(row) {
-                    let values: &[f64; BLOCK] = block(a, row * stride + at);
-                    let tops: &mut [f64; BLOCK] = block_mut(largest, at);
-                    for (top, x) in tops.iter_mut().zip(values) {
-                        *top = top.max(x.abs());
+            if !is_known {
+                largest.fill(0.0);
+                for &row in &*free_rows {
+                    for at in bits.blocks(row) {
+                        let values: &[f64; BLOCK] = block(a, row * stride + at);
+                        let tops: &mut [f64; BLOCK] = block_mut(largest, at);
+                        for (top, x) in tops.iter_mut().zip(values) {
+                            *top = top.max(x.abs());
+                        }
                     }
                 }
             }
@@ -197,6 +201,15 @@ impl Pivots {
                 .extend(bits.entries(p).filter(|&j| j != k).map(|j| j as u32));
             pivots.starts.push(pivots.touched.len());
             exchange((a, stride), bits, count, (p, k));
+            // An exchange changes columns in which the pivot's row has entries, and no others. Where these are many, all are looked at again, row by row.
+            is_known = bits.words > 1 && bits.count(p) * BLOCK < n;
+            if is_known {
+                for column in bits.entries(p) {
+                    let rows = free_rows.iter();
+                    let sizes = rows.map(|&row| a[row * stride + column].abs());
+                    largest[column] = sizes.fold(0.0, f64::max);
+                }
+            }
         }
         pivots.odd = is_odd(&pivots.row_of, seen);
         Some(())
