@@ -286,6 +286,12 @@ fn damaged_cases_prove_no_other_number() {
     let mut none = cover.clone();
     none.cases.push(Case::default());
     assert!(is_refused("an empty case", none));
+    // Unknowns that there are not, or twice.
+    for unknown in [cover.base[0], cover.figures[0].len(), usize::MAX] {
+        let mut other = cover.clone();
+        other.base.push(unknown);
+        assert!(is_refused("an unknown that is none", other));
+    }
     for unknown in 0..cover.figures[0].len() {
         let mut other = cover.clone();
         match other.base.iter().position(|&i| i == unknown) {

@@ -13,6 +13,9 @@
 //! Conditions on figures (what is positive, has a sign, or must not vanish) have to be about the differences of one part, or about the base. The base is looked at by itself, in all of the
 //! space: its matrix is a block of the whole matrix, which is regular where a case's first solution is alone, so that the base has one zero there. So each figure's base is that of a
 //! case, of one alone as these differ, and all figures are the combinations of all cases.
+//!
+//! Combinations that differ, differ in unknowns. They are different figures, as the points tell all auxiliary unknowns: lengths and radii are positive, and what has two signs is among the
+//! twins of the problem or the directions that lines and planes have of their own, of which there have to be none.
 
 use super::format::{Case, Change, CoordinateCover, Independent};
 use super::space::{Empty, Part};
@@ -98,8 +101,9 @@ impl Apart {
         let of_parts = || cover.cases.iter().flat_map(|case| &case.parts);
         let figures = of_parts().flat_map(|part| part.figures.iter().copied());
         let firsts = cover.cases.iter().map(|case| case.first);
-        // Each solution is of one part, but for the first ones of cases.
+        // Each solution is of one part, but for the first ones of cases; unknowns of the base are named once.
         let fits = cover.cases.len() <= MOST_CASES
+            && cover.base.len() == apart.in_base.iter().filter(|is| **is).count()
             && is_each_once(firsts.chain(figures).collect(), cover.figures.len())
             && cover.images.is_empty()
             && eq.homotopy.tail.twins.is_empty()
