@@ -188,8 +188,12 @@ impl Place {
 
     /// Whether a box of coordinates lies where this figure is the only one with t = 1.
     pub fn covers(&self, z: &[Interval]) -> bool {
-        let near = |i: usize| size(z[i] - self.middle[i]).sup() < self.alone_within[i];
-        (0..z.len()).all(near)
+        (0..z.len()).all(|i| self.covers_at(i, z[i]))
+    }
+
+    /// The same of one of its entries.
+    pub fn covers_at(&self, i: usize, x: Interval) -> bool {
+        size(x - self.middle[i]).sup() < self.alone_within[i]
     }
 
     /// Whether the claimed boxes have no point in common.

@@ -320,11 +320,10 @@ impl Apart {
         };
         let first = &space.figures[case.first];
         let is_based = |&figure: &usize| {
-            let of = |i: usize| match self.in_base[i] {
-                true => space.figures[figure].spot.at(i),
-                false => first.spot.at(i),
-            };
-            first.covers(&(0..m).map(of).collect::<Vec<_>>())
+            (0..m).all(|i| match self.in_base[i] {
+                true => first.covers_at(i, space.figures[figure].spot.at(i)),
+                false => first.covers_at(i, first.spot.at(i)),
+            })
         };
         let mut parts = case.parts.iter().zip(&case.figures);
         parts.all(|(part, figures)| {

@@ -27,7 +27,7 @@ use super::{CoverError, CoverStage, CoverVerdict, ENDED};
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::checker::place::Place;
 use crate::constraint::{self, Symmetry};
-use crate::interval::{Interval, point};
+use crate::interval::point;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use independent::Apart;
@@ -296,11 +296,11 @@ impl Space {
     /// The solution that a change of signs takes the zero in a part to, if it is one.
     pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
         let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), by)?;
-        let shows = |&figure: &usize| {
-            let changes = changes.clone();
-            self.shows(&Seen { figure, changes }, part)
-        };
-        let figure = (0..self.figures.len()).find(shows)?;
+        let mut seen = Seen { figure: 0, changes };
+        let figure = (0..self.figures.len()).find(|&figure| {
+            seen.figure = figure;
+            self.shows(&seen, part)
+        })?;
         let by = by.clone();
         Some(Image { figure, by })
     }
@@ -329,12 +329,12 @@ impl Space {
         let place = self.figures.get(figure);
         let place = place.filter(|_| self.apart.takes(figure));
         place.is_some_and(|place| {
-            let ranges = part.ranges().iter().enumerate();
-            let ranges = ranges.map(|(i, &x)| match self.apart.is_looked_at(i) {
-                true => x,
-                false => place.spot.at(i),
-            });
-            place.covers(&ranges.collect::<Vec<_>>())
+            // Solutions have more of the first unknowns in common than of the last ones.
+            let mut ranges = part.ranges().iter().enumerate().rev();
+            ranges.all(|(i, &x)| match self.apart.is_looked_at(i) {
+                true => place.covers_at(i, x),
+                false => place.covers_at(i, place.spot.at(i)),
+            })
         })
     }
 
@@ -345,15 +345,19 @@ impl Space {
 
     /// The same of an image of a solution.
     fn shows(&self, seen: &Seen, part: &Part) -> bool {
+        let place = &self.figures[seen.figure];
         let ranges = part.ranges().iter().zip(&seen.changes);
-        let moved: Vec<Interval> = ranges
-            .map(|(&x, &turn)| if turn { -x } else { x })
-            .collect();
-        self.figures[seen.figure].covers(&moved)
+        let mut ranges = ranges.enumerate().rev();
+        ranges.all(|(i, (&x, &turn))| place.covers_at(i, if turn { -x } else { x }))
     }
 
     /// A listed zero to which all of a part lies so near.
     pub fn zero_of(&self, part: &Part) -> Option<Mark> {
+        // Nothing is near where any number may be.
+        let mut ranges = part.ranges().iter().enumerate();
+        if ranges.any(|(i, x)| self.apart.is_looked_at(i) && !x.is_common_interval()) {
+            return None;
+        }
         let figure = (0..self.figures.len()).find(|&figure| self.is_at(figure, part));
         let figure = figure.map(Mark::Figure);
         let image = || self.images.iter().position(|seen| self.shows(seen, part));
