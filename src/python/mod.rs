@@ -194,6 +194,12 @@ fn verify(
         let same = problem.is_none_or(|problem| verdict.is_about(problem));
         return Ok((what, report::cover_theorem(&verdict, begin.elapsed()), same));
     }
+    if matches!(contents, Ok(Contents::ComplexSet)) {
+        return Err(bad(format!(
+            "{}: a set of complex solutions, which `krawl verify` checks",
+            path.display()
+        )));
+    }
     let settings = Settings { threads: 0 };
     let verdict = interruptible(py, |_| {
         certificate::verify(bytes.as_slice(), &settings, &mut |_| ())

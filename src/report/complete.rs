@@ -233,7 +233,10 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             out,
             "\nThe sketch falls apart once these are placed, in one of {}: {}. Beside each of them the solutions are all combinations of what the rest has.",
             counted(first.count, "way"),
-            first.names.join(", ")
+            match first.names.is_empty() {
+                true => "lengths or directions without a name".to_owned(),
+                false => first.names.join(", "),
+            }
         )?;
     }
     for part in &result.parts {

@@ -126,6 +126,9 @@ impl ComplexSet {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ComplexSetError> {
         let opened = Head::of_one_record(bytes, TAG_COMPLEX_SET);
         let (head, json) = opened.map_err(|error| ComplexSetError(error.to_string()))?;
+        if head.unit_exponent != 0 {
+            return Err(ComplexSetError("the unit of a set is 1".to_owned()));
+        }
         let set: ComplexSet = serde_json::from_slice(json)
             .map_err(|error| ComplexSetError(format!("the set: {error}")))?;
         Ok(ComplexSet {

@@ -39,17 +39,9 @@ impl<'a> Lines<'a> {
     /// The next line.
     pub fn line(&mut self) -> Result<&'a str, CoverError> {
         let end = self.rest.iter().position(|&b| b == b'\n');
-        self.take(end.ok_or_else(|| error("it ends early"))?)
-    }
-
-    /// So many bytes of text, and the end of the line behind them.
-    fn take(&mut self, length: usize) -> Result<&'a str, CoverError> {
-        match self.rest.get(length) {
-            Some(b'\n') => {}
-            _ => return Err(error("it ends early, or a length is wrong")),
-        }
-        let text = std::str::from_utf8(&self.rest[..length]);
-        self.rest = &self.rest[length + 1..];
+        let end = end.ok_or_else(|| error("it ends early"))?;
+        let text = std::str::from_utf8(&self.rest[..end]);
+        self.rest = &self.rest[end + 1..];
         text.map_err(|_| error("a line is not text"))
     }
 

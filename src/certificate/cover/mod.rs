@@ -2,7 +2,7 @@
 //!
 //! A cover says of every part of the space why it holds no figure but those listed. There are two kinds: of the parameter
 //! space of a construction plan ([`plan`]), for distances, and of the space of all coordinates and auxiliary unknowns
-//! ([`coordinates`]), for every problem. What is trusted is in this folder, and the intervals and the problem beside
+//! ([`coordinates`]), for every problem. What is trusted is in this folder, the reading of the header (`../head.rs`), and the intervals and the problem beside
 //! it; for the second kind the kernel's equations too, and the test of certificates for one figure.
 
 // A bound that is not a number proves nothing: tests say what they need, and `!(a < b)` is not `a >= b`.

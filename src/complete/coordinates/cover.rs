@@ -41,7 +41,7 @@ pub struct Results<'a> {
     pub bodies: Vec<Option<Body>>,
     /// The unknowns that parts have in common, where the equations fall apart.
     pub base: Vec<usize>,
-    /// The parts, of whose zeros every combination is one; none where the equations do not fall apart.
+    /// What the equations fall apart into, for each zero of the base that figures have; none where they do not.
     pub cases: Vec<Case>,
     /// The parts of the search.
     pub boxes: u64,

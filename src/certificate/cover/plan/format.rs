@@ -68,7 +68,7 @@ impl Left {
         Left { cut, range }
     }
 
-    /// The smallest that holds a range.
+    /// A small one that holds what of a range is in another one.
     pub fn holding(within: [f64; 2], wanted: [f64; 2]) -> Left {
         let width = within[1] - within[0];
         let off = [wanted[0] - within[0], within[1] - wanted[1]];

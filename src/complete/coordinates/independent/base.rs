@@ -6,13 +6,14 @@
 use super::super::{Figures, MOST_FIGURES, State};
 use super::apart::Apart;
 use super::slices::Sought;
+use std::sync::atomic::Ordering;
 
 /// Where no more zeros are to be put together than this, nothing more is decided first.
 const ENOUGH: f64 = 1000.0;
 /// The greatest number of zeros of a base.
 const MOST_CASES: usize = 256;
-/// Blocks that are taken into the base, one after the other.
-const MOST_STEPS: usize = 24;
+/// So many blocks are taken into the base at most, one after the other.
+const MOST_BLOCKS: usize = 24;
 
 /// A base, how the equations fall apart beside it, and how many zeros are to be put together then.
 struct Base {
@@ -42,7 +43,7 @@ impl Figures<'_> {
             return None;
         }
         let mut bases: Vec<Base> = Vec::new();
-        while bases.len() < MOST_STEPS {
+        while bases.len() < MOST_BLOCKS {
             let (is_in, apart) = match bases.last() {
                 Some(base) => (&base.is_in[..], &base.apart),
                 None => (is_in, apart),
@@ -110,7 +111,7 @@ impl Figures<'_> {
             return (out.len() <= MOST_CASES).then_some(());
         };
         let found = self.solve(b, &state, 0.0);
-        if !found.undecided.is_empty() {
+        if !found.undecided.is_empty() || self.run.stop.load(Ordering::Relaxed) {
             return None;
         }
         for zero in 0..found.zeros.len() {

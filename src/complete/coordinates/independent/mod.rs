@@ -41,7 +41,7 @@ pub struct Parts {
     pub listed: Vec<FigureBox>,
     /// How many combinations there are; `None` where that has no place in 64 bits.
     pub count: Option<u64>,
-    /// The unknowns of the base that are not the same in all cases.
+    /// The unknowns of the blocks of the base that have several zeros.
     pub decided: Vec<usize>,
 }
 
@@ -105,7 +105,7 @@ impl Parts {
         choices.collect()
     }
 
-    /// Where there are several cases: what they differ in, by name, and how many there are.
+    /// Where there are several cases: what is decided by them, by name, and how many there are.
     pub fn first_choice(&self, problem: &Problem, homotopy: &Homotopy) -> Option<Choice> {
         (self.cases.len() > 1).then(|| Choice {
             names: Parts::names(problem, homotopy, &self.decided),
@@ -138,7 +138,7 @@ enum Solved {
 }
 
 impl Figures<'_> {
-    /// Finds the figures part by part, where the equations fall apart into two parts or more that have more than one zero. `None`: they do not, or that it is so could not be shown.
+    /// Finds the figures part by part, where the equations fall apart into two parts or more that have more than one zero, perhaps beside each of several zeros of a base. `None`: they do not, or that it is so could not be shown.
     pub(super) fn fall_apart(&mut self, x: &[Interval], pivots: &[usize]) -> Option<Parts> {
         let is_simple = self.homotopy.tail.twins.is_empty()
             && !self.homotopy.has_directions()
@@ -217,11 +217,17 @@ impl Figures<'_> {
                 super::leave(&mut self.undecided, Why::Unfinished, 1, share);
                 continue;
             }
-            let (mut figures, mut parts) =
-                match self.of_parts(apart, (zeros, is_only), (begin, share))? {
-                    Solved::Figures(figures, parts) => (figures, parts),
-                    Solved::Nothing => continue,
-                };
+            let solved = self.of_parts(apart, (zeros, is_only), (begin, share));
+            let (mut figures, mut parts) = match solved {
+                Some(Solved::Figures(figures, parts)) => (figures, parts),
+                Some(Solved::Nothing) => continue,
+                // What was found of other cases stays.
+                None if self.run.stop.load(Ordering::Relaxed) && !is_only => {
+                    super::leave(&mut self.undecided, Why::Unfinished, 1, share);
+                    continue;
+                }
+                None => return None,
+            };
             let first = representatives.len();
             representatives.append(&mut figures);
             if representatives.len() > MOST_FIGURES {
