@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::covers::searched;
+use common::covers::{is_harmless, searched};
 use common::edits::Random;
 use krawl::certificate::cover::coordinates::{Case, CoordinateCover};
 use krawl::certificate::cover::verify_cover;
@@ -200,14 +200,6 @@ fn points_constructed_with_a_sought_radius_have_as_many_places_as_sides() {
     }
     println!("{with_cases} of {tried} in cases");
     assert!(with_cases > 1, "{with_cases}");
-}
-
-/// What a cover that was changed may still prove: the truth, or less.
-fn is_harmless(cover: &CoordinateCover, count: u64) -> bool {
-    let Ok(verdict) = verify_cover(&cover.to_bytes()) else {
-        return true;
-    };
-    !verdict.proves_all() || verdict.solutions == Some(count)
 }
 
 #[test]

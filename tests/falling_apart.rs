@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::covers::{proved, searched};
+use common::covers::{is_harmless, proved, searched};
 use common::edits::Random;
 use krawl::certificate::cover::coordinates::{
     Case, CoordinateCover, Independent, Mark, signs_changed,
@@ -438,14 +438,6 @@ fn the_first_solution_is_in_the_space_that_is_looked_at() {
         }
         assert!(verify_cover(&other.to_bytes()).unwrap().flaw.is_some());
     }
-}
-
-/// What a cover that was changed may still prove: the truth, or less.
-fn is_harmless(cover: &CoordinateCover, count: u64) -> bool {
-    let Ok(verdict) = verify_cover(&cover.to_bytes()) else {
-        return true;
-    };
-    !verdict.proves_all() || verdict.solutions == Some(count)
 }
 
 #[test]

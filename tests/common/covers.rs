@@ -29,3 +29,11 @@ pub fn proved(problem: &Problem) -> (Complete, CoordinateCover) {
     assert!(verdict.is_about(problem));
     (result, cover)
 }
+
+/// What a cover that was changed may still prove: the truth, or less.
+pub fn is_harmless(cover: &CoordinateCover, count: u64) -> bool {
+    let Ok(verdict) = verify_cover(&cover.to_bytes()) else {
+        return true;
+    };
+    !verdict.proves_all() || verdict.solutions == Some(count)
+}

@@ -167,10 +167,15 @@ fn searched(
     );
 
     if space.is_ok() {
+        let done = run.done.load(Ordering::Relaxed);
         figures.parts = figures.fall_apart(&x, &pivots);
         match &figures.parts {
             Some(parts) => figures.found.clone_from(&parts.listed),
             None => {
+                // What is known by now is counted where it is asked for again.
+                if kept.is_none() && !run.stop.load(Ordering::Relaxed) {
+                    run.done.store(done, Ordering::Relaxed);
+                }
                 let begin = State {
                     x,
                     told: Told::default(),

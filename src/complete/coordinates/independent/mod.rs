@@ -277,7 +277,7 @@ impl Figures<'_> {
         let (mut zeros, mut steps) = (zeros.to_vec(), 0);
         let mut is_passed = false;
         let (reference, first) = loop {
-            match self.reference(apart, &mut zeros, &mut steps, (begin, share)) {
+            match self.reference(apart, &mut zeros, &mut steps, (begin, 0.0)) {
                 Sought::Unknown => return None,
                 // Zeros that are no figures were passed over.
                 Sought::Nothing(_) if is_passed => return None,

@@ -19,7 +19,8 @@ pub enum Sought {
 }
 
 impl Figures<'_> {
-    /// Looks for a zero of all blocks, from given ones on; those of the base stay as they are. `share`: of what is searched.
+    /// Looks for a zero of all blocks, from given ones on; those of the base stay as they are. `share`: of what is searched, for
+    /// the blocks of parts.
     pub(super) fn reference(
         &mut self,
         apart: &Apart,
@@ -35,8 +36,7 @@ impl Figures<'_> {
             }
             let b = states.len() - 1;
             let state = &states[b];
-            // Half of the work is counted here, and half in the slices.
-            let share = apart.part[b].map_or(0.0, |_| 0.5 * share);
+            let share = apart.part[b].map_or(0.0, |_| share);
             let found = self.solve(b, state, share);
             if zeros[b] < found.zeros.len() {
                 let mut state = state.clone();
