@@ -635,6 +635,8 @@ fn the_pentahedron_is_complete() {
     let result = searched(&problem);
     assert_eq!((result.status, result.count), (Status::Complete, Some(9)));
     assert_eq!(result.symmetry, Symmetry::Isometries);
+    let constructed = result.constructed.unwrap();
+    assert_eq!((constructed.unknowns, constructed.parameters), (16, 2));
     assert!(holds_the_path(&problem, &result).unwrap() >= 9);
 }
 

@@ -46,7 +46,9 @@ mod targets;
 mod visit;
 
 pub use among::{Among, among};
-pub use outcome::{Choice, Complete, Method, Options, Part, Progress, Status, Unserved};
+pub use outcome::{
+    Choice, Complete, Constructed, Method, Options, Part, Progress, Status, Unserved,
+};
 pub use parts::Searched;
 pub use store::Keep;
 pub use visit::Why;

@@ -88,6 +88,9 @@ pub struct Complete {
     pub boxes: u64,
     /// Driving parameters of the plan.
     pub driving: usize,
+    /// Of a search over coordinates: the largest block that was searched by constructing its unknowns as functions of a few of them, wherever they are
+    /// bounded.
+    pub constructed: Option<Constructed>,
     /// The order in which the plan places the points.
     pub plan: Vec<usize>,
     /// Wall-clock seconds.
@@ -111,6 +114,15 @@ impl Complete {
         }
         settles
     }
+}
+
+/// Unknowns that are constructed, step by step, as functions of a few of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Constructed {
+    /// How many they are.
+    pub unknowns: usize,
+    /// How many of them drive the construction, where no coefficient vanishes.
+    pub parameters: usize,
 }
 
 /// What is placed in one of several ways, whatever else there is.
@@ -309,6 +321,7 @@ impl Complete {
             reason: Some(reason),
             boxes: 0,
             driving: 0,
+            constructed: None,
             plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
             seconds_left: None,
@@ -420,6 +433,7 @@ impl Complete {
             reason,
             boxes: found.boxes,
             driving: search.plan.parameters(),
+            constructed: None,
             plan: order
                 .chain(search.plan.steps.iter().map(|s| s.point))
                 .collect(),

@@ -27,6 +27,8 @@ const SHOWN: usize = 12;
 ///  "seconds_left": null, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
 /// ```
 ///
+/// (`constructed`, `{"unknowns": 16, "parameters": 2}`, of a search over coordinates in which unknowns were.)
+///
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
 /// reference points.
 pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
@@ -99,6 +101,10 @@ impl<'a> Document<'a> {
             seconds: result.seconds,
             seconds_left: result.seconds_left,
             driving: result.driving,
+            constructed: result.constructed.map(|it| Constructed {
+                unknowns: it.unknowns,
+                parameters: it.parameters,
+            }),
             turned: &result.turned,
             plan: names(problem, &result.plan),
         }
@@ -126,6 +132,8 @@ struct Document<'a> {
     seconds: f64,
     seconds_left: Option<f64>,
     driving: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    constructed: Option<Constructed>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     turned: &'a [String],
     plan: Vec<&'a str>,
@@ -138,6 +146,13 @@ struct Entry<'a> {
     objects: Objects<'a, Interval>,
     class: usize,
     width: f64,
+}
+
+/// Unknowns that were constructed as functions of parameters.
+#[derive(serde::Serialize)]
+struct Constructed {
+    unknowns: usize,
+    parameters: usize,
 }
 
 /// A part of a problem that falls apart.
@@ -257,6 +272,14 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     match result.method {
         Method::Coordinates => writeln!(out, "unknowns            {}", result.driving)?,
         _ => writeln!(out, "driving parameters  {}", result.driving)?,
+    }
+    if let Some(it) = result.constructed {
+        writeln!(
+            out,
+            "constructed         {} of them step by step, driven by {}",
+            it.unknowns,
+            counted(it.parameters, "parameter")
+        )?;
     }
     if !result.turned.is_empty() {
         writeln!(out, "rotations of        {}", result.turned.join(", "))?;

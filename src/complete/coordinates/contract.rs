@@ -17,6 +17,8 @@ pub struct Empty;
 const ENOUGH: f64 = 0.05;
 /// How often the rows are gone through.
 const ROUNDS: usize = 12;
+/// The same where one entry became narrower.
+const FEW_ROUNDS: usize = 2;
 
 /// All numbers.
 pub fn entire() -> Interval {
@@ -30,8 +32,28 @@ pub fn upper_half() -> Interval {
 
 /// Contracts the entries that are free by all rows, again and again while that helps.
 pub fn contract(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<(), Empty> {
-    let mut is_dirty = vec![true; x.len()];
-    for _ in 0..ROUNDS {
+    spread((rows, is_free), vec![true; x.len()], ROUNDS, x)
+}
+
+/// Contracts the entries that are free by the rows that have to do with one that became narrower since, and goes not far from these.
+pub fn contract_near(
+    rows: &[&Row],
+    is_free: &[bool],
+    entry: usize,
+    x: &mut [Interval],
+) -> Result<(), Empty> {
+    let mut is_dirty = vec![false; x.len()];
+    is_dirty[entry] = true;
+    spread((rows, is_free), is_dirty, FEW_ROUNDS, x)
+}
+
+fn spread(
+    (rows, is_free): (&[&Row], &[bool]),
+    mut is_dirty: Vec<bool>,
+    rounds: usize,
+    x: &mut [Interval],
+) -> Result<(), Empty> {
+    for _ in 0..rounds {
         let mut changed = vec![false; x.len()];
         let mut any = false;
         for row in rows {

@@ -100,8 +100,8 @@ pub fn file(
         bodies: bodies.collect(),
         left: 0,
         parts: 0,
-        // The check's rules are about as strong as the search's.
-        most: 4 * results.boxes + 10_000,
+        // The check does not construct unknowns, and may need ten times as many parts.
+        most: 40 * results.boxes + 20_000,
         stop,
     };
     for slice in writer.space.slices() {

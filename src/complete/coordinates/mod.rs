@@ -16,6 +16,7 @@
 //! the box of these holds X and no other zero, and lies where the figure proved is alone: X is that figure.
 
 mod bound;
+mod construction;
 mod contract;
 mod cover;
 mod divided;
@@ -24,6 +25,7 @@ mod far;
 mod independent;
 mod kept;
 mod newton;
+mod piece;
 mod poses;
 mod search;
 mod sides;
@@ -36,7 +38,7 @@ use super::pairs::Pairs;
 use super::search::Run as Watched;
 use super::store::{Keep, Store};
 use super::targets::Targets;
-use super::{Complete, Options, Part, Status, Unserved, Why, emptiness};
+use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptiness};
 use crate::blocks::{Block as Cut, Blocks};
 use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
@@ -191,6 +193,7 @@ fn searched(
         .map(|body| problem.objects[body.object].name.clone())
         .collect();
     result.boxes = run.boxes.load(Ordering::Relaxed);
+    result.constructed = figures.constructed;
     if cover {
         result.cover = figures.cover(problem, halves);
     }
@@ -291,6 +294,8 @@ struct Figures<'a> {
     undecided: Vec<Part>,
     /// Where the equations fall apart, what comes of that.
     parts: Option<Parts>,
+    /// The largest construction by which a block was searched.
+    constructed: Option<Constructed>,
 }
 
 /// Where blocks are.
@@ -345,6 +350,7 @@ impl<'a> Figures<'a> {
             others: Vec::new(),
             undecided: Vec::new(),
             parts: None,
+            constructed: None,
         }
     }
 
@@ -483,6 +489,7 @@ impl<'a> Figures<'a> {
             }
             None => Found::missing(1.0),
         };
+        self.constructed = self.constructed.max(found.constructed);
         let found = Rc::new(found);
         self.known.insert(key, Rc::clone(&found));
         found

@@ -108,6 +108,12 @@ impl Square<'_> {
         let half = point(0.5);
         let between = self.with(x, |k| (x[self.own[k]] + point(middle[k])) * half);
         let slopes = self.derivatives(&between);
+        // Most of them are 0.
+        let row = |row: &[Interval]| {
+            let entries = row.iter().copied().enumerate();
+            entries.filter(|(_, slope)| *slope != ZERO).collect()
+        };
+        let slopes: Vec<Vec<(usize, Interval)>> = slopes.chunks(n).map(row).collect();
         let mut defect: f64 = 0.0;
         let mut line = vec![ZERO; n];
         for i in 0..n {
@@ -120,10 +126,8 @@ impl Square<'_> {
                 }
                 let by = point(by);
                 constant += by * f[e];
-                for (sum, slope) in line.iter_mut().zip(&slopes[e * n..(e + 1) * n]) {
-                    if *slope != ZERO {
-                        *sum += by * *slope;
-                    }
+                for &(j, slope) in &slopes[e] {
+                    line[j] += by * slope;
                 }
             }
             let off: f64 = (0..n)

@@ -1,19 +1,20 @@
 //! All zeros of a block in a box, by branch and prune.
 //!
-//! Parts are given up only where a row cannot hold ([`contract`]) or a linear combination of the equations cannot
-//! ([`Square::step`]), or where all of the part lies where a zero that is proved is alone ([`Square::is_alone`]). Halves of a part
-//! share their border, so that no zero falls between them. The answer is the same for any number of threads: the first
+//! Parts are given up only where a row cannot hold ([`super::contract`]) or a linear combination of the equations cannot
+//! ([`Square::step`]), where no way of a construction ends ([`super::construction`]), or where all of the part lies where a zero that is proved is alone
+//! ([`Square::is_alone`]); how one is looked at is in [`super::piece`]. Halves of a part share their border, so that no zero falls between them. The answer is the same for any number of threads: the first
 //! parts are made one after the other, and each of them is then searched by itself.
 
 use super::bound::bounds;
-use super::contract::{Empty, contract};
-use super::far::far;
+use super::construction::Order;
+use super::contract::Empty;
 use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
+use super::piece::{How, Node, Piece};
 use super::sums::sums;
 use super::system::{Row, System};
 use crate::complete::search::Run as Watched;
-use crate::complete::{Part, Why};
+use crate::complete::{Constructed, Part, Why};
 use crate::interval::Interval;
 use num_rational::BigRational;
 use rayon::prelude::*;
@@ -51,6 +52,9 @@ pub struct Found {
     /// For each zero the unknowns whose numbers are known exactly. (Of a search over rotations there are none.)
     #[serde(skip)]
     pub exact: Vec<Arc<Values>>,
+    /// The largest construction by which it was searched, if any was.
+    #[serde(skip)]
+    pub constructed: Option<Constructed>,
 }
 
 /// Unknowns with their exact numbers.
@@ -100,9 +104,6 @@ pub struct About<'s, 'a> {
     /// What is known exactly, told in whole numbers.
     pub told: Vec<usize>,
 }
-
-/// A part of the space, with its share.
-type Node = (Vec<Interval>, f64);
 
 impl<'a> Block<'a> {
     /// The block of some equations and unknowns of a system. `is_known`: entries that blocks before have determined.
@@ -168,37 +169,26 @@ impl<'a> Block<'a> {
     ) -> Found {
         more.extend(sums(&about.whole.square, self.zero, &x));
         let rows: Vec<&Row> = self.rows.iter().copied().chain(&more).collect();
-        let mut first = Piece::new(self, &rows, run);
-        let mut nodes: Vec<Node> = vec![(x, 1.0)];
-        // Breadth first until there are enough pieces, or few remain however far it goes.
-        while !nodes.is_empty() && nodes.len() < PIECES && first.found.boxes < LOOKED {
-            let mut next = Vec::new();
-            for node in nodes {
-                first.visit(node, &mut next);
-            }
-            nodes = next;
-            if run.watched.boxes.load(Ordering::Relaxed) >= run.watched.most_boxes {
-                break;
-            }
-        }
-        let first = first.found;
+        let order = Order::new(&self.square, self.zero);
+        let how = (rows.as_slice(), order.as_ref());
+        let (first, nodes) = self.begin(how, x, run);
         if run.kept.is_some() {
             // Looked at in every run.
-            let open: f64 = nodes.iter().map(|(_, share)| share).sum();
+            let open: f64 = nodes.iter().map(|node| node.share).sum();
             run.watched.add_before(run.weight * (1.0 - open).max(0.0));
         }
         let own = self.square.own.iter();
         let mut all = Together {
             ranges: nodes
                 .iter()
-                .map(|(x, _)| own.clone().map(|&u| x[u]).collect())
+                .map(|node| own.clone().map(|&u| node.x[u]).collect())
                 .collect(),
             zeros: Vec::new(),
         };
         let mut found: Vec<Found> = nodes
             .into_par_iter()
             .enumerate()
-            .map(|(piece, node)| self.piece(about, (piece, node), (&first.zeros, &rows), run))
+            .map(|(piece, node)| self.piece(about, (piece, node), &first.zeros, how, run))
             .collect();
         all.add(first.zeros, None);
         all.find(&mut found);
@@ -206,6 +196,10 @@ impl<'a> Block<'a> {
             undecided: first.undecided,
             boxes: first.boxes,
             is_broken_off: first.is_broken_off,
+            constructed: how.1.map(|order| Constructed {
+                unknowns: self.square.own.len(),
+                parameters: order.drives,
+            }),
             ..Found::default()
         };
         for one in found {
@@ -219,16 +213,35 @@ impl<'a> Block<'a> {
         whole
     }
 
+    /// The first parts of a search, one after the other, and the pieces that they leave.
+    fn begin(&self, how: How, x: Vec<Interval>, run: &Run) -> (Found, Vec<Node>) {
+        let mut first = Piece::new(self, how, run);
+        let mut nodes = vec![Node::whole(x)];
+        // Breadth first until there are enough pieces, or few remain however far it goes.
+        while !nodes.is_empty() && nodes.len() < PIECES && first.found.boxes < LOOKED {
+            let mut next = Vec::new();
+            for node in nodes {
+                first.visit(node, &mut next);
+            }
+            nodes = next;
+            if run.watched.boxes.load(Ordering::Relaxed) >= run.watched.most_boxes {
+                break;
+            }
+        }
+        (first.found, nodes)
+    }
+
     /// Searches one of the pieces, or takes what was found in it before.
     fn piece(
         &self,
         about: &About,
         (number, node): (usize, Node),
-        (zeros, rows): (&[Zero], &[&Row]),
+        zeros: &[Zero],
+        how: How,
         run: &Run,
     ) -> Found {
         let searched = |node: Node| {
-            let mut piece = Piece::new(self, rows, run);
+            let mut piece = Piece::new(self, how, run);
             piece.found.zeros.extend_from_slice(zeros);
             let mut stack = vec![node];
             while let Some(node) = stack.pop() {
@@ -239,8 +252,8 @@ impl<'a> Block<'a> {
         let Some(kept) = run.kept else {
             return searched(node);
         };
-        let share = node.1;
-        let name = self.name(about, &node.0, zeros);
+        let share = node.share;
+        let name = self.name(about, &node.x, zeros);
         if let Some(found) = kept.known(&name) {
             run.watched.boxes.fetch_add(found.boxes, Ordering::Relaxed);
             run.watched.add_done_before(run.weight * share);
@@ -281,7 +294,7 @@ impl<'a> Block<'a> {
     }
 
     /// Why a part stays undecided, if a curve of zeros seems to go through it.
-    fn curve(&self, x: &[Interval]) -> Option<Why> {
+    pub fn curve(&self, x: &[Interval]) -> Option<Why> {
         let zero = self.square.on_a_curve(x)?;
         // A curve along which a leg has no length, whatever its heading is, or another vector vanishes that must not, is none of figures.
         let at = |entry: usize| match self.square.place[entry] {
@@ -445,138 +458,6 @@ pub fn leave(undecided: &mut Vec<Part>, why: Why, count: u64, share: f64) {
     }
 }
 
-/// A part of a search that goes on by itself.
-struct Piece<'s, 'a> {
-    block: &'s Block<'a>,
-    /// Its rows, and sums of two of its equations.
-    rows: &'s [&'s Row],
-    run: &'s Run<'s>,
-    found: Found,
-    left: usize,
-    /// Why the last part that a curve of zeros was seen in stays undecided: nothing is gained by small parts there.
-    curve: Option<Why>,
-}
-
-impl<'s, 'a> Piece<'s, 'a> {
-    fn new(block: &'s Block<'a>, rows: &'s [&'s Row], run: &'s Run<'s>) -> Self {
-        Piece {
-            block,
-            rows,
-            run,
-            found: Found::default(),
-            left: 0,
-            curve: None,
-        }
-    }
-
-    fn leave(&mut self, why: Why, share: f64) {
-        self.left += 1;
-        if why != Why::Unfinished {
-            self.done(share);
-        }
-        leave(&mut self.found.undecided, why, 1, share);
-    }
-
-    /// Notes that a part is not looked at any more.
-    fn done(&self, share: f64) {
-        self.run.watched.add_done(self.run.weight * share);
-    }
-
-    /// Looks at a part: it is given up, decided, left undecided, or its halves come to the others.
-    fn visit(&mut self, (mut x, share): Node, others: &mut Vec<Node>) {
-        let watched = self.run.watched;
-        self.found.boxes += 1;
-        if watched.stop.load(Ordering::Relaxed)
-            || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
-        {
-            self.found.is_broken_off = true;
-            self.leave(Why::Unfinished, share);
-            return;
-        }
-        if self.left > TOO_MANY {
-            self.leave(Why::GivenUp, share);
-            return;
-        }
-        if self.decided(&mut x) {
-            self.done(share);
-            return;
-        }
-        let own = &self.block.square.own;
-        let least = match self.left > MANY || self.curve.is_some() {
-            true => COARSE,
-            false => SMALL,
-        };
-        let (which, widest) = match self.block.widest(&x) {
-            Choice::Halve(u, widest) => (u, widest),
-            Choice::Huge => {
-                self.leave(Why::Unbounded, share);
-                return;
-            }
-        };
-        if widest < least {
-            let why = match self.curve {
-                Some(Why::Flexible) => Why::Flexible,
-                _ => self.block.curve(&x).unwrap_or(Why::Small),
-            };
-            if why != Why::Small {
-                self.curve = Some(why);
-            }
-            self.leave(why, share);
-            return;
-        }
-        debug_assert!(own.contains(&which));
-        let Some([low, high]) = halves(x[which]) else {
-            self.leave(Why::Small, share);
-            return;
-        };
-        let mut other = x.clone();
-        x[which] = low;
-        other[which] = high;
-        others.push((x, 0.5 * share));
-        others.push((other, 0.5 * share));
-    }
-
-    /// Whether nothing is left of a part but zeros that are known.
-    fn decided(&mut self, x: &mut [Interval]) -> bool {
-        let block = self.block;
-        let square = &block.square;
-        for _ in 0..6 {
-            if contract(self.rows, &block.is_free, x) == Err(Empty) {
-                return true;
-            }
-            if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
-                return true;
-            }
-            let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
-            if !is_bounded {
-                match far(self.rows, &block.is_free, x) {
-                    Err(Empty) => return true,
-                    Ok(true) => continue,
-                    Ok(false) => return false,
-                }
-            }
-            let before = block.volume(x);
-            let Ok(step) = square.step(x) else {
-                return true;
-            };
-            if step.defect < 2.0
-                && let Some(zero) = square.prove(x)
-            {
-                let is_it = square.is_alone(&zero, x);
-                add(&mut self.found.zeros, zero);
-                if is_it {
-                    return true;
-                }
-            }
-            // Worth another round where a good part of the box is gone.
-            if block.volume(x) > before - 0.7 {
-                return false;
-            }
-        }
-        false
-    }
-}
-
 /// What is done with a part that is not decided.
 pub enum Choice {
     /// This unknown is halved; and how wide the widest range is, beside its size.
@@ -585,39 +466,7 @@ pub enum Choice {
     Huge,
 }
 
-/// Two ranges that share a border and together are the range.
-fn halves(x: Interval) -> Option<[Interval; 2]> {
-    use crate::interval::checked;
-    let middle = match (x.inf().is_finite(), x.sup().is_finite()) {
-        (true, true) => x.mid(),
-        (true, false) => (2.0 * x.inf()).max(1.0),
-        (false, true) => (2.0 * x.sup()).min(-1.0),
-        (false, false) => 0.0,
-    };
-    if !(x.inf() < middle && middle < x.sup()) {
-        return None;
-    }
-    Some([checked(x.inf(), middle)?, checked(middle, x.sup())?])
-}
-
 /// The range that a zero has, made a little wider than its box by rounding.
 pub fn ranges(zero: &Zero) -> impl Iterator<Item = Interval> + '_ {
     (0..zero.centre.len()).map(|k| zero.range(k))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::interval::hull;
-
-    #[test]
-    fn halves_leave_nothing_out() {
-        use super::super::contract::{entire, upper_half};
-        for x in [entire(), upper_half(), hull(-1.0, 3.0), -upper_half()] {
-            let [low, high] = halves(x).unwrap();
-            assert_eq!(low.sup(), high.inf());
-            assert_eq!(low.convex_hull(high), x);
-        }
-        assert!(halves(hull(1.0, 1.0f64.next_up())).is_none());
-    }
 }

@@ -125,6 +125,7 @@ impl Sides<'_, '_> {
         let here = block.search_all(&about, more, x.clone(), &own);
         found.boxes += here.boxes;
         found.is_broken_off |= here.is_broken_off;
+        found.constructed = found.constructed.max(here.constructed);
         for part in here.undecided {
             leave(
                 &mut found.undecided,

@@ -1,0 +1,325 @@
+//! A part of a search that goes on by itself, and how one of its parts is looked at.
+
+use super::construction::{Leaf, Order, Walked, walk};
+use super::contract::{Empty, contract, contract_near};
+use super::far::far;
+use super::search::{Block, COARSE, Choice, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
+use super::system::Row;
+use crate::complete::Why;
+use crate::interval::Interval;
+use std::sync::atomic::Ordering;
+
+/// The rows that narrow parts, the block's equations and sums of these among them, and in which order its unknowns are constructed,
+/// if they are.
+pub type How<'s> = (&'s [&'s Row], Option<&'s Order>);
+
+/// A part of the space.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// The ranges of all entries.
+    pub x: Vec<Interval>,
+    /// Its share.
+    pub share: f64,
+    fresh: Fresh,
+}
+
+/// What became narrower since rows were gone through.
+#[derive(Debug, Clone, Copy)]
+enum Fresh {
+    All,
+    One(usize),
+    None,
+}
+
+/// What is worth another round: where a part of the box as large as this is gone, by the logarithm of its volume.
+const WORTH: f64 = 0.7;
+/// Unknowns that are constructed are looked at together where all are known to this much, beside their size.
+const NEAR: f64 = 0.03;
+/// After so many parts of a piece its unknowns are not constructed any more.
+const PATIENCE: u64 = 20_000;
+/// An unknown is not halved where its range is this part of the widest.
+const NARROW: f64 = 1e-6;
+
+impl Node {
+    /// All of a space.
+    pub fn whole(x: Vec<Interval>) -> Self {
+        Node {
+            x,
+            share: 1.0,
+            fresh: Fresh::All,
+        }
+    }
+}
+
+/// A part of a search that goes on by itself.
+pub struct Piece<'s, 'a> {
+    block: &'s Block<'a>,
+    rows: &'s [&'s Row],
+    order: Option<&'s Order>,
+    run: &'s Run<'s>,
+    /// What was found in it.
+    pub found: Found,
+    left: usize,
+    /// Why the last part that a curve of zeros was seen in stays undecided: nothing is gained by small parts there.
+    curve: Option<Why>,
+    /// How many unknowns were variables at once in the parts before, where unknowns are constructed.
+    symbols: usize,
+}
+
+impl<'s, 'a> Piece<'s, 'a> {
+    /// Nothing was looked at.
+    pub fn new(block: &'s Block<'a>, (rows, order): How<'s>, run: &'s Run<'s>) -> Self {
+        Piece {
+            block,
+            rows,
+            order,
+            run,
+            found: Found::default(),
+            left: 0,
+            curve: None,
+            symbols: 0,
+        }
+    }
+
+    fn leave(&mut self, why: Why, share: f64) {
+        self.left += 1;
+        if why != Why::Unfinished {
+            self.done(share);
+        }
+        leave(&mut self.found.undecided, why, 1, share);
+    }
+
+    /// Notes that a part is not looked at any more.
+    fn done(&self, share: f64) {
+        self.run.watched.add_done(self.run.weight * share);
+    }
+
+    /// Looks at a part: it is given up, decided, left undecided, or what it is parted into comes to the others.
+    pub fn visit(&mut self, mut node: Node, others: &mut Vec<Node>) {
+        let watched = self.run.watched;
+        self.found.boxes += 1;
+        if watched.stop.load(Ordering::Relaxed)
+            || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
+        {
+            self.found.is_broken_off = true;
+            self.leave(Why::Unfinished, node.share);
+            return;
+        }
+        if self.left > TOO_MANY {
+            self.leave(Why::GivenUp, node.share);
+            return;
+        }
+        let order = self.order.filter(|_| self.found.boxes <= PATIENCE);
+        if let Some(order) = order {
+            self.construct(order, node, others);
+        } else if self.is_decided(&mut node.x) {
+            self.done(node.share);
+        } else {
+            self.halve(node.x, node.share, None, others);
+        }
+    }
+
+    /// Halves a part in an unknown, where one is named, or in that which moves the equations most; or leaves it undecided.
+    fn halve(
+        &mut self,
+        mut x: Vec<Interval>,
+        share: f64,
+        named: Option<usize>,
+        others: &mut Vec<Node>,
+    ) {
+        let least = match self.left > MANY || self.curve.is_some() {
+            true => COARSE,
+            false => SMALL,
+        };
+        let (which, widest) = match self.block.widest(&x) {
+            Choice::Halve(u, widest) => (u, widest),
+            Choice::Huge => {
+                self.leave(Why::Unbounded, share);
+                return;
+            }
+        };
+        if widest < least {
+            let why = match self.curve {
+                Some(Why::Flexible) => Why::Flexible,
+                _ => self.block.curve(&x).unwrap_or(Why::Small),
+            };
+            if why != Why::Small {
+                self.curve = Some(why);
+            }
+            self.leave(why, share);
+            return;
+        }
+        let is_wide = |u: &usize| x[*u].wid() / (1.0f64).max(x[*u].mag()) > NARROW * widest;
+        let mut wanted = named.filter(is_wide).into_iter().chain([which]);
+        let parts = wanted.find_map(|u| Some((u, halves(x[u])?)));
+        let Some((which, [low, high])) = parts else {
+            self.leave(Why::Small, share);
+            return;
+        };
+        debug_assert!(self.block.square.own.contains(&which));
+        let mut other = x.clone();
+        x[which] = low;
+        other[which] = high;
+        others.extend([x, other].map(|x| Node {
+            x,
+            share: 0.5 * share,
+            fresh: Fresh::One(which),
+        }));
+    }
+
+    /// Looks at a part by constructing the unknowns.
+    fn construct(&mut self, order: &Order, mut node: Node, others: &mut Vec<Node>) {
+        let Ok(is_bounded) = self.narrow(&mut node) else {
+            return self.done(node.share);
+        };
+        if !is_bounded {
+            return self.halve(node.x, node.share, None, others);
+        }
+        let leaves = loop {
+            match walk(self.symbols, order, &self.block.square.rows, &node.x) {
+                Walked::MoreSymbols => self.symbols += 1,
+                Walked::Leaves(leaves) => break leaves,
+            }
+        };
+        if leaves.is_empty() {
+            return self.done(node.share);
+        }
+        let share = node.share / leaves.len() as f64;
+        let before = self.block.volume(&node.x);
+        for mut leaf in leaves {
+            if self.is_settled(&mut leaf) {
+                self.done(share);
+            } else if self.block.volume(&leaf.x) < before - WORTH {
+                others.push(Node {
+                    x: leaf.x,
+                    share,
+                    fresh: Fresh::None,
+                });
+            } else {
+                self.halve(leaf.x, share, leaf.halve, others);
+            }
+        }
+    }
+
+    /// Narrows a part by one row after the other before its unknowns are constructed: whether all of them are bounded. Where one was halved, only rows near it,
+    /// and no sums of rows: that is what costs most. It is empty, too, where a zero that is known is the only one.
+    fn narrow(&mut self, node: &mut Node) -> Result<bool, Empty> {
+        let block = self.block;
+        let (square, x) = (&block.square, &mut node.x);
+        match node.fresh {
+            Fresh::All => contract(self.rows, &block.is_free, x)?,
+            Fresh::One(u) => contract_near(&block.rows, &block.is_free, u, x)?,
+            Fresh::None => {}
+        }
+        for _ in 0..6 {
+            if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
+                return Err(Empty);
+            }
+            if square.own.iter().all(|&u| x[u].is_common_interval()) {
+                return Ok(true);
+            }
+            contract(self.rows, &block.is_free, x)?;
+            if !far(self.rows, &block.is_free, x)? {
+                return Ok(false);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Whether there are no zeros in a leaf but such as are known.
+    fn is_settled(&mut self, leaf: &mut Leaf) -> bool {
+        let own = self.block.square.own.iter();
+        let widths = own.map(|&u| leaf.x[u].wid() / (1.0f64).max(leaf.x[u].mag()));
+        let is_near = widths.fold(0.0, f64::max) < NEAR;
+        let is_all = leaf.is_whole && leaf.halve.is_none();
+        if !(is_near || is_all) {
+            return false;
+        }
+        for _ in 0..6 {
+            match self.together(&mut leaf.x) {
+                Ok(true) => {}
+                Ok(false) => return false,
+                Err(Empty) => return true,
+            }
+        }
+        false
+    }
+
+    /// Whether nothing is left of a part but zeros that are known.
+    fn is_decided(&mut self, x: &mut [Interval]) -> bool {
+        let block = self.block;
+        let square = &block.square;
+        for _ in 0..6 {
+            if contract(self.rows, &block.is_free, x) == Err(Empty) {
+                return true;
+            }
+            if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
+                return true;
+            }
+            let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
+            if !is_bounded {
+                match far(self.rows, &block.is_free, x) {
+                    Err(Empty) => return true,
+                    Ok(true) => continue,
+                    Ok(false) => return false,
+                }
+            }
+            match self.together(x) {
+                Ok(true) => {}
+                Ok(false) => return false,
+                Err(Empty) => return true,
+            }
+        }
+        false
+    }
+
+    /// Narrows a part by all equations together, and proves a zero in it, if it can: whether another round is worth it. It is empty, too, where
+    /// the zero is the only one.
+    fn together(&mut self, x: &mut [Interval]) -> Result<bool, Empty> {
+        let square = &self.block.square;
+        let before = self.block.volume(x);
+        let step = square.step(x)?;
+        if step.defect < 2.0
+            && let Some(zero) = square.prove(x)
+        {
+            let is_it = square.is_alone(&zero, x);
+            add(&mut self.found.zeros, zero);
+            if is_it {
+                return Err(Empty);
+            }
+        }
+        Ok(self.block.volume(x) <= before - WORTH)
+    }
+}
+
+/// Two ranges that share a border and together are the range.
+fn halves(x: Interval) -> Option<[Interval; 2]> {
+    use crate::interval::checked;
+    let middle = match (x.inf().is_finite(), x.sup().is_finite()) {
+        (true, true) => x.mid(),
+        (true, false) => (2.0 * x.inf()).max(1.0),
+        (false, true) => (2.0 * x.sup()).min(-1.0),
+        (false, false) => 0.0,
+    };
+    if !(x.inf() < middle && middle < x.sup()) {
+        return None;
+    }
+    Some([checked(x.inf(), middle)?, checked(middle, x.sup())?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::hull;
+
+    #[test]
+    fn halves_leave_nothing_out() {
+        use super::super::contract::{entire, upper_half};
+        for x in [entire(), upper_half(), hull(-1.0, 3.0), -upper_half()] {
+            let [low, high] = halves(x).unwrap();
+            assert_eq!(low.sup(), high.inf());
+            assert_eq!(low.convex_hull(high), x);
+        }
+        assert!(halves(hull(1.0, 1.0f64.next_up())).is_none());
+    }
+}
