@@ -117,7 +117,7 @@ impl Complete {
 }
 
 /// Unknowns that are constructed, step by step, as functions of a few of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Constructed {
     /// How many they are.
     pub unknowns: usize,

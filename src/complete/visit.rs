@@ -457,17 +457,7 @@ fn movers_of<'m, const S: usize, const M: usize>(
 ) -> [f64; S] {
     let mut weights = [0.0; S];
     for model in models {
-        let mut q = 1 + S;
-        for i in 0..S {
-            weights[i] += model.c[q].abs() + 1e-3 * model.c[1 + i].abs();
-            q += 1;
-            for j in i + 1..S {
-                let cross = 0.5 * model.c[q].abs();
-                weights[i] += cross;
-                weights[j] += cross;
-                q += 1;
-            }
-        }
+        model.weigh(&mut weights);
     }
     weights
 }

@@ -6,7 +6,7 @@ use super::json::Points;
 use super::objects::Objects;
 use super::table::write_objects;
 use crate::certificate::cover::CoverVerdict;
-use crate::complete::{Among, Choice, Complete, Method, Status, Why};
+use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Why};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted};
@@ -27,7 +27,8 @@ const SHOWN: usize = 12;
 ///  "seconds_left": null, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
 /// ```
 ///
-/// (`constructed`, `{"unknowns": 16, "parameters": 2}`, of a search over coordinates in which unknowns were.)
+/// A search over coordinates has `"constructed": {"unknowns": 16, "parameters": 2}` beside these where unknowns were computed step by step from
+/// a few of them, the parameters: of the largest system of equations in which they were.
 ///
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
 /// reference points.
@@ -101,10 +102,7 @@ impl<'a> Document<'a> {
             seconds: result.seconds,
             seconds_left: result.seconds_left,
             driving: result.driving,
-            constructed: result.constructed.map(|it| Constructed {
-                unknowns: it.unknowns,
-                parameters: it.parameters,
-            }),
+            constructed: result.constructed,
             turned: &result.turned,
             plan: names(problem, &result.plan),
         }
@@ -146,13 +144,6 @@ struct Entry<'a> {
     objects: Objects<'a, Interval>,
     class: usize,
     width: f64,
-}
-
-/// Unknowns that were constructed as functions of parameters.
-#[derive(serde::Serialize)]
-struct Constructed {
-    unknowns: usize,
-    parameters: usize,
 }
 
 /// A part of a problem that falls apart.
@@ -276,8 +267,8 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     if let Some(it) = result.constructed {
         writeln!(
             out,
-            "constructed         {} of them step by step, driven by {}",
-            it.unknowns,
+            "constructed         {} step by step, driven by {}",
+            counted(it.unknowns, "unknown"),
             counted(it.parameters, "parameter")
         )?;
     }

@@ -32,6 +32,7 @@ mod sides;
 mod sums;
 mod symmetry;
 mod system;
+mod tally;
 
 use super::outcome::{Method, too_long};
 use super::pairs::Pairs;

@@ -3,11 +3,11 @@
 use super::construction::{Leaf, Order, Walked, walk};
 use super::contract::{Empty, contract, contract_near};
 use super::far::far;
-use super::search::{Block, COARSE, Choice, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
-use super::system::Row;
+use super::search::{Block, COARSE, Choice, MANY, Run, SMALL, add};
+use super::system::{Row, relative_width};
+use super::tally::Tally;
 use crate::complete::Why;
 use crate::interval::Interval;
-use std::sync::atomic::Ordering;
 
 /// The rows that narrow parts, the block's equations and sums of these among them, and in which order its unknowns are constructed,
 /// if they are.
@@ -33,6 +33,8 @@ enum Fresh {
 
 /// What is worth another round: where a part of the box as large as this is gone, by the logarithm of its volume.
 const WORTH: f64 = 0.7;
+/// How often a part is narrowed before it is halved.
+const ROUNDS: usize = 6;
 /// Unknowns that are constructed are looked at together where all are known to this much, beside their size.
 const NEAR: f64 = 0.03;
 /// After so many parts of a piece its unknowns are not constructed any more.
@@ -56,10 +58,8 @@ pub struct Piece<'s, 'a> {
     block: &'s Block<'a>,
     rows: &'s [&'s Row],
     order: Option<&'s Order>,
-    run: &'s Run<'s>,
     /// What was found in it.
-    pub found: Found,
-    left: usize,
+    pub tally: Tally<'s>,
     /// Why the last part that a curve of zeros was seen in stays undecided: nothing is gained by small parts there.
     curve: Option<Why>,
     /// How many unknowns were variables at once in the parts before, where unknowns are constructed.
@@ -73,47 +73,22 @@ impl<'s, 'a> Piece<'s, 'a> {
             block,
             rows,
             order,
-            run,
-            found: Found::default(),
-            left: 0,
+            tally: Tally::new(run),
             curve: None,
             symbols: 0,
         }
     }
 
-    fn leave(&mut self, why: Why, share: f64) {
-        self.left += 1;
-        if why != Why::Unfinished {
-            self.done(share);
-        }
-        leave(&mut self.found.undecided, why, 1, share);
-    }
-
-    /// Notes that a part is not looked at any more.
-    fn done(&self, share: f64) {
-        self.run.watched.add_done(self.run.weight * share);
-    }
-
     /// Looks at a part: it is given up, decided, left undecided, or what it is parted into comes to the others.
     pub fn visit(&mut self, mut node: Node, others: &mut Vec<Node>) {
-        let watched = self.run.watched;
-        self.found.boxes += 1;
-        if watched.stop.load(Ordering::Relaxed)
-            || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
-        {
-            self.found.is_broken_off = true;
-            self.leave(Why::Unfinished, node.share);
+        if !self.tally.begin(node.share) {
             return;
         }
-        if self.left > TOO_MANY {
-            self.leave(Why::GivenUp, node.share);
-            return;
-        }
-        let order = self.order.filter(|_| self.found.boxes <= PATIENCE);
+        let order = self.order.filter(|_| self.tally.found.boxes <= PATIENCE);
         if let Some(order) = order {
             self.construct(order, node, others);
         } else if self.is_decided(&mut node.x) {
-            self.done(node.share);
+            self.tally.done(node.share);
         } else {
             self.halve(node.x, node.share, None, others);
         }
@@ -127,14 +102,14 @@ impl<'s, 'a> Piece<'s, 'a> {
         named: Option<usize>,
         others: &mut Vec<Node>,
     ) {
-        let least = match self.left > MANY || self.curve.is_some() {
+        let least = match self.tally.left > MANY || self.curve.is_some() {
             true => COARSE,
             false => SMALL,
         };
         let (which, widest) = match self.block.widest(&x) {
             Choice::Halve(u, widest) => (u, widest),
             Choice::Huge => {
-                self.leave(Why::Unbounded, share);
+                self.tally.leave(Why::Unbounded, share);
                 return;
             }
         };
@@ -146,14 +121,14 @@ impl<'s, 'a> Piece<'s, 'a> {
             if why != Why::Small {
                 self.curve = Some(why);
             }
-            self.leave(why, share);
+            self.tally.leave(why, share);
             return;
         }
-        let is_wide = |u: &usize| x[*u].wid() / (1.0f64).max(x[*u].mag()) > NARROW * widest;
+        let is_wide = |u: &usize| relative_width(x[*u]) > NARROW * widest;
         let mut wanted = named.filter(is_wide).into_iter().chain([which]);
         let parts = wanted.find_map(|u| Some((u, halves(x[u])?)));
         let Some((which, [low, high])) = parts else {
-            self.leave(Why::Small, share);
+            self.tally.leave(Why::Small, share);
             return;
         };
         debug_assert!(self.block.square.own.contains(&which));
@@ -170,7 +145,7 @@ impl<'s, 'a> Piece<'s, 'a> {
     /// Looks at a part by constructing the unknowns.
     fn construct(&mut self, order: &Order, mut node: Node, others: &mut Vec<Node>) {
         let Ok(is_bounded) = self.narrow(&mut node) else {
-            return self.done(node.share);
+            return self.tally.done(node.share);
         };
         if !is_bounded {
             return self.halve(node.x, node.share, None, others);
@@ -182,13 +157,13 @@ impl<'s, 'a> Piece<'s, 'a> {
             }
         };
         if leaves.is_empty() {
-            return self.done(node.share);
+            return self.tally.done(node.share);
         }
         let share = node.share / leaves.len() as f64;
         let before = self.block.volume(&node.x);
         for mut leaf in leaves {
             if self.is_settled(&mut leaf) {
-                self.done(share);
+                self.tally.done(share);
             } else if self.block.volume(&leaf.x) < before - WORTH {
                 others.push(Node {
                     x: leaf.x,
@@ -211,8 +186,14 @@ impl<'s, 'a> Piece<'s, 'a> {
             Fresh::One(u) => contract_near(&block.rows, &block.is_free, u, x)?,
             Fresh::None => {}
         }
-        for _ in 0..6 {
-            if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
+        for _ in 0..ROUNDS {
+            if self
+                .tally
+                .found
+                .zeros
+                .iter()
+                .any(|zero| square.is_alone(zero, x))
+            {
                 return Err(Empty);
             }
             if square.own.iter().all(|&u| x[u].is_common_interval()) {
@@ -229,13 +210,13 @@ impl<'s, 'a> Piece<'s, 'a> {
     /// Whether there are no zeros in a leaf but such as are known.
     fn is_settled(&mut self, leaf: &mut Leaf) -> bool {
         let own = self.block.square.own.iter();
-        let widths = own.map(|&u| leaf.x[u].wid() / (1.0f64).max(leaf.x[u].mag()));
+        let widths = own.map(|&u| relative_width(leaf.x[u]));
         let is_near = widths.fold(0.0, f64::max) < NEAR;
         let is_all = leaf.is_whole && leaf.halve.is_none();
         if !(is_near || is_all) {
             return false;
         }
-        for _ in 0..6 {
+        for _ in 0..ROUNDS {
             match self.together(&mut leaf.x) {
                 Ok(true) => {}
                 Ok(false) => return false,
@@ -249,11 +230,17 @@ impl<'s, 'a> Piece<'s, 'a> {
     fn is_decided(&mut self, x: &mut [Interval]) -> bool {
         let block = self.block;
         let square = &block.square;
-        for _ in 0..6 {
+        for _ in 0..ROUNDS {
             if contract(self.rows, &block.is_free, x) == Err(Empty) {
                 return true;
             }
-            if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
+            if self
+                .tally
+                .found
+                .zeros
+                .iter()
+                .any(|zero| square.is_alone(zero, x))
+            {
                 return true;
             }
             let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
@@ -283,7 +270,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             && let Some(zero) = square.prove(x)
         {
             let is_it = square.is_alone(&zero, x);
-            add(&mut self.found.zeros, zero);
+            add(&mut self.tally.found.zeros, zero);
             if is_it {
                 return Err(Empty);
             }

@@ -12,7 +12,7 @@ use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
 use super::piece::{How, Node, Piece};
 use super::sums::sums;
-use super::system::{Row, System};
+use super::system::{Row, System, relative_width, volume};
 use crate::complete::search::Run as Watched;
 use crate::complete::{Constructed, Part, Why};
 use crate::interval::Interval;
@@ -218,7 +218,7 @@ impl<'a> Block<'a> {
         let mut first = Piece::new(self, how, run);
         let mut nodes = vec![Node::whole(x)];
         // Breadth first until there are enough pieces, or few remain however far it goes.
-        while !nodes.is_empty() && nodes.len() < PIECES && first.found.boxes < LOOKED {
+        while !nodes.is_empty() && nodes.len() < PIECES && first.tally.found.boxes < LOOKED {
             let mut next = Vec::new();
             for node in nodes {
                 first.visit(node, &mut next);
@@ -228,7 +228,7 @@ impl<'a> Block<'a> {
                 break;
             }
         }
-        (first.found, nodes)
+        (first.tally.found, nodes)
     }
 
     /// Searches one of the pieces, or takes what was found in it before.
@@ -242,12 +242,12 @@ impl<'a> Block<'a> {
     ) -> Found {
         let searched = |node: Node| {
             let mut piece = Piece::new(self, how, run);
-            piece.found.zeros.extend_from_slice(zeros);
+            piece.tally.found.zeros.extend_from_slice(zeros);
             let mut stack = vec![node];
             while let Some(node) = stack.pop() {
                 piece.visit(node, &mut stack);
             }
-            piece.found
+            piece.tally.found
         };
         let Some(kept) = run.kept else {
             return searched(node);
@@ -289,8 +289,7 @@ impl<'a> Block<'a> {
 
     /// The logarithm of the product of all widths.
     pub fn volume(&self, x: &[Interval]) -> f64 {
-        let own = self.square.own.iter();
-        own.map(|&u| x[u].wid().max(1e-300).ln()).sum()
+        volume(x, &self.square.own)
     }
 
     /// Why a part stays undecided, if a curve of zeros seems to go through it.
@@ -320,7 +319,7 @@ impl<'a> Block<'a> {
             if !x[u].is_common_interval() {
                 unbounded.get_or_insert(u);
             } else {
-                widest = widest.max(x[u].wid() / (1.0f64).max(x[u].mag()));
+                widest = widest.max(relative_width(x[u]));
             }
         }
         if let Some(u) = unbounded {
@@ -363,7 +362,7 @@ impl<'a> Block<'a> {
         let best = (0..smear.len()).filter(|&k| {
             let x = x[square.own[k]];
             // What is narrow already is not what keeps the part from being decided.
-            x.is_common_interval() && x.wid() / (1.0f64).max(x.mag()) > 1e-3 * widest
+            x.is_common_interval() && relative_width(x) > 1e-3 * widest
         });
         let best = best.max_by(|&a, &b| smear[a].total_cmp(&smear[b]));
         match best {

@@ -198,6 +198,17 @@ impl Shared {
     }
 }
 
+/// The logarithm of the product of the widths of some entries' ranges.
+pub fn volume<'u>(x: &[Interval], entries: impl IntoIterator<Item = &'u usize>) -> f64 {
+    let widths = entries.into_iter().map(|&u| x[u].wid().max(1e-300).ln());
+    widths.sum()
+}
+
+/// How wide a range is, beside the size of its numbers where that is more than 1.
+pub fn relative_width(x: Interval) -> f64 {
+    x.wid() / (1.0f64).max(x.mag())
+}
+
 impl System {
     /// The equations of a homotopy with t = 1.
     pub fn new(homotopy: &Homotopy) -> Self {

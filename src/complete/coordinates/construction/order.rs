@@ -83,6 +83,14 @@ pub struct Order {
 /// The products of two unknowns of a set, by their places in the block, with their factors.
 type Quadratic = BTreeMap<(usize, usize), f64>;
 
+/// What equations tell of a set of unknowns.
+struct Usable {
+    /// Rows that are linear in them, with how often the quadratic one has to be taken off for that.
+    linear: Vec<(usize, f64)>,
+    /// A row that is quadratic, and how.
+    quadratic: Option<(usize, Quadratic)>,
+}
+
 /// A block, sets of whose unknowns are numbers, with a bit for each.
 struct Finder<'a> {
     square: &'a Square<'a>,
@@ -112,13 +120,19 @@ struct Way {
 }
 
 impl Order {
-    /// An order with as few parameters as were found that closes early. `None`: no two parameters are enough, or there are too few unknowns, or too many. `zero`: the entry that is the number 0.
+    /// An order with as few parameters as were found that closes early. `None`: no two parameters are enough, or there are too few unknowns, or
+    /// too many. `zero`: the entry that is the number 0.
     pub fn new(square: &Square, zero: usize) -> Option<Self> {
-        Self::some(square, zero).into_iter().next()
+        Self::some(square, zero, 1).pop()
     }
 
-    /// Several of them.
-    pub fn some(square: &Square, zero: usize) -> Vec<Self> {
+    /// The unknowns, in the order in which they are found.
+    pub fn unknowns(&self) -> impl Iterator<Item = &usize> + Clone {
+        self.steps.iter().flat_map(|step| &step.unknowns)
+    }
+
+    /// The best of those that are looked at, so many at the most.
+    pub fn some(square: &Square, zero: usize, most: usize) -> Vec<Self> {
         let n = square.own.len();
         if !(2..=MOST).contains(&n) {
             return Vec::new();
@@ -139,7 +153,7 @@ impl Order {
         if drives > 0 {
             ways.clear();
             // Of large blocks they take long.
-            let most = match n {
+            let tried = match n {
                 ..=24 => FEW,
                 25..=40 => FEW / 4,
                 _ => 1,
@@ -149,7 +163,7 @@ impl Order {
                 2 => 4,
                 _ => 2,
             };
-            finder.follow(Way::default(), wide, most, &mut ways);
+            finder.follow(Way::default(), wide, tried, &mut ways);
         }
         ways.sort_by_key(|way| (way.drives, way.cost));
         let least = ways.first().map_or(0, |way| way.drives);
@@ -166,7 +180,7 @@ impl Order {
         outside.sort_unstable();
         outside.dedup();
         let best = ways.into_iter().filter(|way| way.drives == least);
-        let orders = best.map(|way| {
+        let orders = best.take(most).map(|way| {
             let mut known = 0;
             let steps = way.sets.into_iter().map(|set| {
                 let step = finder.step(known, set);
@@ -227,7 +241,9 @@ impl Finder<'_> {
             if least > fewest || fewest == 0 {
                 break;
             }
-            let drives = set.count_ones() as usize - self.usable(known, set).0;
+            let usable = self.usable(known, set);
+            let told = usable.linear.len() + usize::from(usable.quadratic.is_some());
+            let drives = (set.count_ones() as usize).saturating_sub(told);
             fewest = fewest.min(drives);
             choices.push(Choice { set, drives });
         }
@@ -311,13 +327,8 @@ impl Finder<'_> {
         Some(out)
     }
 
-    /// How many unknowns of a set its rows tell: those that are linear, and those that are so with one of them taken off.
-    #[allow(clippy::type_complexity)]
-    fn usable(
-        &self,
-        known: u64,
-        set: u64,
-    ) -> (usize, Vec<(usize, f64)>, Option<(usize, Quadratic)>) {
+    /// The rows that tell unknowns of a set: those that are linear, and those that are so with one of them taken off.
+    fn usable(&self, known: u64, set: u64) -> Usable {
         let mut linear: Vec<(usize, f64)> = Vec::new();
         let mut groups: Vec<(Quadratic, Vec<(usize, f64)>)> = Vec::new();
         for row in self.contained(known, set) {
@@ -355,8 +366,7 @@ impl Finder<'_> {
             linear.extend(&rows[1..]);
             quadratic = Some((rows[0].0, q));
         }
-        let count = linear.len() + usize::from(quadratic.is_some());
-        (count.min(set.count_ones() as usize), linear, quadratic)
+        Usable { linear, quadratic }
     }
 
     fn step(&self, known: u64, set: u64) -> Step {
@@ -410,7 +420,7 @@ impl Finder<'_> {
                 })
                 .collect(),
         };
-        let (_, linear, quadratic) = self.usable(known, set);
+        let Usable { linear, quadratic } = self.usable(known, set);
         let place = |k: usize| own.iter().position(|&x| x == k).expect("of the set");
         Step {
             unknowns: own.iter().map(|&k| self.square.own[k]).collect(),
@@ -433,6 +443,11 @@ fn is_fine(x: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::blocks::Blocks;
+    use crate::complete::coordinates::search::Block;
+    use crate::complete::coordinates::system::System;
+    use crate::problem::Problem;
+    use crate::system::Homotopy;
 
     /// A multiple that is rounded makes nothing linear.
     #[test]
@@ -449,11 +464,6 @@ mod tests {
             assert_eq!(is_fine(x), fine, "{x}");
         }
     }
-    use crate::blocks::Blocks;
-    use crate::complete::coordinates::search::Block;
-    use crate::complete::coordinates::system::System;
-    use crate::problem::Problem;
-    use crate::system::Homotopy;
 
     fn largest(problem: &str) -> Vec<Order> {
         let problem = Problem::read(problem).unwrap();
@@ -468,7 +478,7 @@ mod tests {
             .unwrap();
         let own = &block.unknowns;
         let block = Block::new(&system, &block.equations, own, |u| !own.contains(&u));
-        Order::some(&block.square, block.zero)
+        Order::some(&block.square, block.zero, FEW)
     }
 
     /// The numbers of parameters are those of plans by hand: a hinge of the disulfide bond and of the octahedron; two points of the dodecagon;

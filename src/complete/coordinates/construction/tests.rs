@@ -55,8 +55,8 @@ fn look(system: &System, sketch: &[f64], seed: u64, seen: &mut Seen) {
         let own = block.unknowns;
         let block = Block::new(&system, &block.equations, &own, |u| !own.contains(&u));
         let rows: Vec<&Row> = block.square.rows.clone();
-        let orders = Order::some(&block.square, m);
-        for order in orders.iter().take(4) {
+        let orders = Order::some(&block.square, m, 4);
+        for order in &orders {
             let width = 2f64.powf(6.0 * random.next() - 3.0);
             let mut x = at.clone();
             // What blocks before have found are ranges.

@@ -15,7 +15,7 @@
 
 use super::order::{Affine, Equation, Order, Step};
 use crate::complete::contract::contract;
-use crate::complete::coordinates::system::{Form, Row};
+use crate::complete::coordinates::system::{Form, Row, volume};
 use crate::complete::model::{Model, Number, Range};
 use crate::interval::{Interval, hull, point};
 
@@ -65,13 +65,13 @@ pub enum Walked {
 }
 
 /// Why a way ends.
-enum Stop {
+enum Stop<const S: usize> {
     /// It has no zero.
     Empty,
     /// More variables are needed.
     MoreSymbols,
-    /// What comes next is not known well enough.
-    Blurred,
+    /// What comes next is not known well enough; how much each variable has to do with that.
+    Blurred([f64; S]),
 }
 
 /// Σ coefficients · unknowns + constant, and in the step's quadratic equation products of two of them besides.
@@ -123,8 +123,6 @@ struct Walk<'a, const S: usize, const M: usize> {
     equations: Vec<Model<S, M>>,
     /// Room for the elimination.
     room: Vec<Model<S, M>>,
-    /// How much each variable has to do with what is not known well enough.
-    weights: [f64; S],
     /// The widest unknown that is a number for want of variables.
     wanting: Option<usize>,
     /// Steps taken.
@@ -134,6 +132,7 @@ struct Walk<'a, const S: usize, const M: usize> {
     is_overfull: bool,
 }
 
+/// The number 1.
 const ONE: Number = Number { mid: 1.0, rad: 0.0 };
 
 impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
@@ -150,7 +149,6 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             symbols: Vec::new(),
             equations: Vec::new(),
             room: Vec::new(),
-            weights: [0.0; S],
             wanting: None,
             taken: 0,
             leaves: Vec::new(),
@@ -168,7 +166,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     }
 
     /// Goes on from a step to the ends of all ways. An error says that there are too few variables.
-    fn go(&mut self, step: usize) -> Result<(), Stop> {
+    fn go(&mut self, step: usize) -> Result<(), Stop<S>> {
         self.taken += 1;
         if self.leaves.len() >= MOST_LEAVES || self.taken > MOST_TAKEN {
             self.is_overfull = true;
@@ -193,13 +191,13 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     fn end(
         &mut self,
         step: usize,
-        result: Result<(), Stop>,
+        result: Result<(), Stop<S>>,
         before: [usize; 2],
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Stop<S>> {
         let result = match result {
             Err(Stop::Empty) => Ok(()),
-            Err(Stop::Blurred) => {
-                self.leaf(step, Some(self.weights));
+            Err(Stop::Blurred(weights)) => {
+                self.leaf(step, Some(weights));
                 Ok(())
             }
             other => other,
@@ -210,7 +208,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     }
 
     /// Finds the unknowns of a step, and goes on.
-    fn stand(&mut self, step: usize, now: &Step) -> Result<(), Stop> {
+    fn stand(&mut self, step: usize, now: &Step) -> Result<(), Stop<S>> {
         let size = now.unknowns.len();
         let mut lines: Vec<Line<S, M>> = now.linear.iter().map(|e| self.line(e, size)).collect();
         let quadric = now.quadratic.as_ref();
@@ -219,8 +217,9 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             lines.iter_mut().for_each(|line| line.less(quadric));
         }
         let pivots = eliminate(&mut lines, size);
-        if self.may_vanish(&lines, &pivots) {
-            return Err(Stop::Blurred);
+        let weights = may_vanish(&lines, &pivots);
+        if self.is_movable(&weights) {
+            return Err(Stop::Blurred(weights));
         }
         let mut used: Vec<usize> = pivots.iter().map(|&(line, _)| lines[line].row).collect();
         let is_free = |i: &usize| pivots.iter().all(|(_, pivot)| pivot != i);
@@ -314,7 +313,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     }
 
     /// An unknown as a variable, or as a number, where it is one or there are no more variables.
-    fn symbol(&mut self, unknown: usize) -> Result<Model<S, M>, Stop> {
+    fn symbol(&mut self, unknown: usize) -> Result<Model<S, M>, Stop<S>> {
         let Number { mid, rad } = Number::new(self.x[unknown]);
         if rad < NUMBER * (1.0 + mid.abs()) {
             return Ok(Model::constant(Number { mid, rad }));
@@ -333,26 +332,20 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         Ok(Model::symbol(self.symbols.len() - 1, mid, rad))
     }
 
-    /// Whether coefficients of equations that were not used may vanish in the part, as centres may come in line, and variables can be
-    /// halved so that they do not.
-    fn may_vanish(&mut self, lines: &[Line<S, M>], pivots: &[(usize, usize)]) -> bool {
-        self.weights = [0.0; S];
-        let is_open = |k: &usize| pivots.iter().all(|pivot| pivot.0 != *k);
-        for line in (0..lines.len()).filter(is_open).map(|k| &lines[k]) {
-            let places = (0..line.coefficients.len()).filter(|i| pivots.iter().all(|p| p.1 != *i));
-            let sizes = places.map(|i| &line.coefficients[i]);
-            if let Some(largest) = sizes.max_by(|a, b| a.size().total_cmp(&b.size())) {
-                weigh(largest, &mut self.weights);
-            }
-        }
-        self.is_movable()
-    }
-
     /// Whether the variable that weighs most is not narrow yet.
-    fn is_movable(&self) -> bool {
-        let pairs = self.symbols.iter().zip(&self.weights);
+    fn is_movable(&self, weights: &[f64; S]) -> bool {
+        let pairs = self.symbols.iter().zip(weights);
         let best = pairs.max_by(|a, b| a.1.total_cmp(b.1));
         best.is_some_and(|(&symbol, &weight)| weight > 0.0 && self.x[symbol].wid() > FINE)
+    }
+
+    /// How much each variable has to do with some unknowns.
+    fn weights<'u>(&self, unknowns: impl IntoIterator<Item = &'u usize>) -> [f64; S] {
+        let mut weights = [0.0; S];
+        for &u in unknowns {
+            self.f[u].weigh(&mut weights);
+        }
+        weights
     }
 
     /// Which of the free unknowns a quadratic equation tells best, as floats see it in the middle of the part.
@@ -388,11 +381,11 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     /// Both places of an unknown. `None`: it is better a variable, as the places come together and are near each other or nothing can be halved for that, or
     /// as the quadratic coefficient may vanish.
     fn roots(
-        &mut self,
+        &self,
         (now, z): (&Step, usize),
         (quadric, products): Quadric<S, M>,
         Along { a, b }: &Along<S, M>,
-    ) -> Result<Option<Roots<S, M>>, Stop> {
+    ) -> Result<Option<Roots<S, M>>, Stop<S>> {
         let (mut first, mut second, mut third) = (Model::ZERO, Model::ZERO, quadric.constant);
         for &(i, j, factor) in products {
             let both = match i == j {
@@ -421,11 +414,11 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             return Err(Stop::Empty);
         }
         if !(height.lo > RADICAND * height.hi && height.lo > LEAST) {
-            self.weights = [0.0; S];
-            weigh(&radicand, &mut self.weights);
+            let mut weights = [0.0; S];
+            radicand.weigh(&mut weights);
             let apart = 2.0 * height.hi.sqrt() / range.lo;
-            return match !(apart <= FAR) && self.is_movable() {
-                true => Err(Stop::Blurred),
+            return match !(apart <= FAR) && self.is_movable(&weights) {
+                true => Err(Stop::Blurred(weights)),
                 false => Ok(None),
             };
         }
@@ -437,7 +430,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     }
 
     /// The unknowns of a step stand: looks at what that means for the equations, and goes on.
-    fn found(&mut self, step: usize, y: &[Model<S, M>], used: &[usize]) -> Result<(), Stop> {
+    fn found(&mut self, step: usize, y: &[Model<S, M>], used: &[usize]) -> Result<(), Stop<S>> {
         let order = self.order;
         let now = &order.steps[step];
         let before = self.equations.len();
@@ -456,11 +449,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             }
         }
         if is_blurred {
-            self.weights = [0.0; S];
-            for &u in &now.unknowns {
-                weigh(&self.f[u], &mut self.weights);
-            }
-            return Err(Stop::Blurred);
+            return Err(Stop::Blurred(self.weights(&now.unknowns)));
         }
         for &row in now.rows.iter().filter(|row| !used.contains(row)) {
             let equation = self.value(row);
@@ -513,12 +502,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         let Some(left) = self.contracted() else {
             return;
         };
-        let weights = weights.unwrap_or_else(|| {
-            let mut weights = [0.0; S];
-            let unknowns = self.order.steps.iter().flat_map(|step| &step.unknowns);
-            unknowns.for_each(|&u| weigh(&self.f[u], &mut weights));
-            weights
-        });
+        let weights = weights.unwrap_or_else(|| self.weights(self.order.unknowns()));
         self.put(&left, Some(&weights), step);
     }
 
@@ -570,12 +554,9 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         self.leaves.push(leaf);
     }
 
+    /// A leaf that is kept and that another one overlaps by so much, by its place, and what holds both.
     fn overlapping(&self, leaf: &Leaf) -> Option<(usize, Vec<Interval>)> {
-        let unknowns = self.order.steps.iter().flat_map(|step| &step.unknowns);
-        let volume = |x: &[Interval]| -> f64 {
-            let widths = unknowns.clone().map(|&u| x[u].wid().max(1e-300).ln());
-            widths.sum()
-        };
+        let volume = |x: &[Interval]| volume(x, self.order.unknowns());
         let own = volume(&leaf.x);
         self.leaves.iter().enumerate().find_map(|(k, other)| {
             let pairs = leaf.x.iter().zip(&other.x);
@@ -611,24 +592,26 @@ impl<const S: usize, const M: usize> Along<S, M> {
     }
 }
 
+/// How much each variable has to do with the coefficients of equations that were not used, as they may vanish in the part: centres may come in line.
+fn may_vanish<const S: usize, const M: usize>(
+    lines: &[Line<S, M>],
+    pivots: &[(usize, usize)],
+) -> [f64; S] {
+    let mut weights = [0.0; S];
+    let is_open = |k: &usize| pivots.iter().all(|pivot| pivot.0 != *k);
+    for line in (0..lines.len()).filter(is_open).map(|k| &lines[k]) {
+        let places = (0..line.coefficients.len()).filter(|i| pivots.iter().all(|p| p.1 != *i));
+        let sizes = places.map(|i| &line.coefficients[i]);
+        if let Some(largest) = sizes.max_by(|a, b| a.size().total_cmp(&b.size())) {
+            largest.weigh(&mut weights);
+        }
+    }
+    weights
+}
+
 /// Whether a function may have values in a range.
 fn meets(range: Range, given: Interval) -> bool {
     !(range.lo > given.sup() || range.hi < given.inf())
-}
-
-/// Adds how much each variable bends a function, and a little of how much it moves it.
-fn weigh<const S: usize, const M: usize>(model: &Model<S, M>, weights: &mut [f64; S]) {
-    let mut q = 1 + S;
-    for i in 0..S {
-        weights[i] += model.c[q].abs() + 1e-3 * model.c[1 + i].abs();
-        q += 1;
-        for j in i + 1..S {
-            let cross = 0.5 * model.c[q].abs();
-            weights[i] += cross;
-            weights[j] += cross;
-            q += 1;
-        }
-    }
 }
 
 /// Gauss–Jordan elimination: the lines that were used, each with an unknown that has the coefficient 1 in it and 0 in all others. (These 0 and 1 are not

@@ -18,7 +18,8 @@ mod part;
 
 use super::contract::contract;
 use super::newton::Zero;
-use super::search::{Block, COARSE, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
+use super::search::{Block, COARSE, Found, MANY, Run, SMALL, add, leave};
+use super::tally::Tally;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::Body;
 use crate::complete::Why;
@@ -29,7 +30,6 @@ use crate::system::{Homotopy, Term};
 use legs::{Leg, Legs, Look};
 use part::Part;
 use rayon::prelude::*;
-use std::sync::atomic::Ordering;
 
 /// The legs that a body stands on: as many as it has freedoms.
 const LEGS: usize = 6;
@@ -167,15 +167,13 @@ impl Poses {
             poses: self,
             block,
             x,
-            run,
-            found: Found::default(),
-            left: 0,
+            tally: Tally::new(run),
             is_flexible: false,
         };
         let mut first = new();
         let mut parts: Vec<Part> = Part::all();
         // Breadth first until there are enough pieces.
-        while !parts.is_empty() && parts.len() < PIECES && first.found.boxes < LOOKED {
+        while !parts.is_empty() && parts.len() < PIECES && first.tally.found.boxes < LOOKED {
             let mut next = Vec::new();
             for part in parts {
                 first.visit(part, &mut next);
@@ -190,10 +188,10 @@ impl Poses {
                 while let Some(part) = stack.pop() {
                     piece.visit(part, &mut stack);
                 }
-                piece.found
+                piece.tally.found
             })
             .collect();
-        let mut whole = first.found;
+        let mut whole = first.tally.found;
         for piece in pieces {
             for zero in piece.zeros {
                 add(&mut whole.zeros, zero);
@@ -251,26 +249,11 @@ struct Piece<'s, 'a> {
     block: &'s Block<'a>,
     /// What is known of all unknowns.
     x: &'s [Interval],
-    run: &'s Run<'s>,
-    found: Found,
-    left: usize,
+    tally: Tally<'s>,
     is_flexible: bool,
 }
 
 impl Piece<'_, '_> {
-    fn leave(&mut self, why: Why, share: f64) {
-        self.left += 1;
-        if why != Why::Unfinished {
-            self.done(share);
-        }
-        leave(&mut self.found.undecided, why, 1, share);
-    }
-
-    /// Notes that a part is not looked at any more.
-    fn done(&self, share: f64) {
-        self.run.watched.add_done(self.run.weight * share);
-    }
-
     /// Looks at a part: it is given up, decided, left undecided, or its halves come to the others.
     fn visit(&mut self, part: Part, others: &mut Vec<Part>) {
         match part.height {
@@ -285,39 +268,31 @@ impl Piece<'_, '_> {
         mut part: Part,
         others: &mut Vec<Part>,
     ) {
-        let watched = self.run.watched;
         loop {
-            self.found.boxes += 1;
-            if watched.stop.load(Ordering::Relaxed)
-                || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
-            {
-                self.found.is_broken_off = true;
-                return self.leave(Why::Unfinished, part.share);
-            }
-            if self.left > TOO_MANY {
-                return self.leave(Why::GivenUp, part.share);
+            if !self.tally.begin(part.share) {
+                return;
             }
             let Some(look) = self.poses.legs.look::<S, M, K>(&part) else {
-                return self.done(part.share);
+                return self.tally.done(part.share);
             };
             let before = part.widest();
             if look.equations.is_empty() {
                 if part.height.is_some() && before < SMALL {
-                    return self.leave(Why::Small, part.share);
+                    return self.tally.leave(Why::Small, part.share);
                 }
                 return self.halve(part, &look.moves, look.untold, others);
             }
             let Some(volume) = part.contract(&look.equations) else {
-                return self.done(part.share);
+                return self.tally.done(part.share);
             };
             let is_near = before < NEAR && (volume < 0.1 || before < NEARER);
             let mut why = Why::Small;
             if is_near {
                 let Some(x) = self.poses.ranges(self.block, self.x, &look) else {
-                    return self.done(part.share);
+                    return self.tally.done(part.share);
                 };
                 if self.is_known(&x) {
-                    return self.done(part.share);
+                    return self.tally.done(part.share);
                 }
                 if before < SMALL
                     && (self.is_flexible || self.block.square.on_a_curve(&x).is_some())
@@ -326,12 +301,12 @@ impl Piece<'_, '_> {
                     self.is_flexible = true;
                 }
             }
-            let least = match self.left > MANY || self.is_flexible {
+            let least = match self.tally.left > MANY || self.is_flexible {
                 true => COARSE,
                 false => SMALL,
             };
             if part.widest() < least {
-                return self.leave(why, part.share);
+                return self.tally.leave(why, part.share);
             }
             // Worth another look where a good part of it is gone.
             if volume > 0.3 {
@@ -343,7 +318,13 @@ impl Piece<'_, '_> {
     /// Whether a zero is the only one that a box may hold: one that is known, or one that is proved now.
     fn is_known(&mut self, x: &[Interval]) -> bool {
         let square = &self.block.square;
-        if self.found.zeros.iter().any(|zero| square.is_alone(zero, x)) {
+        if self
+            .tally
+            .found
+            .zeros
+            .iter()
+            .any(|zero| square.is_alone(zero, x))
+        {
             return true;
         }
         let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
@@ -354,7 +335,7 @@ impl Piece<'_, '_> {
             return false;
         };
         let is_it = square.is_alone(&zero, x);
-        add(&mut self.found.zeros, zero);
+        add(&mut self.tally.found.zeros, zero);
         is_it
     }
 
@@ -374,7 +355,7 @@ impl Piece<'_, '_> {
         }
         match part.halves(moves) {
             Some(halves) => others.extend(halves),
-            None => self.leave(Why::Small, part.share),
+            None => self.tally.leave(Why::Small, part.share),
         }
     }
 }

@@ -1,0 +1,57 @@
+//! What is counted in a part of a search that goes on by itself, whatever its own parts are.
+
+use super::search::{Found, Run, TOO_MANY, leave};
+use crate::complete::Why;
+use std::sync::atomic::Ordering;
+
+/// What was found in a part of a search, and how many of its own parts stay undecided.
+pub struct Tally<'s> {
+    run: &'s Run<'s>,
+    /// What was found.
+    pub found: Found,
+    /// The parts that stay undecided.
+    pub left: usize,
+}
+
+impl<'s> Tally<'s> {
+    /// Nothing was looked at.
+    pub fn new(run: &'s Run<'s>) -> Self {
+        Tally {
+            run,
+            found: Found::default(),
+            left: 0,
+        }
+    }
+
+    /// Counts a part that is to be looked at, of this share. False: it is not any more, and was left undecided.
+    pub fn begin(&mut self, share: f64) -> bool {
+        let watched = self.run.watched;
+        self.found.boxes += 1;
+        if watched.stop.load(Ordering::Relaxed)
+            || watched.boxes.fetch_add(1, Ordering::Relaxed) >= watched.most_boxes
+        {
+            self.found.is_broken_off = true;
+            self.leave(Why::Unfinished, share);
+            return false;
+        }
+        if self.left > TOO_MANY {
+            self.leave(Why::GivenUp, share);
+            return false;
+        }
+        true
+    }
+
+    /// Leaves a part undecided.
+    pub fn leave(&mut self, why: Why, share: f64) {
+        self.left += 1;
+        if why != Why::Unfinished {
+            self.done(share);
+        }
+        leave(&mut self.found.undecided, why, 1, share);
+    }
+
+    /// Notes that a part is not looked at any more.
+    pub fn done(&self, share: f64) {
+        self.run.watched.add_done(self.run.weight * share);
+    }
+}
