@@ -9,6 +9,7 @@
 //! with other constraints stand beside a generated strip of about as many unknowns. The times are those of following the
 //! path over all tubes tried, medians of several runs that take turns. The goal is 1.3 times at most, by the
 //! median of the ratios of problems with equations in the tail; that of the others is printed beside it.
+//! `cargo bench --bench tails -- NAME …` measures those problems only whose names contain one of these, and
 //! `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be profiled one by one.
 
 use krawl::generate::{Family, Recipe};
@@ -31,6 +32,8 @@ fn main() {
     for (family, size) in [
         (Family::Strip, 30),
         (Family::Strip, 60),
+        (Family::Strip, 120),
+        (Family::Strip, 240),
         (Family::Tetrahedra, 30),
         (Family::Tetrahedra, 60),
         (Family::Chain, 48),
@@ -52,6 +55,11 @@ fn main() {
     if let Some(folder) = arguments.nth(1) {
         return write(&pairs, &folder);
     }
+    // `cargo bench` passes options of its own.
+    let arguments = std::env::args().skip(1);
+    let only: Vec<String> = arguments.filter(|name| !name.starts_with("--")).collect();
+    let is_asked = |name: &str| only.is_empty() || only.iter().any(|part| name.contains(part));
+    pairs.retain(|(name, ..)| is_asked(name));
     println!(
         "{:<22} {:<8} {:>9} {:>9} {:>13} {:>13} {:>7}  outcome",
         "problem", "space", "unknowns", "tail", "distances, µs", "others, µs", "ratio"
@@ -93,11 +101,14 @@ fn main() {
             );
             ratios[usize::from(tail > 0)].push(ratio);
         }
-        let [alike, middle] = ratios.map(median);
-        println!(
-            "{space:?}: {middle:.2} times by the median, goal {GOAL}: {}; angles in the form of distances {alike:.2}",
-            if middle <= GOAL { "met" } else { "MISSED" }
-        );
+        let [alike, others] = ratios.map(|ratios| (!ratios.is_empty()).then(|| median(ratios)));
+        if let Some(middle) = others {
+            let seen = if middle <= GOAL { "met" } else { "MISSED" };
+            println!("{space:?}: {middle:.2} times by the median, goal {GOAL}: {seen}");
+        }
+        if let Some(alike) = alike {
+            println!("{space:?}: angles in the form of distances {alike:.2}");
+        }
     }
 }
 

@@ -167,7 +167,7 @@ impl<T: Scalar> Elimination<T> {
 /// The inverse's transpose of the square matrix with these rows, padded to whole lanes, by Gauss's and Jordan's
 /// elimination in place: they are overwritten, and what is beyond the matrix in them is multiplied with its
 /// inverse. `from` is 0, 1, … before. Tells whether the determinant is negative; `None`: singular.
-fn invert_transposed<const W: usize, T: Scalar>(
+pub(crate) fn invert_transposed<const W: usize, T: Scalar>(
     a: &mut [Row<W, T>],
     from: &mut [u32],
     out: &mut [Row<W, T>],
@@ -177,9 +177,15 @@ fn invert_transposed<const W: usize, T: Scalar>(
     // `from[k]` is the row that became row k.
     for k in 0..n {
         let (w, l) = (k / LANE, k % LANE);
-        let size = |i: usize| a[i][w][l].pivot_size();
-        let best = (k..n).max_by(|&i, &j| size(i).total_cmp(&size(j)))?;
-        if size(best) <= 0.0 {
+        let (mut best, mut most) = (k, a[k][w][l].pivot_size());
+        for (i, row) in a.iter().enumerate().skip(k + 1) {
+            let size = row[w][l].pivot_size();
+            // As without NaN: what comes of one is noticed where the inverse is used.
+            if size >= most {
+                (best, most) = (i, size);
+            }
+        }
+        if most <= 0.0 {
             return None;
         }
         a.swap(k, best);

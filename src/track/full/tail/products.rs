@@ -7,6 +7,9 @@
 use super::Tail;
 use crate::linalg::{LANE, Vector};
 
+/// Polynomials along a tube have this degree at most.
+const MAX_ORDER: usize = 15;
+
 /// Four numbers, one for each equation of a lane.
 type Lane = [f64; LANE];
 
@@ -200,7 +203,8 @@ impl Tail {
         self.add(value, out);
     }
 
-    /// Adds the coefficient of sᵏ, from products of orders from `least` on, of all forms being polynomials in s.
+    /// Adds the coefficient of sᵏ, from products of orders from `least` on, of all forms being polynomials in s of
+    /// degree `order`.
     pub fn add_coefficient<'a>(
         &self,
         k: usize,
@@ -209,13 +213,27 @@ impl Tail {
         forms: impl Fn(usize) -> &'a Forms,
         out: &mut [f64],
     ) {
+        // What is multiplied with what: each order with its other one.
+        let mut pairs: [(&[Lane], &[Lane]); MAX_ORDER + 1] = [(&[], &[]); MAX_ORDER + 1];
+        let mut count = 0;
+        for a in least.max(k.saturating_sub(order))..=k / 2 {
+            let (x, y) = (forms(a), forms(k - a));
+            pairs[count] = (&x.left, &y.right);
+            count += 1;
+            if 2 * a != k {
+                pairs[count] = (&y.left, &x.right);
+                count += 1;
+            }
+        }
+        let pairs = &pairs[..count];
         let value = |slots: std::ops::Range<usize>| {
             let mut sum = [0.0; LANE];
-            for a in least.max(k.saturating_sub(order))..=k / 2 {
-                let (x, y) = (forms(a), forms(k - a));
-                sum = x.times(y, slots.clone(), sum);
-                if 2 * a != k {
-                    sum = y.times(x, slots.clone(), sum);
+            for slot in slots {
+                for (left, right) in pairs {
+                    let (left, right) = (&left[slot], &right[slot]);
+                    for i in 0..LANE {
+                        sum[i] = left[i].mul_add(right[i], sum[i]);
+                    }
                 }
             }
             sum

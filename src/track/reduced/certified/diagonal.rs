@@ -2,7 +2,7 @@
 
 use crate::interval::rounding::round_up;
 use crate::track::reduced::structure::layout::WIDEST;
-use crate::track::reduced::structure::passes::{WideInverse, by_adjugate, inverse_of};
+use crate::track::reduced::structure::passes::{WideInverse, by_adjugate, invert_wide};
 
 /// R is made larger by this factor than I + B R asks for: far above rounding where R is at most [`LARGEST`].
 const MORE: f64 = 1e-9;
@@ -40,15 +40,15 @@ pub fn bound_on_inverse(b: &[[f64; 3]; 3], size: usize) -> Option<[[f64; 3]; 3]>
     holds.then_some(bound)
 }
 
-/// The same for blocks of any size up to [`WIDEST`].
-pub fn bound_on_wide_inverse(b: &WideInverse, size: usize) -> Option<WideInverse> {
+/// The same for blocks of any size up to [`WIDEST`], into `bound`. False: there is none.
+pub fn bound_on_wide_inverse(b: &WideInverse, size: usize, bound: &mut WideInverse) -> bool {
     let mut a = [[0.0; WIDEST]; WIDEST];
     for r in 0..size {
         for c in 0..size {
             a[r][c] = if r == c { 1.0 - b[r][c] } else { -b[r][c] };
         }
     }
-    let mut bound = inverse_of(&a, size);
+    invert_wide(&a, size, bound);
     for row in &mut bound[..size] {
         let sum: f64 = row[..size].iter().sum();
         for entry in &mut row[..size] {
@@ -57,15 +57,20 @@ pub fn bound_on_wide_inverse(b: &WideInverse, size: usize) -> Option<WideInverse
     }
     let mut holds = true;
     for r in 0..size {
-        for c in 0..size {
-            let one = if r == c { 1.0 } else { 0.0 };
-            let sum: f64 = (0..size).map(|k| b[r][k] * bound[k][c]).sum();
-            let x = bound[r][c];
+        // A row of I + B R, all of it at once: what is beyond the block is zero.
+        let mut row = [0.0; WIDEST];
+        row[r] = 1.0;
+        for (b, bound) in b[r][..size].iter().zip(bound.iter()) {
+            for (sum, x) in row.iter_mut().zip(bound) {
+                *sum += b * x;
+            }
+        }
+        for (sum, &x) in row.into_iter().zip(&bound[r]).take(size) {
             // At most WIDEST products, their sum, and the 1.
-            holds &= (0.0..LARGEST).contains(&x) && round_up(one + sum, WIDEST + 2) <= x;
+            holds &= (0.0..LARGEST).contains(&x) & (round_up(sum, WIDEST + 2) <= x);
         }
     }
-    holds.then_some(bound)
+    holds
 }
 
 #[cfg(test)]
@@ -84,9 +89,10 @@ mod tests {
             let b: WideInverse = std::array::from_fn(|_| {
                 std::array::from_fn(|_| 0.5 * largest * (1.0 + random.symmetric()))
             });
-            let Some(bound) = bound_on_wide_inverse(&b, size) else {
+            let mut bound = [[0.0; WIDEST]; WIDEST];
+            if !bound_on_wide_inverse(&b, size, &mut bound) {
                 continue;
-            };
+            }
             found[size] += 1;
             let mut power = [[0.0; WIDEST]; WIDEST];
             (0..size).for_each(|k| power[k][k] = 1.0);
@@ -129,9 +135,10 @@ mod tests {
         let mut b = [[0.0; WIDEST]; WIDEST];
         b[2][5] = 2.0;
         b[5][2] = 0.5;
-        assert!(bound_on_wide_inverse(&b, WIDEST).is_none());
+        let mut bound = [[0.0; WIDEST]; WIDEST];
+        assert!(!bound_on_wide_inverse(&b, WIDEST, &mut bound));
         b[5][2] = 0.4;
-        let bound = bound_on_wide_inverse(&b, WIDEST).unwrap();
+        assert!(bound_on_wide_inverse(&b, WIDEST, &mut bound));
         assert!(bound[2][2] >= 5.0 && bound[2][2] < 5.0 + 1e-6);
     }
 }

@@ -95,8 +95,9 @@ impl Shape {
             m2[i] = h2 * weigh(&k2[i], kappa);
             omega[i] = m0[i] + m1[i] + m2[i];
             for w in 0..W {
+                let (k0, k1, k2) = (&k0[i][w], &k1[i][w], &k2[i][w]);
                 for l in 0..LANE {
-                    let [k0, k1, k2] = [k0, k1, k2].map(|k| k[i][w][l].abs());
+                    let (k0, k1, k2) = (k0[l].abs(), k1[l].abs(), k2[l].abs());
                     sizes[i][w][l] = up(k0 + h * k1 + h2 * k2);
                     slopes[i][w][l] = up(k1 + 2.0 * h * k2);
                 }
@@ -106,8 +107,9 @@ impl Shape {
         let sizes = &mut y.z_size.as_chunks_mut::<W>().0[..n];
         for e in 0..n {
             for w in 0..W {
+                let (z0, z1, z2) = (&z0[e][w], &z1[e][w], &z2[e][w]);
                 for l in 0..LANE {
-                    let [z0, z1, z2] = [z0, z1, z2].map(|z| z[e][w][l].abs());
+                    let (z0, z1, z2) = (z0[l].abs(), z1[l].abs(), z2[l].abs());
                     sizes[e][w][l] = up(z0 + h * z1 + h2 * z2);
                 }
             }

@@ -2,6 +2,7 @@
 
 use super::layout::{Layout, Order};
 use super::passes::{Derivative, Inverses, slices};
+use super::substitution::Substitution;
 use crate::linalg::rstructure::elimination::{Blocks, Elimination as Reduced, Solves};
 use crate::linalg::rstructure::rows::{MAX_KEYS, Row, add, zeros};
 use crate::linalg::{Singular, Vector};
@@ -50,6 +51,8 @@ pub struct Elimination<const D: usize> {
     normal: Vector,
     /// Values of the tail's entries.
     entries: Vec<f64>,
+    /// Where there are other equations than distances.
+    substitution: Substitution,
 }
 
 impl<const D: usize> Elimination<D> {
@@ -63,6 +66,7 @@ impl<const D: usize> Elimination<D> {
             slope: equations.per_edge(),
             normal: equations.vector(),
             entries: vec![0.0; equations.tail.entries()],
+            substitution: Substitution::default(),
         }
     }
 
@@ -102,7 +106,13 @@ impl<const D: usize> Elimination<D> {
         self.normal.copy_from_slice(normal);
         equations.tail.row_values(&d.forms, &mut self.entries);
         let mut inverses = std::mem::take(&mut self.inverses);
-        inverses.make(layout, &self.jacobian(equations));
+        if equations.tail.is_empty() {
+            inverses.make(layout, &self.jacobian(equations));
+        } else {
+            let mut substitution = std::mem::take(&mut self.substitution);
+            substitution.make(layout, &self.jacobian(equations), &mut inverses);
+            self.substitution = substitution;
+        }
         self.inverses = inverses;
         if !layout.is_square() {
             return Err(Singular);
@@ -119,6 +129,7 @@ impl<const D: usize> Elimination<D> {
             jacobian: self.jacobian(equations),
             layout: &self.layout,
             inverses: &self.inverses,
+            substitution: &self.substitution,
             normal: &self.normal[..equations.n()],
             equations: equations.m,
         }
@@ -175,6 +186,7 @@ struct Bordered<'a, const D: usize> {
     jacobian: Derivative<'a, D>,
     layout: &'a Layout,
     inverses: &'a Inverses,
+    substitution: &'a Substitution,
     normal: &'a [f64],
     /// The number of equations, that of the normal's row.
     equations: usize,
@@ -218,7 +230,11 @@ impl<const D: usize> Blocks<f64> for Bordered<'_, D> {
 
 impl<const D: usize> Solves<f64> for Bordered<'_, D> {
     fn substitute_one(&self, f: &[f64], x: &mut [f64]) {
-        self.jacobian.solve(self.layout, self.inverses, f, x);
+        if self.jacobian.tail.is_empty() {
+            self.jacobian.solve(self.layout, self.inverses, f, x);
+        } else {
+            self.substitution.solve(self.layout, self.inverses, f, x);
+        }
     }
 
     #[inline(always)]

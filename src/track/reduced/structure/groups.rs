@@ -1,8 +1,10 @@
 //! Which unknowns are key and which equations ignored, where there are other equations than distances: what `layout`
 //! does point by point, for any groups of unknowns.
 
-use super::layout::{Block, Layout, WIDEST};
+use super::layout::{Block, Kind, Layout, WIDEST};
 use super::sequence::Group;
+use crate::linalg::LANE;
+use crate::linalg::rstructure::rows::width_for;
 use crate::track::full::{Differences, Equations, Tail};
 
 /// One number for each unknown of a group.
@@ -12,10 +14,26 @@ type Wide = [f64; WIDEST];
 #[derive(Debug, Clone, Default)]
 pub struct Groups {
     list: Vec<Placed>,
-    /// Work space: rows, and values of the tail's entries.
+    /// By group the pivots at a point, in the order in which they were found.
+    pivots: Vec<Vec<Pivot>>,
+    /// Work space: rows, values of the tail's entries, and the worth of pivots that are worth less than is asked.
     rows: Vec<Candidate>,
     entries: Vec<f64>,
+    refused: Vec<f64>,
 }
+
+#[derive(Debug, Clone, Copy)]
+struct Pivot {
+    /// Its row's place among the group's rows, and its unknown's in the group.
+    row: usize,
+    place: usize,
+    /// The square of what is left of the row, or of one before it in the group if that is less.
+    worth: f64,
+}
+
+/// Pivots may be worth this part of what is asked where rows of key unknowns have fewer lanes then: measured, see
+/// docs/reduced.md.
+const LEAST: f64 = 0.6;
 
 #[derive(Debug, Clone)]
 struct Placed {
@@ -111,14 +129,17 @@ impl Groups {
             });
         }
         let groups = Groups {
+            pivots: vec![Vec::new(); list.len()],
             list,
             rows: Vec::new(),
             entries: vec![0.0; equations.tail.entries()],
+            refused: Vec::new(),
         };
         (groups, left)
     }
 
-    /// Splits unknowns and equations at a point with the differences `d`: see `Order::choose`.
+    /// Splits unknowns and equations at a point with the differences `d`: see `Order::choose`, which leaves the
+    /// equations without unknowns in `layout` and puts t there.
     pub fn choose<const D: usize>(
         &mut self,
         equations: &Equations<D>,
@@ -126,21 +147,23 @@ impl Groups {
         alpha: f64,
         layout: &mut Layout,
     ) {
-        let tail = &equations.tail;
-        tail.row_values(&d.forms, &mut self.entries);
-        let (rows, entries) = (&mut self.rows, &self.entries);
-        let mut listed = 0;
-        for Placed {
-            group,
-            rows: equations,
-        } in &self.list
-        {
+        equations.tail.row_values(&d.forms, &mut self.entries);
+        self.find_pivots(d, LEAST * alpha);
+        let asked = self.asked(alpha);
+        self.lay_out(equations.tail.first(), asked, layout);
+    }
+
+    /// Finds the pivots of all groups, as long as their worth is at least `alpha`.
+    fn find_pivots<const D: usize>(&mut self, d: &Differences<D>, alpha: f64) {
+        for (Placed { group, rows }, pivots) in self.list.iter().zip(&mut self.pivots) {
+            pivots.clear();
+            let mut least = f64::INFINITY;
             let size = group.unknowns.len();
-            rows.clear();
-            rows.extend(equations.iter().map(|row| {
+            self.rows.clear();
+            self.rows.extend(rows.iter().map(|row| {
                 let value = |entry: Entry| match entry {
                     Entry::Distance(axis, sign) => sign * d[axis][row.equation as usize],
-                    Entry::Tail(entry) => entries[entry],
+                    Entry::Tail(entry) => self.entries[entry],
                 };
                 let mut own = [0.0; WIDEST];
                 row.own
@@ -155,45 +178,96 @@ impl Groups {
             }));
             let mut open = [false; WIDEST];
             open[..size].fill(true);
-            let mut block = Block::empty(layout.order);
-            while block.size < size {
+            for _ in 0..size {
                 let (mut best, mut most) = (None, alpha * alpha);
-                for (r, candidate) in rows.iter().enumerate() {
+                for (r, candidate) in self.rows.iter().enumerate() {
                     let (worth, place) = candidate.worth(&open, size);
                     if worth >= most {
                         (best, most) = (Some((r, place)), worth);
                     }
                 }
-                let Some((best, place)) = best else {
+                let Some((row, place)) = best else {
                     break;
                 };
-                let direction = rows[best].row;
+                let direction = self.rows[row].row;
                 let direction = divided(direction, dot(&direction, &direction).sqrt());
-                rows[best].taken = true;
+                self.rows[row].taken = true;
                 open[place] = false;
-                let axis = group.axes.get(place).map_or(place as u8, |&axis| axis);
-                let Row { equation, sign, .. } = equations[best];
-                block.insert((axis, group.unknowns[place]), (equation, sign));
-                for Candidate { row, .. } in rows.iter_mut() {
+                least = least.min(most);
+                pivots.push(Pivot {
+                    worth: least,
+                    row,
+                    place,
+                });
+                for Candidate { row, taken } in self.rows.iter_mut() {
+                    if *taken {
+                        continue;
+                    }
                     let along = dot(row, &direction);
                     for k in 0..size {
                         row[k] -= along * direction[k];
                     }
                 }
             }
-            let ignored = equations.iter().zip(rows.iter());
-            let ignored = ignored.filter(|(_, candidate)| !candidate.taken);
-            layout.ignored.extend(ignored.map(|(row, _)| row.equation));
-            let keys = group.unknowns.iter().zip(open);
-            layout
-                .keys
-                .extend(keys.filter(|(_, open)| *open).map(|(&key, _)| key));
+        }
+    }
+
+    /// The square of what is asked of pivots: that of `alpha`, or less where rows of key unknowns have fewer lanes then.
+    fn asked(&mut self, alpha: f64) -> f64 {
+        let full = alpha * alpha;
+        let unknowns: usize = self.list.iter().map(|g| g.group.unknowns.len()).sum();
+        let pivots = self.pivots.iter().flatten();
+        self.refused.clear();
+        self.refused.extend(
+            pivots
+                .map(|pivot| pivot.worth)
+                .filter(|&worth| worth < full),
+        );
+        // With t, if all pivots are taken.
+        let all: usize = self.pivots.iter().map(Vec::len).sum();
+        let fewest = unknowns + 1 - all;
+        let Some(lanes) = width_for(fewest) else {
+            return full;
+        };
+        let keys = fewest + self.refused.len();
+        match keys.checked_sub(lanes * LANE + 1) {
+            None => full,
+            Some(last) => {
+                self.refused.sort_unstable_by(|a, b| b.total_cmp(a));
+                self.refused[last]
+            }
+        }
+    }
+
+    /// Makes blocks of the pivots that are worth what is asked; the first that is not ends its group's.
+    fn lay_out(&self, first: usize, asked: f64, layout: &mut Layout) {
+        let mut wide = 0;
+        for (Placed { group, rows }, pivots) in self.list.iter().zip(&self.pivots) {
+            let size = group.unknowns.len();
+            let pivots = pivots.iter().take_while(|pivot| pivot.worth >= asked);
+            let mut block = Block::empty(layout.order);
+            let mut open = [true; WIDEST];
+            for pivot in pivots.clone() {
+                let axes = group.axes.get(pivot.place);
+                let axis = axes.map_or(pivot.place as u8, |&axis| axis);
+                let Row { equation, sign, .. } = rows[pivot.row];
+                block.insert((axis, group.unknowns[pivot.place]), (equation, sign));
+                open[pivot.place] = false;
+            }
+            let is_ignored = |row: &usize| pivots.clone().all(|pivot| pivot.row != *row);
+            let ignored = (0..rows.len()).filter(is_ignored);
+            layout.ignored.extend(ignored.map(|row| rows[row].equation));
+            let keys = (0..size).filter(|&place| open[place]);
+            layout.keys.extend(keys.map(|place| group.unknowns[place]));
             layout.order += block.size;
             if block.size > 0 {
-                let is_last = |&e: &u32| e as usize >= tail.first();
+                let is_last = |&e: &u32| e as usize >= first;
                 if group.axes.is_empty() || block.rows[..block.size].iter().any(is_last) {
-                    block.listed = Some(listed);
-                    listed += 1;
+                    block.kind = Kind::Listed;
+                    if block.size > 3 {
+                        block.kind = Kind::Wide(wide);
+                        wide += 1;
+                    }
                 }
                 layout.blocks.push(block);
             }

@@ -45,9 +45,18 @@ pub struct Block {
     /// Its rows: equations, with the sign that the point's coordinates have in distances.
     pub rows: [u32; WIDEST],
     pub signs: [f64; WIDEST],
-    /// Where rows are lists of entries, as not all of them are distances from one point to points before it: the
-    /// block's number among such blocks.
-    pub listed: Option<u32>,
+    pub kind: Kind,
+}
+
+/// What the rows of a diagonal block are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Distances from one point to points before it.
+    Point,
+    /// Lists of entries, three rows at most.
+    Listed,
+    /// Lists of entries, up to [`WIDEST`] rows; the block's number among such blocks.
+    Wide(u32),
 }
 
 /// The R-structure [[A, H], [L, C]] of the Jacobian with the normal for a last row.
@@ -230,7 +239,7 @@ impl Block {
             axes: [0; WIDEST],
             rows: [0; WIDEST],
             signs: [0.0; WIDEST],
-            listed: None,
+            kind: Kind::Point,
         }
     }
 

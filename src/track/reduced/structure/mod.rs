@@ -7,3 +7,4 @@ pub mod groups;
 pub mod layout;
 pub mod passes;
 mod sequence;
+mod substitution;

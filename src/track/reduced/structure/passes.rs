@@ -6,8 +6,8 @@
 //! Rows of the Jacobian are differences per axis for distances, and compressed lists of entries for
 //! other equations, whose differences are zero; one comparison per row tells them apart.
 
-use super::groups::each_entry;
-use super::layout::{Block, Layout, WIDEST};
+use super::layout::{Block, Kind, Layout, WIDEST};
+use crate::linalg::rstructure::elimination::invert_transposed;
 use crate::linalg::rstructure::rows::{Row, add, zeros};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Tail;
@@ -64,8 +64,7 @@ impl<const D: usize> Derivative<'_, D> {
     }
 
     /// Adds the tail's entries in a row of J, times a row, to the rows of their unknowns.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn add_tail_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
         for (unknown, entry) in self.tail.row_with(e, self.entries) {
             add(&mut out[unknown], entry, z);
@@ -74,14 +73,14 @@ impl<const D: usize> Derivative<'_, D> {
 
     /// Sets the rows of a block's unknowns whose rows are lists so that its rows of J K + what is `known` vanish.
     #[inline(never)]
-    fn substitute_listed<const W: usize>(
+    fn substitute_listed<const W: usize, const K: usize>(
         &self,
         block: &Block,
-        inverse: &WideInverse,
+        inverse: &[[f64; K]; K],
         k: &mut [Row<W>],
         known: &impl Fn(usize, &mut Row<W>),
     ) {
-        let mut sums = [zeros(); WIDEST];
+        let mut sums = [zeros(); K];
         for (sum, &e) in sums.iter_mut().zip(&block.rows[..block.size]) {
             *sum = self.any_row(e as usize, k);
             known(e as usize, sum);
@@ -96,10 +95,10 @@ impl<const D: usize> Derivative<'_, D> {
 
     /// Sets the rows of the equations of a block whose rows are lists so that its columns in T + Zᵀ J vanish.
     #[inline(never)]
-    fn substitute_left_listed<const W: usize>(
+    fn substitute_left_listed<const W: usize, const K: usize>(
         &self,
         block: &Block,
-        inverse: &WideInverse,
+        inverse: &[[f64; K]; K],
         t: &mut [Row<W>],
         z: &mut [Row<W>],
     ) {
@@ -113,18 +112,6 @@ impl<const D: usize> Derivative<'_, D> {
         // Those of its own block are not looked at again.
         for &e in &block.rows[..block.size] {
             self.add_left(e as usize, &z[e as usize], t);
-        }
-    }
-
-    /// Sets the unknowns of a block whose rows are lists so that its rows in `f − J x` vanish.
-    #[inline(never)]
-    fn solve_listed(&self, block: &Block, inverse: &WideInverse, f: &[f64], x: &mut [f64]) {
-        let mut rest = [0.0; WIDEST];
-        for (rest, &e) in rest.iter_mut().zip(&block.rows[..block.size]) {
-            *rest = f[e as usize] - self.any_row_of(e as usize, x);
-        }
-        for c in 0..block.size {
-            x[block.unknowns[c] as usize] = (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
         }
     }
 
@@ -173,13 +160,13 @@ impl<const D: usize> Derivative<'_, D> {
     /// `out += Zᵀ J` for one equation.
     #[inline(always)]
     pub fn add_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
+        if e >= self.tail.first() {
+            return self.add_tail_left(e, z, out);
+        }
         for axis in 0..D {
             let [i, j] = self.ends[axis][e].map(|end| end as usize);
             add(&mut out[i], self.d[axis][e], z);
             add(&mut out[j], -self.d[axis][e], z);
-        }
-        if e >= self.tail.first() {
-            self.add_tail_left(e, z, out);
         }
     }
 
@@ -215,9 +202,16 @@ impl<const D: usize> Derivative<'_, D> {
         known: impl Fn(usize, &mut Row<W>),
     ) {
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
-            if let Some(listed) = block.listed {
-                self.substitute_listed(block, &inverses.listed[listed as usize], k, &known);
-                continue;
+            match block.kind {
+                Kind::Point => {}
+                Kind::Listed => {
+                    self.substitute_listed(block, inverse, k, &known);
+                    continue;
+                }
+                Kind::Wide(at) => {
+                    self.substitute_listed(block, &inverses.wide[at as usize], k, &known);
+                    continue;
+                }
             }
             let mut sums = [[[0.0; LANE]; W]; 3];
             for r in 0..block.size {
@@ -244,9 +238,16 @@ impl<const D: usize> Derivative<'_, D> {
         z: &mut [Row<W>],
     ) {
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points).rev() {
-            if let Some(listed) = block.listed {
-                self.substitute_left_listed(block, &inverses.listed[listed as usize], t, z);
-                continue;
+            match block.kind {
+                Kind::Point => {}
+                Kind::Listed => {
+                    self.substitute_left_listed(block, inverse, t, z);
+                    continue;
+                }
+                Kind::Wide(at) => {
+                    self.substitute_left_listed(block, &inverses.wide[at as usize], t, z);
+                    continue;
+                }
             }
             for r in 0..block.size {
                 let mut sum = [[0.0; LANE]; W];
@@ -264,14 +265,10 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// Sets A's unknowns in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns
+    /// Where all rows are distances, sets A's unknowns in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns
     /// stay as they are.
     pub fn solve(&self, layout: &Layout, inverses: &Inverses, f: &[f64], x: &mut [f64]) {
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
-            if let Some(listed) = block.listed {
-                self.solve_listed(block, &inverses.listed[listed as usize], f, x);
-                continue;
-            }
             let mut rest = [0.0; 3];
             for r in 0..block.size {
                 let e = block.rows[r] as usize;
@@ -298,60 +295,71 @@ impl<const D: usize> Derivative<'_, D> {
     /// Row e of J x for any equation.
     #[inline(always)]
     pub fn any_row_of(&self, e: usize, x: &[f64]) -> f64 {
-        let head = self.row_of(e, x);
         if e < self.tail.first() {
-            head
+            self.row_of(e, x)
         } else {
-            head + self.tail_row_of(e, x)
+            self.tail_row_of(e, x)
         }
     }
 
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn tail_row_of(&self, e: usize, x: &[f64]) -> f64 {
         let row = self.tail.row_with(e, self.entries);
-        row.map(|(unknown, entry)| entry * x[unknown]).sum()
+        let time = -self.slope[e] * x[self.t];
+        row.fold(time, |sum, (unknown, entry)| entry.mul_add(x[unknown], sum))
     }
 }
 
 /// The inverse of a diagonal block: `inverse[column][row]`.
 pub type Inverse = [[f64; 3]; 3];
 
-/// That of a block whose rows are lists.
+/// That of a block of more than three rows.
 pub type WideInverse = [[f64; WIDEST]; WIDEST];
 
 /// The inverses of all diagonal blocks.
 #[derive(Debug, Clone, Default)]
 pub struct Inverses {
-    /// By block; nothing for those whose rows are lists.
+    /// By block; nothing for those of more than three rows.
     pub points: Vec<Inverse>,
-    /// Of those.
-    pub listed: Vec<WideInverse>,
+    /// Of those, and whether their determinants are negative.
+    pub wide: Vec<WideInverse>,
+    negative: Vec<bool>,
 }
 
 impl Inverses {
-    /// Inverts all diagonal blocks.
+    /// Inverts all diagonal blocks where all rows are distances.
     pub fn make<const D: usize>(&mut self, layout: &Layout, j: &Derivative<D>) {
-        self.points.clear();
-        self.listed.clear();
+        self.clear();
         for block in &layout.blocks {
-            if block.listed.is_some() {
-                self.points.push([[0.0; 3]; 3]);
-                self.listed.push(invert_listed(block, j));
-            } else {
-                self.points.push(invert(block, j));
-            }
+            self.points.push(invert(block, j));
         }
+    }
+
+    /// None any more.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.wide.clear();
+        self.negative.clear();
+    }
+
+    /// The inverse of the next block, of three rows at most.
+    pub fn push(&mut self, entries: &[[f64; 3]; 3], size: usize) {
+        self.points.push(inverse_of_small(entries, size));
+    }
+
+    /// The inverse of the next block, of more rows.
+    pub fn push_wide(&mut self, entries: &WideInverse, size: usize) {
+        self.points.push([[0.0; 3]; 3]);
+        self.wide.push([[0.0; WIDEST]; WIDEST]);
+        let inverse = self.wide.last_mut().expect("pushed");
+        self.negative.push(invert_wide(entries, size, inverse));
     }
 
     /// Whether the determinant of a block's inverse is negative.
     pub fn is_negative(&self, at: usize, block: &Block) -> bool {
-        match block.listed {
-            Some(listed) => {
-                let mut a = self.listed[listed as usize];
-                reduce(&mut a, block.size)
-            }
-            None => determinant(&self.points[at], block.size) < 0.0,
+        match block.kind {
+            Kind::Wide(wide) => self.negative[wide as usize],
+            _ => determinant(&self.points[at], block.size) < 0.0,
         }
     }
 }
@@ -366,73 +374,86 @@ fn determinant(a: &Inverse, size: usize) -> f64 {
     }
 }
 
-/// The inverse of a block whose rows are lists, as [`invert`] has it.
-fn invert_listed<const D: usize>(block: &Block, j: &Derivative<D>) -> WideInverse {
-    let mut a = [[0.0; WIDEST]; WIDEST];
-    let unknowns = &block.unknowns[..block.size];
-    for (a, &e) in a.iter_mut().zip(&block.rows[..block.size]) {
-        let of = (j.ends, j.tail);
-        each_entry(of, e as usize, (j.d, j.entries), -1.0, |unknown, entry| {
-            if let Some(c) = unknowns.iter().position(|&u| u as usize == unknown) {
-                a[c] += entry;
-            }
-        });
+/// The inverse of `a[row][column]` in floats, into `out[column][row]`, and whether its determinant is negative: whoever uses
+/// it finds out what it is worth. Not a number where there is none.
+pub fn invert_wide(a: &WideInverse, size: usize, out: &mut WideInverse) -> bool {
+    match size {
+        4 => by_minors(a, out),
+        _ => by_elimination(a, size, out),
     }
-    inverse_of(&a, block.size)
 }
 
-/// The inverse of `a[row][column]` by Gauss's and Jordan's elimination in floats, as `inverse[column][row]`: whoever
-/// uses it finds out what it is worth.
-pub fn inverse_of(a: &WideInverse, size: usize) -> WideInverse {
-    let mut a = *a;
-    let mut out = [[0.0; WIDEST]; WIDEST];
-    (0..size).for_each(|k| out[k][k] = 1.0);
-    for k in 0..size {
-        let best = largest_below(&a, k, size);
-        a.swap(k, best);
-        out.swap(k, best);
-        let scale = 1.0 / a[k][k];
-        for c in 0..size {
-            a[k][c] *= scale;
-            out[k][c] *= scale;
-        }
-        let (row, solved) = (a[k], out[k]);
-        for r in (0..size).filter(|&r| r != k) {
-            let factor = a[r][k];
-            for c in 0..size {
-                a[r][c] -= factor * row[c];
-                out[r][c] -= factor * solved[c];
-            }
+/// By Gauss's and Jordan's elimination.
+fn by_elimination(a: &WideInverse, size: usize, out: &mut WideInverse) -> bool {
+    let mut rows = [zeros::<2, f64>(); WIDEST];
+    for (row, a) in rows.iter_mut().zip(a) {
+        for (c, entry) in a.iter().enumerate() {
+            row[c / LANE][c % LANE] = *entry;
         }
     }
-    out
+    let mut from = std::array::from_fn::<u32, WIDEST, _>(|k| k as u32);
+    let mut transposed = [zeros::<2, f64>(); WIDEST];
+    let inverted = invert_transposed(&mut rows[..size], &mut from[..size], &mut transposed);
+    for (r, row) in transposed[..size].iter().enumerate() {
+        for (c, out) in out[..size].iter_mut().enumerate() {
+            out[r] = match inverted {
+                Some(_) => row[c / LANE][c % LANE],
+                None => f64::NAN,
+            };
+        }
+    }
+    inverted.unwrap_or(false)
 }
 
-/// Where the largest entry of a column is, from the diagonal on.
-fn largest_below(a: &WideInverse, k: usize, size: usize) -> usize {
-    let mut best = k;
-    for r in k..size {
-        if a[r][k].abs() > a[best][k].abs() {
-            best = r;
+/// Of four rows, from the minors of the first two and of the last two: one division, and no pivots to wait for.
+fn by_minors(a: &WideInverse, out: &mut WideInverse) -> bool {
+    let minor = |r: usize, i: usize, j: usize| a[r][i] * a[r + 1][j] - a[r + 1][i] * a[r][j];
+    let of = |r: usize| {
+        [
+            minor(r, 0, 1),
+            minor(r, 0, 2),
+            minor(r, 0, 3),
+            minor(r, 1, 2),
+            minor(r, 1, 3),
+            minor(r, 2, 3),
+        ]
+    };
+    let ([s0, s1, s2, s3, s4, s5], [c0, c1, c2, c3, c4, c5]) = (of(0), of(2));
+    let determinant = (s0 * c5 - s1 * c4 + s2 * c3) + (s3 * c2 - s4 * c1 + s5 * c0);
+    let scale = 1.0 / determinant;
+    let [a0, a1, a2, a3] = [a[0], a[1], a[2], a[3]];
+    let columns = [
+        [
+            a1[1] * c5 - a1[2] * c4 + a1[3] * c3,
+            a0[2] * c4 - a0[1] * c5 - a0[3] * c3,
+            a3[1] * s5 - a3[2] * s4 + a3[3] * s3,
+            a2[2] * s4 - a2[1] * s5 - a2[3] * s3,
+        ],
+        [
+            a1[2] * c2 - a1[0] * c5 - a1[3] * c1,
+            a0[0] * c5 - a0[2] * c2 + a0[3] * c1,
+            a3[2] * s2 - a3[0] * s5 - a3[3] * s1,
+            a2[0] * s5 - a2[2] * s2 + a2[3] * s1,
+        ],
+        [
+            a1[0] * c4 - a1[1] * c2 + a1[3] * c0,
+            a0[1] * c2 - a0[0] * c4 - a0[3] * c0,
+            a3[0] * s4 - a3[1] * s2 + a3[3] * s0,
+            a2[1] * s2 - a2[0] * s4 - a2[3] * s0,
+        ],
+        [
+            a1[1] * c1 - a1[0] * c3 - a1[2] * c0,
+            a0[0] * c3 - a0[1] * c1 + a0[2] * c0,
+            a3[1] * s1 - a3[0] * s3 - a3[2] * s0,
+            a2[0] * s3 - a2[1] * s1 + a2[2] * s0,
+        ],
+    ];
+    for (out, column) in out.iter_mut().zip(columns) {
+        for (out, minor) in out.iter_mut().zip(column) {
+            *out = minor * scale;
         }
     }
-    best
-}
-
-/// Makes a matrix triangular, and tells whether its determinant is negative, as floats see it.
-fn reduce(a: &mut WideInverse, size: usize) -> bool {
-    let mut negative = false;
-    for k in 0..size {
-        let best = largest_below(a, k, size);
-        a.swap(k, best);
-        negative ^= (best != k) != (a[k][k] < 0.0);
-        let row = a[k];
-        for other in &mut a[k + 1..size] {
-            let factor = other[k] / row[k];
-            (k..size).for_each(|c| other[c] -= factor * row[c]);
-        }
-    }
-    negative
+    determinant < 0.0
 }
 
 /// The inverse of `a[row][column]` by its adjugate, as `inverse[column][row]`: whoever uses it finds
@@ -469,16 +490,21 @@ pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
 
 /// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
 pub fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
-    let a = entries(block, j);
+    inverse_of_small(&entries(block, j), block.size)
+}
+
+/// The inverse of `a[row][column]`, of three rows at most, by its adjugate, as `inverse[column][row]`.
+#[inline]
+fn inverse_of_small(a: &[[f64; 3]; 3], size: usize) -> Inverse {
     let mut out = [[0.0; 3]; 3];
-    match block.size {
+    match size {
         1 => out[0][0] = 1.0 / a[0][0],
         2 => {
             let scale = 1.0 / (a[0][0] * a[1][1] - a[0][1] * a[1][0]);
             out[0] = [a[1][1] * scale, -a[0][1] * scale, 0.0];
             out[1] = [-a[1][0] * scale, a[0][0] * scale, 0.0];
         }
-        _ => out = by_adjugate(&a),
+        _ => out = by_adjugate(a),
     }
     out
 }
@@ -486,4 +512,61 @@ pub fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
 /// Views of d as slices.
 pub fn slices<const D: usize>(d: &[Vector; D]) -> [&[f64]; D] {
     d.each_ref().map(|d| &d[..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::random::Random;
+
+    /// A · A⁻¹ = I, and the sign of the determinant turns when two rows are exchanged.
+    #[test]
+    fn wide_blocks_are_inverted() {
+        let mut random = Random::new(29);
+        for size in 4..=WIDEST {
+            for _ in 0..200 {
+                let mut a = [[0.0; WIDEST]; WIDEST];
+                for row in &mut a[..size] {
+                    row[..size].fill_with(|| random.symmetric());
+                }
+                let mut inverse = [[0.0; WIDEST]; WIDEST];
+                let negative = invert_wide(&a, size, &mut inverse);
+                let most = inverse
+                    .as_flattened()
+                    .iter()
+                    .fold(1.0, |max: f64, x| max.max(x.abs()));
+                for r in 0..size {
+                    for c in 0..size {
+                        let product: f64 = (0..size).map(|k| a[r][k] * inverse[k][c]).sum();
+                        let one = f64::from(r == c);
+                        assert!((product - one).abs() <= 1e-13 * most * most, "{product}");
+                    }
+                }
+                a.swap(0, size - 1);
+                assert_ne!(negative, invert_wide(&a, size, &mut inverse));
+            }
+        }
+        let mut inverse = [[0.0; WIDEST]; WIDEST];
+        for size in 4..=WIDEST {
+            // Ones everywhere: singular.
+            invert_wide(&[[1.0; WIDEST]; WIDEST], size, &mut inverse);
+            let entries = inverse[..size].iter().flat_map(|row| &row[..size]);
+            assert!(entries.into_iter().any(|x| !x.is_finite()), "{size}");
+        }
+    }
+
+    /// Diagonal matrices say what the sign is.
+    #[test]
+    fn determinants_have_signs() {
+        for size in 4..=WIDEST {
+            for sign in [1.0, -1.0] {
+                let mut a = [[0.0; WIDEST]; WIDEST];
+                (0..size).for_each(|k| a[k][k] = 1.0 + k as f64);
+                a[1][1] *= sign;
+                let mut inverse = [[0.0; WIDEST]; WIDEST];
+                assert_eq!(invert_wide(&a, size, &mut inverse), sign < 0.0);
+                assert_eq!(inverse[1][1], sign / 2.0);
+            }
+        }
+    }
 }

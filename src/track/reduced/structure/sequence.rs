@@ -47,11 +47,14 @@ pub fn groups_in_order<const D: usize>(
     // Each search goes through all groups for each group.
     let count = (WORK / groups.len().pow(2).max(1)).clamp(1, STARTS);
     let starts = (0..groups.len()).take(count).map(Some);
-    let orders = std::iter::once(None)
-        .chain(starts)
-        .map(|start| search.order(start));
-    let best = orders.min_by_key(|(missing, _)| *missing);
-    let (_, order) = best.expect("the order without a start of its own");
+    let (mut missing, mut order) = search
+        .order(None, usize::MAX)
+        .expect("nothing is too much for the first");
+    for start in starts {
+        if let Some(better) = search.order(start, missing) {
+            (missing, order) = better;
+        }
+    }
     let together = |members: Vec<usize>| match members[..] {
         [one] => groups[one].clone(),
         _ => Group {
@@ -127,8 +130,8 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// An order, always going on with the groups that lack fewest equations, among those with the one that is
-    /// in most equations with groups before it; and how many are missing in all.
-    fn order(&self, start: Option<usize>) -> (usize, Vec<Vec<usize>>) {
+    /// in most equations with groups before it; and how many are missing in all. `None`: as many as are `too_many`.
+    fn order(&self, start: Option<usize>, too_many: usize) -> Option<(usize, Vec<Vec<usize>>)> {
         let mut at = State::new(self);
         let (mut missing, mut order) = (0, Vec::with_capacity(self.sizes.len()));
         while let Some(best) = at.next() {
@@ -145,10 +148,13 @@ impl Search<'_> {
                 }
             }
             missing += lacks;
+            if missing >= too_many {
+                return None;
+            }
             next.iter().for_each(|&g| at.place(g));
             order.push(next);
         }
-        (missing, order)
+        Some((missing, order))
     }
 }
 

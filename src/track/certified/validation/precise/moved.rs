@@ -89,8 +89,8 @@ fn change<const D: usize>(
         Change::Inverses => {
             let inverses = &mut local.y.elimination.inverses;
             let points = inverses.points.as_flattened_mut().as_flattened_mut();
-            let listed = inverses.listed.as_flattened_mut().as_flattened_mut();
-            points.iter_mut().chain(listed).for_each(scale)
+            let wide = inverses.wide.as_flattened_mut().as_flattened_mut();
+            points.iter_mut().chain(wide).for_each(scale)
         }
     }
     settle(equations, local);

@@ -12,14 +12,32 @@
 //! bounded without its signs from block to block; that is what keeps the wrapping effect small
 //! (docs/reduced.md).
 
+mod listed;
+
 use super::diagonal::{bound_on_inverse, bound_on_wide_inverse};
 use crate::interval::rounding::round_up;
 use crate::linalg::rstructure::rows::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::groups::each_entry;
-use crate::track::reduced::structure::layout::{Block, Layout, WIDEST};
-use crate::track::reduced::structure::passes::{Inverses, WideInverse};
+use crate::track::reduced::structure::layout::{Block, Kind, Layout, WIDEST};
+use crate::track::reduced::structure::passes::Inverses;
+use listed::Lists;
+
+/// What a bound on |A(s)⁻¹| needs of one diagonal block.
+#[derive(Debug, Clone, Copy)]
+struct Diagonal<const K: usize> {
+    /// R ≥ (I − N − Â|X|)⁻¹.
+    bound: [[f64; K]; K],
+    /// Â.
+    spread: [[f64; K]; K],
+}
+
+impl<const K: usize> Default for Diagonal<K> {
+    fn default() -> Self {
+        let [bound, spread] = [[[0.0; K]; K]; 2];
+        Diagonal { bound, spread }
+    }
+}
 
 /// X ≈ A₀⁻¹, N = |A₀ X − I| + H |A₁ X| and Â of a tube, from which bounds on |A(s)⁻¹ g| follow for |s| ≤ H.
 #[derive(Debug, Clone)]
@@ -32,9 +50,10 @@ pub struct Resolvent<const D: usize> {
     /// Â by axis and distance, and by entry of the tail's rows.
     spread: [Vector; D],
     spread_of_tail: Vec<f64>,
-    /// R for each block; nothing for those whose rows are lists, which have theirs apart.
-    diagonal: Vec<[[f64; 3]; 3]>,
-    listed: Vec<WideInverse>,
+    /// What bounds the inverse of each diagonal block; nothing for those of more than three rows, which have theirs apart.
+    diagonal: Vec<Diagonal<3>>,
+    wide: Vec<Diagonal<WIDEST>>,
+    lists: Lists,
     /// The position in A of each unknown of A; otherwise too large.
     position: Vec<u32>,
     /// More roundings than any number in a bound goes through.
@@ -51,7 +70,8 @@ impl<const D: usize> Resolvent<D> {
             spread: std::array::from_fn(|_| equations.per_edge()),
             spread_of_tail: vec![0.0; equations.tail.entries()],
             diagonal: Vec::new(),
-            listed: Vec::new(),
+            wide: Vec::new(),
+            lists: Lists::default(),
             position: Vec::new(),
             roundings: 0,
         }
@@ -74,20 +94,40 @@ impl<const D: usize> Resolvent<D> {
         equations: &Equations<D>,
         layout: &Layout,
         inverses: &Inverses,
-        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
+        values: ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
     ) -> bool {
+        let (d, _) = values;
         self.lay_out(equations, layout);
         self.diagonal.clear();
-        self.listed.clear();
+        self.wide.clear();
+        self.lists.clear(layout.order);
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
-            if let Some(listed) = block.listed {
-                let inverse = &inverses.listed[listed as usize];
-                self.diagonal.push([[0.0; 3]; 3]);
-                if !self.make_listed(equations, block, inverse, (d, entries), h) {
-                    return false;
+            match block.kind {
+                Kind::Point => {}
+                Kind::Listed => {
+                    let mut spread = [[0.0; 3]; 3];
+                    let b = self.make_listed(equations, block, inverse, values, h, &mut spread);
+                    match bound_on_inverse(&b, block.size) {
+                        Some(bound) => self.diagonal.push(Diagonal { bound, spread }),
+                        None => return false,
+                    }
+                    continue;
                 }
-                continue;
+                Kind::Wide(at) => {
+                    let inverse = &inverses.wide[at as usize];
+                    let mut wide = std::mem::take(&mut self.wide);
+                    wide.push(Diagonal::default());
+                    let Diagonal { bound, spread } = &mut wide[at as usize];
+                    let b = self.make_listed(equations, block, inverse, values, h, spread);
+                    let holds = bound_on_wide_inverse(&b, block.size, bound);
+                    self.wide = wide;
+                    self.diagonal.push(Diagonal::default());
+                    if !holds {
+                        return false;
+                    }
+                    continue;
+                }
             }
             let (start, size) = (block.start, block.size);
             let (first, next) = self.rows[start];
@@ -139,7 +179,10 @@ impl<const D: usize> Resolvent<D> {
                 }
             }
             match bound_on_inverse(&b, size) {
-                Some(bound) => self.diagonal.push(bound),
+                Some(bound) => self.diagonal.push(Diagonal {
+                    bound,
+                    spread: spreads,
+                }),
                 None => return false,
             }
         }
@@ -176,110 +219,6 @@ impl<const D: usize> Resolvent<D> {
         sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
     }
 
-    /// X and N in a block whose rows are lists. False: the bound does not exist.
-    #[inline(never)]
-    fn make_listed(
-        &mut self,
-        equations: &Equations<D>,
-        block: &Block,
-        inverse: &WideInverse,
-        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
-        h: f64,
-    ) -> bool {
-        let (start, size) = (block.start, block.size);
-        let (first, next) = self.rows[start];
-        let lanes = next - first;
-        let of = (&equations.ends, &equations.tail);
-        let [d0, d1] = d.map(|d| d.each_ref().map(|d| &d[..]));
-        let (before, x) = self.x.split_at_mut(first);
-        let n = &mut self.n[first..first + size * lanes];
-        // I − (what is left of the block) X, in the rows of N for the time being.
-        for (r, n) in n.chunks_exact_mut(lanes).enumerate() {
-            n.fill([0.0; LANE]);
-            n[(start + r) / LANE][(start + r) % LANE] = 1.0;
-            let e = block.rows[r] as usize;
-            each_entry(of, e, (d0, entries[0]), -1.0, |unknown, entry| {
-                let row = self.position[unknown] as usize;
-                // Neither key nor of this block.
-                if row < start {
-                    let (from, to) = self.rows[row];
-                    for (sum, x) in n.iter_mut().zip(&before[from..to]) {
-                        for i in 0..LANE {
-                            sum[i] = x[i].mul_add(-entry, sum[i]);
-                        }
-                    }
-                }
-            });
-        }
-        for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
-            for (l, x) in x.iter_mut().enumerate() {
-                let mut sum = [0.0; LANE];
-                for r in 0..size {
-                    for i in 0..LANE {
-                        sum[i] = n[r * lanes + l][i].mul_add(inverse[r], sum[i]);
-                    }
-                }
-                *x = sum;
-            }
-        }
-        for r in 0..size {
-            // |A₀ X − I| + H |A₁ X|. Room for all but very long rows.
-            let mut room: [(&[Lane], [f64; 2]); 24] = [(&[], [0.0; 2]); 24];
-            let (mut count, mut more) = (0, Vec::new());
-            let e = block.rows[r] as usize;
-            let mut put = |unknown: usize, entries: [f64; 2]| {
-                if let Some(&(from, to)) = self.rows.get(self.position[unknown] as usize) {
-                    let term = (&self.x[from..to], entries);
-                    match room.get_mut(count) {
-                        Some(room) => *room = term,
-                        None => more.push(term),
-                    }
-                    count += 1;
-                }
-            };
-            if e < equations.tail.first() {
-                for axis in 0..D {
-                    let ends = equations.ends[axis][e].map(|end| end as usize);
-                    let at = [d0[axis][e], d1[axis][e]];
-                    put(ends[0], at);
-                    put(ends[1], at.map(|d| -d));
-                }
-            } else {
-                for entry in equations.tail.row(e) {
-                    let at = entries.map(|entries| entries[entry]);
-                    put(equations.tail.unknown(entry), at);
-                }
-            }
-            let (at, end) = self.rows[start + r];
-            let n = &mut self.n[at..end];
-            if count <= room.len() {
-                sum_row(n, &room[..count], start + r, h);
-            } else {
-                let all: Vec<_> = room.into_iter().chain(more).collect();
-                sum_row(n, &all, start + r, h);
-            }
-        }
-        let spreads = self.wide_spreads(equations, block);
-        let mut b = [[0.0; WIDEST]; WIDEST];
-        for r in 0..size {
-            for j in start..start + size {
-                let (l, i) = (j / LANE, j % LANE);
-                let mut entry = self.n[first + r * lanes + l][i];
-                for c in 0..size {
-                    entry += spreads[r][c] * self.x[first + c * lanes + l][i].abs();
-                }
-                b[r][j - start] = round_up(entry, self.roundings);
-            }
-        }
-        match bound_on_wide_inverse(&b, size) {
-            Some(bound) => {
-                self.listed.push(bound);
-                true
-            }
-            None => false,
-        }
-    }
-
     /// Â in a block.
     #[inline(always)]
     fn spreads(&self, block: &Block) -> [[f64; 3]; 3] {
@@ -290,65 +229,6 @@ impl<const D: usize> Resolvent<D> {
             }
         }
         out
-    }
-
-    /// Calls a function with the unknowns of an equation and Â's entries for them.
-    #[inline(always)]
-    fn each_spread(&self, equations: &Equations<D>, e: usize, to: impl FnMut(usize, f64)) {
-        let of = (&equations.ends, &equations.tail);
-        let spread = self.spread.each_ref().map(|spread| &spread[..]);
-        each_entry(of, e, (spread, &self.spread_of_tail), 1.0, to);
-    }
-
-    /// Â in a block whose rows are lists.
-    fn wide_spreads(&self, equations: &Equations<D>, block: &Block) -> WideInverse {
-        let mut out = [[0.0; WIDEST]; WIDEST];
-        for (out, &e) in out.iter_mut().zip(&block.rows[..block.size]) {
-            self.each_spread(equations, e as usize, |unknown, spread| {
-                let place = (self.position[unknown] as usize).wrapping_sub(block.start);
-                if place < block.size {
-                    out[place] += spread;
-                }
-            });
-        }
-        out
-    }
-
-    /// What [`Resolvent::bound`] does for a block whose rows are lists.
-    #[inline(never)]
-    fn bound_listed(
-        &self,
-        equations: &Equations<D>,
-        block: &Block,
-        bounds: &WideInverse,
-        g: &[Lane],
-        (y, v): (&mut [Lane], &mut [Lane]),
-    ) {
-        let (start, size) = (block.start, block.size);
-        let mut rest = [[0.0; LANE]; WIDEST];
-        let mut near = [[0.0; LANE]; WIDEST];
-        for r in 0..size {
-            (rest[r], near[r]) = self.before(start + r, start, g[start + r], y);
-        }
-        let spreads = self.wide_spreads(equations, block);
-        for r in 0..size {
-            let rest = &mut rest[r];
-            self.each_spread(equations, block.rows[r] as usize, |unknown, spread| {
-                let from = self.position[unknown] as usize;
-                // Neither key nor of this block.
-                if from < start {
-                    for i in 0..LANE {
-                        rest[i] = v[from][i].mul_add(spread, rest[i]);
-                    }
-                }
-            });
-            for c in 0..size {
-                for i in 0..LANE {
-                    rest[i] = near[c][i].mul_add(spreads[r][c], rest[i]);
-                }
-            }
-        }
-        self.close((start, size), bounds, (&rest, &mut near), (y, v));
     }
 
     /// y and v in a block: y from what is left of its rows, and v from that and from what is near of its columns.
@@ -382,20 +262,62 @@ impl<const D: usize> Resolvent<D> {
         }
     }
 
-    /// Of a row, g + N y and |X| y from the columns before `start`.
+    /// Of each row of a block, g + N y and |X| y from the columns before the block.
     #[inline(always)]
-    fn before(&self, row: usize, start: usize, g: Lane, y: &[Lane]) -> (Lane, Lane) {
-        let (at, end) = self.rows[row];
-        let rows = [&self.n, &self.x].map(|rows| &rows[at..end].as_flattened()[..start]);
-        let (mut sum, mut through) = (g, [0.0; LANE]);
-        for ((n, x), y) in rows[0].iter().zip(rows[1]).zip(&y[..start]) {
-            let x = x.abs();
-            for i in 0..LANE {
-                sum[i] = y[i].mul_add(*n, sum[i]);
-                through[i] = y[i].mul_add(x, through[i]);
+    fn before<const K: usize>(
+        &self,
+        (start, size): (usize, usize),
+        g: &[Lane],
+        y: &[Lane],
+    ) -> ([Lane; K], [Lane; K]) {
+        let (mut rest, mut near) = ([[0.0; LANE]; K], [[0.0; LANE]; K]);
+        let mut r = 0;
+        // Several rows at once: each of their sums waits for itself only.
+        while r < size {
+            let at = start + r;
+            r += match size - r {
+                1 => self.rows_before::<1>((at, start), g, y, (&mut rest[r..], &mut near[r..])),
+                2 => self.rows_before::<2>((at, start), g, y, (&mut rest[r..], &mut near[r..])),
+                4 => self.rows_before::<4>((at, start), g, y, (&mut rest[r..], &mut near[r..])),
+                _ => self.rows_before::<3>((at, start), g, y, (&mut rest[r..], &mut near[r..])),
+            };
+        }
+        (rest, near)
+    }
+
+    /// The same for S rows, from row `at` of A on. Returns S.
+    #[inline(always)]
+    fn rows_before<const S: usize>(
+        &self,
+        (at, start): (usize, usize),
+        g: &[Lane],
+        y: &[Lane],
+        (rest, near): (&mut [Lane], &mut [Lane]),
+    ) -> usize {
+        let y = &y[..start];
+        let n: [&[f64]; S] = std::array::from_fn(|r| self.row(&self.n, at + r, start));
+        let x: [&[f64]; S] = std::array::from_fn(|r| self.row(&self.x, at + r, start));
+        let mut sums: [Lane; S] = std::array::from_fn(|r| g[at + r]);
+        let mut through = [[0.0; LANE]; S];
+        for (column, y) in y.iter().enumerate() {
+            for r in 0..S {
+                let (n, x) = (n[r][column], x[r][column].abs());
+                for i in 0..LANE {
+                    sums[r][i] = y[i].mul_add(n, sums[r][i]);
+                    through[r][i] = y[i].mul_add(x, through[r][i]);
+                }
             }
         }
-        (sum, through)
+        rest[..S].copy_from_slice(&sums);
+        near[..S].copy_from_slice(&through);
+        S
+    }
+
+    /// The first entries of a row of X or N.
+    #[inline(always)]
+    fn row<'a>(&self, of: &'a [Lane], row: usize, count: usize) -> &'a [f64] {
+        let (at, end) = self.rows[row];
+        &of[at..end].as_flattened()[..count]
     }
 
     fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
@@ -433,19 +355,20 @@ impl<const D: usize> Resolvent<D> {
         y: &mut [Lane],
         v: &mut [Lane],
     ) {
-        for (block, bounds) in layout.blocks.iter().zip(&self.diagonal) {
+        for (block, diagonal) in layout.blocks.iter().zip(&self.diagonal) {
             let (start, size) = (block.start, block.size);
-            if let Some(listed) = block.listed {
-                let bounds = &self.listed[listed as usize];
-                self.bound_listed(equations, block, bounds, g, (y, v));
-                continue;
+            match block.kind {
+                Kind::Point => {}
+                Kind::Listed => {
+                    self.bound_listed(block, diagonal, g, (y, v));
+                    continue;
+                }
+                Kind::Wide(at) => {
+                    self.bound_listed(block, &self.wide[at as usize], g, (y, v));
+                    continue;
+                }
             }
-            let mut rest = [[0.0; LANE]; 3];
-            let mut near = [[0.0; LANE]; 3];
-            for r in 0..size {
-                (rest[r], near[r]) = self.before(start + r, start, g[start + r], y);
-            }
-            let spreads = self.spreads(block);
+            let (mut rest, mut near) = self.before::<3>((start, size), g, y);
             for r in 0..size {
                 let (e, sign) = (block.rows[r] as usize, block.signs[r]);
                 for axis in 0..D {
@@ -457,13 +380,13 @@ impl<const D: usize> Resolvent<D> {
                     }
                 }
                 for c in 0..size {
-                    let spread = spreads[r][c];
+                    let spread = diagonal.spread[r][c];
                     for i in 0..LANE {
                         rest[r][i] = near[c][i].mul_add(spread, rest[r][i]);
                     }
                 }
             }
-            self.close((start, size), bounds, (&rest, &mut near), (y, v));
+            self.close((start, size), &diagonal.bound, (&rest, &mut near), (y, v));
         }
     }
 }

@@ -1,0 +1,241 @@
+//! X, N and bounds on |A(s)⁻¹| in blocks whose rows are lists of entries.
+
+use super::{Diagonal, Resolvent};
+use crate::interval::rounding::round_up;
+use crate::linalg::rstructure::rows::Lane;
+use crate::linalg::{LANE, Vector};
+use crate::track::full::Equations;
+use crate::track::reduced::structure::layout::{Block, WIDEST};
+
+/// What such rows have.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Lists {
+    /// By row of A, where its entries of Â before its block begin in `before`, and where they end.
+    ranges: Vec<[u32; 2]>,
+    /// Rows of A that come before, and Â's entries for them.
+    before: Vec<(u32, f64)>,
+    /// Work space: the entries of a row of A₀ and A₁ before its block, and A₁ X.
+    terms: Vec<Term>,
+    turns: Vec<Lane>,
+}
+
+/// What a row of A₀ and A₁ has for a row of X.
+#[derive(Debug, Clone, Copy)]
+struct Term {
+    row: u32,
+    a: [f64; 2],
+}
+
+impl Lists {
+    /// For as many rows of A.
+    pub fn clear(&mut self, order: usize) {
+        self.ranges.clear();
+        self.ranges.resize(order, [0; 2]);
+        self.before.clear();
+    }
+}
+
+impl<const D: usize> Resolvent<D> {
+    /// X and N in a block, from the inverse of its diagonal block, the differences of order 0 and 1 and the values of the
+    /// tail's entries. Returns what N + Â|X| has in it, and adds Â's entries to `spread`.
+    #[inline(never)]
+    pub(super) fn make_listed<const K: usize>(
+        &mut self,
+        equations: &Equations<D>,
+        block: &Block,
+        inverse: &[[f64; K]; K],
+        values: ([&[Vector; D]; 2], [&[f64]; 2]),
+        h: f64,
+        spread: &mut [[f64; K]; K],
+    ) -> [[f64; K]; K] {
+        let (start, size) = (block.start, block.size);
+        let (first, next) = self.rows[start];
+        let lanes = next - first;
+        let mut lists = std::mem::take(&mut self.lists);
+        lists.turns.clear();
+        lists.turns.resize(size * lanes, [0.0; LANE]);
+        // What rows of A₀ X − I and A₁ X have before the block.
+        let mut near = [[[0.0; K]; K]; 2];
+        for (r, turns) in lists.turns.chunks_exact_mut(lanes).enumerate() {
+            let of_row = near.each_mut().map(|near| &mut near[r]);
+            let begin = lists.before.len();
+            lists.terms.clear();
+            self.each_entry(
+                equations,
+                block.rows[r] as usize,
+                values,
+                |row, a, size| match (row as usize).checked_sub(start) {
+                    None => {
+                        lists.before.push((row, size));
+                        lists.terms.push(Term { row, a });
+                    }
+                    Some(place) => {
+                        spread[r][place] += size;
+                        of_row[0][place] += a[0];
+                        of_row[1][place] += a[1];
+                    }
+                },
+            );
+            lists.ranges[start + r] = [begin, lists.before.len()].map(|at| at as u32);
+            let n = &mut self.n[first + r * lanes..][..lanes];
+            n.fill([0.0; LANE]);
+            n[(start + r) / LANE][(start + r) % LANE] = -1.0;
+            add_rows(&lists.terms, (&self.rows, &self.x), (n, turns));
+        }
+        let rows = (&mut self.n[first..], &lists.turns[..], &mut self.x[first..]);
+        match size {
+            1 => fill_rows::<1, K>(lanes, (inverse, &near), rows, h),
+            2 => fill_rows::<2, K>(lanes, (inverse, &near), rows, h),
+            3 => fill_rows::<3, K>(lanes, (inverse, &near), rows, h),
+            4 => fill_rows::<4, K>(lanes, (inverse, &near), rows, h),
+            5 => fill_rows::<5, K>(lanes, (inverse, &near), rows, h),
+            _ => fill_rows::<WIDEST, K>(lanes, (inverse, &near), rows, h),
+        }
+        self.lists = lists;
+        let mut b = [[0.0; K]; K];
+        for r in 0..size {
+            for j in start..start + size {
+                let (l, i) = (j / LANE, j % LANE);
+                let mut entry = self.n[first + r * lanes + l][i];
+                for c in 0..size {
+                    entry += spread[r][c] * self.x[first + c * lanes + l][i].abs();
+                }
+                b[r][j - start] = round_up(entry, self.roundings);
+            }
+        }
+        b
+    }
+
+    /// Calls a function with the rows of A that an equation's entries in it belong to, those of A₀ and A₁, and those of Â.
+    #[inline(always)]
+    fn each_entry(
+        &self,
+        equations: &Equations<D>,
+        e: usize,
+        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
+        mut to: impl FnMut(u32, [f64; 2], f64),
+    ) {
+        let mut put = |unknown: usize, a: [f64; 2], size: f64| {
+            let row = self.position[unknown];
+            // Key unknowns and fixed coordinates have none.
+            if row != u32::MAX {
+                to(row, a, size);
+            }
+        };
+        if e < equations.tail.first() {
+            for axis in 0..D {
+                let [i, j] = equations.ends[axis][e].map(|end| end as usize);
+                let (a, size) = (d.map(|d| d[axis][e]), self.spread[axis][e]);
+                put(i, a, size);
+                put(j, a.map(|a| -a), size);
+            }
+        } else {
+            let row = equations.tail.row(e);
+            let [a0, a1] = entries.map(|entries| &entries[row.clone()]);
+            let sizes = equations.tail.row_with(e, &self.spread_of_tail);
+            for (((unknown, size), &a0), &a1) in sizes.zip(a0).zip(a1) {
+                put(unknown, [a0, a1], size);
+            }
+        }
+    }
+
+    /// What [`Resolvent::bound`] does for such a block.
+    #[inline(never)]
+    pub(super) fn bound_listed<const K: usize>(
+        &self,
+        block: &Block,
+        diagonal: &Diagonal<K>,
+        g: &[Lane],
+        (y, v): (&mut [Lane], &mut [Lane]),
+    ) {
+        let (start, size) = (block.start, block.size);
+        let (mut rest, mut near) = self.before::<K>((start, size), g, y);
+        for (r, rest) in rest[..size].iter_mut().enumerate() {
+            let [begin, end] = self.lists.ranges[start + r].map(|at| at as usize);
+            for &(from, spread) in &self.lists.before[begin..end] {
+                let v = &v[from as usize];
+                for i in 0..LANE {
+                    rest[i] = v[i].mul_add(spread, rest[i]);
+                }
+            }
+            for (near, spread) in near[..size].iter().zip(&diagonal.spread[r]) {
+                for i in 0..LANE {
+                    rest[i] = near[i].mul_add(*spread, rest[i]);
+                }
+            }
+        }
+        self.close((start, size), &diagonal.bound, (&rest, &mut near), (y, v));
+    }
+}
+
+/// Adds the products of entries of A₀ and A₁ with their rows of X to a row of A₀ X and one of A₁ X.
+fn add_rows(
+    terms: &[Term],
+    (rows, x): (&[(usize, usize)], &[Lane]),
+    (sums, turns): (&mut [Lane], &mut [Lane]),
+) {
+    /// So many rows are added at a time.
+    const AT_ONCE: usize = 8;
+    for terms in terms.chunks(AT_ONCE) {
+        let mut of_terms: [(&[Lane], [f64; 2]); AT_ONCE] = [(&[], [0.0; 2]); AT_ONCE];
+        for (place, term) in of_terms.iter_mut().zip(terms) {
+            let (from, to) = rows[term.row as usize];
+            *place = (&x[from..to], term.a);
+        }
+        let of_terms = &of_terms[..terms.len()];
+        for (l, (sum, turn)) in sums.iter_mut().zip(turns.iter_mut()).enumerate() {
+            let mut both = [*sum, *turn];
+            for (x, [a0, a1]) in of_terms {
+                if let Some(x) = x.get(l) {
+                    for i in 0..LANE {
+                        both[0][i] = x[i].mul_add(*a0, both[0][i]);
+                        both[1][i] = x[i].mul_add(*a1, both[1][i]);
+                    }
+                }
+            }
+            [*sum, *turn] = both;
+        }
+    }
+}
+
+/// The S rows of X and N = |A₀ X − I| + H |A₁ X| in a block, from what A₀ X − I (in the rows of N) and A₁ X have before it,
+/// the inverse of the block in A₀, and what A₀ and A₁ have in it.
+///
+/// The sums of A₀ X − I go on where those that X was computed from stopped. So a term goes through as many roundings as the row
+/// has terms, and the 1 in it counts like a term: γ of them is in Â (`Counts::of_reduced_entry`).
+#[inline(always)]
+fn fill_rows<const S: usize, const K: usize>(
+    lanes: usize,
+    (inverse, [near0, near1]): (&[[f64; K]; K], &[[[f64; K]; K]; 2]),
+    (n, turns, x): (&mut [Lane], &[Lane], &mut [Lane]),
+    h: f64,
+) {
+    if S > K {
+        return;
+    }
+    for l in 0..lanes {
+        let left: [Lane; S] = std::array::from_fn(|r| n[r * lanes + l]);
+        let found: [Lane; S] = std::array::from_fn(|c| {
+            let mut sum = [0.0; LANE];
+            for r in 0..S {
+                for i in 0..LANE {
+                    sum[i] = left[r][i].mul_add(-inverse[c][r], sum[i]);
+                }
+            }
+            sum
+        });
+        for c in 0..S {
+            x[c * lanes + l] = found[c];
+        }
+        for r in 0..S {
+            let (mut sum, mut turn) = (left[r], turns[r * lanes + l]);
+            for c in 0..S {
+                for i in 0..LANE {
+                    sum[i] = found[c][i].mul_add(near0[r][c], sum[i]);
+                    turn[i] = found[c][i].mul_add(near1[r][c], turn[i]);
+                }
+            }
+            n[r * lanes + l] = std::array::from_fn(|i| sum[i].abs() + h * turn[i].abs());
+        }
+    }
+}
