@@ -5,12 +5,13 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::borrow::Cow;
 use std::ops::{Add, Div, Mul, Neg, Sub};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// An exact real number, kept as an expression. Enclosures of it are computed with some 250 bits and
 /// rounded outwards, so that each of its views ([`Real::enclose`], [`Real::double`]) is nearly as
-/// tight as its format allows.
+/// tight as its format allows. A copy shares the expression, and what was computed of it once is kept.
 ///
 /// ```
 /// use krawl::interval::Real;
@@ -25,17 +26,50 @@ pub enum Real {
     /// A ratio of whole numbers.
     Rational(BigRational),
     /// The root of a number that is not negative.
-    Root(Box<Real>),
+    Root(Shared<Real>),
     /// The cosine of an angle in degrees.
-    Cosine(BigRational),
+    Cosine(Shared<BigRational>),
     /// A sum.
-    Sum(Box<[Real; 2]>),
+    Sum(Shared<[Real; 2]>),
     /// A product.
-    Product(Box<[Real; 2]>),
+    Product(Shared<[Real; 2]>),
     /// The first divided by the second, which is not zero.
-    Quotient(Box<[Real; 2]>),
+    Quotient(Shared<[Real; 2]>),
     /// One number of this ball, of which no more is known: what is proved with it holds for each of them.
     Within(Box<Ball>),
+}
+
+/// What a number is made of, and a ball that holds the number once one was computed.
+#[derive(Debug)]
+pub struct Shared<T>(Arc<(T, OnceLock<Ball>)>);
+
+impl<T> Shared<T> {
+    fn new(of: T) -> Self {
+        Shared(Arc::new((of, OnceLock::new())))
+    }
+
+    /// What the number is made of.
+    fn of(&self) -> &T {
+        &self.0.0
+    }
+
+    /// The ball, which is computed and rounded where there is none.
+    fn ball(&self, of: impl FnOnce(&T) -> Ball) -> &Ball {
+        let (what, ball) = &*self.0;
+        ball.get_or_init(|| of(what).rounded())
+    }
+}
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Shared(self.0.clone())
+    }
+}
+
+impl<T: PartialEq> PartialEq for Shared<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.of() == other.of()
+    }
 }
 
 impl From<BigRational> for Real {
@@ -90,7 +124,7 @@ impl Real {
             Some(90) => (0, 1),
             Some(120) => (-1, 2),
             Some(180) => (-1, 1),
-            _ => return Real::Cosine(angle),
+            _ => return Real::Cosine(Shared::new(angle)),
         };
         Real::Rational(BigRational::new(above.into(), below.into()))
     }
@@ -112,7 +146,7 @@ impl Real {
                 return Real::Rational(BigRational::new(above, below));
             }
         }
-        Real::Root(Box::new(self))
+        Real::Root(Shared::new(self))
     }
 
     /// The number as a ratio, where it is kept as one.
@@ -133,7 +167,7 @@ impl Real {
         let Real::Product(parts) = self else {
             return false;
         };
-        let [a, b] = &**parts;
+        let [a, b] = parts.of();
         let minus_one = |x: &Real| x.as_rational().is_some_and(|x| (-x).is_one());
         (minus_one(a) && b == other || minus_one(b) && a == other) && other.is_one_number()
     }
@@ -143,9 +177,9 @@ impl Real {
     fn is_one_number(&self) -> bool {
         match self {
             Real::Rational(_) | Real::Cosine(_) => true,
-            Real::Root(of) => of.is_one_number(),
+            Real::Root(root) => root.of().is_one_number(),
             Real::Sum(parts) | Real::Product(parts) | Real::Quotient(parts) => {
-                parts.iter().all(Real::is_one_number)
+                parts.of().iter().all(Real::is_one_number)
             }
             Real::Within(_) => false,
         }
@@ -156,7 +190,7 @@ impl Real {
     /// # Panics
     /// If the number is beyond the range of floats.
     pub fn enclose(&self) -> Interval {
-        let ball = self.ball();
+        let ball = self.seen();
         if ball.radius.is_zero() {
             return enclose_rational(&ball.middle);
         }
@@ -167,21 +201,26 @@ impl Real {
 
     /// The nearest double-double, and how far the number may be from it.
     pub fn double(&self) -> (DoubleDouble, f64) {
-        self.ball().double()
+        self.seen().double()
     }
 
     /// A ball of ratios that holds the number.
     pub fn ball(&self) -> Ball {
-        match self {
-            Real::Rational(value) => Ball::exactly(value.clone()),
-            Real::Root(of) => of.ball().sqrt(),
-            Real::Cosine(degrees) => cosine(degrees),
-            Real::Sum(parts) => parts[0].ball().plus(&parts[1].ball()),
-            Real::Product(parts) => parts[0].ball().times(&parts[1].ball()),
-            Real::Quotient(parts) => parts[0].ball().times(&parts[1].ball().inverse()),
-            Real::Within(ball) => (**ball).clone(),
-        }
-        .rounded()
+        self.seen().into_owned()
+    }
+
+    /// The ball, which is kept but for ratios.
+    fn seen(&self) -> Cow<'_, Ball> {
+        let two = |[a, b]: &[Real; 2], of: fn(&Ball, &Ball) -> Ball| of(&a.seen(), &b.seen());
+        Cow::Borrowed(match self {
+            Real::Rational(value) => return Cow::Owned(Ball::exactly(value.clone())),
+            Real::Within(ball) => return Cow::Owned((**ball).clone().rounded()),
+            Real::Root(root) => root.ball(|of| of.seen().sqrt()),
+            Real::Cosine(angle) => angle.ball(cosine),
+            Real::Sum(parts) => parts.ball(|parts| two(parts, Ball::plus)),
+            Real::Product(parts) => parts.ball(|parts| two(parts, Ball::times)),
+            Real::Quotient(parts) => parts.ball(|parts| two(parts, |a, b| a.times(&b.inverse()))),
+        })
     }
 }
 
@@ -193,7 +232,7 @@ impl<'a> Add<&'a Real> for &'a Real {
             (a, b) if a.is_zero() => b.clone(),
             (a, b) if b.is_zero() => a.clone(),
             (a, b) if a.is_opposite(b) || b.is_opposite(a) => Real::zero(),
-            (a, b) => Real::Sum(Box::new([a.clone(), b.clone()])),
+            (a, b) => Real::Sum(Shared::new([a.clone(), b.clone()])),
         }
     }
 }
@@ -219,7 +258,7 @@ impl<'a> Mul<&'a Real> for &'a Real {
             (Real::Rational(a), Real::Rational(b)) => Real::Rational(a * b),
             (a, b) if a.is_zero() || b.is_zero() => Real::zero(),
             (Real::Rational(one), x) | (x, Real::Rational(one)) if one.is_one() => x.clone(),
-            (a, b) => Real::Product(Box::new([a.clone(), b.clone()])),
+            (a, b) => Real::Product(Shared::new([a.clone(), b.clone()])),
         }
     }
 }
@@ -229,7 +268,7 @@ impl<'a> Div<&'a Real> for &'a Real {
     fn div(self, other: &Real) -> Real {
         match (self, other) {
             (Real::Rational(a), Real::Rational(b)) => Real::Rational(a / b),
-            (a, b) => Real::Quotient(Box::new([a.clone(), b.clone()])),
+            (a, b) => Real::Quotient(Shared::new([a.clone(), b.clone()])),
         }
     }
 }
