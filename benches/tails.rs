@@ -9,7 +9,7 @@
 //! with other constraints stand beside a generated strip of about as many unknowns. The times are those of following the
 //! path over all tubes tried, medians of several runs that take turns. The goal is 1.3 times at most, by the
 //! median of the ratios of problems with equations in the tail; that of the others is printed beside it.
-//! `cargo bench --bench tails -- NAME …` measures those problems only whose names contain one of these, and
+//! `cargo bench --bench tails -- WORD …` measures those problems only whose names contain one of the words, and
 //! `cargo bench --bench tails -- --write FOLDER` writes the problems to files instead, to be profiled one by one.
 
 use krawl::generate::{Family, Recipe};

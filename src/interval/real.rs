@@ -39,8 +39,7 @@ pub enum Real {
     Within(Box<Ball>),
 }
 
-/// What a number is made of, and a ball that holds the number once one was computed.
-#[derive(Debug)]
+/// What a number is made of, and a ball that holds the number once one was computed. Only [`Real`] looks into it.
 pub struct Shared<T>(Arc<(T, OnceLock<Ball>)>);
 
 impl<T> Shared<T> {
@@ -66,6 +65,14 @@ impl<T> Clone for Shared<T> {
     }
 }
 
+impl<T: std::fmt::Debug> std::fmt::Debug for Shared<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        self.of().fmt(f)
+    }
+}
+
+/// By what numbers are made of, not by whether they share it: a sum with a number of which only a range is known may not be
+/// itself, as copies of that number need not be the same.
 impl<T: PartialEq> PartialEq for Shared<T> {
     fn eq(&self, other: &Self) -> bool {
         self.of() == other.of()
@@ -209,7 +216,7 @@ impl Real {
         self.seen().into_owned()
     }
 
-    /// The ball, which is kept but for ratios.
+    /// The ball, which is kept but for ratios and for balls that were given.
     fn seen(&self) -> Cow<'_, Ball> {
         let two = |[a, b]: &[Real; 2], of: fn(&Ball, &Ball) -> Ball| of(&a.seen(), &b.seen());
         Cow::Borrowed(match self {
@@ -549,9 +556,11 @@ mod tests {
         assert!((&root - &root).is_zero() && (&-&root + &root).is_zero());
         assert!(!(&root - &Real::whole(3).sqrt()).is_zero());
         assert!(!(&-&root - &root).is_zero());
-        // Two numbers in the same range need not be the same.
+        // Two numbers in the same range need not be the same, nor what is made of them.
         let range = || Real::within(crate::interval::hull(1.0, 2.0));
         assert!(!(&range() - &range()).is_zero());
+        let sum = &range() + &root;
+        assert!(!(&sum - &sum.clone()).is_zero() && sum != sum.clone());
     }
 
     #[test]

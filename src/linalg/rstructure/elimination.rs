@@ -180,7 +180,7 @@ pub(crate) fn invert_transposed<const W: usize, T: Scalar>(
         let (mut best, mut most) = (k, a[k][w][l].pivot_size());
         for (i, row) in a.iter().enumerate().skip(k + 1) {
             let size = row[w][l].pivot_size();
-            // As without NaN: what comes of one is noticed where the inverse is used.
+            // Of equal ones the last; a pivot that is not a number has no size.
             if size >= most {
                 (best, most) = (i, size);
             }

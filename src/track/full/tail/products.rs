@@ -4,11 +4,9 @@
 //! slot each of the four equations has one product, or zero times the number 1. An equation's sum is then
 //! a lane's, whatever forms its products are of.
 
+use super::super::local::MAX_ORDER;
 use super::Tail;
 use crate::linalg::{LANE, Vector};
-
-/// Polynomials along a tube have this degree at most.
-const MAX_ORDER: usize = 15;
 
 /// Four numbers, one for each equation of a lane.
 type Lane = [f64; LANE];

@@ -57,7 +57,7 @@ pub fn bound_on_wide_inverse(b: &WideInverse, size: usize, bound: &mut WideInver
     }
     let mut holds = true;
     for r in 0..size {
-        // A row of I + B R, all of it at once: what is beyond the block is zero.
+        // A row of I + B R, all of it at once: what is beyond the block is not looked at.
         let mut row = [0.0; WIDEST];
         row[r] = 1.0;
         for (b, bound) in b[r][..size].iter().zip(bound.iter()) {

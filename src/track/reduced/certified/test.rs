@@ -17,7 +17,7 @@
 //! ```
 //!
 //! with K, V and P polynomials of degree 2 in floats, and A(s)⁻¹ the exact inverse, of which only a
-//! bound is needed (`resolvent.rs`). For Φ(v) = v − 𝒴 G_s(T v), G_s(w) = (F(ẑ(s) + w), c·w), on the
+//! bound is needed (`resolvent`). For Φ(v) = v − 𝒴 G_s(T v), G_s(w) = (F(ẑ(s) + w), c·w), on the
 //! box |v| ≤ ρ, with ω_i a bound on |w_i| there and θ_e = Σ (ω_i + ω_j)² + … one on the change of the
 //! Jacobian times w (second derivatives are constant),
 //!
@@ -28,7 +28,7 @@
 //!
 //! If |Φ'|_ρ ≤ q < 1 and |Φ(0)|_ρ ≤ η < 1 − q for |s| ≤ h, then for every s there is exactly one zero
 //! of G_s in the box, and [J; c] is regular on the tube. Everything is linear in the number of
-//! points but X ≈ A₀⁻¹ in `resolvent.rs`, whose rows are what keeps the wrapping effect away.
+//! points but X ≈ A₀⁻¹ in `resolvent`, whose rows are what keeps the wrapping effect away.
 
 use super::along::Along;
 use super::bounds::Bounds;

@@ -5,7 +5,7 @@ use super::layout::{Block, Kind, Layout, WIDEST};
 use super::sequence::Group;
 use crate::linalg::LANE;
 use crate::linalg::rstructure::rows::width_for;
-use crate::track::full::{Differences, Equations, Tail};
+use crate::track::full::{Differences, Equations};
 
 /// One number for each unknown of a group.
 type Wide = [f64; WIDEST];
@@ -66,29 +66,6 @@ enum Entry {
 struct Candidate {
     row: Wide,
     taken: bool,
-}
-
-/// Calls a function with the unknowns of an equation's row of the Jacobian and their entries, t left out: a distance
-/// has `d` for one end and `second` times that for the other, other equations have `entries`.
-#[inline(always)]
-pub fn each_entry<const D: usize>(
-    (ends, tail): (&[Vec<[u32; 2]>; D], &Tail),
-    e: usize,
-    (d, entries): ([&[f64]; D], &[f64]),
-    second: f64,
-    mut to: impl FnMut(usize, f64),
-) {
-    if e < tail.first() {
-        for axis in 0..D {
-            let ([i, j], d) = (ends[axis][e], d[axis][e]);
-            to(i as usize, d);
-            to(j as usize, second * d);
-        }
-    } else {
-        for (unknown, entry) in tail.row_with(e, entries) {
-            to(unknown, entry);
-        }
-    }
 }
 
 impl Groups {
@@ -153,7 +130,7 @@ impl Groups {
         self.lay_out(equations.tail.first(), asked, layout);
     }
 
-    /// Finds the pivots of all groups, as long as their worth is at least `alpha`.
+    /// Finds the pivots of all groups, as long as their worth is at least the square of `alpha`.
     fn find_pivots<const D: usize>(&mut self, d: &Differences<D>, alpha: f64) {
         for (Placed { group, rows }, pivots) in self.list.iter().zip(&mut self.pivots) {
             pivots.clear();
@@ -212,7 +189,8 @@ impl Groups {
         }
     }
 
-    /// The square of what is asked of pivots: that of `alpha`, or less where rows of key unknowns have fewer lanes then.
+    /// The square of what is asked of pivots: that of `alpha`, or the most with which rows of key unknowns have as few lanes as if
+    /// all that were found were taken.
     fn asked(&mut self, alpha: f64) -> f64 {
         let full = alpha * alpha;
         let unknowns: usize = self.list.iter().map(|g| g.group.unknowns.len()).sum();

@@ -55,7 +55,7 @@ pub enum Kind {
     Point,
     /// Lists of entries, three rows at most.
     Listed,
-    /// Lists of entries, up to [`WIDEST`] rows; the block's number among such blocks.
+    /// Lists of entries, from four rows up to [`WIDEST`]; the block's number among such blocks.
     Wide(u32),
 }
 
@@ -131,7 +131,8 @@ impl<const D: usize> Order<D> {
     /// the distances whose directions are farthest from depending on each other, by the sine of the
     /// angle between each and those taken before it, as long as that is at least `alpha`; for what
     /// is missing then, coordinates become key. Rows of other equations are as long as what they have
-    /// before their group, if that is more: unknowns that hardly matter in them are not found by them.
+    /// before their group, if that is more: unknowns that hardly matter in them are not found by them. Of groups with such rows
+    /// less is asked where that saves lanes (`groups.rs`).
     pub fn choose(
         &mut self,
         equations: &Equations<D>,

@@ -203,27 +203,34 @@ impl<const D: usize> Derivative<'_, D> {
     ) {
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
             match block.kind {
-                Kind::Point => {}
-                Kind::Listed => {
-                    self.substitute_listed(block, inverse, k, &known);
-                    continue;
-                }
+                Kind::Point => self.substitute_point(block, inverse, k, &known),
+                Kind::Listed => self.substitute_listed(block, inverse, k, &known),
                 Kind::Wide(at) => {
-                    self.substitute_listed(block, &inverses.wide[at as usize], k, &known);
-                    continue;
+                    self.substitute_listed(block, &inverses.wide[at as usize], k, &known)
                 }
             }
-            let mut sums = [[[0.0; LANE]; W]; 3];
+        }
+    }
+
+    /// Sets the rows of a point's unknowns so that its rows of J K + what is `known` vanish.
+    #[inline(always)]
+    fn substitute_point<const W: usize>(
+        &self,
+        block: &Block,
+        inverse: &Inverse,
+        k: &mut [Row<W>],
+        known: &impl Fn(usize, &mut Row<W>),
+    ) {
+        let mut sums = [[[0.0; LANE]; W]; 3];
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            sums[r] = self.row(e, k);
+            known(e, &mut sums[r]);
+        }
+        for c in 0..block.size {
+            let row = &mut k[block.unknowns[c] as usize];
             for r in 0..block.size {
-                let e = block.rows[r] as usize;
-                sums[r] = self.row(e, k);
-                known(e, &mut sums[r]);
-            }
-            for c in 0..block.size {
-                let row = &mut k[block.unknowns[c] as usize];
-                for r in 0..block.size {
-                    add(row, -inverse[c][r], &sums[r]);
-                }
+                add(row, -inverse[c][r], &sums[r]);
             }
         }
     }
@@ -239,35 +246,43 @@ impl<const D: usize> Derivative<'_, D> {
     ) {
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points).rev() {
             match block.kind {
-                Kind::Point => {}
-                Kind::Listed => {
-                    self.substitute_left_listed(block, inverse, t, z);
-                    continue;
-                }
+                Kind::Point => self.substitute_left_point(block, inverse, t, z),
+                Kind::Listed => self.substitute_left_listed(block, inverse, t, z),
                 Kind::Wide(at) => {
-                    self.substitute_left_listed(block, &inverses.wide[at as usize], t, z);
-                    continue;
-                }
-            }
-            for r in 0..block.size {
-                let mut sum = [[0.0; LANE]; W];
-                for c in 0..block.size {
-                    add(&mut sum, -inverse[c][r], &t[block.unknowns[c] as usize]);
-                }
-                let e = block.rows[r] as usize;
-                z[e] = sum;
-                for axis in 0..D {
-                    let [i, j] = self.ends[axis][e].map(|end| end as usize);
-                    let other = if block.signs[r] > 0.0 { j } else { i };
-                    add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
+                    self.substitute_left_listed(block, &inverses.wide[at as usize], t, z)
                 }
             }
         }
     }
 
-    /// Where all rows are distances, sets A's unknowns in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns
-    /// stay as they are.
+    /// Sets the rows of a point's equations so that its columns in T + Zᵀ J vanish.
+    #[inline(always)]
+    fn substitute_left_point<const W: usize>(
+        &self,
+        block: &Block,
+        inverse: &Inverse,
+        t: &mut [Row<W>],
+        z: &mut [Row<W>],
+    ) {
+        for r in 0..block.size {
+            let mut sum = [[0.0; LANE]; W];
+            for c in 0..block.size {
+                add(&mut sum, -inverse[c][r], &t[block.unknowns[c] as usize]);
+            }
+            let e = block.rows[r] as usize;
+            z[e] = sum;
+            for axis in 0..D {
+                let [i, j] = self.ends[axis][e].map(|end| end as usize);
+                let other = if block.signs[r] > 0.0 { j } else { i };
+                add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
+            }
+        }
+    }
+
+    /// Where all rows are distances (see [`Substitution`](super::substitution::Substitution) for others), sets A's unknowns
+    /// in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns stay as they are.
     pub fn solve(&self, layout: &Layout, inverses: &Inverses, f: &[f64], x: &mut [f64]) {
+        debug_assert!(self.tail.is_empty());
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
             let mut rest = [0.0; 3];
             for r in 0..block.size {
@@ -329,6 +344,7 @@ pub struct Inverses {
 impl Inverses {
     /// Inverts all diagonal blocks where all rows are distances.
     pub fn make<const D: usize>(&mut self, layout: &Layout, j: &Derivative<D>) {
+        debug_assert!(j.tail.is_empty());
         self.clear();
         for block in &layout.blocks {
             self.points.push(invert(block, j));
@@ -375,7 +391,7 @@ fn determinant(a: &Inverse, size: usize) -> f64 {
 }
 
 /// The inverse of `a[row][column]` in floats, into `out[column][row]`, and whether its determinant is negative: whoever uses
-/// it finds out what it is worth. Not a number where there is none.
+/// it finds out what it is worth. Not finite where the determinant, or a pivot, is zero in floats.
 pub fn invert_wide(a: &WideInverse, size: usize, out: &mut WideInverse) -> bool {
     match size {
         4 => by_minors(a, out),
@@ -385,14 +401,15 @@ pub fn invert_wide(a: &WideInverse, size: usize, out: &mut WideInverse) -> bool 
 
 /// By Gauss's and Jordan's elimination.
 fn by_elimination(a: &WideInverse, size: usize, out: &mut WideInverse) -> bool {
-    let mut rows = [zeros::<2, f64>(); WIDEST];
+    const LANES: usize = WIDEST.div_ceil(LANE);
+    let mut rows = [zeros::<LANES, f64>(); WIDEST];
     for (row, a) in rows.iter_mut().zip(a) {
         for (c, entry) in a.iter().enumerate() {
             row[c / LANE][c % LANE] = *entry;
         }
     }
     let mut from = std::array::from_fn::<u32, WIDEST, _>(|k| k as u32);
-    let mut transposed = [zeros::<2, f64>(); WIDEST];
+    let mut transposed = [zeros::<LANES, f64>(); WIDEST];
     let inverted = invert_transposed(&mut rows[..size], &mut from[..size], &mut transposed);
     for (r, row) in transposed[..size].iter().enumerate() {
         for (c, out) in out[..size].iter_mut().enumerate() {
@@ -422,7 +439,8 @@ fn by_minors(a: &WideInverse, out: &mut WideInverse) -> bool {
     let determinant = (s0 * c5 - s1 * c4 + s2 * c3) + (s3 * c2 - s4 * c1 + s5 * c0);
     let scale = 1.0 / determinant;
     let [a0, a1, a2, a3] = [a[0], a[1], a[2], a[3]];
-    let columns = [
+    // A row for each column of `a`, over its rows.
+    let adjugate = [
         [
             a1[1] * c5 - a1[2] * c4 + a1[3] * c3,
             a0[2] * c4 - a0[1] * c5 - a0[3] * c3,
@@ -448,8 +466,8 @@ fn by_minors(a: &WideInverse, out: &mut WideInverse) -> bool {
             a2[0] * s3 - a2[1] * s1 + a2[2] * s0,
         ],
     ];
-    for (out, column) in out.iter_mut().zip(columns) {
-        for (out, minor) in out.iter_mut().zip(column) {
+    for (out, row) in out.iter_mut().zip(adjugate) {
+        for (out, minor) in out.iter_mut().zip(row) {
             *out = minor * scale;
         }
     }
@@ -476,7 +494,7 @@ pub fn by_adjugate(a: &[[f64; 3]; 3]) -> Inverse {
 }
 
 /// The entries of a diagonal block whose rows are distances: `entries[row][column]`.
-pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
+fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
     let mut out = [[0.0; 3]; 3];
     for r in 0..block.size {
         let e = block.rows[r] as usize;
@@ -489,7 +507,7 @@ pub fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
 }
 
 /// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
-pub fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
+fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
     inverse_of_small(&entries(block, j), block.size)
 }
 

@@ -1,6 +1,5 @@
 //! Substitution through A's blocks for one right-hand side after another, where rows are lists.
 
-use super::groups::each_entry;
 use super::layout::{Block, Kind, Layout};
 use super::passes::{Derivative, Inverses};
 
@@ -55,18 +54,11 @@ impl Substitution {
     ) -> [[f64; K]; K] {
         let mut near = [[0.0; K]; K];
         for (near, &e) in near.iter_mut().zip(&block.rows[..block.size]) {
-            let of = (j.ends, j.tail);
-            each_entry(
-                of,
-                e as usize,
-                (j.d, j.entries),
-                -1.0,
-                |unknown, entry| match self.places[unknown] {
-                    BEFORE => self.entries.push((unknown as u32, entry)),
-                    LATER => {}
-                    place => near[place as usize] += entry,
-                },
-            );
+            each_entry(j, e as usize, |unknown, entry| match self.places[unknown] {
+                BEFORE => self.entries.push((unknown as u32, entry)),
+                LATER => {}
+                place => near[place as usize] += entry,
+            });
             self.ends.push(self.entries.len() as u32);
         }
         near
@@ -109,5 +101,21 @@ impl Substitution {
             x[unknown as usize] = products.fold(0.0, |sum: f64, (a, b)| a.mul_add(*b, sum));
         }
         begin
+    }
+}
+
+/// Calls a function with the unknowns of an equation's row of the Jacobian and their entries, t left out.
+#[inline(always)]
+fn each_entry<const D: usize>(j: &Derivative<D>, e: usize, mut to: impl FnMut(usize, f64)) {
+    if e < j.tail.first() {
+        for (ends, d) in j.ends.iter().zip(j.d) {
+            let [plus, minus] = ends[e].map(|end| end as usize);
+            to(plus, d[e]);
+            to(minus, -d[e]);
+        }
+    } else {
+        for (unknown, entry) in j.tail.row_with(e, j.entries) {
+            to(unknown, entry);
+        }
     }
 }

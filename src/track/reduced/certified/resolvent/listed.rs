@@ -37,7 +37,7 @@ impl Lists {
 
 impl<const D: usize> Resolvent<D> {
     /// X and N in a block, from the inverse of its diagonal block, the differences of order 0 and 1 and the values of the
-    /// tail's entries. Returns what N + Â|X| has in it, and adds Â's entries to `spread`.
+    /// tail's entries. Returns what N + Â|X| and Â have in it.
     #[inline(never)]
     pub(super) fn make_listed<const K: usize>(
         &mut self,
@@ -46,18 +46,19 @@ impl<const D: usize> Resolvent<D> {
         inverse: &[[f64; K]; K],
         values: ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
-        spread: &mut [[f64; K]; K],
-    ) -> [[f64; K]; K] {
+    ) -> ([[f64; K]; K], [[f64; K]; K]) {
         let (start, size) = (block.start, block.size);
         let (first, next) = self.rows[start];
         let lanes = next - first;
         let mut lists = std::mem::take(&mut self.lists);
         lists.turns.clear();
         lists.turns.resize(size * lanes, [0.0; LANE]);
+        // The entries of Â in the block, and those of A₀ and A₁.
+        let mut spread = [[0.0; K]; K];
+        let mut inside = [[[0.0; K]; K]; 2];
         // What rows of A₀ X − I and A₁ X have before the block.
-        let mut near = [[[0.0; K]; K]; 2];
         for (r, turns) in lists.turns.chunks_exact_mut(lanes).enumerate() {
-            let of_row = near.each_mut().map(|near| &mut near[r]);
+            let of_row = inside.each_mut().map(|inside| &mut inside[r]);
             let begin = lists.before.len();
             lists.terms.clear();
             self.each_entry(
@@ -84,12 +85,13 @@ impl<const D: usize> Resolvent<D> {
         }
         let rows = (&mut self.n[first..], &lists.turns[..], &mut self.x[first..]);
         match size {
-            1 => fill_rows::<1, K>(lanes, (inverse, &near), rows, h),
-            2 => fill_rows::<2, K>(lanes, (inverse, &near), rows, h),
-            3 => fill_rows::<3, K>(lanes, (inverse, &near), rows, h),
-            4 => fill_rows::<4, K>(lanes, (inverse, &near), rows, h),
-            5 => fill_rows::<5, K>(lanes, (inverse, &near), rows, h),
-            _ => fill_rows::<WIDEST, K>(lanes, (inverse, &near), rows, h),
+            1 => fill_rows::<1, K>(lanes, (inverse, &inside), rows, h),
+            2 => fill_rows::<2, K>(lanes, (inverse, &inside), rows, h),
+            3 => fill_rows::<3, K>(lanes, (inverse, &inside), rows, h),
+            4 => fill_rows::<4, K>(lanes, (inverse, &inside), rows, h),
+            5 => fill_rows::<5, K>(lanes, (inverse, &inside), rows, h),
+            WIDEST => fill_rows::<WIDEST, K>(lanes, (inverse, &inside), rows, h),
+            _ => unreachable!("a block has one row at least and {WIDEST} at most"),
         }
         self.lists = lists;
         let mut b = [[0.0; K]; K];
@@ -103,7 +105,7 @@ impl<const D: usize> Resolvent<D> {
                 b[r][j - start] = round_up(entry, self.roundings);
             }
         }
-        b
+        (b, spread)
     }
 
     /// Calls a function with the rows of A that an equation's entries in it belong to, those of A₀ and A₁, and those of Â.
@@ -201,18 +203,17 @@ fn add_rows(
 /// The S rows of X and N = |A₀ X − I| + H |A₁ X| in a block, from what A₀ X − I (in the rows of N) and A₁ X have before it,
 /// the inverse of the block in A₀, and what A₀ and A₁ have in it.
 ///
-/// The sums of A₀ X − I go on where those that X was computed from stopped. So a term goes through as many roundings as the row
-/// has terms, and the 1 in it counts like a term: γ of them is in Â (`Counts::of_reduced_entry`).
+/// The sums of A₀ X − I go on where those that X was computed from stopped, and begin with −1. So with γ for as many roundings
+/// as a row has terms they are off by γ (1 + |A₀||X|) at most, in the diagonal, and 1 ≤ |A₀||X| + |A₀ X − I|: twice γ |A₀||X|, which is in Â
+/// (`Counts::of_reduced_entry`), and γ |A₀ X − I|, by which bounds are rounded up (`Counts::of_inverse`).
 #[inline(always)]
 fn fill_rows<const S: usize, const K: usize>(
     lanes: usize,
-    (inverse, [near0, near1]): (&[[f64; K]; K], &[[[f64; K]; K]; 2]),
+    (inverse, [inside0, inside1]): (&[[f64; K]; K], &[[[f64; K]; K]; 2]),
     (n, turns, x): (&mut [Lane], &[Lane], &mut [Lane]),
     h: f64,
 ) {
-    if S > K {
-        return;
-    }
+    assert!(S <= K, "a block has more rows than blocks of its kind");
     for l in 0..lanes {
         let left: [Lane; S] = std::array::from_fn(|r| n[r * lanes + l]);
         let found: [Lane; S] = std::array::from_fn(|c| {
@@ -231,8 +232,8 @@ fn fill_rows<const S: usize, const K: usize>(
             let (mut sum, mut turn) = (left[r], turns[r * lanes + l]);
             for c in 0..S {
                 for i in 0..LANE {
-                    sum[i] = found[c][i].mul_add(near0[r][c], sum[i]);
-                    turn[i] = found[c][i].mul_add(near1[r][c], turn[i]);
+                    sum[i] = found[c][i].mul_add(inside0[r][c], sum[i]);
+                    turn[i] = found[c][i].mul_add(inside1[r][c], turn[i]);
                 }
             }
             n[r * lanes + l] = std::array::from_fn(|i| sum[i].abs() + h * turn[i].abs());

@@ -97,96 +97,98 @@ impl<const D: usize> Resolvent<D> {
         values: ([&[Vector; D]; 2], [&[f64]; 2]),
         h: f64,
     ) -> bool {
-        let (d, _) = values;
         self.lay_out(equations, layout);
         self.diagonal.clear();
         self.wide.clear();
         self.lists.clear(layout.order);
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
-            match block.kind {
-                Kind::Point => {}
-                Kind::Listed => {
-                    let mut spread = [[0.0; 3]; 3];
-                    let b = self.make_listed(equations, block, inverse, values, h, &mut spread);
-                    match bound_on_inverse(&b, block.size) {
-                        Some(bound) => self.diagonal.push(Diagonal { bound, spread }),
-                        None => return false,
-                    }
-                    continue;
-                }
+            let (b, spread) = match block.kind {
+                Kind::Point => self.make_point(equations, block, inverse, values.0, h),
+                Kind::Listed => self.make_listed(equations, block, inverse, values, h),
                 Kind::Wide(at) => {
                     let inverse = &inverses.wide[at as usize];
-                    let mut wide = std::mem::take(&mut self.wide);
-                    wide.push(Diagonal::default());
-                    let Diagonal { bound, spread } = &mut wide[at as usize];
-                    let b = self.make_listed(equations, block, inverse, values, h, spread);
-                    let holds = bound_on_wide_inverse(&b, block.size, bound);
-                    self.wide = wide;
-                    self.diagonal.push(Diagonal::default());
-                    if !holds {
+                    let (b, spread) = self.make_listed(equations, block, inverse, values, h);
+                    let mut wide = Diagonal {
+                        spread,
+                        ..Diagonal::default()
+                    };
+                    if !bound_on_wide_inverse(&b, block.size, &mut wide.bound) {
                         return false;
                     }
+                    self.wide.push(wide);
+                    self.diagonal.push(Diagonal::default());
                     continue;
                 }
-            }
-            let (start, size) = (block.start, block.size);
-            let (first, next) = self.rows[start];
-            let lanes = next - first;
-            let (before, x) = self.x.split_at_mut(first);
-            let n = &mut self.n[first..first + size * lanes];
-            // I − (what is left of the block) X, in the rows of N for the time being.
-            for (r, n) in n.chunks_exact_mut(lanes).enumerate() {
-                let (e, sign) = (block.rows[r] as usize, block.signs[r]);
-                n.fill([0.0; LANE]);
-                n[(start + r) / LANE][(start + r) % LANE] = 1.0;
-                for axis in 0..D {
-                    if let Some(row) = other(&self.position, equations, axis, e, sign) {
-                        let factor = sign * d[0][axis][e];
-                        let (from, to) = self.rows[row];
-                        for (sum, x) in n.iter_mut().zip(&before[from..to]) {
-                            for i in 0..LANE {
-                                sum[i] = x[i].mul_add(factor, sum[i]);
-                            }
-                        }
-                    }
-                }
-            }
-            for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
-                for (l, x) in x.iter_mut().enumerate() {
-                    let mut sum = [0.0; LANE];
-                    for r in 0..size {
-                        for i in 0..LANE {
-                            sum[i] = n[r * lanes + l][i].mul_add(inverse[r], sum[i]);
-                        }
-                    }
-                    *x = sum;
-                }
-            }
-            for r in 0..size {
-                self.make_row(equations, block, r, d, h);
-            }
-            let spreads = self.spreads(block);
-            let mut b = [[0.0; 3]; 3];
-            for r in 0..size {
-                for j in start..start + size {
-                    let (l, i) = (j / LANE, j % LANE);
-                    let mut entry = self.n[first + r * lanes + l][i];
-                    for c in 0..size {
-                        let spread = spreads[r][c];
-                        entry += spread * self.x[first + c * lanes + l][i].abs();
-                    }
-                    b[r][j - start] = round_up(entry, self.roundings);
-                }
-            }
-            match bound_on_inverse(&b, size) {
-                Some(bound) => self.diagonal.push(Diagonal {
-                    bound,
-                    spread: spreads,
-                }),
+            };
+            match bound_on_inverse(&b, block.size) {
+                Some(bound) => self.diagonal.push(Diagonal { bound, spread }),
                 None => return false,
             }
         }
         true
+    }
+
+    /// X and N in a block of distances, from the inverse of its diagonal block and the differences of order 0 and 1. Returns
+    /// what N + Â|X| and Â have in it.
+    #[inline(always)]
+    fn make_point(
+        &mut self,
+        equations: &Equations<D>,
+        block: &Block,
+        inverse: &[[f64; 3]; 3],
+        d: [&[Vector; D]; 2],
+        h: f64,
+    ) -> ([[f64; 3]; 3], [[f64; 3]; 3]) {
+        let (start, size) = (block.start, block.size);
+        let (first, next) = self.rows[start];
+        let lanes = next - first;
+        let (before, x) = self.x.split_at_mut(first);
+        let n = &mut self.n[first..first + size * lanes];
+        // I − (what is left of the block) X, in the rows of N for the time being.
+        for (r, n) in n.chunks_exact_mut(lanes).enumerate() {
+            let (e, sign) = (block.rows[r] as usize, block.signs[r]);
+            n.fill([0.0; LANE]);
+            n[(start + r) / LANE][(start + r) % LANE] = 1.0;
+            for axis in 0..D {
+                if let Some(row) = other(&self.position, equations, axis, e, sign) {
+                    let factor = sign * d[0][axis][e];
+                    let (from, to) = self.rows[row];
+                    for (sum, x) in n.iter_mut().zip(&before[from..to]) {
+                        for i in 0..LANE {
+                            sum[i] = x[i].mul_add(factor, sum[i]);
+                        }
+                    }
+                }
+            }
+        }
+        for (x, inverse) in x.chunks_exact_mut(lanes).zip(&inverse[..size]) {
+            for (l, x) in x.iter_mut().enumerate() {
+                let mut sum = [0.0; LANE];
+                for r in 0..size {
+                    for i in 0..LANE {
+                        sum[i] = n[r * lanes + l][i].mul_add(inverse[r], sum[i]);
+                    }
+                }
+                *x = sum;
+            }
+        }
+        for r in 0..size {
+            self.make_row(equations, block, r, d, h);
+        }
+        let spreads = self.spreads(block);
+        let mut b = [[0.0; 3]; 3];
+        for r in 0..size {
+            for j in start..start + size {
+                let (l, i) = (j / LANE, j % LANE);
+                let mut entry = self.n[first + r * lanes + l][i];
+                for c in 0..size {
+                    let spread = spreads[r][c];
+                    entry += spread * self.x[first + c * lanes + l][i].abs();
+                }
+                b[r][j - start] = round_up(entry, self.roundings);
+            }
+        }
+        (b, spreads)
     }
 
     /// Row r of a block in N: |A₀ X − I| + H |A₁ X|.
@@ -272,7 +274,7 @@ impl<const D: usize> Resolvent<D> {
     ) -> ([Lane; K], [Lane; K]) {
         let (mut rest, mut near) = ([[0.0; LANE]; K], [[0.0; LANE]; K]);
         let mut r = 0;
-        // Several rows at once: each of their sums waits for itself only.
+        // Several rows at once, so that no sum waits for another; five or six are three and the rest.
         while r < size {
             let at = start + r;
             r += match size - r {
@@ -285,7 +287,7 @@ impl<const D: usize> Resolvent<D> {
         (rest, near)
     }
 
-    /// The same for S rows, from row `at` of A on. Returns S.
+    /// The same for S rows, from row `at` of A on. Returns S, by how many `at` moves on.
     #[inline(always)]
     fn rows_before<const S: usize>(
         &self,
@@ -356,38 +358,44 @@ impl<const D: usize> Resolvent<D> {
         v: &mut [Lane],
     ) {
         for (block, diagonal) in layout.blocks.iter().zip(&self.diagonal) {
-            let (start, size) = (block.start, block.size);
             match block.kind {
-                Kind::Point => {}
-                Kind::Listed => {
-                    self.bound_listed(block, diagonal, g, (y, v));
-                    continue;
-                }
-                Kind::Wide(at) => {
-                    self.bound_listed(block, &self.wide[at as usize], g, (y, v));
-                    continue;
-                }
+                Kind::Point => self.bound_point(equations, block, diagonal, g, (y, v)),
+                Kind::Listed => self.bound_listed(block, diagonal, g, (y, v)),
+                Kind::Wide(at) => self.bound_listed(block, &self.wide[at as usize], g, (y, v)),
             }
-            let (mut rest, mut near) = self.before::<3>((start, size), g, y);
-            for r in 0..size {
-                let (e, sign) = (block.rows[r] as usize, block.signs[r]);
-                for axis in 0..D {
-                    if let Some(from) = other(&self.position, equations, axis, e, sign) {
-                        let spread = self.spread[axis][e];
-                        for i in 0..LANE {
-                            rest[r][i] = v[from][i].mul_add(spread, rest[r][i]);
-                        }
-                    }
-                }
-                for c in 0..size {
-                    let spread = diagonal.spread[r][c];
-                    for i in 0..LANE {
-                        rest[r][i] = near[c][i].mul_add(spread, rest[r][i]);
-                    }
-                }
-            }
-            self.close((start, size), &diagonal.bound, (&rest, &mut near), (y, v));
         }
+    }
+
+    /// The same for a block of distances.
+    #[inline(always)]
+    fn bound_point(
+        &self,
+        equations: &Equations<D>,
+        block: &Block,
+        diagonal: &Diagonal<3>,
+        g: &[Lane],
+        (y, v): (&mut [Lane], &mut [Lane]),
+    ) {
+        let (start, size) = (block.start, block.size);
+        let (mut rest, mut near) = self.before::<3>((start, size), g, y);
+        for r in 0..size {
+            let (e, sign) = (block.rows[r] as usize, block.signs[r]);
+            for axis in 0..D {
+                if let Some(from) = other(&self.position, equations, axis, e, sign) {
+                    let spread = self.spread[axis][e];
+                    for i in 0..LANE {
+                        rest[r][i] = v[from][i].mul_add(spread, rest[r][i]);
+                    }
+                }
+            }
+            for c in 0..size {
+                let spread = diagonal.spread[r][c];
+                for i in 0..LANE {
+                    rest[r][i] = near[c][i].mul_add(spread, rest[r][i]);
+                }
+            }
+        }
+        self.close((start, size), &diagonal.bound, (&rest, &mut near), (y, v));
     }
 }
 
