@@ -56,6 +56,38 @@ fn a_path_whose_angle_loses_its_leg_is_open_both_ways() {
     }
 }
 
+/// What two distances say of n follows from the mirror image, but for the way that one of them takes in between. So the path
+/// through the sketch stays at t = 0 until b comes to a, where the line has no direction, and full space and extended precision
+/// can prove ever shorter tubes on the way there.
+#[test]
+fn tubes_that_lead_nowhere_end_the_path() {
+    let problem = parse(
+        "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [2, 3]\nn = [2, -3]\n[lines]\nab = [\"a\", \"b\"]\n\
+         [constraints]\ndistances = [[\"a\", \"c\", 4], [\"b\", \"c\", 3.9], [\"a\", \"n\", 4]]\n\
+         symmetric = [[\"c\", \"n\", \"ab\"]]",
+    );
+    for space in [Space::Full, Space::Reduced] {
+        for reverse in [false, true] {
+            let options = Options {
+                space,
+                reverse,
+                max_steps: 100_000,
+                ..Options::certified()
+            };
+            let outcome = run(&problem, &options);
+            let Status::Open(ends) = &outcome.status else {
+                panic!("{:?}", outcome.status);
+            };
+            assert!(outcome.solutions.is_empty());
+            for end in ends.iter() {
+                assert_eq!(end.kind, EndKind::Undefined, "{}", end.reason);
+                assert!(end.reason.starts_with("a-b goes to zero"), "{}", end.reason);
+                assert!(end.t.0.abs() < 1e-6, "{:?}", end.t);
+            }
+        }
+    }
+}
+
 /// Two circles about one centre, their radii given, and whatever is said of b.
 fn rings(b: &str, radius: &str, said_of_b: &str) -> Problem {
     parse(&format!(

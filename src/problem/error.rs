@@ -246,7 +246,7 @@ pub enum ProblemError {
     },
     /// A reference where the frame is the user's own.
     #[error(
-        "there is a reference, but {0} says where figures are or which way they lie: results are in the          coordinates of the sketch, so leave the reference out"
+        "there is a reference, but {0} says where figures are or which way they lie: results are in the coordinates of the sketch, so leave the reference out"
     )]
     ReferenceInOwnFrame(String),
 }

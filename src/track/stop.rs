@@ -17,7 +17,7 @@ pub enum StopKind {
     TurnsBack,
     /// The path does not set out from the sketch: the equations are dependent there, or no first step succeeds.
     Sketch,
-    /// No step succeeds, however short; certified: none could be proved.
+    /// No step succeeds, however short; certified: none could be proved, or thousands of them lead nowhere.
     NoStep,
     /// The same, near a figure where the equations are dependent, so that branches may meet: seen in floats.
     Singular,

@@ -1,6 +1,7 @@
 //! The chain of tubes from the sketch back to the sketch.
 
 mod arc;
+mod creep;
 mod crossing;
 mod extension;
 mod open;
@@ -28,6 +29,7 @@ use crate::track::{
     Control, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind, TubeSeen,
 };
 use arc::Arc;
+use creep::Creep;
 use crossing::{Beyond, Crossing};
 use extension::Extension;
 use parts::{LEAST_WEIGHT, LEFT_OUT, Parts};
@@ -165,8 +167,10 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     endless: bool,
     /// Whether it ended because a length goes to zero.
     loses: bool,
-    /// Whether it ended because no step could be proved, however short.
+    /// Whether it ended because no step could be proved, however short, or steps led nowhere.
     is_stuck: bool,
+    /// How far the last tubes lead.
+    creep: Creep,
     /// Proves figures with t = 0, once somebody wants them.
     at_start: Option<Box<SolutionProver<D>>>,
     /// How many of the solutions were found the other way from the sketch: the first ones.
@@ -216,6 +220,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             endless: false,
             loses: false,
             is_stuck: false,
+            creep: Creep::default(),
             at_start: None,
             behind: 0,
             way: None,
@@ -271,6 +276,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     self.note_starts(control);
                     if is_done {
                         return Ok(());
+                    }
+                    if let Some(tubes) = self.creep.add(h, self.figure_size()) {
+                        return Err(self.creeps(tubes));
                     }
                     doubt = None;
                     steps_ahead.accept(h);

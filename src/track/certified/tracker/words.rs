@@ -33,10 +33,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
 
     /// Why the run ends here, a tube of about the half length `reach` being the last that was tried.
     pub(super) fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> Stop {
-        let now = &self.now.local;
-        let condition = condition(&self.equations, &now.z[0], &now.normal);
-        self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
-        self.is_stuck = true;
+        self.note_stuck();
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
         let kind = match rejection {
@@ -53,6 +50,32 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             self.place()
         );
         Stop::new(kind, words)
+    }
+
+    /// Why the run ends where so many tubes together are only so long.
+    pub(super) fn creeps(&mut self, (tubes, length): (usize, f64)) -> Stop {
+        self.note_stuck();
+        let kind = match self.is_singular {
+            true => StopKind::Singular,
+            false => StopKind::NoStep,
+        };
+        let words = format!(
+            "the last {tubes} tubes together are {:.1e} long{}, {}{}",
+            length * self.homotopy.unit,
+            precision(self.extension.is_on()),
+            self.place(),
+            self.homotopy
+                .remark_on_lengths(self.now.local.z[0][self.equations.m])
+        );
+        Stop::new(kind, words)
+    }
+
+    /// Notes that the run gets no farther, and whether that is near a place where the Jacobian loses rank.
+    fn note_stuck(&mut self) {
+        let now = &self.now.local;
+        let condition = condition(&self.equations, &now.z[0], &now.normal);
+        self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
+        self.is_stuck = true;
     }
 
     /// The reason why a run ends where no step can be proved, after the words for a figure that is not rigid at t = 1,
