@@ -88,6 +88,26 @@ fn tubes_that_lead_nowhere_end_the_path() {
     }
 }
 
+/// Two lines of their own that turn until they are parallel, and the point where they meet.
+#[test]
+fn a_point_goes_away_where_lines_become_parallel() {
+    let problem = parse(
+        "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\np = [5, 3]\n[lines]\nbase = [\"a\", \"b\"]\n\
+         l1 = { point = [0, 0], direction = [5, 3] }\nl2 = { point = [4, 0], direction = [1, 3] }\n[constraints]\n\
+         distances = [[\"a\", \"b\", 4]]\nangles = [[\"base\", \"l1\", 60], [\"base\", \"l2\", 50]]\n\
+         on = [[\"a\", \"l1\"], [\"b\", \"l2\"], [\"p\", \"l1\"], [\"p\", \"l2\"]]",
+    );
+    let outcome = run(&problem, &Options::certified());
+    let Status::Open(ends) = &outcome.status else {
+        panic!("{:?}", outcome.status);
+    };
+    for end in ends.iter() {
+        assert_eq!(end.kind, EndKind::Infinite, "{}", end.reason);
+        let words = "the lines l1 and l2 become parallel";
+        assert!(end.reason.starts_with(words), "{}", end.reason);
+    }
+}
+
 /// Two circles about one centre, their radii given, and whatever is said of b.
 fn rings(b: &str, radius: &str, said_of_b: &str) -> Problem {
     parse(&format!(

@@ -6,7 +6,7 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
 use crate::problem::{Problem, Shape, list};
 use crate::system::Located;
-use crate::track::{Mode, Outcome, PathEnd, Solution, Space, Status};
+use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
 
 /// The results as a text of several lines: what was found and what that means, the solutions,
@@ -197,7 +197,14 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
         (mode, Status::Open(ends)) => {
             let place = |end: &PathEnd| {
                 let t = 0.5 * (end.t.0 + end.t.1);
-                format!("at t = {t:.6}, {}", without_stop(&end.reason))
+                // No zero with a sign.
+                let t = if t.abs() < 5e-7 { 0.0 } else { t };
+                let reason = without_stop(&end.reason);
+                match end.kind {
+                    // What happens there happens somewhat farther on.
+                    EndKind::Infinite => format!("followed to t = {t:.6}, {reason}"),
+                    _ => format!("at t = {t:.6}, {reason}"),
+                }
             };
             let both = format!(
                 "\n  One end: {}.\n  The other: {}.",

@@ -82,10 +82,11 @@ const NEARLY: f64 = 1e-2;
 /// Legs of an angle, which are long where an end is at infinity, are called parallel below this sine.
 const LEGS: f64 = 5e-2;
 
-/// What there is to see in a figure at the end of a path: legs of an angle that have become parallel, planes that have
+/// What there is to see in a figure at the end of a path: legs of an angle, or lines, that have become parallel, planes that have
 /// become so or fallen into one another.
 pub fn remarks(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     let mut remarks = parallel_legs(problem, figure);
+    remarks.extend(parallel_lines(problem, figure));
     if problem.dimension == 3 {
         remarks.extend(parallel_planes(problem, figure));
     }
@@ -102,7 +103,6 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
         let leg =
             |end: usize| -> [f64; 3] { std::array::from_fn(|k| figure[end][k] - figure[b][k]) };
         let (u, v) = (leg(a), leg(c));
-        let size = |x: [f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         // Legs that vanish have no direction.
         let sine = size(cross(u, v)) / (size(u) * size(v));
         if sine < LEGS && size(u).min(size(v)) > NEARLY * size(u).max(size(v)) {
@@ -113,6 +113,63 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
         }
     }
     remarks
+}
+
+/// Lines that have become parallel and are not so in the sketch. That of a line of its own is seen by the points on it, so
+/// far as two are.
+fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
+    let sketch: Vec<[f64; 3]> = (problem.points.iter())
+        .map(|point| point.sketch.each_ref().map(|x| x.to_f64()))
+        .collect();
+    let between = |figure: &[[f64; 3]], a: usize, b: usize| -> [f64; 3] {
+        std::array::from_fn(|k| figure[b][k] - figure[a][k])
+    };
+    let lines = problem.objects.iter().enumerate();
+    let lines = lines.filter_map(|(index, object)| match &object.shape {
+        &Shape::Line([a, b]) => {
+            let directions = [&sketch[..], figure].map(|figure| between(figure, a, b));
+            Some((object.name.as_str(), directions))
+        }
+        Shape::FreeLine { direction, .. } => {
+            let on_it = points_on(problem, index);
+            let pairs = on_it.iter().enumerate();
+            let pairs = pairs.flat_map(|(k, &a)| on_it[..k].iter().map(move |&b| (a, b)));
+            let apart = pairs.map(|(a, b)| between(figure, a, b));
+            let longest = apart.max_by(|u, v| size(*u).total_cmp(&size(*v)))?;
+            let before = direction.each_ref().map(|x| x.to_f64());
+            Some((object.name.as_str(), [before, longest]))
+        }
+        _ => None,
+    });
+    let lines: Vec<(&str, [[f64; 3]; 2])> = lines.collect();
+    let mut remarks = Vec::new();
+    for (k, (one, of_one)) in lines.iter().enumerate() {
+        for (other, of_other) in &lines[..k] {
+            // Not a number where a direction vanishes.
+            let [before, now] = [0, 1].map(|at| {
+                let (u, v) = (of_one[at], of_other[at]);
+                size(cross(u, v)) / (size(u) * size(v))
+            });
+            if before > LEGS && now < NEARLY {
+                remarks.push(format!("the lines {other} and {one} become parallel"));
+            }
+        }
+    }
+    remarks
+}
+
+/// The points that are said to be on an object.
+fn points_on(problem: &Problem, object: usize) -> Vec<usize> {
+    let on = problem.constraints.iter().filter(|c| c.kind == "on");
+    let points = on.filter_map(|constraint| match constraint.items[..] {
+        [Item::Point(point), Item::Object(index)] if index == object => Some(point),
+        _ => None,
+    });
+    points.collect()
+}
+
+fn size(x: [f64; 3]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
@@ -139,8 +196,7 @@ fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     let mut remarks = Vec::new();
     for (k, (one, u)) in planes.iter().enumerate() {
         for (other, v) in &planes[..k] {
-            let sine = cross(*u, *v).iter().map(|x| x * x).sum::<f64>().sqrt();
-            if sine < NEARLY {
+            if size(cross(*u, *v)) < NEARLY {
                 remarks.push(format!("the planes ({other}) and ({one}) become parallel"));
             }
         }
