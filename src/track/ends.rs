@@ -115,8 +115,8 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     remarks
 }
 
-/// Lines that have become parallel and are not so in the sketch. That of a line of its own is seen by the points on it, so
-/// far as two are.
+/// Lines that have become parallel and are clearly not so in the sketch. The direction of a line of its own is that between
+/// two points that are said to be on it; without two it is not looked at.
 fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     let sketch: Vec<[f64; 3]> = (problem.points.iter())
         .map(|point| point.sketch.each_ref().map(|x| x.to_f64()))

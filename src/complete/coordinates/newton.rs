@@ -255,6 +255,11 @@ impl Square<'_> {
         self.prove(&x).filter(|again| self.is_alone(again, &x))
     }
 
+    /// Whether the ranges of all its unknowns are bounded.
+    pub fn is_bounded(&self, x: &[Interval]) -> bool {
+        self.own.iter().all(|&u| x[u].is_common_interval())
+    }
+
     /// Whether a zero is the only one that the box may hold: all of the box lies where it is alone.
     pub fn is_alone(&self, zero: &Zero, x: &[Interval]) -> bool {
         let pairs = self.own.iter().zip(&zero.centre);

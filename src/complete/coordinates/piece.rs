@@ -3,7 +3,7 @@
 use super::construction::{Leaf, Order, Walked, walk};
 use super::contract::{Empty, contract, contract_near};
 use super::far::far;
-use super::search::{Block, COARSE, Choice, MANY, Run, SMALL, add};
+use super::search::{Block, Choice, Run};
 use super::system::{Row, relative_width};
 use super::tally::Tally;
 use crate::complete::Why;
@@ -102,10 +102,7 @@ impl<'s, 'a> Piece<'s, 'a> {
         named: Option<usize>,
         others: &mut Vec<Node>,
     ) {
-        let least = match self.tally.left > MANY || self.curve.is_some() {
-            true => COARSE,
-            false => SMALL,
-        };
+        let least = self.tally.least(self.curve.is_some());
         let (which, widest) = match self.block.widest(&x) {
             Choice::Halve(u, widest) => (u, widest),
             Choice::Huge => {
@@ -187,16 +184,10 @@ impl<'s, 'a> Piece<'s, 'a> {
             Fresh::None => {}
         }
         for _ in 0..ROUNDS {
-            if self
-                .tally
-                .found
-                .zeros
-                .iter()
-                .any(|zero| square.is_alone(zero, x))
-            {
+            if self.tally.is_known(square, x) {
                 return Err(Empty);
             }
-            if square.own.iter().all(|&u| x[u].is_common_interval()) {
+            if square.is_bounded(x) {
                 return Ok(true);
             }
             contract(self.rows, &block.is_free, x)?;
@@ -234,17 +225,10 @@ impl<'s, 'a> Piece<'s, 'a> {
             if contract(self.rows, &block.is_free, x) == Err(Empty) {
                 return true;
             }
-            if self
-                .tally
-                .found
-                .zeros
-                .iter()
-                .any(|zero| square.is_alone(zero, x))
-            {
+            if self.tally.is_known(square, x) {
                 return true;
             }
-            let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
-            if !is_bounded {
+            if !square.is_bounded(x) {
                 match far(self.rows, &block.is_free, x) {
                     Err(Empty) => return true,
                     Ok(true) => continue,
@@ -266,14 +250,8 @@ impl<'s, 'a> Piece<'s, 'a> {
         let square = &self.block.square;
         let before = self.block.volume(x);
         let step = square.step(x)?;
-        if step.defect < 2.0
-            && let Some(zero) = square.prove(x)
-        {
-            let is_it = square.is_alone(&zero, x);
-            add(&mut self.tally.found.zeros, zero);
-            if is_it {
-                return Err(Empty);
-            }
+        if step.defect < 2.0 && self.tally.prove(square, x) {
+            return Err(Empty);
         }
         Ok(self.block.volume(x) <= before - WORTH)
     }

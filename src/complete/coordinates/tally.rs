@@ -1,7 +1,9 @@
 //! What is counted in a part of a search that goes on by itself, whatever its own parts are.
 
-use super::search::{Found, Run, TOO_MANY, leave};
+use super::newton::Square;
+use super::search::{COARSE, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
 use crate::complete::Why;
+use crate::interval::Interval;
 use std::sync::atomic::Ordering;
 
 /// What was found in a part of a search, and how many of its own parts stay undecided.
@@ -53,5 +55,29 @@ impl<'s> Tally<'s> {
     /// Notes that a part is not looked at any more.
     pub fn done(&self, share: f64) {
         self.run.watched.add_done(self.run.weight * share);
+    }
+
+    /// How narrow a part has to be to stay undecided: less so where many do, or where a curve of zeros was seen.
+    pub fn least(&self, is_flexible: bool) -> f64 {
+        match self.left > MANY || is_flexible {
+            true => COARSE,
+            false => SMALL,
+        }
+    }
+
+    /// Whether the only zero that a box may hold is one that was found.
+    pub fn is_known(&self, square: &Square, x: &[Interval]) -> bool {
+        let mut zeros = self.found.zeros.iter();
+        zeros.any(|zero| square.is_alone(zero, x))
+    }
+
+    /// Proves a zero in a box, if it can, and keeps it. Whether it is the only one that the box may hold.
+    pub fn prove(&mut self, square: &Square, x: &[Interval]) -> bool {
+        let Some(zero) = square.prove(x) else {
+            return false;
+        };
+        let is_it = square.is_alone(&zero, x);
+        add(&mut self.found.zeros, zero);
+        is_it
     }
 }

@@ -277,7 +277,9 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                     if is_done {
                         return Ok(());
                     }
-                    if let Some(tubes) = self.creep.add(h, self.figure_size()) {
+                    if let Some(tubes) = self.creep.add(h)
+                        && tubes.leads_nowhere(self.figure_size())
+                    {
                         return Err(self.creeps(tubes));
                     }
                     doubt = None;

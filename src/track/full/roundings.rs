@@ -180,9 +180,9 @@ impl Counts {
     }
 
     /// An entry of J T along a tube: differences and the powers of t(s), sums over the normal or the distances of a point (m
-    /// each, the latter at three orders), over A's rows at two orders and so many key unknowns at three. A row of A₀ X − I has to
-    /// go in twice (`resolvent/listed.rs`), of at most four entries for each product, besides what these are sums of: ten for each product, and
-    /// fourteen there are.
+    /// each, the latter at three orders), over A's rows at two orders and so many key unknowns at three. Also, twice, a sum over a
+    /// row of A₀ X − I (`resolvent/listed.rs`): six entries for a distance, four for each product of a longer equation, of two
+    /// parts each. That takes 2 · 4 + 2 roundings for each product, of the fourteen that there are for a row.
     pub fn of_reduced_entry(self, keys: usize) -> usize {
         4 * self.m + 4 * keys + 200 + self.longer.of_row()
     }

@@ -18,7 +18,7 @@ mod part;
 
 use super::contract::contract;
 use super::newton::Zero;
-use super::search::{Block, COARSE, Found, MANY, Run, SMALL, add, leave};
+use super::search::{Block, Found, Run, SMALL, add, leave};
 use super::tally::Tally;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::Body;
@@ -301,11 +301,7 @@ impl Piece<'_, '_> {
                     self.is_flexible = true;
                 }
             }
-            let least = match self.tally.left > MANY || self.is_flexible {
-                true => COARSE,
-                false => SMALL,
-            };
-            if part.widest() < least {
+            if part.widest() < self.tally.least(self.is_flexible) {
                 return self.tally.leave(why, part.share);
             }
             // Worth another look where a good part of it is gone.
@@ -318,25 +314,7 @@ impl Piece<'_, '_> {
     /// Whether a zero is the only one that a box may hold: one that is known, or one that is proved now.
     fn is_known(&mut self, x: &[Interval]) -> bool {
         let square = &self.block.square;
-        if self
-            .tally
-            .found
-            .zeros
-            .iter()
-            .any(|zero| square.is_alone(zero, x))
-        {
-            return true;
-        }
-        let is_bounded = square.own.iter().all(|&u| x[u].is_common_interval());
-        if !is_bounded {
-            return false;
-        }
-        let Some(zero) = square.prove(x) else {
-            return false;
-        };
-        let is_it = square.is_alone(&zero, x);
-        add(&mut self.tally.found.zeros, zero);
-        is_it
+        self.tally.is_known(square, x) || square.is_bounded(x) && self.tally.prove(square, x)
     }
 
     /// The halves of a part come to the others; or, where linear equations do not tell the body's place however small the part is,

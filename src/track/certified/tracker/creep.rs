@@ -7,23 +7,25 @@ const TUBES: usize = 4096;
 const LEAST: f64 = 4e-6;
 
 /// How far the last tubes lead.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone, Copy)]
 pub struct Creep {
-    tubes: usize,
-    length: f64,
+    /// How many they are.
+    pub tubes: usize,
+    /// How long they are together.
+    pub length: f64,
 }
 
 impl Creep {
-    /// Takes account of a tube of the half length `h`, the figure being of this size. Tells how long the last tubes are together,
-    /// and how many they are, if that is too little.
-    pub fn add(&mut self, h: f64, size: f64) -> Option<(usize, f64)> {
+    /// Takes account of a tube of the half length `h`. Every so often it tells of those since it last did.
+    pub fn add(&mut self, h: f64) -> Option<Creep> {
         self.tubes += 1;
         self.length += 2.0 * h;
-        if self.tubes < TUBES {
-            return None;
-        }
-        let Creep { tubes, length } = std::mem::take(self);
-        (length < LEAST * size).then_some((tubes, length))
+        (self.tubes == TUBES).then(|| std::mem::take(self))
+    }
+
+    /// Whether the tubes are too short for a figure of this size.
+    pub fn leads_nowhere(self, size: f64) -> bool {
+        self.length < LEAST * size
     }
 }
 
@@ -33,17 +35,19 @@ mod tests {
 
     #[test]
     fn only_tubes_that_lead_nowhere_are_told_of() {
-        let told = |h: f64| {
+        let told = |h: fn(usize) -> f64| {
             let mut creep = Creep::default();
-            (0..3 * TUBES).filter_map(|_| creep.add(h, 10.0)).count()
+            let seen = (0..3 * TUBES).filter_map(|k| creep.add(h(k)));
+            seen.map(|tubes| {
+                assert_eq!(tubes.tubes, TUBES);
+                usize::from(tubes.leads_nowhere(10.0))
+            })
+            .sum::<usize>()
         };
-        assert_eq!(told(1e-3), 0);
-        assert_eq!(told(1e-8), 0);
-        assert_eq!(told(1e-10), 3);
+        assert_eq!(told(|_| 1e-3), 0);
+        assert_eq!(told(|_| 1e-8), 0);
+        assert_eq!(told(|_| 1e-10), 3);
         // Some short tubes among long ones are what a path near a singular place needs.
-        let mut creep = Creep::default();
-        let some =
-            (0..3 * TUBES).filter_map(|k| creep.add(if k % 1000 == 0 { 0.1 } else { 1e-12 }, 10.0));
-        assert_eq!(some.count(), 0);
+        assert_eq!(told(|k| if k % 1000 == 0 { 0.1 } else { 1e-12 }), 0);
     }
 }

@@ -1,5 +1,6 @@
 //! Why a run ended, and what was switched on in it, in words.
 
+use super::creep::Creep;
 use super::crossing::Crossing;
 use super::{POINT_TOLERANCE, Test, Tracker};
 use crate::track::certified::reasons::{
@@ -52,20 +53,20 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         Stop::new(kind, words)
     }
 
-    /// Why the run ends where so many tubes together are only so long.
-    pub(super) fn creeps(&mut self, (tubes, length): (usize, f64)) -> Stop {
+    /// Why the run ends where the last tubes lead nowhere.
+    pub(super) fn creeps(&mut self, Creep { tubes, length }: Creep) -> Stop {
         self.note_stuck();
         let kind = match self.is_singular {
             true => StopKind::Singular,
             false => StopKind::NoStep,
         };
+        let t = self.now.local.z[0][self.equations.m];
         let words = format!(
-            "the last {tubes} tubes together are {:.1e} long{}, {}{}",
+            "the path cannot be followed farther in reasonable time: the last {tubes} tubes together are {:.1e} long{}, {}{}",
             length * self.homotopy.unit,
             precision(self.extension.is_on()),
             self.place(),
-            self.homotopy
-                .remark_on_lengths(self.now.local.z[0][self.equations.m])
+            self.homotopy.remark_on_lengths(t)
         );
         Stop::new(kind, words)
     }

@@ -1,7 +1,6 @@
 //! X, N and bounds on |A(s)⁻¹| in blocks whose rows are lists of entries.
 
 use super::{Diagonal, Resolvent};
-use crate::interval::rounding::round_up;
 use crate::linalg::rstructure::rows::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
@@ -94,18 +93,7 @@ impl<const D: usize> Resolvent<D> {
             _ => unreachable!("a block has one row at least and {WIDEST} at most"),
         }
         self.lists = lists;
-        let mut b = [[0.0; K]; K];
-        for r in 0..size {
-            for j in start..start + size {
-                let (l, i) = (j / LANE, j % LANE);
-                let mut entry = self.n[first + r * lanes + l][i];
-                for c in 0..size {
-                    entry += spread[r][c] * self.x[first + c * lanes + l][i].abs();
-                }
-                b[r][j - start] = round_up(entry, self.roundings);
-            }
-        }
-        (b, spread)
+        (self.in_block(block, &spread), spread)
     }
 
     /// Calls a function with the rows of A that an equation's entries in it belong to, those of A₀ and A₁, and those of Â.
@@ -203,9 +191,9 @@ fn add_rows(
 /// The S rows of X and N = |A₀ X − I| + H |A₁ X| in a block, from what A₀ X − I (in the rows of N) and A₁ X have before it,
 /// the inverse of the block in A₀, and what A₀ and A₁ have in it.
 ///
-/// The sums of A₀ X − I go on where those that X was computed from stopped, and begin with −1. So with γ for as many roundings
-/// as a row has terms they are off by γ (1 + |A₀||X|) at most, in the diagonal, and 1 ≤ |A₀||X| + |A₀ X − I|: twice γ |A₀||X|, which is in Â
-/// (`Counts::of_reduced_entry`), and γ |A₀ X − I|, by which bounds are rounded up (`Counts::of_inverse`).
+/// The sums of A₀ X − I go on where those that X was computed from stopped, and begin with −1 in the diagonal. So, with γ for as many
+/// roundings as a row has terms, they are off by γ (1 + |A₀||X|) at most, and 1 ≤ |A₀||X| + |A₀ X − I|. That is twice
+/// γ |A₀||X|, which is in Â (`Counts::of_reduced_entry`), and γ |A₀ X − I|, by which bounds are rounded up (`Counts::of_inverse`).
 #[inline(always)]
 fn fill_rows<const S: usize, const K: usize>(
     lanes: usize,

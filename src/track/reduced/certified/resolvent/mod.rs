@@ -175,20 +175,28 @@ impl<const D: usize> Resolvent<D> {
         for r in 0..size {
             self.make_row(equations, block, r, d, h);
         }
-        let spreads = self.spreads(block);
-        let mut b = [[0.0; 3]; 3];
+        let spread = self.spreads(block);
+        (self.in_block(block, &spread), spread)
+    }
+
+    /// What N + Â|X| has in a block, from Â's entries there, once its rows of X and N are made.
+    #[inline(always)]
+    fn in_block<const K: usize>(&self, block: &Block, spread: &[[f64; K]; K]) -> [[f64; K]; K] {
+        let (start, size) = (block.start, block.size);
+        let (first, next) = self.rows[start];
+        let lanes = next - first;
+        let mut b = [[0.0; K]; K];
         for r in 0..size {
             for j in start..start + size {
                 let (l, i) = (j / LANE, j % LANE);
                 let mut entry = self.n[first + r * lanes + l][i];
                 for c in 0..size {
-                    let spread = spreads[r][c];
-                    entry += spread * self.x[first + c * lanes + l][i].abs();
+                    entry += spread[r][c] * self.x[first + c * lanes + l][i].abs();
                 }
                 b[r][j - start] = round_up(entry, self.roundings);
             }
         }
-        (b, spreads)
+        b
     }
 
     /// Row r of a block in N: |A₀ X − I| + H |A₁ X|.
