@@ -60,8 +60,8 @@
 //!
 //! Other processors need no flags.
 //!
-//! The feature `cli`, on unless `default-features = false`, is for the program: command line, progress,
-//! pictures with axes, CSV. The library needs none of it.
+//! Features, all on unless `default-features = false`: `cli` for the program (command line, progress, pictures with axes,
+//! CSV), `freecad` to read and write FreeCAD's files, `explore` for [`explore`] and its database.
 //!
 //! # The modules
 //!
@@ -112,6 +112,7 @@ pub mod complete;
 pub mod complex;
 pub mod constraint;
 pub mod edit;
+#[cfg(feature = "explore")]
 pub mod explore;
 pub mod generate;
 mod hexadecimal;
@@ -122,8 +123,6 @@ pub mod linalg;
 #[doc(hidden)]
 pub mod plan;
 pub mod problem;
-#[cfg(feature = "python")]
-mod python;
 #[doc(hidden)]
 pub mod remarks;
 pub mod report;

@@ -168,6 +168,7 @@ impl Drawing {
     }
 
     /// Two edges (objects) touch, wherever that is.
+    #[cfg(feature = "freecad")]
     pub fn touch(&mut self, source: Source, edges: [usize; 2]) {
         self.tangents.push(Tangent { edges, source });
     }

@@ -25,6 +25,7 @@
 //! ```
 
 mod drawing;
+#[cfg(feature = "freecad")]
 mod freecad;
 mod molecule;
 mod slvs;
@@ -62,6 +63,11 @@ impl Format {
     }
 }
 
+/// What a program is told whose author left archives and XML out.
+#[cfg(not(feature = "freecad"))]
+const NO_FREECAD: &str =
+    "FreeCAD's files are read by the feature `freecad` of krawl, without which this was built";
+
 /// A sketch that a file holds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listed {
@@ -87,6 +93,7 @@ pub struct Imported {
 #[derive(Debug, Clone)]
 enum Places {
     SolveSpace(slvs::Places),
+    #[cfg(feature = "freecad")]
     FreeCad(freecad::Places),
     Molecule(molecule::Places),
 }
@@ -136,7 +143,10 @@ pub enum ImportError {
 pub fn list(file: &str, bytes: &[u8]) -> Result<Vec<Listed>, ImportError> {
     match Format::of(file) {
         Some(Format::SolveSpace) => slvs::list(bytes),
+        #[cfg(feature = "freecad")]
         Some(Format::FreeCad) => freecad::list(bytes),
+        #[cfg(not(feature = "freecad"))]
+        Some(Format::FreeCad) => Err(NO_FREECAD.to_owned()),
         Some(format) => molecule::list(bytes, format),
         None => return Err(ImportError::Format(file.to_owned())),
     }
@@ -169,7 +179,10 @@ pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, 
     })?;
     match Format::of(file) {
         Some(Format::SolveSpace) => slvs::read(bytes, index),
+        #[cfg(feature = "freecad")]
         Some(Format::FreeCad) => freecad::read(bytes, index),
+        #[cfg(not(feature = "freecad"))]
+        Some(Format::FreeCad) => Err(NO_FREECAD.to_owned()),
         Some(format) => molecule::read(bytes, format, index),
         None => return Err(ImportError::Format(file.to_owned())),
     }
@@ -192,6 +205,7 @@ pub fn rewrite(
 ) -> Result<Vec<u8>, String> {
     match &imported.places {
         Places::SolveSpace(places) => slvs::rewrite(imported, places, bytes, problem, figure),
+        #[cfg(feature = "freecad")]
         Places::FreeCad(places) => freecad::rewrite(imported, places, bytes, problem, figure),
         Places::Molecule(places) => molecule::rewrite(places, bytes, figure),
     }
@@ -203,6 +217,7 @@ impl Imported {
     pub fn has_number(&self, index: usize) -> bool {
         let sources = match &self.places {
             Places::SolveSpace(places) => places.sources(),
+            #[cfg(feature = "freecad")]
             Places::FreeCad(places) => places.sources(),
             Places::Molecule(_) => return true,
         };

@@ -21,6 +21,7 @@ mod reference;
 mod vocabulary;
 mod write;
 
+#[cfg(feature = "explore")]
 pub(crate) use bend::default_coefficient as default_bend;
 pub use builder::ProblemBuilder;
 pub use check::{Rigidity, rigidity};

@@ -8,6 +8,7 @@ mod complex;
 mod digits;
 mod drawing;
 mod edit;
+#[cfg(feature = "explore")]
 mod explore;
 mod figures;
 mod json;
@@ -36,6 +37,7 @@ pub use edit::{
     decomposition_in_words, edit_in_words, edit_to_document, edit_to_json, edit_to_table,
     edit_to_value, figure_to_value, freedom_in_words, freedom_of_sketch_in_words, limit_in_words,
 };
+#[cfg(feature = "explore")]
 pub use explore::{
     AllReal, Explored, TracedPath, explore_to_json, explore_to_table, explore_to_value,
 };

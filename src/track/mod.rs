@@ -17,6 +17,7 @@ mod stop;
 mod turns;
 mod witness;
 
+#[cfg(feature = "explore")]
 pub(crate) use certified::prove_figure;
 pub use certified::{FigureBox, FiguresSeen, Fold, Relation, Sample, Trace};
 pub use choice::{prove, solve_in_best_space, trace_path};

@@ -1,0 +1,279 @@
+//! What the Python package is made of: `krawl._krawl`, functions that take the text of a problem and give
+//! JSON, as the command line writes it. The package around it, with classes and arrays, is beside this file.
+
+mod work;
+
+use krawl::certificate::{self, Contents, Settings, Writer, cover};
+use krawl::complete;
+use krawl::edit;
+use krawl::problem::Problem;
+use krawl::report::{self, edit_to_json};
+use krawl::track::{self, Control, Options, Progress, Space, Status, Witness};
+use pyo3::create_exception;
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Duration;
+use work::{call, interruptible};
+
+create_exception!(
+    krawl,
+    Error,
+    PyValueError,
+    "Bad input: what is wrong, where, and what to do."
+);
+
+fn bad(error: impl std::fmt::Display) -> PyErr {
+    Error::new_err(error.to_string())
+}
+
+fn unwritten(path: &Path, error: &std::io::Error) -> PyErr {
+    PyOSError::new_err(format!("{}: {error}", path.display()))
+}
+
+fn parse(text: &str, name: &str) -> PyResult<Problem> {
+    Problem::parse(text, name).map_err(bad)
+}
+
+fn space(name: Option<&str>) -> PyResult<Option<Space>> {
+    match name {
+        None => Ok(None),
+        Some("full") => Ok(Some(Space::Full)),
+        Some("reduced") => Ok(Some(Space::Reduced)),
+        Some(other) => Err(bad(format!(
+            "space: {other:?} is neither \"full\" nor \"reduced\""
+        ))),
+    }
+}
+
+/// The path through the sketch: JSON as of `krawl solve --json`.
+#[pyfunction]
+#[pyo3(signature = (text, name, *, mode, space, reverse, extended, samples, certificate, progress))]
+#[allow(clippy::too_many_arguments)] // Python gives all of them by name.
+fn solve(
+    py: Python<'_>,
+    text: &str,
+    name: &str,
+    mode: &str,
+    space: Option<&str>,
+    reverse: bool,
+    extended: bool,
+    samples: usize,
+    certificate: Option<PathBuf>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let problem = parse(text, name)?;
+    let options = match mode {
+        "certified" => Options::certified(),
+        "float" => Options::float(Space::Reduced),
+        other => {
+            let what = format!("mode: {other:?} is neither \"certified\" nor \"float\"");
+            return Err(bad(what));
+        }
+    };
+    if mode == "float" && (certificate.is_some() || samples > 0) {
+        return Err(bad(
+            "float mode proves nothing: it has no certificates and no samples",
+        ));
+    }
+    let chosen = self::space(space)?;
+    let options = Options {
+        space: chosen.unwrap_or(options.space),
+        reverse,
+        extended,
+        ..options
+    };
+    let proof = certificate.as_deref().map(|path| {
+        let file = File::create(path).map_err(|error| unwritten(path, &error))?;
+        Ok::<_, PyErr>(Writer::new(BufWriter::new(file), &problem))
+    });
+    let mut proof = proof.transpose()?;
+    let work = |cancel: &_| -> PyResult<String> {
+        let mut show = |now: Progress| call(&progress, (now.steps, now.t, now.solutions));
+        let mut control = Control {
+            cancel: Some(cancel),
+            progress: progress.is_some().then_some(&mut show),
+            witness: proof.as_mut().map(|writer| writer as &mut dyn Witness),
+            ..Control::default()
+        };
+        let outcome = match chosen {
+            Some(_) => track::solve(&problem, &options, &mut control),
+            None => track::solve_in_best_space(&problem, &options, &mut control),
+        };
+        let outcome = outcome.map_err(bad)?;
+        let mut trace = None;
+        if samples > 0 && !matches!(outcome.status, Status::Stopped(_)) {
+            let mut control = Control {
+                cancel: Some(cancel),
+                ..Control::default()
+            };
+            trace = track::trace_path(&problem, &options, &mut control).ok();
+        }
+        let run = report::Run {
+            problem: &problem,
+            options: &options,
+            outcome: &outcome,
+            trace: trace.as_ref().map(|(_, trace)| trace),
+            samples,
+        };
+        Ok(run.to_json())
+    };
+    let json = interruptible(py, work);
+    // After Ctrl-C too: what was proved by then is kept.
+    if let (Some(writer), Some(path)) = (proof, &certificate) {
+        writer.finish().map_err(|error| unwritten(path, &error))?;
+    }
+    json?
+}
+
+/// All figures with the distances: JSON as of `krawl all --json`.
+#[pyfunction]
+#[pyo3(signature = (text, name, *, threads, time, certificate, progress))]
+fn complete_set(
+    py: Python<'_>,
+    text: &str,
+    name: &str,
+    threads: usize,
+    time: Option<f64>,
+    certificate: Option<PathBuf>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let problem = parse(text, name)?;
+    let time = time
+        .map(|seconds| {
+            Duration::try_from_secs_f64(seconds)
+                .map_err(|_| bad("time: a number of seconds from 0 on"))
+        })
+        .transpose()?;
+    let result = interruptible(py, |cancel: &_| {
+        let show = |now: complete::Progress| call(&progress, (now.share, now.boxes));
+        let options = complete::Options {
+            cancel: Some(cancel),
+            time,
+            threads,
+            cover: certificate.is_some(),
+            progress: progress.is_some().then_some(&show),
+            ..complete::Options::default()
+        };
+        complete::all(&problem, &options)
+    })?;
+    let result = result.map_err(bad)?;
+    if let (Some(path), Some(cover)) = (&certificate, &result.cover) {
+        fs::write(path, cover).map_err(|error| unwritten(path, &error))?;
+    }
+    Ok(report::complete_to_json(&problem, &result))
+}
+
+/// Checks a certificate: what came of it ("verified", "refuted", "not proved", "incomplete"), in words, and
+/// whether it is about the problem, if one is given.
+#[pyfunction]
+fn verify(
+    py: Python<'_>,
+    path: PathBuf,
+    problem: Option<(String, String)>,
+) -> PyResult<(&'static str, String, bool)> {
+    let problem = problem
+        .map(|(text, name)| parse(&text, &name))
+        .transpose()?;
+    let problem = problem.as_ref();
+    let bytes = fs::read(&path).map_err(|error| unwritten(&path, &error))?;
+    let in_file = |error: &dyn std::fmt::Display| bad(format!("{}: {error}", path.display()));
+    let begin = std::time::Instant::now();
+    let contents = certificate::contents(&bytes[..]).map(|(contents, _)| contents);
+    if matches!(contents, Ok(Contents::Cover)) {
+        let verdict = interruptible(py, |_| cover::verify_cover(&bytes))?;
+        let verdict = verdict.map_err(|error| in_file(&error))?;
+        let what = match verdict.proves_all() {
+            _ if verdict.flaw.is_some() => "not proved",
+            true => "verified",
+            false => "incomplete",
+        };
+        let same = problem.is_none_or(|problem| verdict.is_about(problem));
+        return Ok((what, report::cover_theorem(&verdict, begin.elapsed()), same));
+    }
+    if matches!(contents, Ok(Contents::ComplexSet)) {
+        return Err(bad(format!(
+            "{}: a set of complex solutions, which `krawl verify` checks",
+            path.display()
+        )));
+    }
+    let settings = Settings { threads: 0 };
+    let verdict = interruptible(py, |_| {
+        certificate::verify(bytes.as_slice(), &settings, &mut |_| ())
+    })?;
+    let verdict = verdict.map_err(|error| in_file(&error))?;
+    let what = match verdict.outcome {
+        certificate::Outcome::Verified => "verified",
+        certificate::Outcome::Refuted(_) => "refuted",
+        certificate::Outcome::NotProved(_) => "not proved",
+        certificate::Outcome::Partial(_) => "incomplete",
+    };
+    let same = problem.is_none_or(|problem| verdict.is_about(problem));
+    Ok((what, report::theorem(&verdict, begin.elapsed()), same))
+}
+
+/// A figure and the edits of it, one after the other.
+#[pyclass]
+struct Session(Mutex<edit::Session>);
+
+#[pymethods]
+impl Session {
+    #[new]
+    fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let problem = parse(text, name)?;
+        let opened = interruptible(py, |cancel: &_| {
+            let mut control = Control {
+                cancel: Some(cancel),
+                ..Control::default()
+            };
+            edit::Session::open_with(&problem, &Options::certified(), &mut control)
+        })?;
+        Ok(Session(Mutex::new(opened.map_err(bad)?)))
+    }
+
+    /// Changes dimensions, given as `name=value`: JSON as of `krawl edit --json`.
+    fn edit(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<String> {
+        let edited = interruptible(py, |cancel: &_| -> PyResult<String> {
+            let mut session = self.0.lock().map_err(bad)?;
+            let settings = settings
+                .iter()
+                .map(|text| edit::Setting::parse(session.problem(), text))
+                .collect::<Result<Vec<_>, _>>()
+                .map_err(bad)?;
+            edit::Setting::check(session.problem(), &settings).map_err(bad)?;
+            let mut control = Control {
+                cancel: Some(cancel),
+                ..Control::default()
+            };
+            let edited = session.edit_with(&settings, &mut control);
+            Ok(edit_to_json(session.problem(), &edited, session.moved()))
+        })?;
+        edited
+    }
+
+    /// The figure: name, lower and upper ends of its coordinates, point by point.
+    fn points(&self) -> PyResult<Vec<(String, [f64; 3], [f64; 3])>> {
+        let session = self.0.lock().map_err(bad)?;
+        let points = session.problem().points.iter().zip(session.points());
+        Ok(points
+            .map(|(point, place)| {
+                let (lower, upper) = (place.map(|x| x.inf()), place.map(|x| x.sup()));
+                (point.name.clone(), lower, upper)
+            })
+            .collect())
+    }
+}
+
+/// The compiled part of krawl.
+#[pymodule]
+fn _krawl(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("Error", module.py().get_type::<Error>())?;
+    module.add_function(wrap_pyfunction!(solve, module)?)?;
+    module.add_function(wrap_pyfunction!(complete_set, module)?)?;
+    module.add_function(wrap_pyfunction!(verify, module)?)?;
+    module.add_class::<Session>()
+}

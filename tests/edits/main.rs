@@ -1,0 +1,11 @@
+//! Edits, limits and blocks: figures that keep their shape while dimensions change.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod blocks;
+mod claims;
+mod edit;
+mod edit_mixed;
+mod real_sketches;
+mod sketches;

@@ -1,0 +1,13 @@
+//! The program: its command line, files, pages and documents.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod command_line;
+#[cfg(unix)]
+mod help;
+mod json_schema;
+mod page;
+mod problem_files;
+mod readme;
+mod robustness;

@@ -1,0 +1,20 @@
+//! Sets of all solutions, real and complex, and searches for more.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod all_constraints;
+mod all_store;
+mod all_store_constraints;
+mod cases;
+mod complete;
+mod complete_hard;
+mod complex_frames;
+mod complex_infinity;
+mod complex_solutions;
+mod explore;
+mod falling_apart;
+mod mechanisms;
+mod miscounted;
+mod poses;
+mod sides;
