@@ -42,8 +42,8 @@ pub struct Combined<'s> {
     problem: &'s Problem,
     solutions: Vec<&'s [Solution]>,
     joints: Vec<Joint>,
-    /// Whether the figures come without their mirror images.
-    halved: bool,
+    /// The joint whose mirror images are left out, so that the figures come without theirs.
+    halved: Option<usize>,
 }
 
 impl<'s> Combined<'s> {
@@ -92,25 +92,26 @@ impl<'s> Combined<'s> {
             problem,
             solutions,
             joints,
-            halved: false,
+            halved: None,
         };
         out.halve();
         Some(out)
     }
 
-    /// Where every figure of the first block differs from its mirror image, it is taken as it is: the other half are
-    /// mirror images of the whole.
+    /// Where every figure of a block differs from its mirror image, it is taken as it is: the other half are mirror images of
+    /// the whole. (Whether a block is mirrored is told by the orientation of what it hangs on, so that the mirror image of the whole is that of
+    /// every block.)
     fn halve(&mut self) {
-        let Some(first) = self.joints.first_mut() else {
-            return;
+        let has_all_images = |joint: &Joint| {
+            let mut of: BTreeMap<usize, usize> = BTreeMap::new();
+            for choice in &joint.choices {
+                *of.entry(choice.solution).or_default() += 1;
+            }
+            of.values().all(|&count| count == 2)
         };
-        let mut of: BTreeMap<usize, usize> = BTreeMap::new();
-        for choice in &first.choices {
-            *of.entry(choice.solution).or_default() += 1;
-        }
-        self.halved = of.values().all(|&count| count == 2);
-        if self.halved {
-            first.choices.retain(|choice| !choice.mirrored);
+        self.halved = self.joints.iter().position(has_all_images);
+        if let Some(k) = self.halved {
+            self.joints[k].choices.retain(|choice| !choice.mirrored);
         }
     }
 
@@ -124,18 +125,24 @@ impl<'s> Combined<'s> {
 
     /// Whether mirror images are left out: every figure has one besides.
     pub fn without_mirror_images(&self) -> bool {
-        self.halved
+        self.halved.is_some()
     }
 
-    /// Whether every solution of a block was proved to differ from its mirror image, so that no two combinations are the same
-    /// figure, and none is missing.
+    /// Whether every solution of a block was proved to differ from its mirror image, or to be it as it is flat, so that no two
+    /// combinations are the same figure, and none is missing.
     pub fn has_all_mirror_images(&self) -> bool {
+        let is_flat = |joint: &Joint| {
+            let mut solutions = self.solutions[joint.block].iter();
+            solutions.all(|solution| solution.is_degenerate)
+        };
         let mut joints = self.joints.iter().enumerate();
-        self.halved
-            && joints.all(|(k, joint)| {
-                let images = if k == 0 { 1 } else { 2 };
-                joint.choices.len() == images * self.solutions[joint.block].len()
-            })
+        joints.all(|(k, joint)| {
+            let images = match is_flat(joint) || self.halved == Some(k) {
+                true => 1,
+                false => 2,
+            };
+            joint.choices.len() == images * self.solutions[joint.block].len()
+        }) && (self.halved.is_some() || self.joints.iter().all(is_flat))
     }
 
     /// What the figure of this number is made of, block by block in the order in which they hang together. Numbers begin

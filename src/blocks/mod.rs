@@ -16,6 +16,7 @@
 //! union, regular too. So the parts of a sketch can be followed each for itself, along the same t, and what is
 //! proved of all together is what would be proved of the whole: there is exactly one continuation.
 
+mod account;
 mod choose;
 mod clusters;
 mod combine;
@@ -30,10 +31,12 @@ mod number;
 mod path;
 mod pinned;
 
+pub(crate) use account::Ruler;
+pub use account::{Account, LeftOut as LeftOutConstraint, Verdict, rounded_down, rounded_up};
 pub use choose::Choice;
 pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
-pub(crate) use cut::{Cut, Used, free_names, name};
+pub(crate) use cut::{Cut, Used, free_names, name, name as owner_name};
 pub use decompose::{Block, Blocks};
 pub use figures::{
     BlockAccount, Chosen, Comparison, Figures, First, LeftOut, Sense, Way, WithSenses,

@@ -1,11 +1,12 @@
 //! `krawl all`: searches all figures that meet the dimensions.
 
 use super::check::counted;
+use super::input::Asked;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::verify::check_cover;
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
-use krawl::complete::{Complete, Keep, Options, Progress, Status, Unserved, all};
+use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
@@ -29,7 +30,7 @@ Examples:
 Two machines share a search: one runs it with --store a --share 1/2, the other with --store b --share 2/2. Then
 --store a --merge b, with neither share, brings both together.
 
-Exit codes: 0 complete, 1 partial, flexible or not served yet, 2 bad input, 3 or 4 the certificate
+Exit codes: 0 complete, 1 partial, flexible, not served yet or not decided which figures meet what was left out, 2 bad input, 3 or 4 the certificate
 does not prove what is said (see `krawl verify --help`).")]
 pub struct Arguments {
     /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
@@ -63,6 +64,10 @@ pub struct Arguments {
     /// Take over what another store of the same search has: its folder, or the file in it; may be given several times
     #[arg(long, value_name = "PATH", requires = "store")]
     merge: Vec<PathBuf>,
+    /// Of more distances than are needed those that were left out count as met where a figure misses them by no more than this, in the unit of
+    /// the file [default: half a unit of the last digit that the file gives a distance with]
+    #[arg(long, value_name = "X", value_parser = seconds)]
+    redundant_tolerance: Option<f64>,
     #[command(flatten)]
     pictures: Pictures,
     /// Print no table and no progress
@@ -93,7 +98,12 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
-    let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
+    let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
+    let asked = input::asked(file, sketch, arguments.redundant_tolerance)?;
+    let (problem, made, surplus) = match asked {
+        Asked::Surplus(surplus) => (surplus.problem.clone(), None, Some(surplus)),
+        Asked::Problem(problem, made) => (problem, made, None),
+    };
     let json = arguments
         .json
         .as_deref()
@@ -132,6 +142,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         time: arguments.time.map(Duration::from_secs_f64),
         cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
+        within_digits: true,
+        redundant_tolerance: arguments.redundant_tolerance,
         progress: Some(&tell),
         store: arguments.store.as_ref().map(|folder| Keep {
             folder: folder.clone(),
@@ -140,7 +152,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }),
         ..Options::default()
     };
-    let result = all(&problem, &options);
+    let result = match &surplus {
+        Some(surplus) => surplus.search(&options),
+        None => all(&problem, &options),
+    };
     if let Ok(line) = line.into_inner() {
         line.clear();
     }
@@ -193,9 +208,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         text += &checked.text;
         written &= output::print(&text);
     }
+    let is_decided = result.tested.as_ref().is_none_or(Tested::is_decided);
     let of_status = match result.status {
-        Status::Complete => CLOSED,
-        Status::Partial | Status::Flexible => STOPPED,
+        Status::Complete if is_decided => CLOSED,
+        _ => STOPPED,
     };
     Ok(match written {
         true => checked.code.unwrap_or(of_status),

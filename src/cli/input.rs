@@ -1,5 +1,6 @@
 //! Reading problems from files and from standard input.
 
+use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::edit::{Decomposition, completed};
 use krawl::import::{self, Figure, Format, Imported};
 use krawl::problem::{MAX_FILE_SIZE, Problem};
@@ -93,6 +94,38 @@ pub fn whole(
     match is_sketch(file) {
         true => provable(file, &load(file, sketch)?.problem),
         false => Ok((read(file, sketch)?, None)),
+    }
+}
+
+/// What a set of all solutions is about.
+pub enum Asked {
+    /// More distances than are needed, and nothing else; or those of bonds and bond angles of a molecule.
+    Surplus(Box<Surplus>),
+    /// Anything else, and what was made of a sketch of another program for it. There may be more equations than unknowns.
+    Problem(Problem, Option<Decomposition>),
+}
+
+/// Reads what a set of all solutions is to be about.
+pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Result<Asked, String> {
+    let of_surplus = |surplus: Surplus| Asked::Surplus(Box::new(surplus.with_tolerance(tolerance)));
+    let surplus = match Format::of(&file.display().to_string()) {
+        Some(Format::Xyz | Format::Sdf) => import(file, sketch)?.0.surplus.map(of_surplus),
+        None if file != Path::new("-") => match Problem::read(file) {
+            Err(error) if error.is_about_structure() => {
+                let problem = load(file, sketch)?.problem;
+                match Surplus::of(&problem, tolerance) {
+                    Some(surplus) => Some(of_surplus(surplus)),
+                    None if has_equations_to_spare(&problem) => Some(Asked::Problem(problem, None)),
+                    None => None,
+                }
+            }
+            _ => None,
+        },
+        _ => None,
+    };
+    match surplus {
+        Some(asked) => Ok(asked),
+        None => whole(file, sketch).map(|(problem, made)| Asked::Problem(problem, made)),
     }
 }
 

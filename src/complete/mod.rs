@@ -31,6 +31,7 @@ mod contract;
 mod coordinates;
 mod cover;
 mod emptiness;
+mod exact;
 mod krawczyk;
 mod model;
 mod node;
@@ -42,15 +43,18 @@ mod place;
 mod plan;
 mod search;
 mod store;
+mod surplus;
 mod targets;
 mod visit;
 
 pub use among::{Among, among};
+pub use coordinates::has_equations_to_spare;
 pub use outcome::{
     Choice, Complete, Constructed, Method, Options, Part, Progress, Status, Unserved,
 };
 pub use parts::Searched;
 pub use store::Keep;
+pub use surplus::{Spare, Surplus, Tested};
 pub use visit::Why;
 
 use crate::problem::Problem;
@@ -58,6 +62,7 @@ use pairs::Pairs;
 use pieces::Outline;
 use plan::Plan;
 use search::{Run, Search, Unfit};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 use store::{Head, Store};
@@ -70,26 +75,43 @@ use visit::Found;
 /// sketch plays a part only where constraints say less than they mean (docs/problem-files.md): on which side a point is, which
 /// of two angles is meant.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
+    let begin = Instant::now();
     let wants_one_search = options.cover || options.store.is_some();
+    if options.within_digits
+        && !wants_one_search
+        && let Some(near) = exact::nearly(problem, |_| true)
+    {
+        return Ok(Complete::nearly(problem, near, begin));
+    }
     if !problem.is_distances_only() {
         return coordinates::all(problem, options);
     }
     if !wants_one_search && let Some(result) = parts::searched(problem, options) {
         return Ok(result);
     }
-    match by_plan(problem, options) {
+    match by_plan(problem, options, wants_one_search) {
         // Where no plan serves.
         Err(Unserved::NoBase | Unserved::TooManyParameters) => coordinates::all(problem, options),
         result => result,
     }
 }
 
-/// Searches over the driving parameters of a construction plan.
-fn by_plan(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
+/// Searches over the driving parameters of a construction plan; what is one exact step is decided by that, unless all is to be one search.
+fn by_plan(
+    problem: &Problem,
+    options: &Options,
+    wants_one_search: bool,
+) -> Result<Complete, Unserved> {
     let begin = Instant::now();
     let targets = Targets::new(problem);
     let in_words =
         emptiness::too_long(&targets).map(|(edge, way)| outcome::too_long(problem, edge, &way));
+    if !wants_one_search
+        && in_words.is_none()
+        && let Some(step) = exact::step(problem)
+    {
+        return Ok(Complete::by_one_step(problem, step, begin));
+    }
     let pairs = Pairs::new(&targets);
     let plans = match (choose::plans(&targets, &pairs), &in_words) {
         (Ok(plans), None) => plans,
@@ -99,15 +121,7 @@ fn by_plan(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         (Err(reason), None) => return Err(reason.into()),
     };
     let stop = AtomicBool::new(false);
-    let run = Run {
-        stop: &stop,
-        boxes: AtomicU64::new(0),
-        most_boxes: options.most_boxes,
-        done: AtomicU64::new(0),
-        before: AtomicU64::new(0),
-        lost: AtomicU64::new(0),
-        cover: options.cover,
-    };
+    let run = Run::new(&stop, options, options.cover);
     let store = match &options.store {
         Some(keep) => {
             let opened = Store::open(keep, problem, options.cover);
@@ -213,6 +227,7 @@ fn chosen(
                 done: AtomicU64::new(0),
                 before: AtomicU64::new(0),
                 lost: AtomicU64::new(0),
+                history: Mutex::default(),
                 most_boxes: budget.min(run.most_boxes),
                 ..*run
             };

@@ -1,9 +1,11 @@
 //! What the search for all solutions reports.
 
 use super::choose::NoPlan;
+use super::exact::{Nearly, Step};
 use super::parts::Searched;
 use super::search::{Run, Search, different};
 use super::store::Keep;
+use super::surplus::Tested;
 use super::visit::{Found, Why};
 use crate::certificate::cover::CoverVerdict;
 use crate::constraint::Symmetry;
@@ -11,6 +13,7 @@ use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::Solution;
+use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
@@ -80,6 +83,9 @@ pub struct Complete {
     pub solutions: Vec<Solution>,
     /// The points that are the gauge: those of the problem, or of the plan where those may be in line.
     pub reference: Vec<usize>,
+    /// Of a problem with more constraints than unknowns: how the figures that were found stand to those that were left out. Figures that miss one
+    /// are no solutions.
+    pub tested: Option<Tested>,
     /// What is undecided, by reasons.
     pub undecided: Vec<Part>,
     /// Why there is no solution, where that can be said in words; or what stands in the way of the claim.
@@ -95,8 +101,8 @@ pub struct Complete {
     pub plan: Vec<usize>,
     /// Wall-clock seconds.
     pub seconds: f64,
-    /// Of a search that was ended: how many seconds the rest of it may take, if it goes on as it did; infinity where a store keeps
-    /// nothing of what was done. Otherwise `None`.
+    /// Of a search that was ended: how many seconds the rest of it may take, if it goes on as in the second half of its time; infinity
+    /// where a store keeps nothing of what was done. Otherwise `None`, and where less than a thousandth of the rest was done in that half.
     pub seconds_left: Option<f64>,
     /// The cover of the search space, if it was wanted and there was a search.
     pub cover: Option<Vec<u8>>,
@@ -106,7 +112,12 @@ impl Complete {
     /// Takes over what the check of the [cover](Complete::cover) proves: it parts the space anew, and may decide what the search left
     /// open. True if the result is complete by that, and was not.
     pub fn settle(&mut self, verdict: &CoverVerdict) -> bool {
-        let same = self.count.is_some() && verdict.solutions == self.count;
+        // The cover is of the constraints used.
+        let count = self
+            .tested
+            .as_ref()
+            .map_or(self.count, |tested| tested.found);
+        let same = count.is_some() && verdict.solutions == count;
         let settles = self.status != Status::Complete && verdict.proves_all() && same;
         if settles {
             self.status = Status::Complete;
@@ -219,6 +230,11 @@ pub struct Options<'a> {
     pub threads: usize,
     /// Where parts that are done are kept.
     pub store: Option<Keep>,
+    /// Whether parts that are no figure for the last digits of a distance alone are taken for flat ones, which meet it within these. They
+    /// are so in the result's [`Tested`].
+    pub within_digits: bool,
+    /// Within what constraints that are left out of a search of all coordinates count as met, where that is not told by the digits of their numbers.
+    pub redundant_tolerance: Option<f64>,
     /// Told now and then where the search is.
     #[allow(clippy::type_complexity)]
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
@@ -233,6 +249,8 @@ impl Default for Options<'_> {
             cover: false,
             threads: 0,
             store: None,
+            within_digits: false,
+            redundant_tolerance: None,
             progress: None,
         }
     }
@@ -280,6 +298,7 @@ impl Options<'_> {
                     if cancelled || self.time.is_some_and(|most| begin.elapsed() > most) {
                         run.stop.store(true, Ordering::Relaxed);
                     }
+                    run.note(begin.elapsed().as_secs_f64());
                     if let Some(tell) = self.progress {
                         tell(Progress {
                             share: run.share_done(),
@@ -297,10 +316,17 @@ impl Options<'_> {
 }
 
 impl Complete {
+    /// Whether the search was ended before it came to all.
+    pub fn was_ended(&self) -> bool {
+        self.undecided.iter().any(|p| p.why == Why::Unfinished)
+    }
+
     /// Of a search that was ended: how long the rest may take.
     pub(super) fn tell_what_is_left(&mut self, run: &Run) {
-        let is_open = self.undecided.iter().any(|p| p.why == Why::Unfinished);
-        self.seconds_left = is_open.then(|| run.seconds_left(self.seconds));
+        self.seconds_left = match self.was_ended() {
+            true => run.seconds_left(self.seconds),
+            false => None,
+        };
     }
 
     /// No solution, for a reason that needs no search.
@@ -316,6 +342,7 @@ impl Complete {
             both_ways: Vec::new(),
             turned: Vec::new(),
             solutions: Vec::new(),
+            tested: None,
             reference: problem.homotopy.reference.clone(),
             undecided: Vec::new(),
             reason: Some(reason),
@@ -327,6 +354,63 @@ impl Complete {
             seconds_left: None,
             cover: None,
         }
+    }
+
+    /// What one exact step says.
+    pub(super) fn by_one_step(problem: &Problem, step: Step, begin: Instant) -> Self {
+        let mut result = Complete::empty(problem, String::new(), begin);
+        result.boxes = 1;
+        result.plan.clone_from(&result.reference);
+        let others = (0..problem.points.len()).filter(|p| !result.reference.contains(p));
+        result.plan.extend(others);
+        match step {
+            Step::Nowhere { point, height } => {
+                let of = |points: &[usize]| {
+                    let names = points.iter().map(|&p| problem.points[p].name.as_str());
+                    names.collect::<Vec<_>>().join(", ")
+                };
+                let squared = height.to_f64().unwrap_or(f64::NEG_INFINITY);
+                result.reason = Some(format!(
+                    "no figure has these distances: {} has no place, as the square of its height over {} would be {squared:.1e}, computed exactly",
+                    of(&[point]),
+                    of(&result.reference)
+                ));
+            }
+            Step::Figure { points, is_flat } => {
+                let all = || points.iter().flatten();
+                let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
+                let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size;
+                (result.count, result.reason) = (Some(1), None);
+                result.solutions.push(Solution {
+                    points,
+                    objects: Vec::new(),
+                    auxiliary: Vec::new(),
+                    class: 0,
+                    width,
+                    place: None,
+                    mirror_of: None,
+                    is_degenerate: is_flat,
+                });
+            }
+        }
+        result
+    }
+
+    /// A flat figure that has all distances but one, which it meets within its digits.
+    pub(super) fn nearly(problem: &Problem, near: Nearly, begin: Instant) -> Self {
+        let (points, is_flat) = (near.points, true);
+        let mut result = Complete::by_one_step(problem, Step::Figure { points, is_flat }, begin);
+        let names = vec![near.left_out.name.clone()];
+        result.strike_out(
+            [problem.distances.len() - 1, 1],
+            names,
+            vec![vec![near.left_out]],
+        );
+        let added = in_one_plane(problem);
+        if let Some(tested) = &mut result.tested {
+            tested.added.push(added);
+        }
+        result
     }
 
     /// From what a search found.
@@ -428,6 +512,7 @@ impl Complete {
             both_ways: Vec::new(),
             turned: Vec::new(),
             solutions,
+            tested: None,
             reference,
             undecided,
             reason,
@@ -442,6 +527,20 @@ impl Complete {
             cover,
         }
     }
+}
+
+/// That a part is flat.
+pub(super) fn in_one_plane(problem: &Problem) -> String {
+    let names: Vec<&str> = problem.points.iter().map(|p| p.name.as_str()).collect();
+    let on = if problem.dimension == 2 {
+        "on one line"
+    } else {
+        "in one plane"
+    };
+    format!(
+        "{} {on}, as no figure has these distances exactly",
+        names.join(", ")
+    )
 }
 
 /// "No figure has these lengths: …"

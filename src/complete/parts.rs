@@ -7,8 +7,9 @@
 //! many there are is a product, however large.
 
 use super::outcome::{Method, are_apart};
-use super::{Complete, Options, Part, Status, Unserved, Why, all};
-use crate::blocks::{Combined, clusters};
+use super::surplus::Tested;
+use super::{Complete, Options, Part, Status, Unserved, Why, all, exact};
+use crate::blocks::{Combined, LeftOutConstraint as LeftOut, clusters};
 use crate::problem::Problem;
 use crate::track::Solution;
 use std::time::Instant;
@@ -44,7 +45,20 @@ pub fn searched(problem: &Problem, options: &Options) -> Option<Complete> {
             threads: options.threads,
             ..Options::default()
         };
-        let result: Result<Complete, Unserved> = all(block, &own);
+        let name = |p: usize| &block.points[p].name;
+        let has = |block: &Problem, p: usize| block.points.iter().any(|q| q.name == *name(p));
+        let is_own = |[a, b]: [usize; 2]| {
+            let both = blocks.iter().filter(|block| has(block, a) && has(block, b));
+            both.count() == 1
+        };
+        let result: Result<Complete, Unserved> = match options
+            .within_digits
+            .then(|| exact::nearly(block, is_own))
+            .flatten()
+        {
+            Some(near) => Ok(Complete::nearly(block, near, begin)),
+            None => all(block, &own),
+        };
         let result = result.ok().filter(|result| {
             // All that were proved have to be listed.
             result.count == Some(result.solutions.len() as u64)
@@ -60,6 +74,22 @@ pub fn searched(problem: &Problem, options: &Options) -> Option<Complete> {
     whole.driving = parts.iter().map(|p| p.result.driving).max().unwrap_or(0);
     whole.reason = None;
     put_together(problem, &blocks, &parts, &mut whole)?;
+    let near: Vec<&Tested> = parts
+        .iter()
+        .filter_map(|p| p.result.tested.as_ref())
+        .collect();
+    if !near.is_empty() {
+        // Of each part the one distance that its one figure has not exactly.
+        let figure: Vec<LeftOut> = near.iter().flat_map(|one| one.figures.concat()).collect();
+        let names: Vec<String> = figure.iter().map(|one| one.name.clone()).collect();
+        let added = near.iter().flat_map(|one| one.added.clone()).collect();
+        let figures = vec![figure; whole.solutions.len()];
+        let counts = [problem.distances.len() - names.len(), names.len()];
+        whole.strike_out(counts, names, figures);
+        if let Some(tested) = &mut whole.tested {
+            tested.added = added;
+        }
+    }
     whole.parts = parts;
     whole.seconds = begin.elapsed().as_secs_f64();
     Some(whole)

@@ -1,5 +1,6 @@
 //! The search: depth first, its parts on all threads, the answer the same for any number of them.
 
+use super::Options;
 use super::cover::Marks;
 use super::krawczyk::{Figure, Prover};
 use super::model::Number;
@@ -10,6 +11,7 @@ use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
 use rayon::prelude::*;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// One plan's search.
@@ -66,6 +68,10 @@ pub struct Run<'a> {
     pub lost: AtomicU64,
     /// Whether the cover is wanted.
     pub cover: bool,
+    /// Whether what is done is kept in a store, and nothing else is.
+    pub is_stored: bool,
+    /// Now and then, farther and farther apart: the seconds since the search began, and the share that was done since, for good.
+    pub history: Mutex<Vec<[f64; 2]>>,
 }
 
 /// Below this depth a subtree is one task.
@@ -399,7 +405,22 @@ pub fn different(figures: &[Figure], dimension: usize) -> Result<Vec<Figure>, us
     Ok(out)
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    /// Nothing is done yet.
+    pub fn new(stop: &'a AtomicBool, options: &Options, cover: bool) -> Self {
+        Run {
+            stop,
+            boxes: AtomicU64::new(0),
+            most_boxes: options.most_boxes,
+            done: AtomicU64::new(0),
+            before: AtomicU64::new(0),
+            lost: AtomicU64::new(0),
+            cover,
+            is_stored: options.store.is_some(),
+            history: Mutex::default(),
+        }
+    }
+
     /// Notes that a share of the parameter space is done.
     pub fn add_done(&self, share: f64) {
         let units = (share * SHARE_UNIT) as u64;
@@ -430,16 +451,42 @@ impl Run<'_> {
         self.lost.fetch_add(units, Ordering::Relaxed);
     }
 
-    /// How many seconds the rest may take after so many, if it goes on as it did; infinity where nothing was done for good.
-    pub fn seconds_left(&self, seconds: f64) -> f64 {
-        let lost = self.lost.load(Ordering::Relaxed) as f64 / SHARE_UNIT;
-        let kept = self.share_done() - lost;
-        let fresh = kept - self.share_before();
-        // Shares add up but for roundings.
-        match fresh > 1e-12 {
-            true => seconds * (1.0 - kept).max(0.0) / fresh,
-            false => f64::INFINITY,
+    /// Notes how much was done after so many seconds.
+    pub fn note(&self, seconds: f64) {
+        if let Ok(mut history) = self.history.lock()
+            && history.last().is_none_or(|last| seconds > 1.02 * last[0])
+        {
+            history.push([seconds, self.fresh()]);
         }
+    }
+
+    /// What this run did for good, of all.
+    fn fresh(&self) -> f64 {
+        self.share_done() - self.lost() - self.share_before()
+    }
+
+    fn lost(&self) -> f64 {
+        self.lost.load(Ordering::Relaxed) as f64 / SHARE_UNIT
+    }
+
+    /// How many seconds the rest may take after so many, if it goes on as it did in the second half of them; infinity where a store keeps
+    /// nothing of what was done. `None`: in that half less than a thousandth of the rest was done, so that nothing can be said.
+    pub fn seconds_left(&self, seconds: f64) -> Option<f64> {
+        // Shares add up but for roundings.
+        const NOTHING: f64 = 1e-12;
+        // Of less than this part of the rest nothing is told about it.
+        const LEAST: f64 = 1e-3;
+        let fresh = self.fresh();
+        if !(fresh > NOTHING) {
+            return self.is_stored.then_some(f64::INFINITY);
+        }
+        // What is easy is done at once, and says nothing of what is not.
+        let history = self.history.lock().ok()?;
+        let half = history.iter().rev().find(|[then, _]| 2.0 * then <= seconds);
+        let [then, before] = half.copied().unwrap_or_default();
+        let left = (1.0 - self.share_done() + self.lost()).max(0.0);
+        let gained = fresh - before;
+        (gained > LEAST * left).then(|| (seconds - then) * left / gained)
     }
 
     /// The share that was done before this run.

@@ -35,8 +35,10 @@ mod lowering;
 mod objects;
 mod polynomial;
 mod quadratic;
+mod spare;
 mod structure;
 mod subtracted;
+mod supposed;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
@@ -52,8 +54,10 @@ pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
     difference, product, value,
 };
+pub use spare::Spare;
 pub(crate) use structure::check_structure;
 pub use structure::{size, size_in_edits};
+pub use supposed::supposed_lengths;
 
 use crate::interval::Interval;
 use crate::problem::Problem;
@@ -107,21 +111,29 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 /// # Panics
 /// If the problem has not been checked.
 pub fn lower_for_sets(problem: &Problem) -> Tail {
+    match try_lower_for_sets(problem, |_| Ok(Vec::new())) {
+        Ok((tail, _)) => tail,
+        Err(fault) => panic!("the problem has not been checked: {fault}"),
+    }
+}
+
+/// The same, after `leave_out` has taken equations out where there are more than unknowns.
+pub(crate) fn try_lower_for_sets(
+    problem: &Problem,
+    leave_out: impl FnOnce(&mut Lowered) -> Result<Vec<Spare>, Fault>,
+) -> Result<(Tail, Vec<Spare>), Fault> {
     let low = Lowering::new(problem, Start::Sketch, false).with_headings();
     let which = match has_distances_in_sets(problem) {
         true => Which::AllForSets,
         false => Which::Constraints,
     };
-    match try_lower_from(problem, low, which) {
-        Ok(mut lowered) => {
-            // Lengths are positive in a problem that has been checked.
-            let apart: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
-            let (tail, vanishing) = (&mut lowered.tail, &lowered.vanishing);
-            factors::take_out(tail, vanishing, &apart, problem.dimension);
-            lowered.tail
-        }
-        Err((_, fault)) => panic!("the problem has not been checked: {fault}"),
-    }
+    let mut lowered = try_lower_from(problem, low, which).map_err(|(_, fault)| fault)?;
+    let spare = leave_out(&mut lowered)?;
+    // Lengths are positive in a problem that has been checked.
+    let apart: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
+    let (tail, vanishing) = (&mut lowered.tail, &lowered.vanishing);
+    factors::take_out(tail, vanishing, &apart, problem.dimension);
+    Ok((lowered.tail, spare))
 }
 
 /// Whether the equations for sets have the distances between points, too: where constraints may say that some of their coordinates are equal.

@@ -650,6 +650,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     Ok(Imported {
         problem,
         unsupported,
+        surplus: None,
         places: AllPlaces::FreeCad(Places {
             numbers: reader.numbers,
             values,

@@ -30,6 +30,7 @@ mod freecad;
 mod molecule;
 mod slvs;
 
+use crate::complete::Surplus;
 use crate::problem::{Decimal, Problem, Target};
 use std::collections::BTreeMap;
 
@@ -86,6 +87,8 @@ pub struct Imported {
     pub problem: Problem,
     /// Kinds of constraints (and of outlines that constraints need) that krawl does not have, with their numbers.
     pub unsupported: BTreeMap<String, usize>,
+    /// Of a molecule: the distances of bonds and bond angles that [`Imported::problem`] has not, and what it has in place of such.
+    pub surplus: Option<Surplus>,
     places: Places,
 }
 

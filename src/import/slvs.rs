@@ -862,6 +862,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     } = drawing.finish(name.clone(), source);
     Ok(Imported {
         unsupported,
+        surplus: None,
         places: AllPlaces::SolveSpace(Places {
             plane,
             points: places,

@@ -10,8 +10,10 @@ mod matrix;
 mod pivots;
 mod rank;
 pub mod rstructure;
+mod span;
 
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
 pub use rank::extreme_pivots;
+pub use span::Span;

@@ -72,6 +72,24 @@ where
 }
 
 impl Problem {
+    /// A problem of distances with some of them, by index, and nothing else. `None`: it is not well constrained.
+    pub fn with_distances(&self, mut is_kept: impl FnMut(usize) -> bool) -> Option<Problem> {
+        let mut builder = Problem::build(&self.name, self.dimension).source(&self.source);
+        for point in &self.points {
+            let coordinates = point.sketch.iter().take(self.dimension).cloned();
+            builder = builder.point(&point.name, coordinates);
+        }
+        for (index, distance) in self.distances.iter().enumerate() {
+            let [a, b] = distance.points.map(|p| self.points[p].name.as_str());
+            builder = match &distance.target {
+                _ if !is_kept(index) => builder,
+                Target::Length(x) => builder.distance(a, b, x.clone()),
+                Target::SquaredLength(x) => builder.squared_distance(a, b, x.clone()),
+            };
+        }
+        builder.finish().ok()
+    }
+
     /// Starts a problem in the plane (`dimension` 2) or in space (3).
     pub fn build(name: &str, dimension: usize) -> ProblemBuilder {
         ProblemBuilder {

@@ -60,6 +60,19 @@ impl Decimal {
         self.text.parse().expect("checked when it was read")
     }
 
+    /// The power of ten that its last digit stands for: -3 for 1.120, 0 for 5, 1 for 5e1.
+    pub fn last_digit(&self) -> i32 {
+        let (mantissa, exponent) = match self.text.find(['e', 'E']) {
+            Some(at) => (&self.text[..at], &self.text[at + 1..]),
+            None => (self.text.as_str(), "0"),
+        };
+        let behind = mantissa
+            .split_once('.')
+            .map_or(0, |(_, fraction)| fraction.len());
+        // Exponents and numbers of digits are small in numbers that were read.
+        exponent.parse::<i32>().unwrap_or(0) - behind as i32
+    }
+
     /// Whether the number is greater than zero.
     pub fn is_positive(&self) -> bool {
         self.value.is_positive()

@@ -5,16 +5,20 @@ use super::drawing::{Drawing, names};
 use super::json::Points;
 use super::objects::Objects;
 use super::table::write_objects;
+use crate::blocks::{Account, LeftOutConstraint, rounded_down, rounded_up};
 use crate::certificate::cover::CoverVerdict;
-use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Why};
-use crate::constraint::{Symmetry, symmetry};
+use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
+use crate::constraint::{Symmetry, supposed_lengths, symmetry};
 use crate::interval::Interval;
-use crate::problem::{Problem, counted};
+use crate::problem::{Problem, counted, list};
 use crate::track::Mode;
 use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
 const SHOWN: usize = 12;
+
+/// Of the names of what was left out, so many are listed.
+const LISTED: usize = 24;
 
 /// One JSON object on one line: what is said of every problem (docs/json.md, "The problem"), and
 ///
@@ -49,7 +53,7 @@ impl<'a> Document<'a> {
             drawing: Drawing::seen_from("all", problem, &result.reference),
             status: result.status.name(),
             reason: result.reason.as_deref(),
-            verdict: verdict(result),
+            verdict: verdict(problem, result),
             method: result.method.name(),
             count: result.count,
             parts: result
@@ -79,10 +83,13 @@ impl<'a> Document<'a> {
                 names: &choice.names,
                 count: choice.count,
             }),
+            tested: result.tested.as_ref().map(Counts::new),
             solutions: result
                 .solutions
                 .iter()
-                .map(|solution| Entry {
+                .enumerate()
+                .map(|(k, solution)| Entry {
+                    left_out: figure(result, k),
                     points: Points(problem, solution.points.clone()),
                     objects: Objects::new(problem, &solution.objects, |x| *x),
                     class: solution.class,
@@ -124,6 +131,8 @@ struct Document<'a> {
     independent: Vec<Independent<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     decided_first: Option<Independent<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tested: Option<Counts<'a>>,
     solutions: Vec<Entry<'a>>,
     undecided: Vec<Undecided>,
     boxes: u64,
@@ -144,6 +153,45 @@ struct Entry<'a> {
     objects: Objects<'a, Interval>,
     class: usize,
     width: f64,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    left_out: &'a [LeftOutConstraint],
+}
+
+/// How a solution stands to what was left out, if anything was.
+fn figure(result: &Complete, index: usize) -> &[LeftOutConstraint] {
+    let tested = result.tested.as_ref();
+    tested.map_or(&[], |tested| &tested.figures[index])
+}
+
+/// What came of the figures that have the constraints used.
+#[derive(serde::Serialize)]
+struct Counts<'a> {
+    used: usize,
+    of: usize,
+    found: Option<u64>,
+    met: usize,
+    missed: usize,
+    missed_by: Option<f64>,
+    undecided: usize,
+    left_out: &'a [String],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    added: &'a [String],
+}
+
+impl<'a> Counts<'a> {
+    fn new(tested: &'a Tested) -> Self {
+        Counts {
+            used: tested.used,
+            of: tested.all,
+            found: tested.found,
+            met: tested.met,
+            missed: tested.missed,
+            missed_by: tested.by.is_finite().then_some(tested.by),
+            undecided: tested.undecided,
+            left_out: &tested.left_out,
+            added: &tested.added,
+        }
+    }
 }
 
 /// A part of a problem that falls apart.
@@ -192,7 +240,7 @@ pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
 }
 
 fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::fmt::Result {
-    writeln!(out, "{}: {}", problem.name, verdict(result))?;
+    writeln!(out, "{}: {}", problem.name, verdict(problem, result))?;
     for part in &result.undecided {
         let parts = counted(part.count as usize, "part");
         let share = 100.0 * part.share;
@@ -222,6 +270,13 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             writeln!(out)?;
         }
         write_objects(out, problem, Mode::Certified, &solution.objects)?;
+        let account = Account {
+            left_out: figure(result, index).to_vec(),
+            ..Account::default()
+        };
+        if !account.left_out.is_empty() {
+            writeln!(out, "  {}", account.left_out_in_words())?;
+        }
     }
     let listed = result.solutions.len();
     if result.count.is_none_or(|count| count > listed as u64) {
@@ -256,7 +311,7 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             out,
             "\nPart {}: {}",
             names.join(", "),
-            verdict(&part.result)
+            verdict(&part.problem, &part.result)
         )?;
     }
     writeln!(out)?;
@@ -282,12 +337,16 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             let left = span(left);
             writeln!(
                 out,
-                "left                perhaps {left}, if it goes on as it did"
+                "left                perhaps {left}, if it goes on as in the second half of the time"
             )
         }
         Some(_) => writeln!(
             out,
             "left                no piece of it was finished: the same time again would lead no farther"
+        ),
+        None if result.was_ended() && result.method != Method::Blocks => writeln!(
+            out,
+            "left                no estimate: in the second half of the time less than a thousandth of the rest was finished"
         ),
         None => Ok(()),
     }
@@ -358,7 +417,7 @@ fn span(seconds: f64) -> String {
 }
 
 /// What was found, in words that claim no more than was proved.
-fn verdict(result: &Complete) -> String {
+fn verdict(problem: &Problem, result: &Complete) -> String {
     let names: Vec<String> = result
         .both_ways
         .iter()
@@ -375,13 +434,53 @@ fn verdict(result: &Complete) -> String {
             names.join(", ")
         );
     }
-    words
+    words + &supposed(problem)
 }
 
-/// The same but for what is said of sides.
+/// Which figures are none though the words of the constraints may hold in them; empty where there are none such.
+fn supposed(problem: &Problem) -> String {
+    let name = |[a, b]: [usize; 2]| {
+        let [a, b] = [a, b].map(|p| &problem.points[p].name);
+        format!("{a}-{b}")
+    };
+    let lengths: Vec<String> = supposed_lengths(problem).into_iter().map(name).collect();
+    match lengths.as_slice() {
+        [] => String::new(),
+        [one] => format!(
+            " The length {one} is supposed to be greater than 0: a figure in which it is 0 is not counted."
+        ),
+        _ => format!(
+            " The lengths {} are supposed to be greater than 0: a figure in which one of them is 0 is not counted.",
+            lengths.join(", ")
+        ),
+    }
+}
+
+/// The same but for what is said of sides and lengths.
 fn without_sides(result: &Complete) -> String {
-    let count = counted_solutions(result.count);
     let (up_to, different) = counted_once(result.symmetry);
+    let (count, have) = match &result.tested {
+        None => (counted_solutions(result.count), String::new()),
+        Some(tested) => (
+            tested
+                .found
+                .map_or("more than 2^64 figures".to_owned(), |found| {
+                    counted(found as usize, "figure")
+                }),
+            format!(
+                " with {} of the {} {}",
+                tested.used, tested.all, tested.what
+            ),
+        ),
+    };
+    let tested = result
+        .tested
+        .as_ref()
+        .map_or_else(String::new, tested_in_words);
+    let found = result
+        .tested
+        .as_ref()
+        .map_or(result.count, |tested| tested.found);
     let space = match result.method {
         Method::Plan => "the parameter space",
         Method::Coordinates => "the space of coordinates",
@@ -390,8 +489,8 @@ fn without_sides(result: &Complete) -> String {
     // Boxes of figures that are not listed were not compared with these.
     let is_listed = result.count == Some(result.solutions.len() as u64);
     match result.status {
-        Status::Complete if result.count == Some(0) => format!(
-            "Complete, proved: there is no solution; {}.",
+        Status::Complete if found == Some(0) => format!(
+            "Complete, proved: there is no solution{have}; {}.{tested}",
             result.reason.as_deref().unwrap_or("nothing is undecided")
         ),
         Status::Complete => {
@@ -399,7 +498,9 @@ fn without_sides(result: &Complete) -> String {
                 true => "Each box holds exactly one",
                 false => "Each box listed holds one of them",
             };
-            format!("Complete, proved: {count}{up_to}, and there is no other. {each}; {different}.")
+            format!(
+                "Complete, proved: {count}{have}{up_to}, and there is no other.{tested} {each}; {different}."
+            )
         }
         Status::Partial | Status::Flexible => {
             let what = match result.status {
@@ -418,12 +519,78 @@ fn without_sides(result: &Complete) -> String {
                 false => "each box listed holding one of them",
             };
             format!(
-                "{what}{why}. {count} proved, {each}, {}; there may be more, in the undecided \
-                 parts only.",
+                "{what}{why}. {count}{have} proved, {each}, {}; there may be more, in the undecided \
+                 parts only.{tested}",
                 different.replace(" are", "")
             )
         }
     }
+}
+
+/// How the figures that were found stand to what was left out of the search, as sentences behind another one.
+fn tested_in_words(tested: &Tested) -> String {
+    let left_out = tested.left_out.len();
+    let others = match left_out {
+        1 => tested.left_out[0].clone(),
+        _ => format!("the other {left_out}"),
+    };
+    let mut parts = Vec::new();
+    if tested.met > 0 {
+        let meet = if tested.met == 1 { "meets" } else { "meet" };
+        parts.push(format!(
+            "{} {meet} {others} within {}",
+            tested.met,
+            rounded_up(tested.within)
+        ));
+    }
+    if tested.missed > 0 {
+        let (miss, are) = match tested.missed {
+            1 => ("misses", "is no solution"),
+            _ => ("miss", "are no solutions"),
+        };
+        let one = if left_out == 1 {
+            &others
+        } else {
+            "one of them"
+        };
+        let by = rounded_down(tested.by);
+        parts.push(format!(
+            "{} {miss} {one} by at least {by} and {are}",
+            tested.missed
+        ));
+    }
+    if tested.undecided > 0 {
+        parts.push(format!(
+            "of {} it is not decided whether {} {others}",
+            tested.undecided,
+            if tested.undecided == 1 {
+                "it meets"
+            } else {
+                "they meet"
+            }
+        ));
+    }
+    let mut text = String::new();
+    if left_out > 0 && !parts.is_empty() {
+        text += &format!(" Of these {}, proved.", parts.join("; "));
+    }
+    let looked_at = (tested.met + tested.missed + tested.undecided) as u64;
+    if left_out > 0 && tested.found.is_none_or(|found| found > looked_at) {
+        text += " The others were not tested, and may be no solutions.";
+    }
+    if left_out > 0 {
+        text += &format!(
+            " Left out of the search: {}.",
+            list(&tested.left_out, LISTED)
+        );
+    }
+    if !tested.added.is_empty() {
+        text += &format!(
+            " Beside these the search holds {}: figures in which that is otherwise are not among these.",
+            list(&tested.added, LISTED)
+        );
+    }
+    text
 }
 
 /// A number of solutions; `None`: it has no place in 64 bits.
@@ -471,14 +638,15 @@ pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> Strin
     let parts = counted(verdict.parts as usize, "part");
     let (up_to, different) = counted_once(symmetry(&verdict.problem));
     let exactly = verdict.solutions.map_or("", |_| "exactly ");
+    let supposed = supposed(&verdict.problem);
     match &verdict.flaw {
         Some(flaw) => format!("NOT PROVED: {name}: {flaw}. Nothing is claimed.\n"),
         None if verdict.undecided == 0 => format!(
-            "VERIFIED: {name} has {exactly}{count}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.\n"
+            "VERIFIED: {name} has {exactly}{count}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.{supposed}\n"
         ),
         None => format!(
             "INCOMPLETE: {name} has {count} at least, {different}; nothing is claimed of {} of the {parts} of the \
-             cover. Any other solution lies there. Checked in {seconds:.2} s.\n",
+             cover. Any other solution lies there. Checked in {seconds:.2} s.{supposed}\n",
             verdict.undecided
         ),
     }

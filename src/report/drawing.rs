@@ -4,7 +4,7 @@ use super::json::{Exact, Points};
 use super::objects::Objects;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Problem, Target};
-use crate::system::{Homotopy, Placement};
+use crate::system::{Gauge, Placement};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -55,9 +55,7 @@ struct Object<'a> {
 impl<'a> Drawing<'a> {
     /// What is to be said of a problem in a result of `verb`, in the gauge.
     pub fn new(verb: &'static str, problem: &'a Problem) -> Self {
-        let placement = Homotopy::new(problem)
-            .and_then(|homotopy| homotopy.gauge.placement(problem))
-            .ok();
+        let placement = Gauge::new(problem).placement(problem).ok();
         Drawing {
             reference: names(problem, &problem.homotopy.reference),
             frame: placement.map(|placement| Frame::new(&placement, problem.dimension)),

@@ -51,6 +51,8 @@ pub struct Homotopy {
     pub lengths: Vec<Length>,
     /// What other constraints there are, and their unknowns.
     pub tail: Tail,
+    /// Of sets: the equations that were left out, as there are more than unknowns.
+    pub spare: Vec<constraint::Spare>,
     /// The problem's objects.
     pub shapes: Vec<Shape>,
     /// 2 q_e of the equations behind the distances.
@@ -117,9 +119,24 @@ impl Homotopy {
             true => &[],
             false => &problem.distances[..],
         };
-        Self::with_equations(problem, unit, distances, |_| {
-            constraint::lower_for_sets(problem)
-        })
+        let gauge = Gauge::new(problem);
+        let sketch = gauge.sketch(problem)?;
+        let lowered = constraint::try_lower_for_sets(problem, |lowered| {
+            let unknowns = gauge.place.len() + lowered.tail.unknowns.len();
+            match distances.len() + lowered.tail.equations.len() > unknowns && distances.is_empty()
+            {
+                true => lowered.make_square(problem, &gauge, &sketch, unit),
+                false => Ok(Vec::new()),
+            }
+        });
+        let (tail, spare) = lowered.map_err(GaugeError::Constraints)?;
+        if gauge.place.len() + tail.unknowns.len() != distances.len() + tail.equations.len() {
+            let what = "there are not as many equations as unknowns".to_owned();
+            return Err(GaugeError::Constraints(what));
+        }
+        let mut homotopy = Self::with_equations(problem, unit, distances, |_| tail)?;
+        homotopy.spare = spare;
+        Ok(homotopy)
     }
 
     /// Sets up the homotopy with other constraints in place of the problem's own: `lower` makes their equations from
@@ -180,6 +197,7 @@ impl Homotopy {
             sketch_box,
             auxiliary: Vec::new(),
             followed: Vec::new(),
+            spare: Vec::new(),
             shapes: problem.objects.iter().map(|o| o.shape.clone()).collect(),
             gauge,
             tail,
@@ -235,6 +253,7 @@ impl Homotopy {
             sketch_box: vec![point(0.0); places],
             auxiliary: Vec::new(),
             followed: Vec::new(),
+            spare: Vec::new(),
             shapes: Vec::new(),
             gauge,
             tail,

@@ -16,5 +16,6 @@ mod explore;
 mod falling_apart;
 mod mechanisms;
 mod miscounted;
+mod more_than_square;
 mod poses;
 mod sides;

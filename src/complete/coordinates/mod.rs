@@ -33,6 +33,7 @@ mod sums;
 mod symmetry;
 mod system;
 mod tally;
+mod test;
 
 use super::outcome::{Method, too_long};
 use super::pairs::Pairs;
@@ -40,7 +41,7 @@ use super::search::Run as Watched;
 use super::store::{Keep, Store};
 use super::targets::Targets;
 use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptiness};
-use crate::blocks::{Block as Cut, Blocks};
+use crate::blocks::{Block as Cut, Blocks, LeftOutConstraint as LeftOut};
 use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;
@@ -57,9 +58,10 @@ use search::{Block, Found, Run, ranges};
 use sides::Sides;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use system::System;
+use test::Test;
 
 /// Bounds of the distances of all pairs are taken where there are no more points than this.
 const MOST_POINTS: usize = 60;
@@ -73,6 +75,10 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
     let homotopy = Homotopy::for_sets(problem)
         .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
+    if !homotopy.spare.is_empty() && (options.cover || options.store.is_some()) {
+        let what = "not served: of more equations than unknowns there is no certificate, and no store (--cert, --store)";
+        return Err(Unserved::Refused(what.to_owned()));
+    }
     let system = System::new(&homotopy);
     let signs = homotopy.fixed_signs(problem).map_err(|object| {
         Unserved::Refused(format!(
@@ -81,15 +87,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         ))
     })?;
     let stop = AtomicBool::new(false);
-    let run = Watched {
-        stop: &stop,
-        boxes: AtomicU64::new(0),
-        most_boxes: options.most_boxes,
-        done: AtomicU64::new(0),
-        before: AtomicU64::new(0),
-        lost: AtomicU64::new(0),
-        cover: false,
-    };
+    let run = Watched::new(&stop, options, false);
     let store = match &options.store {
         Some(keep) => {
             let opened = Store::open(keep, problem, false);
@@ -102,18 +100,25 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
             problem,
             (&homotopy, system, signs),
             (&run, store),
-            options.cover,
+            options,
             begin,
         )
     });
     result.map_err(Unserved::Store)
 }
 
+/// Whether a problem, which need not be well constrained, has more equations than unknowns and enough that say something new, so that
+/// [`all`](super::all) searches those that do and tests the figures against the others.
+pub fn has_equations_to_spare(problem: &Problem) -> bool {
+    let homotopy = Homotopy::for_sets(problem);
+    homotopy.is_ok_and(|homotopy| !homotopy.spare.is_empty())
+}
+
 fn searched(
     problem: &Problem,
     (homotopy, mut system, signs): (&Homotopy, System, Vec<(usize, bool)>),
     (run, store): (&Watched, Option<(&Keep, Store<Found>)>),
-    cover: bool,
+    options: &Options,
     begin: Instant,
 ) -> Result<Complete, String> {
     let mut reason = None;
@@ -195,7 +200,7 @@ fn searched(
         .collect();
     result.boxes = run.boxes.load(Ordering::Relaxed);
     result.constructed = figures.constructed;
-    if cover {
+    if options.cover {
         result.cover = figures.cover(problem, halves);
     }
     let undecided = figures.undecided;
@@ -224,6 +229,23 @@ fn searched(
         }
         None => Some(result.solutions.len() as u64),
     };
+    if !homotopy.spare.is_empty() {
+        let test = Test {
+            problem,
+            homotopy,
+            tolerance: options.redundant_tolerance,
+        };
+        let accounts = figures.found.iter().map(|figure| test.account(figure));
+        let accounts: Vec<Vec<LeftOut>> = accounts.collect();
+        result.strike_out(
+            [homotopy.equations, homotopy.spare.len()],
+            test.names(),
+            accounts,
+        );
+        if let Some(tested) = &mut result.tested {
+            tested.what = "equations";
+        }
+    }
     kept.map_or(Ok(()), Kept::end)?;
     result.seconds = begin.elapsed().as_secs_f64();
     result.tell_what_is_left(run);

@@ -1,5 +1,6 @@
 //! What holds a molecule: as many constraints as it has free coordinates, those of bonds first.
 
+use crate::linalg::Span;
 use crate::problem::rigidity;
 use std::collections::BTreeSet;
 
@@ -18,15 +19,20 @@ pub enum Held {
 const STRAIGHT: f64 = 0.01;
 /// Four atoms are in one plane if each is nearer than this to that of the others, in ångström.
 const FLAT: f64 = 0.01;
-/// A constraint says something new where so much of its derivative, as a unit vector, is left over from those before.
-const NEW: f64 = 1e-3;
 
 type Place = [f64; 3];
 
 /// What holds a molecule with atoms at these places, without one to spare: distances, and where these cannot hold what is
-/// straight or flat, that it is so. `None`: all atoms are on one line, or so nearly that nothing holds them.
-pub fn hold(places: &[Place], bonds: &[[usize; 2]]) -> Option<Vec<Held>> {
+/// straight or flat, that it is so; and the pairs of atoms that bonds and bond angles tell the distances of, whether they are among that or not. `None`: all atoms are on
+/// one line, or so nearly that nothing holds them.
+pub fn hold(places: &[Place], bonds: &[[usize; 2]]) -> Option<(Vec<Held>, Vec<[usize; 2]>)> {
     let candidates = Candidates::new(places, bonds);
+    let told = candidates.pairs.iter().filter(|(rank, _)| *rank < 2);
+    let told = told.map(|(_, pair)| *pair).collect();
+    Some((held(places, &candidates)?, told))
+}
+
+fn held(places: &[Place], candidates: &Candidates) -> Option<Vec<Held>> {
     let distances = candidates.chosen_by_rigidity(places.len());
     let needed = 3 * places.len() - 6;
     if let Some(edges) = distances {
@@ -230,43 +236,25 @@ fn area(places: &[Place], [a, b, c]: [usize; 3]) -> f64 {
 /// The directions in which what is held so far may not move, in floats.
 struct Rank<'a> {
     places: &'a [Place],
-    basis: Vec<Vec<f64>>,
+    span: Span,
 }
 
 impl<'a> Rank<'a> {
     fn new(places: &'a [Place]) -> Self {
         Rank {
             places,
-            basis: Vec::new(),
+            span: Span::default(),
         }
     }
 
     fn rank(&self) -> usize {
-        self.basis.len()
+        self.span.rank()
     }
 
     /// Takes a thing if it says something new, and nothing twice.
     fn take(&mut self, held: &Held) -> bool {
-        let before = self.basis.len();
-        for row in self.rows(held) {
-            let mut left = row;
-            normalise(&mut left);
-            // Twice, so that what is left is at right angles to all.
-            for _ in 0..2 {
-                for other in &self.basis {
-                    let along: f64 = left.iter().zip(other).map(|(a, b)| a * b).sum();
-                    left.iter_mut()
-                        .zip(other)
-                        .for_each(|(a, b)| *a -= along * b);
-                }
-            }
-            if normalise(&mut left) < NEW {
-                self.basis.truncate(before);
-                return false;
-            }
-            self.basis.push(left);
-        }
-        true
+        let rows = self.rows(held);
+        self.span.take(rows)
     }
 
     fn rows(&self, held: &Held) -> Vec<Vec<f64>> {
@@ -315,15 +303,6 @@ impl<'a> Rank<'a> {
             }
         }
     }
-}
-
-/// Makes a vector one of length 1; its length before.
-fn normalise(x: &mut [f64]) -> f64 {
-    let size = x.iter().map(|a| a * a).sum::<f64>().sqrt();
-    if size > 0.0 {
-        x.iter_mut().for_each(|a| *a /= size);
-    }
-    size
 }
 
 fn minus(a: Place, b: Place) -> Place {

@@ -15,7 +15,8 @@
 mod hold;
 
 use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
-use crate::problem::{Decimal, Problem, Target};
+use crate::complete::{Spare, Surplus};
+use crate::problem::{Decimal, Distance, Problem, Target};
 use hold::{Held, hold};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -360,7 +361,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
     {
         return Err(format!("atoms {} and {} are in one place", a + 1, b + 1));
     }
-    let held = hold(&places, &bonds).ok_or_else(|| {
+    let (held, told) = hold(&places, &bonds).ok_or_else(|| {
         format!(
             "{} cannot be held by distances: are all its atoms on one line?",
             molecule.name
@@ -369,7 +370,9 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
     let names: Vec<String> = (0..n)
         .map(|k| format!("{}{}", element(molecule.atoms[k].0), k + 1))
         .collect();
-    let mut builder = Problem::build(&molecule.name, 3).source("a molecule");
+    let length = |[a, b]: [usize; 2]| format!("{:.6}", apart(a, b));
+    let reading = Reading::new(&held, &told, &names);
+    let mut builder = Problem::build(&molecule.name, 3).source(&reading.in_words());
     for (name, place) in names.iter().zip(&places) {
         let coordinates =
             place.map(|x| super::drawing::decimal(x).unwrap_or_else(|| Decimal::from(0)));
@@ -380,8 +383,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
             |points: &[usize]| -> Vec<&str> { points.iter().map(|&p| names[p].as_str()).collect() };
         builder = match one {
             Held::Distance([a, b]) => {
-                let length = format!("{:.6}", apart(a, b));
-                builder.distance(&names[a], &names[b], length.as_str())
+                builder.distance(&names[a], &names[b], length([a, b]).as_str())
             }
             Held::Straight(points) => builder.constraint("collinear", of(&points)),
             Held::Flat(points) => builder.constraint("coplanar", of(&points)),
@@ -391,14 +393,89 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
     if let Some(bend) = bend(&problem) {
         problem.homotopy.bend = bend;
     }
+    let texts = molecule.atoms.iter().flat_map(|atom| atom.1);
+    let epsilon = tolerance(texts);
+    let spare = reading.left_out.iter().map(|&[a, b]| {
+        let length: Decimal = length([a, b]).parse().map_err(|e| format!("{e:?}"))?;
+        Ok(Spare {
+            name: format!("{}-{}", names[a], names[b]),
+            distance: Distance {
+                points: [a, b],
+                target: Target::Length(length),
+            },
+            epsilon,
+        })
+    });
+    let spare = spare.collect::<Result<Vec<Spare>, String>>()?;
+    let surplus = (!spare.is_empty() || !reading.added.is_empty()).then(|| Surplus {
+        problem: problem.clone(),
+        spare,
+        added: reading.added,
+    });
     Ok(Imported {
         problem,
         unsupported: BTreeMap::new(),
+        surplus,
         places: AllPlaces::Molecule(Places {
             format,
             lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
         }),
     })
+}
+
+/// How a molecule was read.
+struct Reading {
+    /// How many distances bonds and bond angles tell, and how many of these are used.
+    told: [usize; 2],
+    /// The others.
+    left_out: Vec<[usize; 2]>,
+    /// What holds it beside: flat and straight parts, torsions, in words.
+    added: Vec<String>,
+}
+
+impl Reading {
+    fn new(held: &[Held], told: &[[usize; 2]], names: &[String]) -> Self {
+        let is_used = |pair: &&[usize; 2]| held.contains(&Held::Distance(**pair));
+        let list = |points: &[usize]| {
+            let names: Vec<&str> = points.iter().map(|&p| names[p].as_str()).collect();
+            names.join(", ")
+        };
+        let added = held.iter().filter_map(|one| match one {
+            Held::Distance(pair) if told.contains(pair) => None,
+            Held::Distance([a, b]) => {
+                Some(format!("{}-{} as drawn (a torsion)", names[*a], names[*b]))
+            }
+            Held::Straight(points) => Some(format!("{} on one line as drawn", list(points))),
+            Held::Flat(points) => Some(format!("{} in one plane as drawn", list(points))),
+        });
+        Reading {
+            told: [told.len(), told.iter().filter(is_used).count()],
+            left_out: told.iter().filter(|pair| !is_used(pair)).copied().collect(),
+            added: added.collect(),
+        }
+    }
+
+    fn in_words(&self) -> String {
+        let [all, used] = self.told;
+        let mut text = "a molecule".to_owned();
+        if used < all {
+            text += &format!(", by {used} of its {all} distances of bonds and bond angles");
+        }
+        if !self.added.is_empty() {
+            text += &format!(", beside which it has {}", self.added.join("; "));
+        }
+        text
+    }
+}
+
+/// Within what a distance that was left out counts as met, in ångström: what the digits of coordinates leave open, but no less than
+/// this, as no molecule is known better.
+fn tolerance<'a>(coordinates: impl Iterator<Item = &'a str>) -> f64 {
+    const LEAST: f64 = 1e-4;
+    let last = coordinates.filter_map(|text| text.parse::<Decimal>().ok());
+    let finest = last.map(|x| x.last_digit()).min().unwrap_or(0);
+    // Each of two ends is off by half a unit of the last digit along each of three axes.
+    LEAST.max(3f64.sqrt() * 10f64.powi(finest))
 }
 
 /// A distance to bend, by index: the last one that cannot vanish on the way, because a third atom is at fixed distances from

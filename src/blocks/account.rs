@@ -1,0 +1,420 @@
+//! What a claim about a figure is proved of: how many equations, which constraints were left out, which coordinates are held.
+//!
+//! Proofs are about as many equations as unknowns. A figure with more constraints has some left out, one with fewer has
+//! coordinates held where they are, and a claim about it is true only with both in the same sentence. Every verb says it
+//! with the same words, [`Account::clause`], and writes it as the same JSON.
+
+use crate::interval::{Interval, hull, point};
+use crate::problem::{Decimal, Problem, Target};
+use serde::Serialize;
+
+/// Names in one list of a sentence; the others are counted.
+const LISTED: usize = 12;
+
+/// A constraint without a number, and one whose number is whole or has more digits than drawings keep, is met within this
+/// part of the figure's mean length: so many digits programs keep of drawings that say a thing twice.
+pub const LEAST_PART: f64 = 1e-7;
+
+/// What a claim is proved of.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Account {
+    /// How many equations were used.
+    pub equations: usize,
+    /// The constraints that are none of these.
+    pub left_out: Vec<LeftOut>,
+    /// The coordinates (or radii, directions) that are held because nothing determines them.
+    pub held: Vec<Held>,
+}
+
+/// A constraint that was left out.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// What people call it.
+    pub name: String,
+    /// Why it was left out.
+    pub why: Why,
+    /// How the figures that are printed stand to it: the worst of them.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+}
+
+/// Why a constraint was left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Why {
+    /// It follows from those used, by an identity that was proved.
+    Follows,
+    /// It says nothing new at the figure, as far as floats tell: there are as many others as unknowns.
+    NothingNew,
+}
+
+/// How figures stand to a constraint that was left out. Numbers are in the unit of its number: a length for a distance, a
+/// radius, a coordinate. What has another number (an angle, a ratio) or none is told as a length: how far the two sides of
+/// its equation are apart, divided by the power of the figure's mean length that makes a length of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "verdict", rename_all = "snake_case")]
+pub enum Verdict {
+    /// It holds wherever those used do.
+    Follows,
+    /// No figure was looked at: these are the constraints of a drawing.
+    NotLookedAt,
+    /// Proved to be met within this.
+    Met {
+        /// At most so far, and no more than counts as met.
+        within: f64,
+    },
+    /// Proved to be missed: no figure of the problem.
+    Missed {
+        /// By so much at least.
+        by: f64,
+    },
+    /// It may be met or missed.
+    Undecided {
+        /// At most so far.
+        at_most: f64,
+    },
+}
+
+/// A coordinate that is held.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Held {
+    /// What people call it: `x of B`, `the radius of c`.
+    pub what: String,
+    /// Where it is held: bounds, in the unit of the problem.
+    pub at: (f64, f64),
+}
+
+impl Verdict {
+    /// What is known where a constraint is missed by a number in this interval, and met within `epsilon`.
+    pub fn of(miss: Interval, epsilon: f64) -> Self {
+        let (least, most) = (miss.mig(), miss.mag());
+        match (most <= epsilon, least > epsilon) {
+            (true, _) => Verdict::Met { within: most },
+            (_, true) => Verdict::Missed { by: least },
+            _ => Verdict::Undecided { at_most: most },
+        }
+    }
+
+    /// Of two figures together.
+    pub fn and(self, other: Self) -> Self {
+        use Verdict::{Follows, Met, Missed, NotLookedAt, Undecided};
+        match (self, other) {
+            (Follows, Follows) => Follows,
+            (Follows | NotLookedAt, that) | (that, Follows | NotLookedAt) => that,
+            (Missed { by: a }, Missed { by: b }) => Missed { by: a.max(b) },
+            (Missed { by }, _) | (_, Missed { by }) => Missed { by },
+            (Met { within: a }, Met { within: b }) => Met { within: a.max(b) },
+            (
+                Undecided { at_most: a } | Met { within: a },
+                Undecided { at_most: b } | Met { within: b },
+            ) => Undecided { at_most: a.max(b) },
+        }
+    }
+
+    /// Whether it is proved that the figure does not meet the constraint.
+    pub fn is_missed(self) -> bool {
+        matches!(self, Verdict::Missed { .. })
+    }
+}
+
+impl Account {
+    /// Notes a constraint that was left out. A constraint may have several equations: what is worst of them counts.
+    pub fn leave_out(&mut self, name: String, verdict: Verdict) {
+        let why = match verdict {
+            Verdict::Follows => Why::Follows,
+            _ => Why::NothingNew,
+        };
+        match self.left_out.iter_mut().find(|other| other.name == name) {
+            Some(other) => {
+                other.verdict = other.verdict.and(verdict);
+                if why == Why::NothingNew {
+                    other.why = why;
+                }
+            }
+            None => self.left_out.push(LeftOut { name, why, verdict }),
+        }
+    }
+
+    /// The same claim made of other figures, too: with the worse verdict of each constraint, and all that is held in either.
+    pub fn join(&mut self, other: &Account) {
+        for one in &other.left_out {
+            self.leave_out(one.name.clone(), one.verdict);
+        }
+        for held in &other.held {
+            if !self.held.iter().any(|own| own.what == held.what) {
+                self.held.push(held.clone());
+            }
+        }
+        self.equations = self.equations.max(other.equations);
+    }
+
+    /// Whether the claim is about the figure as it is: nothing is held, and what was left out follows, proved.
+    pub fn is_whole(&self) -> bool {
+        self.held.is_empty() && self.meets_all()
+    }
+
+    /// Whether all constraints are proved to be met: none was left out but those that follow from the others.
+    pub fn meets_all(&self) -> bool {
+        self.left_out.iter().all(|one| one.why == Why::Follows)
+    }
+
+    /// The names of what was left out.
+    pub fn names_left_out(&self) -> Vec<String> {
+        self.left_out.iter().map(|one| one.name.clone()).collect()
+    }
+
+    /// The names of the coordinates that are held.
+    pub fn names_held(&self) -> Vec<String> {
+        self.held.iter().map(|held| held.what.clone()).collect()
+    }
+
+    /// What is held: `with x of B and y of B held where they are`; empty where nothing is.
+    pub fn held_in_words(&self) -> String {
+        match self.held.as_slice() {
+            [] => String::new(),
+            [one] => format!("with {} held where it is", one.what),
+            _ => format!("with {} held where they are", list(&self.names_held())),
+        }
+    }
+
+    /// What was left out and how the figures stand to it: `Q1-Q2 and P2-P3 were left out and are met within 3e-12, proved`;
+    /// empty where nothing was.
+    pub fn left_out_in_words(&self) -> String {
+        let names = |wanted: &dyn Fn(&LeftOut) -> bool| -> Vec<String> {
+            let those = self.left_out.iter().filter(|one| wanted(one));
+            those.map(|one| one.name.clone()).collect()
+        };
+        let were = |names: &[String], one: &str, several: &str| {
+            let verb = if names.len() == 1 { one } else { several };
+            format!("{} {verb}", list(names))
+        };
+        let mut parts = Vec::new();
+        let met = names(&|one| matches!(one.verdict, Verdict::Met { .. }));
+        if !met.is_empty() {
+            let within = self
+                .left_out
+                .iter()
+                .fold(0.0, |most, one| match one.verdict {
+                    Verdict::Met { within } => within.max(most),
+                    _ => most,
+                });
+            parts.push(format!(
+                "{} met within {}, proved",
+                were(&met, "was left out and is", "were left out and are"),
+                rounded_up(within)
+            ));
+        }
+        for one in &self.left_out {
+            match one.verdict {
+                Verdict::Missed { by } => parts.push(format!(
+                    "{} was left out and is missed by at least {}, proved",
+                    one.name,
+                    rounded_down(by)
+                )),
+                Verdict::Undecided { at_most } if at_most.is_finite() => parts.push(format!(
+                    "{} was left out, and is missed by at most {}: whether it is met is not decided",
+                    one.name,
+                    rounded_up(at_most)
+                )),
+                Verdict::Undecided { .. } => parts.push(format!(
+                    "{} was left out, and whether it is met is not decided",
+                    one.name
+                )),
+                _ => {}
+            }
+        }
+        let follow = names(&|one| one.verdict == Verdict::Follows);
+        if !follow.is_empty() {
+            parts.push(format!(
+                "{} from the others, proved",
+                were(
+                    &follow,
+                    "was left out and follows",
+                    "were left out and follow"
+                )
+            ));
+        }
+        let unseen = names(&|one| one.verdict == Verdict::NotLookedAt);
+        if !unseen.is_empty() {
+            parts.push(format!(
+                "{} out, and nothing is proved of {}",
+                were(&unseen, "was left", "were left"),
+                if unseen.len() == 1 { "it" } else { "them" }
+            ));
+        }
+        parts.join("; ")
+    }
+
+    /// What a claim about the figures is to say of itself, after its verb: `in the 18 equations used, with x of B held where it
+    /// is`. Empty where the claim is about the figure as it is.
+    pub fn scope(&self) -> String {
+        let used = match self.meets_all() {
+            true => String::new(),
+            false => format!("in the {} equations used", self.equations),
+        };
+        joined([used, self.held_in_words()], ", ")
+    }
+
+    /// All of it as one clause: [`Account::scope`], and what was left out.
+    pub fn clause(&self) -> String {
+        joined([self.scope(), self.left_out_in_words()], "; ")
+    }
+}
+
+/// `a, b and c`, or `a, b and 7 more`.
+fn list(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.clone(),
+        _ if names.len() > LISTED => format!(
+            "{} and {} more",
+            names[..LISTED].join(", "),
+            names.len() - LISTED
+        ),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+fn joined(parts: [String; 2], between: &str) -> String {
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    parts.join(between)
+}
+
+/// A number of one digit that is no less than this one.
+pub fn rounded_up(x: f64) -> String {
+    one_digit(x, |shown| shown >= x, 1)
+}
+
+/// A number of two digits that is no more than this one.
+pub fn rounded_down(x: f64) -> String {
+    let text = format!("{x:.1e}");
+    match text.parse::<f64>() {
+        Ok(shown) if shown > x => one_digit(x, |shown| shown <= x, -1),
+        _ => text,
+    }
+}
+
+/// The nearest number of one digit, or the next in a direction, that `fits`.
+fn one_digit(x: f64, fits: impl Fn(f64) -> bool, step: i32) -> String {
+    let text = format!("{x:.0e}");
+    let parsed = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
+    if fits(parsed(&text)) {
+        return text;
+    }
+    let Some((digit, power)) = text.split_once('e') else {
+        return text;
+    };
+    let (digit, power): (i32, i32) = (digit.parse().unwrap_or(1), power.parse().unwrap_or(0));
+    match digit + step {
+        10 => format!("1e{}", power + 1),
+        0 => format!("9e{}", power - 1),
+        digit => format!("{digit}e{power}"),
+    }
+}
+
+/// How an equation that was left out is measured, and within how much it counts as met.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ruler {
+    /// Whether it says the square of a length, and is told as that length; otherwise it is divided by `scale`.
+    is_square: bool,
+    scale: f64,
+    /// It is met where it is missed by no more than this.
+    pub epsilon: f64,
+}
+
+impl Ruler {
+    /// For an equation of this `owner` (a count of objects, constraints, none, distances), in a figure of mean length `unit`.
+    /// `tolerance`: what counts as met, where that is not told by the digits of numbers.
+    pub fn new(
+        problem: &Problem,
+        owner: usize,
+        (unit, power): (f64, i32),
+        tolerance: Option<f64>,
+    ) -> Self {
+        let (objects, all) = (problem.objects.len(), problem.constraints.len());
+        let least = LEAST_PART * unit;
+        let digits = match owner.checked_sub(objects) {
+            Some(c) if c < all => {
+                let value = problem.constraints[c].value.as_ref();
+                value.filter(|_| power == 1).map_or(0.0, half_digit)
+            }
+            Some(c) if c > all => match &problem.distances[c - all - 1].target {
+                Target::Length(length) => half_digit(length),
+                // Of a square s with an error e the root has one of e / (2 √s).
+                Target::SquaredLength(squared) => {
+                    half_digit(squared) / (2.0 * squared.to_f64().sqrt())
+                }
+            },
+            _ => 0.0,
+        };
+        Ruler {
+            is_square: owner > objects + all,
+            scale: unit.powi(power - 1),
+            epsilon: tolerance.unwrap_or(digits.max(least)),
+        }
+    }
+
+    /// By how much it is missed where its left-hand side is `off` more than its right-hand side, `right`, both in the unit of
+    /// the problem.
+    pub fn miss(&self, off: Interval, right: Interval) -> Interval {
+        if !self.is_square {
+            return off / point(self.scale);
+        }
+        // |p − q| − d = (|p − q|² − d²) / (|p − q| + d).
+        let is_square = hull(0.0, f64::MAX);
+        let length = (right + off).intersection(is_square).sqrt();
+        off / (length + right.intersection(is_square).sqrt())
+    }
+
+    /// What is known of it there.
+    pub fn verdict(&self, off: Interval, right: Interval) -> Verdict {
+        Verdict::of(self.miss(off, right), self.epsilon)
+    }
+}
+
+/// Half a unit of a number's last digit. Whole numbers are meant exactly.
+fn half_digit(number: &Decimal) -> f64 {
+    match number.last_digit() {
+        place if place < 0 => 0.5 * 10f64.powi(place),
+        _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded_the_safe_way() {
+        assert_eq!(rounded_up(2.9e-12), "3e-12");
+        assert_eq!(rounded_up(3.1e-12), "4e-12");
+        assert_eq!(rounded_up(9.4e-3), "1e-2");
+        assert_eq!(rounded_down(2.26), "2.2e0".replace("2.2e0", "2e0"));
+        assert_eq!(rounded_down(2.24), "2.2e0");
+        assert_eq!(rounded_up(0.0), "0e0");
+    }
+
+    #[test]
+    fn what_is_said_is_the_worst() {
+        let mut account = Account {
+            equations: 18,
+            ..Account::default()
+        };
+        assert!(account.is_whole() && account.clause().is_empty());
+        account.leave_out("a-b".to_owned(), Verdict::Met { within: 1e-12 });
+        account.leave_out("c-d".to_owned(), Verdict::Met { within: 2.5e-12 });
+        account.leave_out("e".to_owned(), Verdict::Follows);
+        account.held.push(Held {
+            what: "x of B".to_owned(),
+            at: (1.0, 1.0),
+        });
+        assert_eq!(
+            account.clause(),
+            "in the 18 equations used, with x of B held where it is; a-b and c-d were left out and are met within 3e-12, \
+             proved; e was left out and follows from the others, proved"
+        );
+        account.leave_out("a-b".to_owned(), Verdict::Missed { by: 0.5 });
+        assert!(account.left_out[0].verdict.is_missed());
+        assert!(!account.meets_all());
+    }
+}

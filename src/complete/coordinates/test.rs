@@ -1,0 +1,88 @@
+//! Equations that were left out, as there are more than unknowns: how far each figure found is from meeting them.
+
+use super::entry;
+use crate::blocks::{Account, LeftOutConstraint as LeftOut, Ruler, Verdict, owner_name};
+use crate::constraint::{Form, Spare};
+use crate::interval::{Interval, ZERO, point};
+use crate::problem::Problem;
+use crate::system::Homotopy;
+use crate::track::FigureBox;
+
+/// What figures are tested against.
+pub struct Test<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// Its equations.
+    pub homotopy: &'a Homotopy,
+    /// Within what an equation counts as met, where that is not told by the digits of its number.
+    pub tolerance: Option<f64>,
+}
+
+impl Test<'_> {
+    /// What was left out, by whose it is.
+    pub fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for spare in &self.homotopy.spare {
+            let name = self.name(spare);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    fn name(&self, spare: &Spare) -> String {
+        owner_name(self.problem, spare.owner)
+    }
+
+    /// How a figure stands to each constraint of which equations were left out: the worst of these.
+    pub fn account(&self, figure: &FigureBox) -> Vec<LeftOut> {
+        let mut account = Account::default();
+        for spare in &self.homotopy.spare {
+            account.leave_out(self.name(spare), self.verdict(spare, figure));
+        }
+        account.left_out
+    }
+
+    fn verdict(&self, spare: &Spare, figure: &FigureBox) -> Verdict {
+        let Spare { equation, owner } = spare;
+        let m = self.homotopy.equations;
+        let at = |e| match self.homotopy.entry(e) {
+            i if i < m => entry(figure, i),
+            _ => ZERO,
+        };
+        let of = |form: Form| match form {
+            Form::One => point(1.0),
+            Form::Difference(a, b) if a == b => ZERO,
+            Form::Difference(a, b) => at(a) - at(b),
+        };
+        let products = equation.products.iter();
+        let left = products.fold(ZERO, |sum, product| {
+            let half = point(0.5 * f64::from(product.factor));
+            let (a, b) = (of(product.left), of(product.right));
+            // A square is not negative.
+            let both = if product.left == product.right {
+                a.sqr()
+            } else {
+                a * b
+            };
+            sum + half * both
+        });
+        // Powers of two.
+        let unit = point(self.homotopy.unit.powi(equation.power));
+        let right = equation.right.iter().fold(ZERO, |sum, e| sum + e.enclose());
+        let off = left * unit - right;
+        let distances = self.problem.objects.len() + self.problem.constraints.len();
+        // A distance's equation has half its square on both sides.
+        let twice = |x: Interval| {
+            if *owner > distances {
+                x * point(2.0)
+            } else {
+                x
+            }
+        };
+        let about = (self.homotopy.unit, equation.power);
+        let ruler = Ruler::new(self.problem, *owner, about, self.tolerance);
+        ruler.verdict(twice(off), twice(right))
+    }
+}

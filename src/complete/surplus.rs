@@ -1,0 +1,223 @@
+//! More distances than free coordinates: all figures that have as many of them as are needed are searched, and each is tested against
+//! those that were left out.
+//!
+//! A figure that has all distances has those used, so that it is among the figures of these. What a box that holds one figure says of a
+//! distance that was left out is an enclosure of how far it is missed: within what counts as met, surely beyond it (then it is no figure
+//! of the problem), or neither.
+
+use super::{Complete, Options, Unserved, all};
+use crate::blocks::{Account, LeftOutConstraint as LeftOut, Ruler, Verdict};
+use crate::interval::{Interval, enclose, point};
+use crate::linalg::Span;
+use crate::problem::{Decimal, Distance, Problem, Target, free_coordinates, rigidity};
+use crate::system::typical_length;
+use crate::track::Solution;
+
+/// A distance that was left out of a search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spare {
+    /// What people call it.
+    pub name: String,
+    /// Between which points it is, and how long it is to be.
+    pub distance: Distance,
+    /// It counts as met where it is missed by no more than this.
+    pub epsilon: f64,
+}
+
+/// A figure with more distances than free coordinates.
+#[derive(Debug, Clone)]
+pub struct Surplus {
+    /// The same with as many as are needed.
+    pub problem: Problem,
+    /// Those that were left out.
+    pub spare: Vec<Spare>,
+    /// What the problem says beside that, though nobody asked for it.
+    pub added: Vec<String>,
+}
+
+/// What came of the figures that have the distances used.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tested {
+    /// How many distances (or equations) were used, and how many there are.
+    pub used: usize,
+    /// Of so many.
+    pub all: usize,
+    /// What is counted: constraints, or equations, of which a constraint may have several.
+    pub what: &'static str,
+    /// How many figures have those used; `None`: more than have a place in 64 bits.
+    pub found: Option<u64>,
+    /// How many of the figures that were tested meet all others.
+    pub met: usize,
+    /// All of those within this.
+    pub within: f64,
+    /// How many were proved to miss one. They are no solutions.
+    pub missed: usize,
+    /// Each of these misses one by at least this.
+    pub by: f64,
+    /// Of how many it is not decided.
+    pub undecided: usize,
+    /// For each solution how it stands to what was left out.
+    pub figures: Vec<Vec<LeftOut>>,
+    /// What was left out, by name.
+    pub left_out: Vec<String>,
+    /// What was held beside.
+    pub added: Vec<String>,
+}
+
+impl Tested {
+    /// Whether each figure is proved to meet all that was left out, or to miss something of it.
+    pub fn is_decided(&self) -> bool {
+        let tested = (self.met + self.missed + self.undecided) as u64;
+        self.left_out.is_empty() || self.undecided == 0 && self.found == Some(tested)
+    }
+}
+
+impl Surplus {
+    /// Of a problem of more distances than are needed, and nothing else. What is left out is what says nothing new in the sketch beside
+    /// those written before, and after these what says nothing new in a figure whose distances may be any. `None`: there are no more than needed, or
+    /// they do not hold the figure. `tolerance`: within what a distance counts as met, where that is not half a unit of the last digit it is given with.
+    pub fn of(problem: &Problem, tolerance: Option<f64>) -> Option<Self> {
+        let (d, n) = (problem.dimension, problem.points.len());
+        let needed = free_coordinates(d, n);
+        let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
+        let is_it = problem.objects.is_empty() && problem.constraints.is_empty();
+        if !is_it || edges.len() <= needed || rigidity(d, n, &edges).rank < needed {
+            return None;
+        }
+        let mut span = Span::default();
+        let places = problem
+            .points
+            .iter()
+            .map(|p| p.sketch.each_ref().map(Decimal::to_f64));
+        let places: Vec<[f64; 3]> = places.collect();
+        let row = |&[a, b]: &[usize; 2]| {
+            let mut row = vec![0.0; d * n];
+            for k in 0..d {
+                let along = places[b][k] - places[a][k];
+                (row[d * a + k], row[d * b + k]) = (-along, along);
+            }
+            row
+        };
+        let mut is_used: Vec<bool> = edges.iter().map(|edge| span.take([row(edge)])).collect();
+        for e in 0..edges.len() {
+            if is_used.iter().filter(|used| **used).count() == needed {
+                break;
+            }
+            is_used[e] = true;
+            let used = edges.iter().zip(&is_used).filter(|(_, used)| **used);
+            let used: Vec<[usize; 2]> = used.map(|(edge, _)| *edge).collect();
+            is_used[e] = rigidity(d, n, &used).rank == used.len();
+        }
+        let unit = typical_length(problem);
+        let spare = (0..edges.len()).filter(|&e| !is_used[e]).map(|e| Spare {
+            name: problem.distance_name(e),
+            distance: problem.distances[e].clone(),
+            // The owner of a distance's equation: behind objects, constraints and those of none, of which there are none here.
+            epsilon: Ruler::new(problem, 1 + e, (unit, 1), tolerance).epsilon,
+        });
+        let mut used = is_used.iter();
+        Some(Surplus {
+            spare: spare.collect(),
+            problem: problem.with_distances(|_| used.next().copied().unwrap_or(false))?,
+            added: Vec::new(),
+        })
+    }
+
+    /// Takes the distance that may be missed by no more than this for met.
+    pub fn with_tolerance(mut self, tolerance: Option<f64>) -> Self {
+        for spare in &mut self.spare {
+            spare.epsilon = tolerance.unwrap_or(spare.epsilon);
+        }
+        self
+    }
+
+    /// Searches all figures, and tests them: those that were proved to miss a distance are no solutions.
+    pub fn search(&self, options: &Options) -> Result<Complete, Unserved> {
+        let mut result = all(&self.problem, options)?;
+        let figures = result
+            .solutions
+            .iter()
+            .map(|solution| self.account(solution));
+        let figures: Vec<Vec<LeftOut>> = figures.collect();
+        let names: Vec<String> = self.spare.iter().map(|spare| spare.name.clone()).collect();
+        let used = self.problem.distances.len() + self.problem.constraints.len();
+        result.strike_out([used, self.spare.len()], names, figures);
+        if let Some(tested) = &mut result.tested {
+            tested.added.extend(self.added.iter().cloned());
+        }
+        Ok(result)
+    }
+
+    /// How a figure stands to each distance that was left out.
+    fn account(&self, figure: &Solution) -> Vec<LeftOut> {
+        let mut account = Account::default();
+        for spare in &self.spare {
+            let [a, b] = spare.distance.points.map(|p| figure.points[p]);
+            let verdict = Verdict::of(miss(a, b, &spare.distance.target), spare.epsilon);
+            account.leave_out(spare.name.clone(), verdict);
+        }
+        account.left_out
+    }
+}
+
+/// Of two points the distance less the one wanted: |p − q| − d = (|p − q|² − d²)/(|p − q| + d).
+fn miss(a: [Interval; 3], b: [Interval; 3], target: &Target) -> Interval {
+    let squared = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
+    let (wanted, length) = match target {
+        Target::Length(length) => (enclose(length).sqr(), enclose(length)),
+        Target::SquaredLength(squared) => (enclose(squared), enclose(squared).sqrt()),
+    };
+    (squared - wanted) / (squared.sqrt() + length)
+}
+
+impl Complete {
+    /// Takes the figures out that were proved to miss a constraint that was left out, beside those that were before. `figures`: how each stands
+    /// to these.
+    pub(super) fn strike_out(
+        &mut self,
+        [used, spare]: [usize; 2],
+        left_out: Vec<String>,
+        figures: Vec<Vec<LeftOut>>,
+    ) {
+        let before = self.tested.take().unwrap_or_default();
+        let mut tested = Tested {
+            used: used - before.left_out.len(),
+            all: used + spare,
+            what: "constraints",
+            found: self.count,
+            by: f64::INFINITY,
+            left_out: [before.left_out, left_out].concat(),
+            added: before.added,
+            ..Tested::default()
+        };
+        let mut before = before.figures.into_iter();
+        let figures = figures.into_iter().map(|figure| {
+            let first = before.next().unwrap_or_default();
+            [first, figure].concat()
+        });
+        let solutions = std::mem::take(&mut self.solutions);
+        for (mut solution, figure) in solutions.into_iter().zip(figures) {
+            let worst = figure
+                .iter()
+                .fold(Verdict::Follows, |worst, one| worst.and(one.verdict));
+            match worst {
+                Verdict::Missed { by } => {
+                    tested.missed += 1;
+                    tested.by = tested.by.min(by);
+                    continue;
+                }
+                Verdict::Met { within } => {
+                    tested.met += 1;
+                    tested.within = tested.within.max(within);
+                }
+                Verdict::Undecided { .. } => tested.undecided += 1,
+                Verdict::Follows | Verdict::NotLookedAt => tested.met += 1,
+            }
+            solution.class = self.solutions.len();
+            self.solutions.push(solution);
+            tested.figures.push(figure);
+        }
+        self.count = self.count.map(|count| count - tested.missed as u64);
+        self.tested = Some(tested);
+    }
+}

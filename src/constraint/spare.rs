@@ -1,0 +1,241 @@
+//! More equations than unknowns: as many are used as are needed, chosen where the sketch comes nearest to meeting all.
+//!
+//! Seen in floats; what is claimed of the equations used does not rest on it, and what was left out is tested for itself.
+
+use super::lowering::Lowered;
+use super::quadratic::{Entry, Equation, Form};
+use crate::interval::Interval;
+use crate::linalg::Span;
+use crate::problem::Problem;
+use crate::system::Gauge;
+
+/// An equation that was left out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spare {
+    /// What it says.
+    pub equation: Equation,
+    /// Whose it is: a count of objects, constraints, none, and distances.
+    pub owner: usize,
+}
+
+/// Steps towards a figure that meets all equations, at most.
+const STEPS: usize = 60;
+/// Of more unknowns the sketch is taken as it is.
+const MOST_UNKNOWNS: usize = 300;
+
+/// All equations as functions of the unknowns, each unknown and each equation divided by the power of the typical length that it has.
+struct Equations<'a> {
+    lowered: &'a Lowered,
+    gauge: &'a Gauge,
+    sketch: &'a [[Interval; 3]],
+    unit: f64,
+}
+
+impl Equations<'_> {
+    fn width(&self) -> usize {
+        self.gauge.place.len() + self.lowered.tail.unknowns.len()
+    }
+
+    /// The column of an entry, and its number where it is no unknown.
+    fn column(&self, entry: Entry) -> Result<usize, f64> {
+        match entry {
+            Entry::Zero => Err(0.0),
+            Entry::Unknown(u) => Ok(self.gauge.place.len() + u),
+            Entry::Coordinate { point, axis } => {
+                let column = self.gauge.variable[point * self.gauge.dimension + axis];
+                match column < self.width().min(self.gauge.place.len()) {
+                    true => Ok(column),
+                    false => Err(self.sketch[point][axis].mid() / self.unit),
+                }
+            }
+        }
+    }
+
+    /// The unknowns in the sketch.
+    fn start(&self) -> Vec<f64> {
+        let places = self.gauge.place.iter().map(|&place| {
+            let (point, axis) = (place / self.gauge.dimension, place % self.gauge.dimension);
+            self.sketch[point][axis].mid() / self.unit
+        });
+        let unknowns = self.lowered.tail.unknowns.iter();
+        places
+            .chain(unknowns.map(|u| u.sketch.mid() / self.unit.powi(u.power)))
+            .collect()
+    }
+
+    /// How far an equation is from holding, and its derivatives.
+    fn row(&self, equation: &Equation, x: &[f64]) -> (f64, Vec<f64>) {
+        let value = |entry: Entry| self.column(entry).map_or_else(|fixed| fixed, |c| x[c]);
+        let of = |form: Form| match form {
+            Form::One => 1.0,
+            Form::Difference(a, b) => value(a) - value(b),
+        };
+        let right: f64 = equation.right.iter().map(|e| e.enclose().mid()).sum();
+        let (mut off, mut row) = (-right / self.unit.powi(equation.power), vec![0.0; x.len()]);
+        for product in &equation.products {
+            let factor = 0.5 * f64::from(product.factor);
+            off += factor * of(product.left) * of(product.right);
+            for (this, other) in [(product.left, product.right), (product.right, product.left)] {
+                let Form::Difference(a, b) = this else {
+                    continue;
+                };
+                for (entry, sign) in [(a, factor), (b, -factor)] {
+                    if let Ok(column) = self.column(entry) {
+                        row[column] += sign * of(other);
+                    }
+                }
+            }
+        }
+        (off, row)
+    }
+
+    /// The unknowns where all equations are met as nearly as can be reached from the sketch (Levenberg and Marquardt).
+    fn nearest(&self) -> Vec<f64> {
+        let mut x = self.start();
+        let m = x.len();
+        if m > MOST_UNKNOWNS {
+            return x;
+        }
+        let equations = &self.lowered.tail.equations;
+        let rows = |x: &[f64]| -> Vec<(f64, Vec<f64>)> {
+            equations
+                .iter()
+                .map(|equation| self.row(equation, x))
+                .collect()
+        };
+        let sum = |rows: &[(f64, Vec<f64>)]| rows.iter().map(|(off, _)| off * off).sum::<f64>();
+        let (mut damping, mut now) = (1e-3, rows(&x));
+        for _ in 0..STEPS {
+            if sum(&now) < 1e-26 {
+                break;
+            }
+            let mut a = vec![0.0; m * m];
+            let mut right = vec![0.0; m];
+            for (off, row) in &now {
+                for i in (0..m).filter(|&i| row[i] != 0.0) {
+                    right[i] += row[i] * off;
+                    for k in 0..m {
+                        a[i * m + k] += row[i] * row[k];
+                    }
+                }
+            }
+            (0..m).for_each(|i| a[i * m + i] += damping);
+            let Some(step) = solved(a, right) else {
+                break;
+            };
+            let next: Vec<f64> = x.iter().zip(&step).map(|(x, s)| x - s).collect();
+            let then = rows(&next);
+            match sum(&then) < sum(&now) {
+                true => (x, now, damping) = (next, then, (0.2 * damping).max(1e-13)),
+                false => damping *= 8.0,
+            }
+        }
+        x
+    }
+}
+
+/// Solves equations with a positive matrix by elimination.
+fn solved(mut a: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+    let m = right.len();
+    for k in 0..m {
+        let pivot = a[k * m + k];
+        if !(pivot > 0.0) {
+            return None;
+        }
+        for i in k + 1..m {
+            let factor = a[i * m + k] / pivot;
+            if factor != 0.0 {
+                for j in k..m {
+                    a[i * m + j] -= factor * a[k * m + j];
+                }
+                right[i] -= factor * right[k];
+            }
+        }
+    }
+    for k in (0..m).rev() {
+        for j in k + 1..m {
+            right[k] -= a[k * m + j] * right[j];
+        }
+        right[k] /= a[k * m + k];
+    }
+    Some(right)
+}
+
+impl Lowered {
+    /// Leaves out as many equations as there are more than unknowns: those that say nothing new beside the others. What defines objects and unknowns
+    /// is used first, then what is `fixed`, dimensions, and constraints without a number, in the order of the file. `Err`: too few say something new.
+    pub(crate) fn make_square(
+        &mut self,
+        problem: &Problem,
+        gauge: &Gauge,
+        sketch: &[[Interval; 3]],
+        unit: f64,
+    ) -> Result<Vec<Spare>, String> {
+        let (objects, constraints) = (problem.objects.len(), problem.constraints.len());
+        let rank = |owner: usize| match owner.checked_sub(objects) {
+            Some(c) if c < constraints => match &problem.constraints[c] {
+                constraint if constraint.kind == "fixed" => 1,
+                constraint if constraint.value.is_some() => 2,
+                _ => 3,
+            },
+            Some(c) if c > constraints => 2,
+            _ => 0,
+        };
+        let equations = Equations {
+            lowered: self,
+            gauge,
+            sketch,
+            unit,
+        };
+        let (x, width) = (equations.nearest(), equations.width());
+        let mut order: Vec<usize> = (0..self.owners.len()).collect();
+        order.sort_by_key(|&e| rank(self.owners[e]));
+        let mut is_used = vec![false; order.len()];
+        let mut span = Span::default();
+        for e in order {
+            is_used[e] = span.take([equations.row(&self.tail.equations[e], &x).1]);
+        }
+        if span.rank() < width {
+            return Err(format!(
+                "of {} equations for {width} unknowns no more than {} say something new where the sketch comes nearest to meeting all",
+                is_used.len(),
+                span.rank()
+            ));
+        }
+        let mut spare = Vec::new();
+        for e in (0..is_used.len()).rev().filter(|&e| !is_used[e]) {
+            let (equation, owner) = (self.tail.equations.remove(e), self.owners.remove(e));
+            self.vanishing.remove(e);
+            spare.push(Spare { equation, owner });
+        }
+        spare.reverse();
+        // A line is the same with its direction reversed only where all equations say so.
+        let twins = std::mem::take(&mut self.tail.twins);
+        let is_kept = |twin: &Vec<bool>| spare.iter().all(|spare| spare.is_kept(twin));
+        self.tail.twins = twins.into_iter().filter(is_kept).collect();
+        Ok(spare)
+    }
+}
+
+impl Spare {
+    /// Whether it says the same where these auxiliary unknowns change their signs, as far as each product tells.
+    fn is_kept(&self, changes: &[bool]) -> bool {
+        let sign = |entry: Entry| matches!(entry, Entry::Unknown(u) if changes[u]);
+        let of = |form: Form| match form {
+            Form::One => Some(false),
+            Form::Difference(a, Entry::Zero) | Form::Difference(Entry::Zero, a) => Some(sign(a)),
+            Form::Difference(a, b) => (sign(a) == sign(b)).then(|| sign(a)),
+        };
+        let both = |p: &super::quadratic::Product| Some(of(p.left)? ^ of(p.right)?);
+        let mut products = self.equation.products.iter().map(both);
+        let first = products.next().flatten();
+        first.is_some_and(|change| {
+            let is_zero = self
+                .equation
+                .right
+                .iter()
+                .all(crate::interval::Real::is_zero);
+            products.all(|p| p == Some(change)) && (!change || is_zero)
+        })
+    }
+}
