@@ -286,7 +286,11 @@ fn check(
             counted(left as usize, "part", "parts")
         ),
         false => format!(
-            "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again.\n"
+            "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again{}.\n",
+            match result.tested {
+                Some(_) => ", of the constraints used",
+                None => "",
+            }
         ),
     };
     Checked { text, code: None }

@@ -130,7 +130,11 @@ pub(crate) fn try_lower_for_sets(
     let mut lowered = try_lower_from(problem, low, which).map_err(|(_, fault)| fault)?;
     let spare = leave_out(&mut lowered)?;
     // Lengths are positive in a problem that has been checked.
-    let apart: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
+    let first = problem.objects.len() + problem.constraints.len() + 1;
+    let is_left_out = |index: usize| spare.iter().any(|spare| spare.owner == first + index);
+    let used = problem.distances.iter().enumerate();
+    let used = used.filter(|(index, _)| !is_left_out(*index));
+    let apart: Vec<[usize; 2]> = used.map(|(_, d)| d.points).collect();
     let (tail, vanishing) = (&mut lowered.tail, &lowered.vanishing);
     factors::take_out(tail, vanishing, &apart, problem.dimension);
     Ok((lowered.tail, spare))

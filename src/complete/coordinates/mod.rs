@@ -122,7 +122,9 @@ fn searched(
     begin: Instant,
 ) -> Result<Complete, String> {
     let mut reason = None;
-    if !problem.distances.is_empty() && problem.points.len() <= MOST_POINTS {
+    // Bounds that follow from distances are those of figures that have them all.
+    let has_all = homotopy.spare.is_empty();
+    if has_all && !problem.distances.is_empty() && problem.points.len() <= MOST_POINTS {
         let targets = Targets::new(problem);
         reason = emptiness::too_long(&targets).map(|(edge, way)| too_long(problem, edge, &way));
         bound_pairs(&mut system, homotopy, &targets);
