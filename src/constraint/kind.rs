@@ -15,8 +15,10 @@ pub enum Measure {
     Signed,
     /// A ratio greater than zero, which has no unit.
     Ratio,
-    /// An angle between 0 and 180 degrees.
+    /// An angle between 0 and 180 degrees, of which the cosine is led.
     Degrees,
+    /// An angle between a line and a plane, at most 90 degrees, of which the sine is led.
+    Slope,
 }
 
 /// What of the frame a constraint fixes, beyond what is the same for figures that are moved as a whole.
@@ -60,6 +62,11 @@ pub trait Kind: Sync {
     /// What its number is.
     fn measure(&self) -> Measure {
         Measure::Nothing
+    }
+
+    /// What the number of one entry is, where that depends on what it names.
+    fn measure_of(&self, _items: Arguments) -> Measure {
+        self.measure()
     }
 
     /// What of the frame it fixes: unless it says more, directions, where it names a coordinate axis.

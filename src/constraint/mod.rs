@@ -72,6 +72,13 @@ pub fn kind(key: &str) -> Option<&'static dyn Kind> {
     KINDS.iter().copied().find(|kind| kind.key() == key)
 }
 
+/// What the number of a constraint of a problem is, by the constraint's index.
+pub fn measure_of(problem: &Problem, index: usize) -> Measure {
+    let constraint = &problem.constraints[index];
+    let items = Arguments::new(problem, &constraint.items);
+    kind(&constraint.kind).map_or(Measure::Nothing, |kind| kind.measure_of(items))
+}
+
 /// What a constraint of a problem is read as being of, where points in it stand for lines or planes: `the line
 /// through d and e, and the plane through a, b and c`. `None`: each of its names is one thing, or it cannot be read.
 pub fn read_as(problem: &Problem, index: usize) -> Option<String> {
@@ -307,11 +314,13 @@ pub(crate) fn frame_of(problem: &Problem) -> Fixes {
 /// Whether a constraint has a number where its kind has, in the kind's range.
 fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), Fault> {
     let value = &problem.constraints[index].value;
-    let wanted = match kind.measure() {
+    let measure = measure_of(problem, index);
+    let wanted = match measure {
         Measure::Nothing => None,
         Measure::Length | Measure::Ratio => Some("a number greater than zero"),
         Measure::Signed => Some("a number"),
         Measure::Degrees => Some("an angle between 0 and 180 degrees"),
+        Measure::Slope => Some("an angle greater than 0 and at most 90 degrees"),
     };
     match (value, wanted) {
         (None, None) => Ok(()),
@@ -322,16 +331,18 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
         (Some(value), Some(wanted)) => {
             let number = value.value();
             let straight = num_rational::BigRational::from_integer(180.into());
-            let in_range = match kind.measure() {
+            let in_range = match measure {
                 Measure::Length | Measure::Ratio => value.is_positive(),
                 Measure::Degrees => value.is_positive() && *number < straight,
+                Measure::Slope => value.is_positive() && number.clone() + number <= straight,
                 _ => true,
             };
             if in_range {
                 return Ok(());
             }
             let items = Arguments::new(problem, &problem.constraints[index].items);
-            let hint = match kind.measure() {
+            let hint = match measure {
+                Measure::Slope => Some("for 0 degrees say `parallel`, for 90 `perpendicular`"),
                 Measure::Degrees => Some("for 0 and 180 degrees say `parallel` or `collinear`"),
                 _ if number.is_zero() => kind.instead_of_zero(items),
                 _ => None,

@@ -69,6 +69,10 @@ impl Session {
                 SMALLEST * value.mid(),
                 180.0 - SMALLEST * (180.0 - value.mid()),
             ),
+            (Measure::Slope, _) => (
+                SMALLEST * value.mid(),
+                90.0 - SMALLEST * (90.0 - value.mid()),
+            ),
             (Measure::Signed, _) => {
                 let coordinates = problem.points.iter().flat_map(|p| &p.sketch);
                 let far = coordinates.fold(value.mag(), |far, x| far.max(x.to_f64().abs()));
@@ -99,9 +103,13 @@ impl Session {
     /// How far a dimension can go towards a value, and the figure there.
     fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> (End, Vec<[Interval; 3]>) {
         let rounded = match measure(self.problem(), index) {
-            // So many digits that it stays below 180.
-            Measure::Degrees => {
-                let digits = 3.0 - goal.min(180.0 - goal).log10().floor();
+            // So many digits that it stays below 180, or 90.
+            angle @ (Measure::Degrees | Measure::Slope) => {
+                let most = match angle {
+                    Measure::Slope => 90.0,
+                    _ => 180.0,
+                };
+                let digits = 3.0 - goal.min(most - goal).log10().floor();
                 format!("{goal:.*}", digits.clamp(0.0, 20.0) as usize)
             }
             _ => format!("{goal:.3e}"),

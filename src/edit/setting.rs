@@ -2,7 +2,7 @@
 
 use super::whole::length;
 use crate::constraint::{self, Measure};
-use crate::interval::{Interval, Real, hull};
+use crate::interval::{Interval, Real, hull, point};
 use crate::problem::{Constraint, Decimal, DecimalError, Problem, Target};
 use num_rational::BigRational;
 
@@ -55,6 +55,11 @@ pub enum SettingError {
     /// An angle is between 0 and 180 degrees.
     #[error("{0}: an angle must be between 0 and 180 degrees, and {1} is not")]
     NotAnAngle(String, String),
+    /// An angle between a line and a plane is at most 90 degrees.
+    #[error(
+        "{0}: an angle between a line and a plane must be greater than 0 and at most 90 degrees, and {1} is not"
+    )]
+    NotASlope(String, String),
     /// A dimension is set twice.
     #[error("{0} is set twice: leave out one of the two")]
     Twice(String),
@@ -82,6 +87,12 @@ impl Setting {
                     && *value.value() < BigRational::from_integer(180.into())) =>
             {
                 return Err(SettingError::NotAnAngle(name, value.to_string()));
+            }
+            Measure::Slope
+                if !(value.is_positive()
+                    && *value.value() <= BigRational::from_integer(90.into())) =>
+            {
+                return Err(SettingError::NotASlope(name, value.to_string()));
             }
             _ => {}
         }
@@ -162,35 +173,23 @@ impl Setting {
         length(&self.target)
     }
 
-    /// What the dimension is at t on its way from what it is in `problem` to the value.
+    /// What the dimension is at t on its way from what it is in `problem` to the value: what its kind leads linearly is
+    /// the number itself, of an angle the cosine, and of one between a line and a plane the sine.
     pub(super) fn between(&self, problem: &Problem, t: Interval) -> Interval {
         let before = Setting::now(problem, self.index);
         let linear = |from: Interval, to: Interval| from + t * (to - from);
-        let (Measure::Degrees, Target::Length(from), Target::Length(to)) =
-            (measure(problem, self.index), &before.target, &self.target)
-        else {
+        let (Target::Length(from), Target::Length(to)) = (&before.target, &self.target) else {
             return linear(before.value(), self.value());
         };
-        // It is the cosine that goes linearly.
-        let cosine = |x: &Decimal| Real::cosine_of_degrees(x.value().clone()).enclose();
-        let now = linear(cosine(from), cosine(to));
-        let near = |x: f64| x.clamp(-1.0, 1.0).acos().to_degrees();
-        let (mut low, mut high) = (near(now.sup()), near(now.inf()));
-        let at = |x: f64| {
-            let exact = BigRational::from_float(x);
-            exact.map(|x| Real::cosine_of_degrees(x).enclose())
+        let led = |of: fn(BigRational) -> Real| {
+            let [from, to] = [from, to].map(|x| of(x.value().clone()).enclose());
+            linear(from, to)
         };
-        let mut step = 1e-13;
-        while low > 0.0 && at(low).is_none_or(|c| c.inf() < now.sup()) {
-            low = (low - step).max(0.0);
-            step *= 2.0;
+        match measure(problem, self.index) {
+            Measure::Degrees => degrees_of_cosine(led(Real::cosine_of_degrees)),
+            Measure::Slope => point(90.0) - degrees_of_cosine(led(Real::sine_of_degrees)),
+            _ => linear(before.value(), self.value()),
         }
-        let mut step = 1e-13;
-        while high < 180.0 && at(high).is_none_or(|c| c.sup() > now.inf()) {
-            high = (high + step).min(180.0);
-            step *= 2.0;
-        }
-        hull(low, high)
     }
 
     /// From a text such as `a-b=5.2`: the distance between the points a and b, in either order, shall be
@@ -237,12 +236,32 @@ impl Setting {
     }
 }
 
+/// The angles in degrees, from 0 to 180, of which these are the cosines.
+fn degrees_of_cosine(cosines: Interval) -> Interval {
+    let near = |x: f64| x.clamp(-1.0, 1.0).acos().to_degrees();
+    let (mut low, mut high) = (near(cosines.sup()), near(cosines.inf()));
+    let at = |x: f64| {
+        let exact = BigRational::from_float(x);
+        exact.map(|x| Real::cosine_of_degrees(x).enclose())
+    };
+    let mut step = 1e-13;
+    while low > 0.0 && at(low).is_none_or(|c| c.inf() < cosines.sup()) {
+        low = (low - step).max(0.0);
+        step *= 2.0;
+    }
+    let mut step = 1e-13;
+    while high < 180.0 && at(high).is_none_or(|c| c.sup() > cosines.inf()) {
+        high = (high + step).min(180.0);
+        step *= 2.0;
+    }
+    hull(low, high)
+}
+
 /// What the number of a dimension is.
 pub(super) fn measure(problem: &Problem, index: usize) -> Measure {
     match index.checked_sub(problem.distances.len()) {
         None => Measure::Length,
-        Some(c) => constraint::kind(&problem.constraints[c].kind)
-            .map_or(Measure::Nothing, |kind| kind.measure()),
+        Some(c) => constraint::measure_of(problem, c),
     }
 }
 

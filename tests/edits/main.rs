@@ -7,5 +7,6 @@ mod blocks;
 mod claims;
 mod edit;
 mod edit_mixed;
+mod measures;
 mod real_sketches;
 mod sketches;

@@ -33,6 +33,16 @@ impl Kind for Angles {
         Measure::Degrees
     }
 
+    fn measure_of(&self, mut items: Arguments) -> Measure {
+        if items.points_ahead() == 3 && items.left() == 3 {
+            return Measure::Degrees;
+        }
+        match items.two_flats() {
+            Ok([Flat::Line(_), Flat::Plane(_)] | [Flat::Plane(_), Flat::Line(_)]) => Measure::Slope,
+            _ => Measure::Degrees,
+        }
+    }
+
     fn read_as(&self, mut items: Arguments) -> Option<String> {
         if items.points_ahead() == 3 && items.left() == 3 {
             return None;
