@@ -98,18 +98,28 @@ pub const HALF: f64 = 0.5;
 const SIGHT: f64 = 1.0;
 
 impl Place {
-    /// Proves that a box holds exactly one solution of F(X, a(1)) = 0, in the precision of the tube that comes there.
+    /// Proves that a box holds exactly one solution of F(X, a(1)) = 0, in the precision of the tube that comes there, or a finer one.
     pub fn solution(eq: &Equations, claim: &SolutionClaim, at: &TubeClaim) -> Result<Place, Fault> {
         let radius = around(point(claim.radius.into()));
         let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
-        let near = (&*claim.centre, !at.low.is_empty());
-        let place = Place::at_target(eq, near, claimed.clone());
+        let prove = |extended| Place::at_target(eq, (&claim.centre, extended), claimed.clone());
+        let is_held = |place: &Place| {
+            place.spot.is_within(&claim.centre, claim.radius) && place.covers(&claimed)
+        };
+        let extended = !at.low.is_empty();
+        let mut place = prove(extended);
+        // Where some unknowns are large, others small, 53 bits of the largest may tell a point less well than the claim.
+        if !extended
+            && !place.as_ref().is_ok_and(is_held)
+            && let Ok(finer) = prove(true)
+        {
+            place = Ok(finer);
+        }
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
         }
         let place = place?;
-        let inside = place.spot.is_within(&claim.centre, claim.radius);
-        match inside && place.covers(&claimed) {
+        match is_held(&place) {
             true => Ok(place),
             false => Err(Fault::because(
                 "it is too narrow to hold the one near it, or so wide that it may hold another one",
