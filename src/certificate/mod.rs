@@ -42,7 +42,7 @@ pub use format::{
 };
 pub use head::{Contents, contents};
 pub use reader::Reader;
-pub use verdict::{Arc, Fault, Flaw, Outcome, Verdict};
+pub use verdict::{Arc, Compared, Fault, Flaw, Outcome, Verdict};
 pub use writer::{Writer, write_record};
 
 // Not beside the type: the checker's files use nothing but what they check with.

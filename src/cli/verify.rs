@@ -3,17 +3,18 @@
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::certificate::cover::{CoverVerdict, verify_cover_while};
-use krawl::certificate::{Contents, Outcome, Settings, Stage, contents, verify};
+use krawl::certificate::{Compared, Contents, Outcome, Settings, Stage, contents, verify};
 use krawl::edit::Decomposition;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
 
 /// Prove all claims of a certificate again
-#[derive(clap::Args)]
+#[derive(clap::Args, Clone)]
 #[command(after_help = "\
 Examples:
   krawl verify proof.krawl
@@ -34,6 +35,9 @@ pub struct Arguments {
     /// Threads to use [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Give up after so many seconds: then nothing is said of the certificate but that it was not checked to its end (exit code 3)
+    #[arg(long, value_name = "S", value_parser = super::all::seconds)]
+    time: Option<f64>,
     /// Print nothing: the exit code tells
     #[arg(long)]
     quiet: bool,
@@ -41,7 +45,24 @@ pub struct Arguments {
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
+    let Some(seconds) = arguments.time else {
+        return output::exit_code(try_run(arguments));
+    };
+    // A check that is not over has nothing to tell, so that it need not be ended: the program ends.
+    let (sender, receiver) = mpsc::channel();
+    let checked = arguments.clone();
+    std::thread::spawn(move || sender.send(output::exit_code(try_run(&checked))));
+    match receiver.recv_timeout(Duration::from_secs_f64(seconds)) {
+        Ok(code) => code,
+        Err(mpsc::RecvTimeoutError::Timeout) => {
+            let name = arguments.cert.display();
+            output::complain(&format!(
+                "{name}: NOT PROVED: the check had not come to its end after {seconds} s (--time)"
+            ));
+            NOT_PROVED
+        }
+        Err(mpsc::RecvTimeoutError::Disconnected) => BAD_INPUT,
+    }
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
@@ -103,32 +124,49 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     })
 }
 
-/// That the problem of a certificate is that of a file, and what was made of that.
+/// That the problem of a certificate is that of a file, what was compared, and what was made of that.
 fn about(file: &Path, found: Option<&Decomposition>) -> String {
     format!(
-        "The problem is the one in {}, exactly{}.\n",
+        "The problem is the one in {}: the points, where the sketch has them, all constraints and the way from the sketch \
+         to them are the same, exactly{}.\n",
         file.display(),
         input::held_and_left_out(found)
     )
 }
 
-/// Prints what was proved of a set of solutions, and whether it is about the `same` points and constraints as the problem
-/// file, if there is one, of which `found` was made. False: it could not be printed.
+/// Prints what was proved of a set of solutions, and whether it is about the same as the problem file, if there is one, of
+/// which `found` was made: `same`, and what was compared. False: it could not be printed.
 fn print_with_problem(
     arguments: &Arguments,
     mut text: String,
-    same: bool,
+    (same, compared): (bool, Compared),
     found: Option<&Decomposition>,
 ) -> bool {
     if let Some(file) = &arguments.file {
+        let (what, which) = match compared {
+            Compared::Distances => (
+                "names of the points and the distances",
+                "names of the points or the distances",
+            ),
+            Compared::All => (
+                "points, where the sketch has them, and all constraints",
+                "points, their places in the sketch or the constraints",
+            ),
+        };
+        let sketch = match compared {
+            Compared::Distances => {
+                "; where the sketches have the points was not compared, as the set does not depend on it"
+            }
+            Compared::All => "",
+        };
         text += &match same {
             true => format!(
-                "The points and constraints are those in {}, exactly{}.\n",
+                "The {what} are those in {}, exactly{sketch}{}.\n",
                 file.display(),
                 input::held_and_left_out(found)
             ),
             false => format!(
-                "REFUTED: the points or constraints are not those in {}.\n",
+                "REFUTED: the {which} are not those in {}.\n",
                 file.display()
             ),
         };
@@ -152,7 +190,7 @@ fn verify_the_set(
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, same, found) {
+    if !print_with_problem(arguments, text, (same, verdict.compared()), found) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.flaw {
@@ -179,7 +217,7 @@ fn verify_the_cover(
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
     let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, same, found) {
+    if !print_with_problem(arguments, text, (same, verdict.compared()), found) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.proves_all() {

@@ -67,6 +67,23 @@ fn gaps() -> Problem {
     )
 }
 
+/// Marks that narrow a part and say nothing else are refused where they do not: a check takes no longer for them.
+#[test]
+fn marks_that_change_nothing_are_refused_at_once() {
+    let cover = proved(&triangle());
+    assert!(!cover.blocks.is_empty());
+    for idle in [Mark::Block(0), Mark::Bound(0), Mark::Reduced(0)] {
+        let mut hostile = cover.clone();
+        hostile.marks.clear();
+        (0..100_000).for_each(|_| idle.put(&mut hostile.marks));
+        hostile.marks.extend(&cover.marks);
+        let clock = std::time::Instant::now();
+        let flaw = check(&hostile).flaw.unwrap();
+        assert!(flaw.contains("changes nothing"), "{idle:?}: {flaw}");
+        assert!(clock.elapsed().as_secs() < 5, "{:?}", clock.elapsed());
+    }
+}
+
 #[test]
 fn the_pentahedron_is_proved() {
     let pentahedron = Problem::read("problems/constraints/pentahedron.toml").unwrap();

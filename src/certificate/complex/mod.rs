@@ -16,7 +16,7 @@ mod zero;
 use super::begun::before_one_record;
 use super::format::TAG_COMPLEX_SET;
 use super::head::Head;
-use super::verdict::are_same;
+use super::verdict::{Compared, are_same};
 use crate::interval::Interval;
 use crate::problem::Problem;
 use figure::Equations;
@@ -103,6 +103,11 @@ impl ComplexVerdict {
     /// How many figures at infinity there are up to rotation: none is its own mirror image.
     pub fn rotation_at_infinity(&self) -> usize {
         2 * self.at_infinity.iter().map(|one| one.1).sum::<usize>()
+    }
+
+    /// What is compared where it is held against a problem.
+    pub fn compared(&self) -> Compared {
+        Compared::of(&self.problem)
     }
 
     /// Whether this is about a problem: of distances alone about its points and distances, whatever its sketch; otherwise

@@ -16,7 +16,7 @@ pub use plan::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 
 use super::format::TAG_COVER_OF_COORDINATES;
 use super::head::Head;
-use super::verdict::are_same;
+use super::verdict::{Compared, are_same};
 use crate::problem::Problem;
 
 /// Why bytes are no cover.
@@ -77,6 +77,11 @@ impl CoverVerdict {
     /// Whether the solutions listed are proved to be all.
     pub fn proves_all(&self) -> bool {
         self.flaw.is_none() && self.undecided == 0
+    }
+
+    /// What is compared where it is held against a problem.
+    pub fn compared(&self) -> Compared {
+        Compared::of(&self.problem)
     }
 
     /// Whether this is about a problem: of distances alone about its points and distances, whatever its sketch; otherwise

@@ -438,19 +438,38 @@ fn check(
 
 const DAMAGED: &str = "the marks end, or are damaged";
 const UNPROVED: &str = "what its mark says is not proved";
+/// Marks that narrow a part without a word of what comes of it have to narrow it: then the time of a check is bounded by the
+/// length of the marks and what there is to narrow.
+const IDLE: &str = "a mark of it changes nothing";
 
 impl Check<'_> {
     /// A part of the space: whether it stays undecided.
     fn part(&mut self, mut part: Part) -> Result<bool, &'static str> {
         let space = &self.space;
         let mut left = space.narrow(&mut part);
+        // The blocks that were reduced since the ranges were narrowed.
+        let mut reduced = 0;
         while left.is_ok() {
             let (mark, next) = Mark::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;
             self.at = next;
             let proved = match mark {
-                Mark::Block(k) if k < self.cover.blocks.len() => {
-                    left = space.narrow_together(k, &mut part);
-                    continue;
+                Mark::Block(k) | Mark::Bound(k) | Mark::Reduced(k)
+                    if k < self.cover.blocks.len() =>
+                {
+                    let before = part.ranges().to_vec();
+                    let is_reduced = part.is_reduced(k);
+                    left = match mark {
+                        Mark::Block(_) => space.narrow_together(k, &mut part),
+                        Mark::Bound(_) => space.bound(k, &mut part),
+                        _ => space.reduce(k, &mut part),
+                    };
+                    let is_narrowed = left.is_err() || part.ranges() != before;
+                    let is_new = matches!(mark, Mark::Reduced(_)) && !is_reduced;
+                    reduced = if is_narrowed { 0 } else { reduced + 1 };
+                    match is_narrowed || is_new && reduced <= self.cover.blocks.len() {
+                        true => continue,
+                        false => return Err(IDLE),
+                    }
                 }
                 Mark::Halves(unknown) => part.halved(unknown).is_some_and(|[low, high]| {
                     self.stack.extend([high, low].map(Open::Part));
@@ -463,20 +482,12 @@ impl Check<'_> {
                 }
                 Mark::Other(k) => space.holds(space.others.get(k), &part),
                 Mark::Undecided => return Ok(true),
-                Mark::Bound(k) if k < self.cover.blocks.len() => {
-                    left = space.bound(k, &mut part);
-                    continue;
-                }
                 Mark::Body(k) if space.stands(k, &part) => {
                     let part = Rc::new(part);
                     let charts = Turn::all().into_iter().rev();
                     let charts = charts.map(|turn| Open::Turn(Rc::clone(&part), k, turn));
                     self.stack.extend(charts);
                     true
-                }
-                Mark::Reduced(k) if k < self.cover.blocks.len() => {
-                    left = space.reduce(k, &mut part);
-                    continue;
                 }
                 Mark::Sides(e) => space.sides(e, &part).is_some_and(|parts| {
                     self.stack.extend(parts.into_iter().rev().map(Open::Part));
@@ -499,7 +510,13 @@ impl Check<'_> {
             let mark = Turned::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;
             self.at += 1;
             match mark {
-                Turned::Narrowed => turn = turn.within(&left).ok_or(UNPROVED)?,
+                Turned::Narrowed => {
+                    let within = turn.within(&left).ok_or(UNPROVED)?;
+                    if within.ranges() == turn.ranges() {
+                        return Err(IDLE);
+                    }
+                    turn = within;
+                }
                 Turned::Height(axis) => {
                     turn = space.with_height(body, &turn, axis).ok_or(UNPROVED)?;
                 }
