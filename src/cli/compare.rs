@@ -44,6 +44,8 @@ pub struct Arguments {
     /// Write the results as CSV; `-` likewise
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    time: interrupt::Time,
     /// Print no tables and no progress
     #[arg(long)]
     quiet: bool,
@@ -68,6 +70,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
     // Whatever is wrong is said before anything runs.
     let subjects = arguments.files.iter().map(|file| read(file));
     let subjects = subjects.collect::<Result<Vec<Subject>, String>>()?;

@@ -46,7 +46,7 @@ pub struct Arguments {
     set: Vec<String>,
     /// Read edits from standard input, one JSON object a line such as {"set": {"a-b": 5.2}}, and answer each with
     /// one line of JSON; the figure never changes by an edit that is not reached (docs/edit.md)
-    #[arg(long, conflicts_with_all = ["out", "json"])]
+    #[arg(long, conflicts_with_all = ["out", "json", "time"])]
     serve: bool,
     /// Write the edited problem, in the format and coordinates of FILE, if the new dimensions were reached
     #[arg(long, value_name = "FILE")]
@@ -66,6 +66,8 @@ pub struct Arguments {
     /// Keep to 53 bits, and stop where they do not suffice
     #[arg(long)]
     no_extended: bool,
+    #[command(flatten)]
+    time: interrupt::Time,
     /// Print nothing
     #[arg(long)]
     quiet: bool,
@@ -77,6 +79,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let mut problem = loaded.problem.clone();
     let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
@@ -102,7 +105,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
         match certified(&arguments.file, &problem, |session| {
-            let edited = session.probe(&settings, &mut Control::default());
+            let mut control = Control {
+                cancel: Some(interrupt::flag()),
+                ..Control::default()
+            };
+            let edited = session.probe(&settings, &mut control);
             reason(&edited).map(str::to_owned)
         })? {
             Some((whole, decomposition)) => {

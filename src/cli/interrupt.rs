@@ -1,6 +1,7 @@
-//! Ctrl-C: once to stop cleanly, twice to stop at once.
+//! Ctrl-C: once to stop cleanly, twice to stop at once; and `--time`, which is as Ctrl-C after so many seconds.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
@@ -16,4 +17,25 @@ pub fn flag() -> &'static AtomicBool {
         }
     });
     &REQUESTED
+}
+
+/// How long a verb may take.
+#[derive(clap::Args)]
+pub struct Time {
+    /// End after so many seconds, as Ctrl-C does: what was found up to there is kept, and said to be no more than that
+    #[arg(long, value_name = "S", value_parser = super::all::seconds)]
+    time: Option<f64>,
+}
+
+impl Time {
+    /// Lets the time begin.
+    pub fn begin(&self) {
+        if let Some(seconds) = self.time {
+            // Where no thread can be had the run goes on to its end.
+            let _ = std::thread::Builder::new().spawn(move || {
+                std::thread::sleep(Duration::from_secs_f64(seconds));
+                REQUESTED.store(true, Ordering::Relaxed);
+            });
+        }
+    }
 }

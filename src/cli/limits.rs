@@ -35,6 +35,8 @@ pub struct Arguments {
     json: Option<PathBuf>,
     #[command(flatten)]
     pictures: Pictures,
+    #[command(flatten)]
+    time: interrupt::Time,
     /// Print nothing
     #[arg(long)]
     quiet: bool,
@@ -46,6 +48,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
     let shown = arguments.file.display();
     let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let only = arguments

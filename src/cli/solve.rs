@@ -123,6 +123,8 @@ pub struct Arguments {
     /// milliseconds: of distances alone, up to 10 points, with a construction plan of one driving parameter
     #[arg(long)]
     no_count: bool,
+    #[command(flatten)]
+    time: interrupt::Time,
     /// Print no table and no progress
     #[arg(long)]
     quiet: bool,
@@ -245,6 +247,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
     arguments.check()?;
     arguments.check_count()?;
     // Whatever is wrong is said before anything runs.

@@ -58,6 +58,8 @@ pub struct Arguments {
     no_verify: bool,
     #[command(flatten)]
     pictures: Pictures,
+    #[command(flatten)]
+    time: interrupt::Time,
     /// Print no summary
     #[arg(long)]
     quiet: bool,
@@ -69,6 +71,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
     let shown = arguments.file.display();
     let mut problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
@@ -84,7 +87,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if cert.is_some() {
         let frames = arguments.frames as usize;
         match certified(&arguments.file, &problem, |session| {
-            let sweep = session.sweep(index, (&from, &to), frames, &mut Control::default());
+            let mut control = Control {
+                cancel: Some(interrupt::flag()),
+                ..Control::default()
+            };
+            let sweep = session.sweep(index, (&from, &to), frames, &mut control);
             let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
             reason(last).map(str::to_owned)
         })? {

@@ -52,6 +52,11 @@ impl Control<'_> {
     /// Time between two calls of `progress` where nothing else is said.
     pub const PAUSE: Duration = Duration::from_millis(100);
 
+    /// Whether the run is to end, from outside.
+    pub fn is_interrupted(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
     /// To be called after each step: reports, and tells whether the run must end.
     pub fn is_cancelled(&mut self, now: Progress) -> bool {
         // The clock is looked at only for whom it matters.
@@ -71,6 +76,6 @@ impl Control<'_> {
                 return true;
             }
         }
-        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+        self.is_interrupted()
     }
 }

@@ -588,3 +588,77 @@ fn proofs_that_are_not_there_are_no_success() {
     assert!(told.contains("those of no real triangle"), "{told}");
     assert_eq!(fs::read_to_string(&set).unwrap(), "old");
 }
+
+/// What is compared with a file is said: of sets of distances alone the sketch is not.
+#[test]
+fn verify_says_what_it_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let cert = folder.path().join("c.krawl");
+    let text = |x: &str, last: &str| {
+        format!(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [{x}, 0]\nc = [1, 3]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 4], [\"b\", \"c\", 4.3]{last}]\n"
+        )
+    };
+    let write = |name: &str, text: String| {
+        let file = folder.path().join(name);
+        fs::write(&file, text).unwrap();
+        file
+    };
+    let of_distances = ", [\"a\", \"c\", 3.1]]\n# ";
+    let of_angles = "]\nangles = [[\"b\", \"a\", \"c\", 70]";
+    for (last, sketch_counts) in [(of_distances, false), (of_angles, true)] {
+        let [own, other] =
+            [("own.toml", "4"), ("other.toml", "4.01")].map(|(name, x)| write(name, text(x, last)));
+        krawl()
+            .arg("all")
+            .arg(&own)
+            .arg("--quiet")
+            .arg("--cert")
+            .arg(&cert)
+            .assert()
+            .success();
+        let verify = |file: &std::path::Path| {
+            let run = krawl().arg("verify").arg(&cert).arg(file).assert();
+            let output = run.get_output();
+            (
+                output.status.code(),
+                String::from_utf8(output.stdout.clone()).unwrap(),
+            )
+        };
+        let (code, text) = verify(&own);
+        assert_eq!(code, Some(0), "{text}");
+        assert_eq!(text.contains("was not compared"), !sketch_counts, "{text}");
+        let (code, text) = verify(&other);
+        assert_eq!(code, Some(i32::from(sketch_counts)), "{text}");
+        assert!(!text.contains("points and constraints are those"), "{text}");
+    }
+}
+
+/// `--time` ends a run as Ctrl-C does.
+#[test]
+fn time_ends_a_run_with_what_was_found() {
+    let clock = std::time::Instant::now();
+    let run = krawl()
+        .args([
+            "solve",
+            "problems/icosahedron.toml",
+            "--max-step",
+            "1e-4",
+            "--time",
+            "1",
+        ])
+        .assert()
+        .code(1);
+    let text = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    assert!(text.contains("interrupted"), "{text}");
+    assert!(clock.elapsed().as_secs() < 60, "{:?}", clock.elapsed());
+    for verb in [
+        "solve", "edit", "limits", "sweep", "all", "complex", "explore", "verify", "compare",
+        "template", "work",
+    ] {
+        let help = krawl().args([verb, "--help"]).assert().success();
+        let text = String::from_utf8(help.get_output().stdout.clone()).unwrap();
+        assert!(text.contains("--time"), "{verb}");
+    }
+}
