@@ -66,6 +66,10 @@ pub const SETTLED: f64 = 1e-2;
 /// back. Certificates hold no numbers much larger.
 pub const ENDLESS: f64 = (1u64 << 36) as f64;
 
+/// Where t or another unknown is so many times as large as any coordinate of the sketch, tubes have to grow with it; where
+/// they do not, the path is not followed farther.
+pub const OUTSIDE: f64 = 256.0;
+
 /// No tube is tried that is longer than this to either side: far more than any path needs that is not straight, and
 /// so that the next point of one that has not come to [`ENDLESS`] fits into a certificate.
 pub const LONGEST: f64 = (1u64 << 33) as f64;

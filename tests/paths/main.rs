@@ -10,6 +10,7 @@ mod compare;
 mod constraints;
 mod degenerate;
 mod directions;
+mod endless;
 mod extended;
 mod first_arc;
 mod generated;

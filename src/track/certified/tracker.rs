@@ -5,6 +5,7 @@ mod creep;
 mod crossing;
 mod extension;
 mod open;
+mod pace;
 mod parts;
 mod sketch;
 mod starts;
@@ -32,6 +33,7 @@ use arc::Arc;
 use creep::Creep;
 use crossing::{Beyond, Crossing};
 use extension::Extension;
+use pace::Pace;
 use parts::{LEAST_WEIGHT, LEFT_OUT, Parts};
 use std::borrow::Cow;
 use std::time::Instant;
@@ -171,6 +173,8 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     is_stuck: bool,
     /// How far the last tubes lead.
     creep: Creep,
+    /// How many tubes it takes to get twice as far.
+    pace: Pace,
     /// Proves figures with t = 0, once somebody wants them.
     at_start: Option<Box<SolutionProver<D>>>,
     /// How many of the solutions were found the other way from the sketch: the first ones.
@@ -221,6 +225,7 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
             loses: false,
             is_stuck: false,
             creep: Creep::default(),
+            pace: Pace::default(),
             at_start: None,
             behind: 0,
             way: None,
@@ -232,6 +237,13 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
     }
 
     fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), Stop> {
+        // Many short runs one after the other, as those of a sweep, end here.
+        if control.is_interrupted() {
+            return Err(Stop::new(
+                StopKind::Interrupted,
+                "interrupted before the first tube",
+            ));
+        }
         let max_h = self.longest(options);
         let is_done = self.start(options, max_h)?;
         self.show_tube(control, 0, false);
@@ -281,6 +293,11 @@ impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
                         && tubes.leads_nowhere(self.figure_size())
                     {
                         return Err(self.creeps(tubes));
+                    }
+                    if let Some(what) = self.gets_nowhere() {
+                        self.endless = true;
+                        let words = format!("{what}, {}", self.place());
+                        return Err(Stop::new(StopKind::Infinite, words));
                     }
                     doubt = None;
                     steps_ahead.accept(h);

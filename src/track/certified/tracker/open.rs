@@ -1,12 +1,13 @@
 //! Paths that do not come back to the sketch: both ways from it to their two ends.
 
 use super::crossing::Crossing;
+use super::pace::MOST;
 use super::{EndKind, PathEnd, Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
 use crate::track::ends::{
-    Away, ENDLESS, FAR, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
+    Away, ENDLESS, FAR, OUTSIDE, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
 };
 use crate::track::{Control, Options, Status, Stop, StopKind};
 
@@ -58,9 +59,34 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// proved. So t goes on where nothing depends on it, as from a sketch that meets all constraints, or all that does is in
     /// proportion to it; it may also come back from there.
     pub(super) fn runs_on(&self) -> Option<String> {
-        if self.arc.is_some() {
+        match self.arc {
+            Some(_) => None,
+            None => self.has_passed(ENDLESS),
+        }
+    }
+
+    /// What goes to infinity as far as one can see, in words: t or another unknown that is far from 0 beside all numbers of the
+    /// sketch and moves away at the last point that is proved, where tubes have not become longer with the distance for long.
+    /// There the equations' terms differ so much in size that the way to where they would be followed no more
+    /// ([`ENDLESS`]) takes millions of tubes. Called once for every tube.
+    pub(super) fn gets_nowhere(&mut self) -> Option<String> {
+        if self.homotopy.tail.is_empty() || self.arc.is_some() {
             return None;
         }
+        if !self.pace.is_slow(self.figure_size()) {
+            return None;
+        }
+        let sketch = self.sketch.centre.iter();
+        let outside = OUTSIDE * sketch.fold(1.0, |max: f64, x| max.max(x.abs()));
+        let what = self.has_passed(outside)?;
+        Some(format!(
+            "{what} and moves away from 0, as far as one can see to infinity: it takes more than {MOST} tubes to get twice as far, \
+             and the path is not followed farther"
+        ))
+    }
+
+    /// What is farther from 0 than this, in words, and moves away at the last point that is proved.
+    fn has_passed(&self, far: f64) -> Option<String> {
         let (tube, m) = (&self.now, self.equations.m);
         let (from, to) = tube.exit_between;
         let moves_away = |i: usize| {
@@ -72,16 +98,16 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
                 true => tube.time().bounds(from, to),
                 false => tube.entry_along(i).bounds(from, to),
             };
-            let is_far = at.abs() > ENDLESS && room < 0.5 * ENDLESS;
+            let is_far = at.abs() > far && room < 0.5 * far;
             is_far && if at > 0.0 { low > 0.0 } else { high < 0.0 }
         };
         if moves_away(m) {
-            let passed = ENDLESS.copysign(tube.exit.centre[m]);
+            let passed = far.copysign(tube.exit.centre[m]);
             return Some(format!("t has passed {passed:.1e}"));
         }
         (0..m)
             .any(moves_away)
-            .then(|| format!("an unknown has passed {ENDLESS:.1e} units of length"))
+            .then(|| format!("an unknown has passed {far:.1e} units of length"))
     }
 
     /// A length or radius that goes to zero, in words, if one is small beside what it was in the sketch, proved to shrink

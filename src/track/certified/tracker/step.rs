@@ -9,6 +9,8 @@ use crate::track::certified::reasons::{Doubt, Rejection};
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// Adds the tube that is `advance` further on. Tells whether the path ends in it.
     pub(super) fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
+        // Far away floats are no nearer to each other.
+        let tolerance = POINT_TOLERANCE.max(16.0 * f64::EPSILON * self.figure_size());
         let equations = &self.equations;
         let next = &mut self.next;
         let previous = self.has_previous.then_some(&self.previous[..]);
@@ -20,7 +22,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             &mut next.local.normal,
         );
         self.test
-            .refine(equations, &mut next.local, POINT_TOLERANCE)
+            .refine(equations, &mut next.local, tolerance)
             .map_err(Rejection::Refine)?;
         #[cfg(test)]
         if crate::track::certified::validation::inject_fault(
@@ -32,7 +34,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         ) {
             // Its preconditioner as well is that of the other point.
             self.test
-                .refine(equations, &mut next.local, POINT_TOLERANCE)
+                .refine(equations, &mut next.local, tolerance)
                 .map_err(Rejection::Refine)?;
         }
         self.test

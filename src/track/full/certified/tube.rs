@@ -27,7 +27,7 @@ use crate::track::certified::link::Tube;
 use crate::track::certified::proof::{Proof, powers_of};
 use crate::track::certified::shortfall::{MAX_CONTRACTION, Shortfall};
 use crate::track::certified::tracker::Test;
-use crate::track::ends::LONGEST;
+use crate::track::ends::{LONGEST, OUTSIDE};
 use crate::track::full::{
     Differences, Equations, Forms, InverseMaker, Lengths, Local, ORDER, RefineError,
 };
@@ -35,6 +35,14 @@ use crate::track::{Driving, Options, Space};
 
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
+/// Far away unknowns differ in size as powers of each other do, and weights have to; no more than certificates tell well.
+const MIN_WEIGHT_FAR: f64 = 1.0 / 4096.0;
+
+/// The least weight at a point.
+fn least_weight(z: &[f64]) -> f64 {
+    let size = z.iter().fold(OUTSIDE, |max: f64, x| max.max(x.abs()));
+    (MIN_WEIGHT * OUTSIDE / size).max(MIN_WEIGHT_FAR)
+}
 
 /// Where bounds are out of range for tubes so long, as on a straight path, they are taken for tubes shorter by this.
 const SHORTER: f64 = 1.0 / 16.0;
@@ -129,20 +137,21 @@ impl<const D: usize> KrawczykTest<D> {
         let norms = self.norms(equations, local, weights, max_h)?;
         let norms = self.in_precision(equations, local, norms)?;
         let proof = norms.longest(weights[equations.m]);
-        self.improve(weights);
+        let least = least_weight(&local.z[0]);
+        self.improve(weights, least);
         proof
     }
 
     /// Weights for the next tube: towards the Perron vector of |A² − A₂|, in whose norm that
-    /// matrix is smallest.
-    fn improve(&self, weights: &mut Vector) {
+    /// matrix is smallest; none below `least`.
+    fn improve(&self, weights: &mut Vector, least: f64) {
         let n = self.square_u.len() - 1;
         let largest = self.square_u[..n]
             .iter()
             .fold(f64::MIN_POSITIVE, |max: f64, v| max.max(*v));
         let mut top = 0.0f64;
         for (w, v) in weights[..n].iter_mut().zip(self.square_u.iter()) {
-            *w = (*w * (v / largest)).sqrt().max(MIN_WEIGHT);
+            *w = (*w * (v / largest)).sqrt().max(least);
             top = top.max(*w);
         }
         for w in &mut weights[..n] {
