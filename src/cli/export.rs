@@ -2,15 +2,17 @@
 
 use super::CLOSED;
 use super::output::{self, Destination};
-use krawl::complex::{Export, export, lower_in_squares};
+use krawl::complex::{Export, export, lower_in_squares, places};
 use krawl::problem::{Problem, Target};
+use std::io::Write;
 use std::path::PathBuf;
 
 /// Write the polynomial system of a problem for another program
 ///
-/// The gauge is krawl's: one reference point at the origin, one on the x axis, one in the xy plane; with fixed places it is
-/// the file's coordinates. x4 is the first
-/// coordinate of the fourth point; what is zero in the gauge is left out. Numbers are exact where they are ratios.
+/// Figures are seen from the file's reference: its first point at the origin, the second on the x axis, the third in the xy plane; with
+/// fixed places they are in the file's coordinates. x4 is the first coordinate of the fourth point. Which unknown is which coordinate of
+/// which point is printed beside: on standard output, or where the system goes there, on standard error. Numbers are exact where they
+/// are ratios.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -82,8 +84,21 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     });
     let reach = (1.0 + lengths.sum::<f64>()).ceil();
     let text = export(&lowered.system, to, reach).map_err(|error| format!("{file}: {error}"))?;
-    match Destination::new(&arguments.out)?.write(&text) {
-        true => Ok(CLOSED),
-        false => Ok(super::BAD_INPUT),
-    }
+    let names: Vec<String> = problem
+        .points
+        .iter()
+        .map(|point| point.name.clone())
+        .collect();
+    let places = places(&lowered.system, &names);
+    let to = Destination::new(&arguments.out)?;
+    let written = to.write(&text)
+        && match to {
+            Destination::StandardOutput => {
+                // Where nobody listens nothing is lost.
+                let _ = std::io::stderr().write_all(places.as_bytes());
+                true
+            }
+            _ => output::print(&places),
+        };
+    Ok(if written { CLOSED } else { super::BAD_INPUT })
 }

@@ -93,6 +93,31 @@ pub fn export(system: &System, to: Export, reach: f64) -> Result<String, String>
     })
 }
 
+/// Where the points are in the unknowns of an exported system, point by point in the problem's order: its coordinates, each an unknown or
+/// 0; what the frame is stands ahead.
+pub fn places(system: &System, points: &[String]) -> String {
+    let names = names(system);
+    let mut text = format!("{}\n", system.gauge);
+    for (place, point) in system.points.iter().zip(points) {
+        let coordinate = |k: &Option<usize>| k.map_or("0", |k| names[k].as_str());
+        let place: Vec<&str> = place[..system.dimension].iter().map(coordinate).collect();
+        text += &format!("{point} = ({})\n", place.join(", "));
+    }
+    let is_of_a_point = |k: &usize| {
+        system
+            .points
+            .iter()
+            .flatten()
+            .any(|place| *place == Some(*k))
+    };
+    for (k, unknown) in system.unknowns.iter().enumerate() {
+        if !is_of_a_point(&k) {
+            text += &format!("{} is {}\n", names[k], unknown.name);
+        }
+    }
+    text
+}
+
 /// `x4` for the first coordinate of the fourth point; other unknowns are `u1`, `u2`, ...
 fn names(system: &System) -> Vec<String> {
     let mut names = vec![String::new(); system.unknowns.len()];
@@ -193,23 +218,22 @@ fn number(value: &Real, to: Export) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::super::exact::{Exact, Random};
-    use super::super::lower::lower_in_squares;
+    use super::super::lower::{lower, lower_in_squares};
     use super::super::start::draw;
     use super::*;
     use crate::problem::Problem;
 
     #[test]
     fn expanded_polynomials_are_the_equations() {
-        for name in [
-            "octahedron",
-            "k33",
-            "constraints/3p3l",
-            "constraints/pentahedron",
+        for (name, lower) in [
+            ("octahedron", lower_in_squares as fn(&Problem) -> _),
+            ("k33", lower_in_squares),
+            // In a frame of lines, in which figures can be drawn.
+            ("constraints/3p3l", lower),
+            ("constraints/pentahedron", lower_in_squares),
         ] {
             let path = format!("{}/problems/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-            let system = lower_in_squares(&Problem::read(path).unwrap())
-                .unwrap()
-                .system;
+            let system = lower(&Problem::read(path).unwrap()).unwrap().system;
             let figure = draw(&system, &mut Random::new(4)).unwrap();
             for e in 0..system.equations.len() {
                 let mut sum = Exact::zero();

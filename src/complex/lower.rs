@@ -69,7 +69,7 @@ const MOST: usize = 400;
 
 /// Makes the complex system of a checked problem.
 pub fn lower(problem: &Problem) -> Result<Lowered, Unserved> {
-    lower_with(problem, true)
+    in_a_frame(problem).unwrap_or_else(|| checked(general(problem, true)?))
 }
 
 /// Makes the complex system of a checked problem as a template has it, if it has the problem's equations in one of the frames that these
@@ -88,17 +88,18 @@ pub fn lower_for(problem: &Problem, template: &str) -> Result<Lowered, Unserved>
 }
 
 /// Makes the complex system of a checked problem with an equation for the square of every distance, those of the
-/// reference too: then all coefficients of a problem of distances are ratios.
+/// reference too: then all coefficients of a problem of distances are ratios. Where it can be, it is that of the unknowns of
+/// real paths, seen from the problem's own reference.
 pub fn lower_in_squares(problem: &Problem) -> Result<Lowered, Unserved> {
-    lower_with(problem, false)
+    let own = general(problem, false).and_then(checked);
+    own.or_else(|unserved| in_a_frame(problem).unwrap_or(Err(unserved)))
 }
 
-fn lower_with(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
-    let frame = lines::frames(problem).into_iter().next();
-    match frame.and_then(|frame| lines::lower(problem, frame)) {
-        Some(system) => checked(without_bound(system)),
-        None => checked(general(problem, placed)?),
-    }
+/// In a frame that lines of their own make, if there is one.
+fn in_a_frame(problem: &Problem) -> Option<Result<Lowered, Unserved>> {
+    let frame = lines::frames(problem).into_iter().next()?;
+    let system = lines::lower(problem, frame)?;
+    Some(checked(without_bound(system)))
 }
 
 fn without_bound(system: System) -> Lowered {
@@ -129,7 +130,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
         bound = bound::bound(problem.dimension, problem.points.len(), &edges);
         // The figure stands on what the bound holds fixed.
-        if let Some(bound) = &bound {
+        if let Some(bound) = bound.as_ref().filter(|_| placed) {
             let mut placed = problem.clone();
             placed.homotopy.reference = bound.fixed.clone();
             if Homotopy::new(&placed).is_ok() {

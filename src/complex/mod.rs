@@ -56,7 +56,7 @@ pub use boxes::{Found, Same, SolutionBox, SolutionSet};
 pub use certify::to_certificate;
 pub use count::{Counts, count, count_generic};
 pub use exact::{Exact, Parameter, Random};
-pub use export::{Export, export};
+pub use export::{Export, export, places};
 pub use follow::{Effort, Follower, PathEnd, Ways, follow_all, prove_all};
 pub use lower::{Lowered, Unserved, lower, lower_for, lower_in_squares};
 pub use monodromy::{Fibre, Filling, fill};

@@ -13,6 +13,7 @@ mod complex_frames;
 mod complex_infinity;
 mod complex_solutions;
 mod explore;
+mod exports;
 mod falling_apart;
 mod mechanisms;
 mod miscounted;
