@@ -259,6 +259,7 @@ fn homotopy(
         nonzero: nonzero.collect(),
         equations,
         followed: Vec::new(),
+        segments: Vec::new(),
     }))
 }
 

@@ -147,7 +147,14 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
             }
             Some(c) => problem.constraint_name(c),
         };
-        let _ = writeln!(text, "  {name:<13} {what}");
+        let tied = imported.tied.iter().find(|tied| tied.index == index);
+        let tied = tied.map_or(String::new(), |tied| {
+            format!(
+                " (by the expression `{}` in the file, which is not evaluated here)",
+                tied.expression
+            )
+        });
+        let _ = writeln!(text, "  {name:<13} {what}{tied}");
     }
     text += &blocks_in_words(&blocks);
     Ok(text)

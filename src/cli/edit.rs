@@ -9,7 +9,7 @@ use krawl::edit::{Decomposition, Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
 use krawl::report::{edit_to_document, edit_to_table, freedom_in_words};
-use krawl::track::{Control, Options, Witness};
+use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -87,7 +87,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if arguments.serve {
         return Ok(
             match open(&problem, &arguments.file, extended, &mut Control::default())? {
-                Ok(mut session) => match serve::serve(&mut session) {
+                Ok(mut session) => match serve::serve(&mut session, &loaded) {
                     true => CLOSED,
                     false => BAD_INPUT,
                 },
@@ -100,6 +100,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let settings = settings.collect::<Result<Vec<_>, _>>();
     let settings = settings.map_err(|e| in_file(&e))?;
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+    let warnings = loaded.warnings(&settings);
     let mut found = None;
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
@@ -139,11 +140,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let moved = session.moved();
     let found = found.or_else(|| session.decomposition());
 
-    let (mut written, verdict) = commit(
-        (begun.as_ref(), witness),
-        cert.filter(|_| !arguments.no_verify),
-        arguments.quiet,
-    )?;
+    let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, &edited) {
+        true => (true, None),
+        false => commit(
+            (begun.as_ref(), witness),
+            cert.filter(|_| !arguments.no_verify),
+            arguments.quiet,
+        )?,
+    };
     let document = || {
         let mut value = edit_to_document(&problem, &edited, &session);
         if let Some(found) = found.clone() {
@@ -151,6 +155,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             value["redundant"] = found.redundant.into();
             value["follows"] = found.follows.into();
         }
+        value["warnings"] = warnings.clone().into();
         value
     };
     if !pictures.is_empty() {
@@ -177,7 +182,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
         let free = found.as_ref().map_or(String::new(), freedom_in_words);
-        let text = edit_to_table(&problem, &edited, moved) + &free;
+        let mut text = edit_to_table(&problem, &edited, moved) + &free;
+        for warning in &warnings {
+            text += &format!("warning             {warning}\n");
+        }
         written &= output::print(&text);
     }
     Ok(match written {
@@ -209,6 +217,19 @@ pub(super) fn certified(
             None
         }
     })
+}
+
+/// Whether a certificate would say more than the edit does: it is about the equations, which go on where a line or arc vanishes.
+/// That none is written is said.
+pub(super) fn is_unwitnessed(file: &Path, cert: Option<&Path>, edited: &Edited) -> bool {
+    match (&edited.ending, cert) {
+        (Ending::Stopped(stop), Some(_)) if stop.kind == StopKind::Vanishes => {
+            let text = format!("no certificate was written: {stop}");
+            output::complain(&in_file(file, &text));
+            true
+        }
+        _ => false,
+    }
 }
 
 /// Why an edit stopped, if it did.

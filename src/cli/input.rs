@@ -1,7 +1,7 @@
 //! Reading problems from files and from standard input.
 
 use krawl::complete::{Surplus, has_equations_to_spare};
-use krawl::edit::{Decomposition, completed};
+use krawl::edit::{Decomposition, Setting, completed};
 use krawl::import::{self, Figure, Format, Imported};
 use krawl::problem::{MAX_FILE_SIZE, Problem};
 use std::io::{self, Read};
@@ -214,6 +214,13 @@ pub fn unsupported(imported: &Imported) -> String {
 }
 
 impl Loaded {
+    /// What is to be said where dimensions are set: see [`Imported::warnings`].
+    pub fn warnings(&self, settings: &[Setting]) -> Vec<String> {
+        let set: Vec<usize> = settings.iter().map(|setting| setting.index).collect();
+        let imported = self.imported.as_ref();
+        imported.map_or(Vec::new(), |(imported, _)| imported.warnings(&set))
+    }
+
     /// The file with a new figure and new dimensions, in its own format.
     pub fn rewritten(
         &self,

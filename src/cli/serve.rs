@@ -1,5 +1,6 @@
 //! `krawl edit --serve`: edits as lines of JSON, one answer for each.
 
+use super::input::Loaded;
 use krawl::edit::{Ending, Session, Setting};
 use krawl::report::{edit_to_value, figure_to_value};
 use krawl::track::Control;
@@ -28,7 +29,7 @@ struct Request<'a> {
 }
 
 /// Answers lines until there are no more, or nobody reads the answers. The result: whether all is well.
-pub fn serve(session: &mut Session) -> bool {
+pub fn serve(session: &mut Session, loaded: &Loaded) -> bool {
     let mut input = io::stdin().lock();
     let mut output = io::stdout().lock();
     let mut line = Vec::new();
@@ -50,7 +51,7 @@ pub fn serve(session: &mut Session) -> bool {
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
-        let answer = answer(session, &line);
+        let answer = answer(session, loaded, &line);
         if writeln!(output, "{answer}")
             .and_then(|()| output.flush())
             .is_err()
@@ -60,7 +61,7 @@ pub fn serve(session: &mut Session) -> bool {
     }
 }
 
-fn answer(session: &mut Session, line: &[u8]) -> Value {
+fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
     let request: Request = match serde_json::from_slice(line) {
         Ok(request) => request,
         Err(error) => {
@@ -78,6 +79,7 @@ fn answer(session: &mut Session, line: &[u8]) -> Value {
                 false => session.edit_with(&settings, &mut control),
             };
             let mut value = edit_to_value(session.problem(), &edited, session.moved());
+            value["warnings"] = loaded.warnings(&settings).into();
             value["committed"] = json!(!request.probe && edited.ending == Ending::Reached);
             value
         }

@@ -1,6 +1,6 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{beside, carried, certified, commit, exit_code, open, reason};
+use super::edit::{beside, carried, certified, commit, exit_code, is_unwitnessed, open, reason};
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
@@ -122,11 +122,15 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Err(code) => return Ok(code),
     };
     let sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
-    let (mut written, verdict) = commit(
-        (begun.as_ref(), witness),
-        cert.filter(|_| !arguments.no_verify),
-        arguments.quiet,
-    )?;
+    let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
+    let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, last) {
+        true => (true, None),
+        false => commit(
+            (begun.as_ref(), witness),
+            cert.filter(|_| !arguments.no_verify),
+            arguments.quiet,
+        )?,
+    };
     if !pictures.is_empty() {
         let page = Page::from_result(&sweep_to_value(&problem, index, &sweep));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);

@@ -7,7 +7,8 @@
 //! - `Reached`: the figure at t = 1 is the one and only continuation of the old one;
 //! - `Limit`: the path turns back at a t* < 1, which is enclosed: so far the dimensions can go and no further;
 //! - `Passes`: branches seem to meet, so that no continuation is singled out (seen in floats, not proved);
-//! - `Stopped`: nothing could be proved from some t on, and why.
+//! - `Stopped`: nothing could be proved from some t on, and why; or a drawn line or arc shrinks to nothing there and would come out
+//!   turned round.
 //!
 //! ```
 //! use krawl::edit::{Ending, Session, Setting};
@@ -41,6 +42,7 @@ mod limits;
 mod open;
 mod parts;
 mod place;
+mod segments;
 mod session;
 mod setting;
 mod sweep;

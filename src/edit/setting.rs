@@ -3,7 +3,7 @@
 use super::whole::length;
 use crate::constraint::{self, Measure};
 use crate::interval::{Interval, Real, hull, point};
-use crate::problem::{Constraint, Decimal, DecimalError, Problem, Target};
+use crate::problem::{Constraint, Decimal, DecimalError, Item, Problem, Shape, Target};
 use num_rational::BigRational;
 
 /// A dimension and its new value.
@@ -31,6 +31,18 @@ pub enum SettingError {
         /// The name.
         name: String,
         /// Those that there are, shortened.
+        known: String,
+    },
+    /// A constraint that has no number.
+    #[error(
+        "`{name}` is a constraint without a number, `{kind}`: there is nothing to set; dimensions are {known}"
+    )]
+    NoNumber {
+        /// The name.
+        name: String,
+        /// The kind of the constraint.
+        kind: String,
+        /// The dimensions that there are, shortened.
         known: String,
     },
     /// More than one has.
@@ -265,9 +277,42 @@ pub(super) fn measure(problem: &Problem, index: usize) -> Measure {
     }
 }
 
+/// The name of an angle of two lines with the names of lines in place of those of their ends: a line that is named by its ends, in
+/// the other order, is that line still.
+fn named_by_lines(problem: &Problem, index: usize) -> Option<String> {
+    let constraint = &problem.constraints[index - problem.distances.len()];
+    if constraint.kind != "angles" {
+        return None;
+    }
+    let (mut names, mut rest) = (Vec::new(), &constraint.items[..]);
+    while let Some((&item, after)) = rest.split_first() {
+        rest = after;
+        let ends = match (item, after.first()) {
+            (Item::Point(a), Some(&Item::Point(b))) => [[a, b], [b, a]],
+            _ => {
+                names.push(problem.item_name(item));
+                continue;
+            }
+        };
+        let mut objects = problem.objects.iter();
+        let line = objects.find(|o| matches!(o.shape, Shape::Line(of) if ends.contains(&of)))?;
+        names.push(&line.name);
+        rest = &after[1..];
+    }
+    Some(format!("{}:{}", constraint.kind, names.join("-")))
+}
+
+/// Whether an index is that of a dimension: of a distance, or of a constraint with a number.
+fn has_number(problem: &Problem, index: usize) -> bool {
+    let constraint = index.checked_sub(problem.distances.len());
+    constraint.is_none_or(|c| problem.constraints[c].value.is_some())
+}
+
 fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
+    // One name of another program may stand for several constraints here, of which one has the number.
     let labelled = problem.labels.iter().filter(|(_, label)| *label == name);
-    let mut labelled = labelled.map(|(&index, _)| index);
+    let labelled = labelled.map(|(&index, _)| index);
+    let mut labelled = labelled.filter(|&index| has_number(problem, index));
     if let (Some(index), None) = (labelled.next(), labelled.next()) {
         return Ok(index);
     }
@@ -286,8 +331,11 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
                 is(a, b) || is(b, a)
             }
             Some(_) => {
-                let own = problem.derived_name(index);
-                own == name || own.split_once(':').is_some_and(|(_, items)| items == name)
+                let is = |own: &str| {
+                    own == name || own.split_once(':').is_some_and(|(_, items)| items == name)
+                };
+                is(&problem.derived_name(index))
+                    || named_by_lines(problem, index).is_some_and(|own| is(&own))
             }
         };
         if is_it {
@@ -299,6 +347,12 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
     }
     found.ok_or_else(|| {
         const SHOWN: usize = 12;
+        let all = problem.distances.len()..problem.distances.len() + problem.constraints.len();
+        let mut without = all.filter(|&index| !has_number(problem, index));
+        let without = without.find(|index| {
+            problem.labels.get(index).is_some_and(|label| label == name)
+                || problem.derived_name(*index) == name
+        });
         let all: Vec<usize> = problem.dimensions().collect();
         let names = all
             .iter()
@@ -308,9 +362,16 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
         if all.len() > SHOWN {
             known += &format!(" and {} more", all.len() - SHOWN);
         }
-        SettingError::Unknown {
-            name: name.chars().take(64).collect(),
-            known,
+        let short = name.chars().take(64).collect();
+        match without {
+            Some(index) => SettingError::NoNumber {
+                name: short,
+                kind: problem.constraints[index - problem.distances.len()]
+                    .kind
+                    .clone(),
+                known,
+            },
+            None => SettingError::Unknown { name: short, known },
         }
     })
 }

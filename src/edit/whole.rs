@@ -5,6 +5,7 @@ use super::open::{self, Moved, OpenError};
 use super::parts::MOST_TUBES;
 use super::parts::senses::senses;
 use super::place::Stand;
+use super::segments::{NARROWER, Reversed, first_lost, is_same_by_constraint, segments, stop};
 use super::setting::Setting;
 use crate::constraint::{Entry, Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
@@ -54,6 +55,7 @@ impl Whole {
             let mut homotopy =
                 Homotopy::with_constraints(&problem, typical_length(&problem), |_| lowered.tail)?;
             homotopy.followed = senses(&problem);
+            homotopy.segments = segments(&problem, is_same_by_constraint(&problem));
             homotopy
         };
         if homotopy.equations > LARGEST_SQUARE {
@@ -200,6 +202,7 @@ impl Whole {
                 run
             }
         };
+        let run = self.end_where_segments_vanish(settings, run, control);
         let homotopy = self.arcs.homotopy_mut();
         for setting in distances() {
             let now = &self.problem.distances[setting.index].target;
@@ -252,6 +255,62 @@ impl Whole {
         let remark = format!("full space: in the reduced space the run stopped, {reason}");
         second.switched_on.push(remark);
         second
+    }
+
+    /// The run, ended where a line or arc shrinks to nothing.
+    fn end_where_segments_vanish(
+        &self,
+        settings: &[Setting],
+        mut run: ArcRun,
+        control: &mut Control,
+    ) -> ArcRun {
+        // A certificate is of the run that was made.
+        let witness = control.witness.take();
+        for radius in NARROWER {
+            if self.lost_segment(settings, &run).is_none() {
+                break;
+            }
+            let homotopy = self.arcs.homotopy();
+            let options = Options {
+                tube_radius: Some(radius * homotopy.unit),
+                ..self.options.clone()
+            };
+            let again = arcs(homotopy.clone(), &options).follow(&self.figure, control);
+            run.steps += again.steps;
+            let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
+            if !is_told && self.lost_segment(settings, &again).is_none() {
+                break;
+            }
+            run.segments = again.segments;
+        }
+        control.witness = witness;
+        match self.lost_segment(settings, &run) {
+            Some((stop, t)) => ArcRun {
+                end: ArcEnd::Stopped(stop),
+                t,
+                ..run
+            },
+            None => run,
+        }
+    }
+
+    /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
+    fn lost_segment(&self, settings: &[Setting], run: &ArcRun) -> Option<(Stop, (f64, f64))> {
+        let head = self.problem.distances.len();
+        let reversed = settings.iter().filter_map(|s| {
+            let (from, to) = (self.length(s.index), s.value());
+            Reversed::new(&self.problem, s.index.checked_sub(head)?, from, to)
+        });
+        let reversed: Vec<Reversed> = reversed.collect();
+        let is_asked = |object: usize| {
+            let mut segments = self.arcs.homotopy().segments.iter();
+            let segment = segments.find(|segment| segment.object == object);
+            let same = is_same_by_constraint(&self.problem);
+            let zero = |_: usize, _: usize| false;
+            segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, &same, zero)))
+        };
+        let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;
+        Some((stop(&self.problem, kept), t))
     }
 
     fn account(&self, settings: &[Setting], run: ArcRun) -> (Edited, Option<Figure>) {

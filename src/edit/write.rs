@@ -1,6 +1,8 @@
 //! The edited figure in the user's own file: only the numbers change.
 
-use crate::problem::{Decimal, Problem, Target};
+use crate::constraint::{Arguments, LineName, is_opposite_nearer};
+use crate::interval::Real;
+use crate::problem::{Constraint, Decimal, Problem, Target};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
@@ -21,6 +23,10 @@ pub enum WriteError {
 
 /// Puts the places of points, the radii of circles and the dimensions of `problem` into the text of the file that it was read from,
 /// which keeps its order, comments and layout.
+///
+/// Two lines have two angles. Of a right angle the file tells by the order of the lines' ends which of both it is; where an angle
+/// becomes one and is not the angle between the lines as they are named, the ends of one of them are named in place of it, in
+/// the other order.
 ///
 /// Places are rounded to floats. Dimensions are put where they differ from what the text says, those given
 /// by their squares as exact squares. `radii`: by object, in floats; zeros stand for what is not to be changed.
@@ -78,6 +84,7 @@ pub fn rewrite(
     };
     let (lengths, others): (Vec<&Value>, Vec<&Value>) =
         list("distances").into_iter().partition(joins_points);
+    let mut turned: Vec<(Range<usize>, String)> = Vec::new();
     let mut entries: HashMap<String, std::vec::IntoIter<&Value>> = HashMap::new();
     entries.insert("distances".to_owned(), others.into_iter());
     for constraint in problem.constraints.iter() {
@@ -95,8 +102,17 @@ pub fn rewrite(
         let number = array
             .get(array.len().saturating_sub(1))
             .ok_or_else(|| other(key))?;
-        if said(text, number).as_ref() != Some(wanted) {
+        let before = said(text, number);
+        if before.as_ref() != Some(wanted) {
             put(number, toml_number(wanted.text()))?;
+            if let Some((which, ends)) = before.and_then(|b| turned_round(problem, constraint, &b))
+            {
+                let span = |k: usize| array.get(k).and_then(Value::span);
+                let (first, last) = (span(which.start), span(which.end - 1));
+                let (first, last) = first.zip(last).ok_or_else(|| other(key))?;
+                let names = ends.map(|p| Value::from(&*problem.points[p].name).to_string());
+                turned.push((first.start..last.end, names.join(", ")));
+            }
         }
     }
     let lengths = lengths.into_iter().map(|value| (value, false));
@@ -125,11 +141,54 @@ pub fn rewrite(
     }
 
     let mut out = text.to_owned();
+    changes.extend(turned);
     changes.sort_by_key(|change| std::cmp::Reverse(change.0.start));
     for (span, new) in changes {
         out.replace_range(span, &new);
     }
     Ok(out)
+}
+
+/// Of an angle of two lines that becomes a right one, and is the angle of one of them with the other one reversed: which items
+/// name a line through two points, and its ends in the order in which it is that of the lines as they are named.
+fn turned_round(
+    problem: &Problem,
+    constraint: &Constraint,
+    before: &Decimal,
+) -> Option<(Range<usize>, [usize; 2])> {
+    let is_right = |degrees: &Decimal| *degrees.value() == BigRational::from_integer(90.into());
+    let becomes_right = constraint.value.as_ref().is_some_and(is_right) && !is_right(before);
+    let mut items = Arguments::new(problem, &constraint.items);
+    let all = items.left();
+    if constraint.kind != "angles" || !becomes_right || (all == 3 && items.points_ahead() == 3) {
+        return None;
+    }
+    let first = items.line().ok()?;
+    let middle = all - items.left();
+    let second = items.line().ok()?;
+    items.end().ok()?;
+    let direction = |line: LineName| -> Option<[BigRational; 3]> {
+        match line {
+            LineName::Points([a, b]) => {
+                let [from, to] = [a, b].map(|p| &problem.points[p].sketch);
+                Some(std::array::from_fn(|k| to[k].value() - from[k].value()))
+            }
+            LineName::Axis(axis) => Some(std::array::from_fn(|k| {
+                BigRational::from_integer(i32::from(k == axis).into())
+            })),
+            LineName::Free(_) => None,
+        }
+    };
+    let (u, v) = (direction(first)?, direction(second)?);
+    let now = u.iter().zip(&v).map(|(a, b)| a * b).sum();
+    if !is_opposite_nearer(&now, &Real::cosine_of_degrees(before.value().clone())) {
+        return None;
+    }
+    match (first, second) {
+        (LineName::Points([a, b]), _) => Some((0..middle, [b, a])),
+        (_, LineName::Points([a, b])) => Some((middle..all, [b, a])),
+        _ => None,
+    }
 }
 
 /// The number that stands in the text.
@@ -208,6 +267,27 @@ mod tests {
         assert_eq!(text, wanted);
         let again = Problem::parse(&text, "again.toml").unwrap();
         assert_eq!(again.distances[0].target, problem.distances[0].target);
+    }
+
+    #[test]
+    fn a_right_angle_says_which_it_is() {
+        // From a to b and from a to c it is 120 degrees, and the angle of the lines is the other one.
+        let file = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [-1, 1.7]\n[lines]\nl = [\"a\", \"b\"]\n\
+                    [constraints]\nfixed = [\"a\"]\nhorizontal = [\"l\"]\n\
+                    distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 2]]\nangles = [[\"l\", \"a\", \"c\", 60]]\n";
+        let mut problem = Problem::parse_loosely(file, "angle.toml").unwrap();
+        let places = problem
+            .points
+            .iter()
+            .map(|p| p.sketch.each_ref().map(Decimal::to_f64));
+        let places: Vec<[f64; 3]> = places.collect();
+        let at = problem.constraints.iter().position(|c| c.kind == "angles");
+        let mut written = |degrees: &str| {
+            problem.constraints[at.unwrap()].value = Some(degrees.parse().unwrap());
+            rewrite(file, &problem, &places, &[]).unwrap()
+        };
+        assert!(written("90").contains("[[\"b\", \"a\", \"a\", \"c\", 90.0]]"));
+        assert!(written("80").contains("[[\"l\", \"a\", \"c\", 80.0]]"));
     }
 
     #[test]

@@ -2,10 +2,11 @@
 //!
 //! Geometry is counted from 0; −1 and −2 are the axes, −3 and below geometry of other objects, which older versions
 //! do not store. A constraint names edges, or points of edges: 1 the start, 2 the end, 3 the centre. What constraints
-//! mean is that of FreeCAD's `Sketch.cpp` and planegcs; expressions are not looked at, as their values are stored.
+//! mean is that of FreeCAD's `Sketch.cpp` and planegcs; expressions are not evaluated, as their values are stored, but which
+//! dimensions they tie to which others is said.
 
 use super::drawing::{Drawing, Finished};
-use super::{Figure, Imported, Listed, Places as AllPlaces};
+use super::{Figure, Imported, Listed, Places as AllPlaces, Tied};
 use crate::problem::{Item, Problem, Shape};
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
@@ -342,6 +343,14 @@ impl Reader {
         self.drawing.if_round(object)
     }
 
+    /// A line as an angle takes it: away from the end that the constraint names, from the second end to the first if it is that.
+    fn from_end(&self, (_, position): (i64, i64), line: usize) -> Vec<Item> {
+        match *self.drawing.shape(line) {
+            Shape::Line([a, b]) if position == 2 => vec![Item::Point(b), Item::Point(a)],
+            _ => vec![Item::Object(line)],
+        }
+    }
+
     fn ends_of(&mut self, id: i64) -> Option<[usize; 2]> {
         match self.edge(id)? {
             Drawn::Line { ends, .. } => Some(ends),
@@ -419,7 +428,6 @@ impl Reader {
             9 if third.0 == NONE => {
                 let one = self.line_of(first.0)?;
                 let other = self.line_of(if has_second { second.0 } else { -1 })?;
-                let items = vec![Item::Object(one), Item::Object(other)];
                 let degrees = degrees(value).abs() % 360.0;
                 let degrees = if degrees > 180.0 {
                     360.0 - degrees
@@ -429,6 +437,12 @@ impl Reader {
                 let (kind, value) = match degrees {
                     0.0 | 180.0 => ("parallel", None),
                     _ => ("angles", Some(degrees)),
+                };
+                let items = match (kind, has_second) {
+                    ("angles", true) => {
+                        [self.from_end(first, one), self.from_end(second, other)].concat()
+                    }
+                    _ => vec![Item::Object(one), Item::Object(other)],
                 };
                 self.drawing.constrain(source, kind, items, value);
             }
@@ -588,6 +602,46 @@ fn kind_name(kind: i64) -> String {
     name.map_or_else(|| format!("type {kind}"), |name| (*name).to_owned())
 }
 
+/// Whether an expression, or the path of one, names a constraint: `Constraints.width`, or by its number `Constraints[3]`.
+fn names(text: &str, name: &str, number: usize) -> bool {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut after = text.split("Constraints").skip(1);
+    after.any(|rest| {
+        let by_name = rest.strip_prefix('.').filter(|_| !name.is_empty());
+        let by_name = by_name.map(|rest| rest.strip_prefix("<<").unwrap_or(rest));
+        let by_name = by_name.and_then(|rest| rest.strip_prefix(name));
+        by_name.is_some_and(|rest| !rest.starts_with(is_word))
+            || rest.starts_with(&format!("[{number}]"))
+    })
+}
+
+/// The dimensions that expressions of the sketch compute.
+fn tied(object: Node, sources: &[Option<usize>], problem: &Problem) -> Vec<Tied> {
+    let constraints = constraints(object);
+    let named = |text: &str| -> Vec<usize> {
+        let all = problem.dimensions().filter(|&index| {
+            sources[index].is_some_and(|source| {
+                let name = constraints[source].attribute("Name").unwrap_or("");
+                names(text, name, source)
+            })
+        });
+        all.collect()
+    };
+    let engine = property(object, "ExpressionEngine").into_iter();
+    let all = engine.flat_map(|n| n.descendants().filter(|n| n.has_tag_name("Expression")));
+    let tied = all.flat_map(|node| {
+        let text = |key: &str| node.attribute(key).unwrap_or("");
+        let (of, expression) = (named(text("path")), text("expression"));
+        let on = named(expression);
+        of.into_iter().map(move |index| Tied {
+            index,
+            expression: expression.to_owned(),
+            on: on.clone(),
+        })
+    });
+    tied.collect()
+}
+
 pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     let text = document(bytes)?;
     let document = parse(&text)?;
@@ -647,7 +701,9 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         unsupported,
         sources,
     } = reader.drawing.finish(name, source);
+    let tied = tied(object, &sources, &problem);
     Ok(Imported {
+        tied,
         problem,
         unsupported,
         surplus: None,

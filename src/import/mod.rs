@@ -89,7 +89,20 @@ pub struct Imported {
     pub unsupported: BTreeMap<String, usize>,
     /// Of a molecule: the distances of bonds and bond angles that [`Imported::problem`] has not, and what it has in place of such.
     pub surplus: Option<Surplus>,
+    /// Dimensions that the file's own program computes.
+    pub tied: Vec<Tied>,
     places: Places,
+}
+
+/// A dimension that its own program computes by an expression. krawl does not: an edit leaves it as it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tied {
+    /// The index of the dimension.
+    pub index: usize,
+    /// The expression.
+    pub expression: String,
+    /// The dimensions of the sketch that are named in it, by index.
+    pub on: Vec<usize>,
 }
 
 /// Where the numbers of a sketch stand in its file.
@@ -215,6 +228,42 @@ pub fn rewrite(
 }
 
 impl Imported {
+    /// What is to be said where these dimensions are set: which others its own program would take along and krawl leaves as they
+    /// are, and which of them it will set anew.
+    pub fn warnings(&self, set: &[usize]) -> Vec<String> {
+        let name = |index: usize| self.problem.dimension_name(index);
+        let mut moved = set.to_vec();
+        let mut warnings = Vec::new();
+        for tied in self.tied.iter().filter(|tied| set.contains(&tied.index)) {
+            warnings.push(format!(
+                "{} has the expression `{}` in the file, by which it is set anew when the file is recomputed there",
+                name(tied.index),
+                tied.expression
+            ));
+        }
+        // What is tied to what is tied, and so on.
+        while let Some(tied) = self.tied.iter().find(|tied| {
+            !moved.contains(&tied.index) && tied.on.iter().any(|on| moved.contains(on))
+        }) {
+            let on: Vec<String> = tied
+                .on
+                .iter()
+                .filter(|on| moved.contains(on))
+                .map(|&on| name(on))
+                .collect();
+            warnings.push(format!(
+                "{} is tied to {} by the expression `{}` in the file, which krawl does not evaluate: it stays {} here, and is set \
+                 anew when the file is recomputed there",
+                name(tied.index),
+                on.join(" and "),
+                tied.expression,
+                value(&self.problem, tied.index)
+            ));
+            moved.push(tied.index);
+        }
+        warnings
+    }
+
     /// Whether a dimension, by index, is a number that the file has for this sketch: radii of geometry of other groups and
     /// objects, which stay as they are, are not.
     pub fn has_number(&self, index: usize) -> bool {

@@ -146,6 +146,27 @@ impl<'a> Contents<'a> {
         named.collect()
     }
 
+    /// The work plane of a group in a plane: the active one, or where none is, as after "sketch in 3d", the one in which its
+    /// points are drawn, if that is one.
+    fn workplane_of(&self, group: &Record) -> Option<Handle> {
+        let active = group.hex("activeWorkplane.v");
+        if active != 0 {
+            return Some(active);
+        }
+        let entities = self.records.iter().filter(|record| {
+            record.kind == "Entity"
+                && record.whole("type") == POINT_IN_2D
+                && self.request(record.handle(), group.handle()).is_some()
+        });
+        let mut planes: Vec<Handle> = entities.map(|record| record.hex("workplane.v")).collect();
+        planes.sort_unstable();
+        planes.dedup();
+        match planes[..] {
+            [plane] if plane != 0 => Some(plane),
+            _ => None,
+        }
+    }
+
     /// The request that made an entity, if one of `group` did.
     fn request(&self, entity: Handle, group: Handle) -> Option<&Record<'a>> {
         if entity & 0x8000_0000 != 0 {
@@ -191,8 +212,14 @@ impl Plane {
 
     /// Through a place, turned like a normal.
     fn turned(origin: [f64; 3], normal: &Record) -> Self {
-        let [w, x, y, z] =
-            ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
+        let quaternion = ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
+        // What SolveSpace's solver leaves is of length 1 to few digits, and what it means is a rotation.
+        let squared: f64 = quaternion.iter().map(|x| x * x).sum();
+        let long = match (squared - 1.0).abs() > 4.0 * f64::EPSILON && squared > 0.0 {
+            true => squared.sqrt(),
+            false => 1.0,
+        };
+        let [w, x, y, z] = quaternion.map(|x| x / long);
         Plane {
             origin,
             u: [
@@ -546,6 +573,46 @@ impl<'a> Reader<'a> {
         dot(along, self.plane.normal()).abs() <= ROUNDED * dot(along, along).sqrt()
     }
 
+    /// Whether all that a constraint is about lies in the sketch's plane.
+    fn is_about_plane(&self, record: &Record) -> bool {
+        let keys = ["ptA", "ptB", "entityA", "entityB", "entityC", "entityD"];
+        let named = keys.map(|key| record.hex(&format!("{key}.v")));
+        named
+            .into_iter()
+            .filter(|&handle| handle != 0)
+            .all(|handle| {
+                if self.contents.request(handle, self.group).is_some() {
+                    return true;
+                }
+                let Some(entity) = self.contents.entity(handle) else {
+                    return false;
+                };
+                let points: Vec<Handle> = match entity.whole("type") {
+                    LINE => [0, 1]
+                        .map(|k| entity.hex(&format!("point[{k}].v")))
+                        .to_vec(),
+                    2000..=2012 => vec![handle],
+                    _ => return false,
+                };
+                points.into_iter().all(|point| {
+                    let normal = self.plane.normal();
+                    self.contents.place_in_space(point).is_some_and(|place| {
+                        let from = (0..3).map(|k| normal[k] * (place[k] - self.plane.origin[k]));
+                        let size = place.iter().fold(1.0f64, |most, x| most.max(x.abs()));
+                        from.sum::<f64>().abs() <= ROUNDED * size
+                    })
+                })
+            })
+    }
+
+    /// A line as an angle takes it: by its ends in the other order where it is the angle with the line reversed.
+    fn directed(&self, line: usize, reversed: bool) -> Vec<Item> {
+        match *self.drawing.shape(line) {
+            Shape::Line([a, b]) if reversed => vec![Item::Point(b), Item::Point(a)],
+            _ => vec![Item::Object(line)],
+        }
+    }
+
     /// The direction of a line, as it is drawn.
     fn direction(&self, line: usize) -> Option<[f64; 2]> {
         let Shape::Line(ends) = *self.drawing.shape(line) else {
@@ -586,7 +653,11 @@ impl<'a> Reader<'a> {
         let (value, kind) = (record.number("valA"), record.whole("type"));
         let workplane = handle("workplane");
         if workplane != self.workplane && !matches!(kind, 20 | 50 | 90 | 130 | 200) {
-            return None;
+            // In space, of things that are all in the sketch's plane, these say what they say there.
+            let is_same_in_space = matches!(kind, 30 | 32 | 42 | 51 | 54 | 56 | 70 | 120..=122);
+            if workplane != 0 || !is_same_in_space || !self.is_about_plane(record) {
+                return None;
+            }
         }
         let point = Item::Point;
         let object = Item::Object;
@@ -769,12 +840,19 @@ impl<'a> Reader<'a> {
                     .constrain(source, "on", vec![point(p), object(c)], None);
             }
             120 => {
-                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                let items = lines.map(object).to_vec();
+                let [a, b] = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
                 let (kind, value) = match value.abs() {
                     0.0 | 180.0 => ("parallel", None),
                     angle if angle < 180.0 => ("angles", Some(angle)),
                     _ => return None,
+                };
+                let items = match kind {
+                    "parallel" => vec![object(a), object(b)],
+                    // Which of both angles it is the file says at a right angle too.
+                    _ => {
+                        let first = self.directed(a, record.whole("other") != 0);
+                        [first, vec![object(b)]].concat()
+                    }
                 };
                 self.drawing.constrain(source, kind, items, value);
             }
@@ -840,9 +918,13 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     let contents = Contents::new(bytes)?;
     let sketches = contents.sketches();
     let (group, name) = &sketches[index];
-    let workplane = group.hex("activeWorkplane.v");
-    let plane = Plane::new(&contents, workplane)
-        .ok_or_else(|| format!("the work plane of {name} is missing"))?;
+    let workplane = contents.workplane_of(group);
+    let workplane = workplane.ok_or_else(|| {
+        format!("{name}: the group has no active work plane, and nothing in it is drawn in one: it is a sketch in space, which krawl does not read")
+    })?;
+    let plane = Plane::new(&contents, workplane).ok_or_else(|| {
+        format!("{name}: its work plane, the entity {workplane:08x}, is not in the file, or has no origin or normal there")
+    })?;
     let filled = |size| Reader::filled(&contents, (group.handle(), workplane), plane, size);
     // How far coordinates move depends on the largest of all, and with it which signs are certain: what the first
     // reading finds of that is there for the second.
@@ -861,6 +943,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         sources,
     } = drawing.finish(name.clone(), source);
     Ok(Imported {
+        tied: Vec::new(),
         unsupported,
         surplus: None,
         places: AllPlaces::SolveSpace(Places {
@@ -889,12 +972,19 @@ pub fn rewrite(
         let Some((params, entity)) = place else {
             continue;
         };
+        let mut moves = false;
         for (param, value) in params.iter().zip([x, y]) {
             let record = contents
                 .params
                 .get(param)
                 .ok_or_else(|| missing("a parameter"))?;
-            edits.number(&contents.records[*record], "val", value);
+            let record = &contents.records[*record];
+            moves |= record.number("val") != value;
+            edits.number(record, "val", value);
+        }
+        // What stays where it is in the plane stays where the file has it in space.
+        if !moves {
+            continue;
         }
         let record = contents.entity(*entity).ok_or_else(|| missing("a point"))?;
         let there = places.plane.in_space([x, y]);

@@ -1,6 +1,6 @@
 //! H(X, t), as the trackers see it.
 
-use super::{ExactLength, Gauge, GaugeError, Length, Right};
+use super::{ExactLength, Gauge, GaugeError, Length, Right, Segment};
 use crate::constraint::{self, Entry, Form, Role, Tail};
 use crate::interval::{Interval, enclose, enclose_rational, point};
 use crate::problem::{Distance, Problem, Shape, Target};
@@ -73,6 +73,8 @@ pub struct Homotopy {
     auxiliary: Vec<Interval>,
     /// Points whose orientation is followed along arcs, beside those that distances join.
     pub followed: Vec<Vec<usize>>,
+    /// Lines and arcs that are followed along arcs of path, as they must not shrink to nothing and come out turned round.
+    pub segments: Vec<Segment>,
 }
 
 impl Homotopy {
@@ -198,6 +200,7 @@ impl Homotopy {
             auxiliary: Vec::new(),
             followed: Vec::new(),
             spare: Vec::new(),
+            segments: Vec::new(),
             shapes: problem.objects.iter().map(|o| o.shape.clone()).collect(),
             gauge,
             tail,
@@ -254,6 +257,7 @@ impl Homotopy {
             auxiliary: Vec::new(),
             followed: Vec::new(),
             spare: Vec::new(),
+            segments: Vec::new(),
             shapes: Vec::new(),
             gauge,
             tail,

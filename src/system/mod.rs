@@ -14,6 +14,7 @@ mod located;
 mod part;
 mod reversed;
 mod right;
+mod segment;
 mod simplices;
 pub mod told;
 
@@ -27,4 +28,5 @@ pub use interpolation::Length;
 pub use located::Located;
 pub use part::Part;
 pub use right::Right;
+pub use segment::{Extent, Segment};
 pub use simplices::{orientation, simplices};

@@ -1,6 +1,6 @@
 //! A homotopy made of equations and unknowns directly: a part of a problem's, or its with some unknowns made one.
 
-use super::{Gauge, Homotopy};
+use super::{Gauge, Homotopy, Segment};
 use crate::constraint::{Equation, Nonzero, Tail, Unknown};
 
 /// Equations in unknowns that are all listed; [`crate::constraint::Entry::Unknown`] is an index into them.
@@ -20,6 +20,8 @@ pub struct Part {
     pub nonzero: Vec<Nonzero>,
     /// Points of which the orientation is followed: three in the plane, four in space.
     pub followed: Vec<Vec<usize>>,
+    /// Lines and arcs that are followed, as they must not vanish.
+    pub segments: Vec<Segment>,
 }
 
 impl Homotopy {
@@ -47,6 +49,7 @@ impl Homotopy {
         };
         let mut homotopy = Homotopy::without_distances(gauge, part.unit, tail);
         homotopy.followed = part.followed;
+        homotopy.segments = part.segments;
         homotopy
     }
 }

@@ -92,6 +92,18 @@ pub struct Orientation {
     pub lost: Option<(f64, f64)>,
 }
 
+/// A line or arc of the figure that was followed, and what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept {
+    /// The object, by index.
+    pub object: usize,
+    /// The sign of a line's length along its axis; of an arc, that of the sine of its angle where that was certain last. 0: not
+    /// certain at t = 0.
+    pub sign: i8,
+    /// Where along the path it could not be proved not to vanish, if anywhere: the first such range of t.
+    pub lost: Option<(f64, f64)>,
+}
+
 /// The account of an arc.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArcRun {
@@ -101,6 +113,8 @@ pub struct ArcRun {
     pub t: (f64, f64),
     /// Orientations, in the same order each time.
     pub orientations: Vec<Orientation>,
+    /// Lines and arcs that must not vanish, in the same order each time.
+    pub segments: Vec<Kept>,
     /// Where it reached t = 1: within this distance of the figure's middle, in every entry, there is no other
     /// zero of F(X, a(1)). Otherwise 0.
     pub alone_within: f64,
@@ -123,6 +137,7 @@ impl ArcRun {
             end: ArcEnd::Stopped(reason),
             t: (0.0, 0.0),
             orientations: Vec::new(),
+            segments: Vec::new(),
             alone_within: 0.0,
             last: Vec::new(),
             steps: 0,

@@ -27,6 +27,8 @@ pub enum StopKind {
     Infinite,
     /// A length, a radius or a vector that must not vanish goes to zero, or could not be proved not to do so.
     Undefined,
+    /// A drawn line or arc shrinks to nothing, or an arc grows to a whole circle, and would come out turned round.
+    Vanishes,
     /// It cannot be told whether t is 1 somewhere, or whether two solutions are one, or congruent.
     Undecided,
     /// A constraint that seemed to follow from the others does not.
@@ -41,7 +43,7 @@ pub enum StopKind {
 
 impl StopKind {
     /// All of them.
-    pub const ALL: [StopKind; 15] = [
+    pub const ALL: [StopKind; 16] = [
         StopKind::Interrupted,
         StopKind::Limit,
         StopKind::Enough,
@@ -52,6 +54,7 @@ impl StopKind {
         StopKind::Flexible,
         StopKind::Infinite,
         StopKind::Undefined,
+        StopKind::Vanishes,
         StopKind::Undecided,
         StopKind::Contradiction,
         StopKind::Refused,
@@ -72,6 +75,7 @@ impl StopKind {
             StopKind::Flexible => "flexible",
             StopKind::Infinite => "infinite",
             StopKind::Undefined => "undefined",
+            StopKind::Vanishes => "vanishes",
             StopKind::Undecided => "undecided",
             StopKind::Contradiction => "contradiction",
             StopKind::Refused => "refused",

@@ -8,5 +8,6 @@ mod claims;
 mod edit;
 mod edit_mixed;
 mod measures;
+mod real_files;
 mod real_sketches;
 mod sketches;

@@ -4,7 +4,8 @@
 //! lengths are dimensions of the problem it needs no unknowns: `u·v` is a polynomial in t. The angle at a
 //! point is that between the two legs; where the lengths of both are given, the distance between their other ends
 //! takes its place, and so it does for two lines through given bars that have an end in common. Lines and planes have two angles, which add up to 180 degrees: the
-//! one meant is the one that the sketch comes nearer to.
+//! one meant is the one that the sketch comes nearer to; of a right angle, to which both are as near, the one between the directions
+//! from the first end of each line to its second (of planes between their normals).
 
 use super::prelude::*;
 
@@ -189,6 +190,7 @@ fn nearer(low: &mut Lowering, now: &BigRational, target: Real) -> Real {
 
 /// Whether the opposite of a cosine is nearer than itself to the cosine of which `now` has the sign.
 pub fn is_opposite_nearer(now: &BigRational, cosine: &Real) -> bool {
-    // A right angle is nearer from below and from above alike: the sketch's own cosine counts as positive then too.
-    now.is_negative() == (cosine.enclose().inf() >= 0.0) && !now.is_zero()
+    // A right angle is as near from below as from above, and what a drawing shows of the sign is what rounding left: which of
+    // both angles it is is told by the order of the lines' ends, from the first to the second.
+    !cosine.is_zero() && now.is_negative() == (cosine.enclose().inf() > 0.0) && !now.is_zero()
 }

@@ -3,8 +3,8 @@
 use super::{Known, Parts, Used};
 use crate::constraint::{Entry, Form, Nonzero};
 use crate::interval::{Interval, Real, hull, point};
-use crate::system::orientation;
-use crate::track::arc::Orientation;
+use crate::system::{Extent, Segment, orientation};
+use crate::track::arc::{Kept, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
 
@@ -175,6 +175,83 @@ impl Parts {
         }
         out
     }
+}
+
+impl Parts {
+    /// Lines and arcs all of whose coordinates are known exactly.
+    pub(super) fn exact_segments(
+        &self,
+        exact: &HashMap<usize, Vec<Real>>,
+        upto: Interval,
+    ) -> Vec<Kept> {
+        let d = self.problem.dimension;
+        let paths = self.paths(exact);
+        let is_exact = |u: &usize| self.is_exact[self.blocks.of_unknown[*u]];
+        let mut out = Vec::new();
+        for Segment { object, extent } in &self.segments {
+            let axes = match *extent {
+                Extent::Along { axis, .. } => axis..axis + 1,
+                Extent::Sweep { .. } => 0..d,
+            };
+            let place = |p: usize, axis: usize| self.system.coordinates[p * d + axis];
+            let points = extent.points();
+            let of = points
+                .iter()
+                .flat_map(|&p| axes.clone().map(move |k| (p, k)));
+            let of: Vec<usize> = of.map(|(p, axis)| place(p, axis)).collect();
+            if !of.iter().all(is_exact) || !of.iter().any(|u| exact.contains_key(u)) {
+                continue;
+            }
+            let sign = |time: Interval| {
+                extent.sign(|k| {
+                    std::array::from_fn(|axis| match axes.contains(&axis) {
+                        true => self.place_at(&paths, place(points[k], axis), time),
+                        false => point(0.0),
+                    })
+                })
+            };
+            let mut last = sign(point(0.0));
+            let is_known = last != 0;
+            let mut goes_on = |time: Interval| {
+                let now = sign(time);
+                let goes_on = extent.goes_with(last, now);
+                if goes_on {
+                    last = now;
+                }
+                goes_on
+            };
+            let lost = match is_known {
+                true => first_uncertain((0.0, upto.sup()), DEEP, &mut goes_on),
+                false => None,
+            };
+            out.push(Kept {
+                object: *object,
+                sign: last,
+                lost,
+            });
+        }
+        out
+    }
+}
+
+/// A range of times is cut into so many pieces, as a power of two, to tell where a line or arc vanishes.
+const DEEP: u32 = 50;
+
+/// The first piece of a range of times, of which there are 2 to the power of `depth` at most, on which something is not certain.
+fn first_uncertain(
+    (from, to): (f64, f64),
+    depth: u32,
+    is_certain: &mut impl FnMut(Interval) -> bool,
+) -> Option<(f64, f64)> {
+    if is_certain(hull(from, to)) {
+        return None;
+    }
+    let half = 0.5 * (from + to);
+    if depth == 0 || !(from < half && half < to) {
+        return Some((from, to));
+    }
+    first_uncertain((from, half), depth - 1, is_certain)
+        .or_else(|| first_uncertain((half, to), depth - 1, is_certain))
 }
 
 /// Enclosures of a polynomial's coefficients, divided by a power of two.

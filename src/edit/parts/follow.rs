@@ -4,7 +4,7 @@ use super::exact::{is_positive, value_at};
 use super::{End, Known, Parts, Run, Used, moves};
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
-use crate::system::{Homotopy, Part, Right};
+use crate::system::{Extent, Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
 use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
@@ -233,6 +233,12 @@ impl Parts {
             let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
             places.all(|place| coordinates[place].is_some())
         };
+        let segments = self.segments.iter().filter(|segment| match segment.extent {
+            Extent::Along { ends, axis } => {
+                ends.iter().all(|p| coordinates[p * d + axis].is_some())
+            }
+            Extent::Sweep { points } => is_here(&&points.to_vec()),
+        });
         let nonzero = self.system.nonzero.iter().filter(|vector| {
             let mut of = vector.unknowns(d);
             of.all(|u| local.contains_key(&u))
@@ -254,6 +260,7 @@ impl Parts {
                 .collect(),
             equations: equations.collect(),
             followed: self.followed.iter().filter(is_here).cloned().collect(),
+            segments: segments.cloned().collect(),
             coordinates,
         });
         let names = self.problem.points.iter().map(|p| p.name.clone());
@@ -274,6 +281,7 @@ impl Parts {
             end: End::Stopped(Stop::new(StopKind::Bug, "")),
             t,
             orientations: self.exact_orientations(exact, upto),
+            segments: self.exact_segments(exact, upto),
             tubes: runs.iter().map(|run| run.run.steps).sum(),
             rejected: runs.iter().map(|run| run.run.rejected).sum(),
             length: runs.iter().map(|run| run.run.length).sum(),
@@ -287,6 +295,7 @@ impl Parts {
             }
             out.orientations
                 .extend(run.run.orientations.iter().cloned());
+            out.segments.extend(run.run.segments.iter().cloned());
         }
         // Nothing is said of a piece of path beyond where all of it ends.
         for orientation in &mut out.orientations {

@@ -18,10 +18,12 @@ use crate::constraint::{Record, try_lower_all};
 use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
+use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
 use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
 use crate::problem::Problem;
-use crate::track::arc::Orientation;
+use crate::system::{Extent, Segment};
+use crate::track::arc::{Kept, Orientation};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
 use left_out::at_rest_all;
@@ -85,6 +87,8 @@ pub(super) struct Parts {
     senses: Vec<Vec<usize>>,
     /// Those, and points that distances join, which are followed where all of them are in one part.
     followed: Vec<Vec<usize>>,
+    /// Lines along an axis and arcs, which must not vanish: followed always.
+    segments: Vec<Segment>,
     figure: Vec<Known>,
     unit: f64,
     moved: Moved,
@@ -97,6 +101,7 @@ struct Run {
     end: End,
     t: (f64, f64),
     orientations: Vec<Orientation>,
+    segments: Vec<Kept>,
     tubes: usize,
     rejected: usize,
     length: f64,
@@ -159,6 +164,10 @@ impl Parts {
         let mut parts = Parts {
             senses: senses::senses(&problem),
             followed: senses::followed(&problem),
+            segments: segments(&problem, |a, b, axis| {
+                let place = |p: usize| system.coordinates[p * problem.dimension + axis];
+                place(a) == place(b)
+            }),
             problem,
             options: Options {
                 space: crate::track::Space::Full,
@@ -193,7 +202,8 @@ impl Parts {
 
     /// Leads the sketch to its own dimensions.
     fn lead(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Result<(), OpenError> {
-        let run = self.follow(rights, control);
+        let mut run = self.follow(rights, control);
+        self.end_where_segments_vanish((&[], rights), &mut run, control);
         let failed = |ending: Ending, what: String| OpenError::Correction {
             what,
             ending: Box::new(ending),
@@ -260,9 +270,18 @@ impl Parts {
             let places = points.iter().flat_map(|p| (p * d)..(p * d + d));
             places.map(|place| self.system.coordinates[place]).collect()
         });
+        let segments = self.segments.iter().map(|segment| {
+            let axes = match segment.extent {
+                Extent::Along { axis, .. } => axis..axis + 1,
+                Extent::Sweep { .. } => 0..d,
+            };
+            let points = segment.extent.points().iter();
+            let places = points.flat_map(|p| axes.clone().map(move |axis| p * d + axis));
+            places.map(|place| self.system.coordinates[place]).collect()
+        });
         let vectors = self.system.nonzero.iter();
         let vectors = vectors.map(|vector| vector.unknowns(d).collect());
-        senses.chain(vectors).map(blocks).collect()
+        senses.chain(segments).chain(vectors).map(blocks).collect()
     }
 
     pub fn problem(&self) -> &Problem {
@@ -334,6 +353,7 @@ impl Parts {
                     Some(what) => stopped(Stop::new(StopKind::Contradiction, what)),
                     None => self.follow(&rights, control),
                 };
+                self.end_where_segments_vanish((settings, &rights), &mut run, control);
                 let mut figure = None;
                 let broken = match &run.end {
                     End::Reached(reached) => self
@@ -362,6 +382,52 @@ impl Parts {
             seconds: clock.elapsed().as_secs_f64(),
             ..edited
         }
+    }
+
+    /// Ends a run where a line or arc shrinks to nothing.
+    fn end_where_segments_vanish(
+        &mut self,
+        (settings, rights): (&[Setting], &[Vec<Real>]),
+        run: &mut Run,
+        control: &mut Control,
+    ) {
+        for radius in NARROWER {
+            if self.lost_segment(settings, run).is_none() {
+                return;
+            }
+            let wide = (self.options.tube_radius, std::mem::take(&mut self.ready));
+            self.options.tube_radius = Some(radius * self.unit);
+            let again = self.follow(rights, control);
+            (self.options.tube_radius, self.ready) = wide;
+            run.tubes += again.tubes;
+            let is_told = matches!(again.end, End::Reached(_) | End::Limit(..));
+            if !is_told && self.lost_segment(settings, &again).is_none() {
+                break;
+            }
+            run.segments = again.segments;
+        }
+        if let Some((stop, t)) = self.lost_segment(settings, run) {
+            (run.end, run.t) = (End::Stopped(stop), t);
+        }
+    }
+
+    /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
+    fn lost_segment(&self, settings: &[Setting], run: &Run) -> Option<(Stop, (f64, f64))> {
+        let (head, d) = (self.problem.distances.len(), self.problem.dimension);
+        let reversed = settings.iter().filter_map(|s| {
+            let (from, to) = (self.value(s.index), s.value());
+            Reversed::new(&self.problem, s.index.checked_sub(head)?, from, to)
+        });
+        let reversed: Vec<Reversed> = reversed.collect();
+        let place = |p: usize, axis: usize| self.system.coordinates[p * d + axis];
+        let is_same = |a: usize, b: usize, axis: usize| place(a, axis) == place(b, axis);
+        let is_zero = |p: usize, axis: usize| self.figure[place(p, axis)].enclosure() == point(0.0);
+        let is_asked = |object: usize| {
+            let segment = self.segments.iter().find(|s| s.object == object);
+            segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, is_same, is_zero)))
+        };
+        let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;
+        Some((stop(&self.problem, kept), t))
     }
 
     /// What right-hand sides of an equation are divided by. Every product of it has the same power of the unit.
@@ -432,6 +498,7 @@ fn stopped(reason: Stop) -> Run {
         end: End::Stopped(reason),
         t: (0.0, 0.0),
         orientations: Vec::new(),
+        segments: Vec::new(),
         tubes: 0,
         rejected: 0,
         length: 0.0,

@@ -413,6 +413,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         added: reading.added,
     });
     Ok(Imported {
+        tied: Vec::new(),
         problem,
         unsupported: BTreeMap::new(),
         surplus,

@@ -1,6 +1,6 @@
 //! The page of an edit: the figure before and after.
 
-use super::reader::{Reader, ShowError, digits, list, middle, pair, text, wrong};
+use super::reader::{Reader, ShowError, digits, list, middle, pair, shown, text, wrong};
 use super::{Figure, Page, Text, Tone};
 use serde_json::{Map, Value, json};
 
@@ -26,6 +26,11 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             bar.target = Some(middle(value));
             bar.label = digits(value).chars().take(8).collect();
         }
+    }
+    // What is drawn beside the figure in the file is that too where the new values were not reached.
+    if !name.is_empty() {
+        let new = |name: &str| Some(shown(&digits(pair(&result["dimensions"][name])?)));
+        page.labels = reader.labels(new)?;
     }
     if !name.is_empty() {
         let figure = reader.figure(&result["points"], &round(&result["radii"]));

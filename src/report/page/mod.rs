@@ -95,6 +95,8 @@ pub struct Bar {
 pub struct Label {
     /// The text.
     pub text: String,
+    /// The text on the figure in the file, where that is another.
+    pub was: Option<String>,
     /// The points, by number.
     pub points: Vec<usize>,
 }

@@ -66,7 +66,7 @@ function between(at) {
 function current() {
   if (state.at !== null) return between(state.at);
   const figure = data.figures[state.figure];
-  return { points: figure.points, outlines: figure.outlines, t: figure.t };
+  return { points: figure.points, outlines: figure.outlines, t: figure.t, kind: figure.kind };
 }
 
 // ---- faces: triangles of bars
@@ -238,9 +238,9 @@ function drawView() {
     const dx = p.x[i] - mx, dy = p.y[i] - my, r = Math.hypot(dx, dy) || 1;
     write(data.points[i], p.x[i] + 15 * dx / r, p.y[i] + 14 * dy / r, ink, "600 13px system-ui, 'DejaVu Sans', sans-serif", N <= 40);
   }
-  if (state.show.sizes) for (const { text, points } of data.labels) {
+  if (state.show.sizes) for (const { text, was, points } of data.labels) {
     const mean = (v) => points.reduce((sum, k) => sum + v[k], 0) / points.length;
-    write(text, mean(p.x), mean(p.y) + (points.length === 1 ? 16 : 0), soft, "12px system-ui, 'DejaVu Sans', sans-serif", false);
+    write(now.kind === "sketch" && was ? was : text, mean(p.x), mean(p.y) + (points.length === 1 ? 16 : 0), soft, "12px system-ui, 'DejaVu Sans', sans-serif", false);
   }
   if (state.show.sizes) for (const bar of data.bars) {
     if (!bar.label) continue;

@@ -89,7 +89,7 @@ fn middles(value: &Value, dimension: usize) -> Option<[f64; 3]> {
 }
 
 /// A decimal as it is written on a bar: not longer than a few digits.
-fn shown(value: &str) -> String {
+pub(super) fn shown(value: &str) -> String {
     match value.parse::<f64>() {
         Ok(x) if value.len() > 8 => format!("{}", (x * 1e4).round() / 1e4),
         _ => value.to_owned(),
@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
             dimension: self.dimension,
             points: self.names.clone(),
             bars: self.bars()?,
-            labels: self.labels()?,
+            labels: self.labels(|_| None)?,
             shapes: self.shapes(),
             figures: vec![self.sketch()?],
             paths: Vec::new(),
@@ -294,8 +294,9 @@ impl<'a> Reader<'a> {
         Ok(bars)
     }
 
-    /// The dimensions that are no bars, each where the points are that it is about.
-    fn labels(&self) -> Result<Vec<Label>, ShowError> {
+    /// The dimensions that are no bars, each where the points are that it is about: the text with the number that stands in
+    /// the file, or with another one for those that `now` has one for, by name.
+    pub fn labels(&self, now: impl Fn(&str) -> Option<String>) -> Result<Vec<Label>, ShowError> {
         let objects = self.result["objects"].as_array().map_or(&[][..], |o| o);
         let points_of = |item: &Value| -> Vec<usize> {
             if let Some(point) = self.number(item) {
@@ -315,9 +316,7 @@ impl<'a> Reader<'a> {
             ) else {
                 continue;
             };
-            let value = shown(value);
-            let text = match kind {
-                "distance" | "squared distance" => continue,
+            let worded = |value: &str| match kind {
                 "angles" => format!("{value}°"),
                 "radii" => format!("r {value}"),
                 "diameters" => format!("⌀ {value}"),
@@ -329,13 +328,21 @@ impl<'a> Reader<'a> {
                         .to_owned()
                 }
             };
+            if matches!(kind, "distance" | "squared distance") {
+                continue;
+            }
+            let (before, name) = (worded(&shown(value)), constraint["name"].as_str());
+            let (text, was) = match name.and_then(&now) {
+                Some(now) => (worded(&now), Some(before)),
+                None => (before, None),
+            };
             let mut points: Vec<usize> = items.iter().flat_map(points_of).collect();
             // Of three points the angle is at the second.
             if let ("angles", &[_, vertex, _]) = (kind, &points[..]) {
                 points = vec![vertex];
             }
             if !points.is_empty() {
-                labels.push(Label { text, points });
+                labels.push(Label { text, was, points });
             }
         }
         Ok(labels)

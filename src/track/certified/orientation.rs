@@ -1,16 +1,18 @@
 //! Which signs of triangles and tetrahedra a path keeps, by proof.
 //!
 //! A sign is that of the determinant of the differences of the points from the first one: twice a signed
-//! area in the plane, six times a signed volume in space.
+//! area in the plane, six times a signed volume in space. Likewise which lines and arcs do not vanish.
 
 use super::link::{Frame, Tube};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
-use crate::system::{Homotopy, simplices};
-use crate::track::arc::{Figure, Orientation};
+use crate::system::{Extent, Homotopy, simplices};
+use crate::track::arc::{Figure, Kept, Orientation};
 
 /// A tube is cut into at most 2 to this power pieces to tell a sign.
 const DEPTH: usize = 10;
+/// And into so many to tell where a line or an arc vanishes, which ends an edit.
+const DEEP: usize = 40;
 
 /// Signs and what becomes of them.
 #[derive(Debug)]
@@ -18,6 +20,8 @@ pub struct Orientations {
     all: Vec<Simplex>,
     /// Those whose sign is known so far.
     known: Vec<u32>,
+    /// Lines and arcs likewise, counted after the others.
+    unbroken: Vec<u32>,
     /// Where the points of a piece of path are: `middle` + θ `slope`, −1 ≤ θ ≤ 1, and how far they may be from there.
     middle: Vector,
     slope: Vector,
@@ -27,9 +31,11 @@ pub struct Orientations {
     size: Vector,
 }
 
-/// A triangle in the plane, a tetrahedron in space.
+/// A triangle in the plane, a tetrahedron in space; or a line or arc.
 #[derive(Debug)]
 struct Simplex {
+    /// The object and its extent, of a line or arc.
+    segment: Option<(usize, Extent)>,
     /// The entries of its points' coordinates, point by point.
     entries: [[u32; 3]; 4],
     what: Orientation,
@@ -51,19 +57,26 @@ impl Orientations {
             Some(&i) if axis < d && i < m => i as u32,
             _ => m as u32 + 1,
         };
-        let all = all.into_iter().map(|points| Simplex {
+        let simplex = |points: Vec<usize>, segment| Simplex {
+            segment,
             entries: std::array::from_fn(|k| {
-                std::array::from_fn(|axis| entry(points[k.min(d)], axis))
+                std::array::from_fn(|axis| entry(points[k.min(points.len() - 1)], axis))
             }),
             what: Orientation {
                 points,
                 sign: 0,
                 lost: None,
             },
+        };
+        let segments = homotopy.segments.iter().map(|segment| {
+            let points = segment.extent.points().to_vec();
+            simplex(points, Some((segment.object, segment.extent.clone())))
         });
+        let all = all.into_iter().map(|points| simplex(points, None));
         Orientations {
-            all: all.collect(),
+            all: all.chain(segments).collect(),
             known: Vec::new(),
+            unbroken: Vec::new(),
             middle: spare.clone(),
             slope: spare.clone(),
             radius: spare.clone(),
@@ -81,11 +94,15 @@ impl Orientations {
         }
         self.slope.fill(0.0);
         self.known.clear();
+        self.unbroken.clear();
         for (index, simplex) in self.all.iter_mut().enumerate() {
             simplex.what.lost = None;
             simplex.what.sign = simplex.sign(&self.middle, &self.slope, &self.radius);
             if simplex.what.sign != 0 {
-                self.known.push(index as u32);
+                match simplex.segment {
+                    None => self.known.push(index as u32),
+                    Some(_) => self.unbroken.push(index as u32),
+                }
             }
         }
     }
@@ -96,13 +113,18 @@ impl Orientations {
         tube: &Tube<D, N, Y>,
         (from, to): (f64, f64),
     ) {
-        let mut known = std::mem::take(&mut self.known);
-        let mut doubtful = known.clone();
-        self.split(tube, (from, to), DEPTH, &mut doubtful);
-        if !doubtful.is_empty() {
-            known.retain(|index| !doubtful.contains(index));
-        }
-        self.known = known;
+        let known = std::mem::take(&mut self.known);
+        let unbroken = std::mem::take(&mut self.unbroken);
+        let mut keep = |mut known: Vec<u32>, depth: usize| {
+            let mut doubtful = known.clone();
+            self.split(tube, (from, to), depth, &mut doubtful);
+            if !doubtful.is_empty() {
+                known.retain(|index| !doubtful.contains(index));
+            }
+            known
+        };
+        let (known, unbroken) = (keep(known, DEPTH), keep(unbroken, DEEP));
+        (self.known, self.unbroken) = (known, unbroken);
     }
 
     /// Leaves those that are lost between two parameters, and notes where.
@@ -118,10 +140,18 @@ impl Orientations {
         }
         self.look(tube, a, b);
         let (middle, slope, radius) = (&self.middle, &self.slope, &self.radius);
-        let all = &self.all;
+        let all = &mut self.all;
         doubtful.retain(|&index| {
-            let simplex = &all[index as usize];
-            simplex.sign(middle, slope, radius) != simplex.what.sign
+            let simplex = &mut all[index as usize];
+            let (sign, before) = (simplex.sign(middle, slope, radius), simplex.what.sign);
+            match &simplex.segment {
+                None => sign != before,
+                Some((_, extent)) if extent.goes_with(before, sign) => {
+                    simplex.what.sign = sign;
+                    false
+                }
+                Some(_) => true,
+            }
         });
         if doubtful.is_empty() {
             return;
@@ -189,12 +219,23 @@ impl Orientations {
         }
     }
 
-    /// What became of all of them.
+    /// What became of all triangles and tetrahedra.
     pub fn account(&self) -> Vec<Orientation> {
-        self.all
-            .iter()
-            .map(|simplex| simplex.what.clone())
-            .collect()
+        let simplices = self.all.iter().filter(|simplex| simplex.segment.is_none());
+        simplices.map(|simplex| simplex.what.clone()).collect()
+    }
+
+    /// What became of all lines and arcs.
+    pub fn segments(&self) -> Vec<Kept> {
+        let segments = self.all.iter().filter_map(|simplex| {
+            let (object, _) = simplex.segment.as_ref()?;
+            Some(Kept {
+                object: *object,
+                sign: simplex.what.sign,
+                lost: simplex.what.lost,
+            })
+        });
+        segments.collect()
     }
 }
 
@@ -218,6 +259,22 @@ impl Simplex {
         let minor = |v: [Along; 3], w: [Along; 3], i: usize, j: usize| {
             v[i].times(w[j]).minus(v[j].times(w[i]))
         };
+        // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are two and four.
+        let certain = |value: Along| {
+            let error = round_up(value.slope.abs() + value.rest, 60);
+            i8::from(value.value > error) - i8::from(value.value < -error)
+        };
+        match &self.segment {
+            Some((_, Extent::Along { axis, .. })) => return certain(side(1)[*axis]),
+            Some((_, Extent::Sweep { .. })) => {
+                let (u, v) = (side(1), side(2));
+                return match certain(minor(u, v, 0, 1)) {
+                    0 if certain(u[0].times(v[0]).plus(u[1].times(v[1]))) < 0 => 1,
+                    sign => sign,
+                };
+            }
+            None => {}
+        }
         let value = if self.what.points.len() == 3 {
             debug_assert!(self.entries[0][2] as usize == middle.len() - 1);
             minor(side(1), side(2), 0, 1)
@@ -227,15 +284,7 @@ impl Simplex {
             let [a, b, c] = parts.map(|(i, j, k)| u[i].times(minor(v, w, j, k)));
             a.plus(b).plus(c)
         };
-        // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are two and four.
-        let error = round_up(value.slope.abs() + value.rest, 60);
-        if value.value > error {
-            1
-        } else if value.value < -error {
-            -1
-        } else {
-            0
-        }
+        certain(value)
     }
 }
 

@@ -310,6 +310,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
             alone_within,
             last: last[..tracker.equations.m].to_vec(),
             orientations: arc.orientations.account(),
+            segments: arc.orientations.segments(),
             end,
             steps,
             rejected: tracker.rejected,

@@ -1,0 +1,172 @@
+//! Lines and arcs that shrink to nothing end an edit: beyond they would be turned round.
+//!
+//! The equations do not know which way a line along an axis runs, nor that the end of an arc comes after its start: a path goes
+//! on through a line of length 0, and through an arc of 0 or 360 degrees. What is drawn is another figure then. So such a place is
+//! an end, in every verb, unless a dimension with a sign says itself that this very line is to run the other way.
+
+use crate::interval::Interval;
+use crate::problem::{Item, Problem, Shape};
+use crate::system::{Extent, Segment};
+use crate::track::arc::Kept;
+use crate::track::{Stop, StopKind};
+
+/// The lines along an axis, and the arcs. `is_same`: whether two points are known to have the same coordinate along an axis.
+pub(super) fn segments(
+    problem: &Problem,
+    is_same: impl Fn(usize, usize, usize) -> bool,
+) -> Vec<Segment> {
+    let extent = |shape: &Shape| match *shape {
+        Shape::Line([a, b]) if problem.dimension == 2 => {
+            let same = [0, 1].map(|axis| is_same(a, b, axis));
+            let axis = match same {
+                [true, false] => 1,
+                [false, true] => 0,
+                _ => return None,
+            };
+            Some(Extent::Along { ends: [a, b], axis })
+        }
+        Shape::Arc { center, start, end } => Some(Extent::Sweep {
+            points: [center, start, end],
+        }),
+        _ => None,
+    };
+    let objects = problem.objects.iter().enumerate();
+    let found = objects.filter_map(|(object, of)| {
+        let extent = extent(&of.shape)?;
+        Some(Segment { object, extent })
+    });
+    found.collect()
+}
+
+/// Whether points are said to have the same coordinate along an axis, by a constraint that names both, or the line between them.
+pub(super) fn is_same_by_constraint(
+    problem: &Problem,
+) -> impl Fn(usize, usize, usize) -> bool + '_ {
+    move |a, b, axis| {
+        let key = ["vertical", "horizontal"][axis];
+        let mut constraints = problem.constraints.iter().filter(|c| c.kind == key);
+        constraints.any(|c| match c.items[..] {
+            [Item::Object(o)] => {
+                matches!(problem.objects[o].shape, Shape::Line(ends) if ends == [a, b] || ends == [b, a])
+            }
+            [Item::Point(p), Item::Point(q)] => [p, q] == [a, b] || [p, q] == [b, a],
+            _ => false,
+        })
+    }
+}
+
+/// A dimension with a sign that is set to the other one: on which coordinates it is, and along which axis.
+pub(super) struct Reversed {
+    /// The two points, or the one whose own coordinate it is.
+    points: Vec<usize>,
+    axis: usize,
+}
+
+impl Reversed {
+    /// The dimension of a constraint that goes from a value to another, if it comes to zero or beyond.
+    pub fn new(problem: &Problem, constraint: usize, from: Interval, to: Interval) -> Option<Self> {
+        let constraint = &problem.constraints[constraint];
+        let axis = match constraint.kind.as_str() {
+            "dx" | "x" => 0,
+            "dy" | "y" => 1,
+            _ => return None,
+        };
+        let point = |item: &Item| match *item {
+            Item::Point(p) => Some(p),
+            _ => None,
+        };
+        let points: Option<Vec<usize>> = constraint.items.iter().map(point).collect();
+        let is_reversed =
+            !((from.inf() > 0.0 && to.inf() > 0.0) || (from.sup() < 0.0 && to.sup() < 0.0));
+        let points = points.filter(|_| is_reversed)?;
+        Some(Reversed { points, axis })
+    }
+
+    /// Whether it is exactly the length of a segment along its axis. `is_zero`: whether a point's coordinate is 0 and stays so.
+    pub fn is_of(
+        &self,
+        segment: &Segment,
+        is_same: impl Fn(usize, usize, usize) -> bool,
+        is_zero: impl Fn(usize, usize) -> bool,
+    ) -> bool {
+        let Extent::Along { ends: [a, b], axis } = segment.extent else {
+            return false;
+        };
+        let same = |p: usize, q: usize| p == q || is_same(p, q, axis);
+        axis == self.axis
+            && match self.points[..] {
+                [p, q] => (same(p, a) && same(q, b)) || (same(p, b) && same(q, a)),
+                [p] => (same(p, a) && is_zero(b, axis)) || (same(p, b) && is_zero(a, axis)),
+                _ => false,
+            }
+    }
+}
+
+/// The segment that is the first not proved to keep its sense, before a path comes to its own end: at t = 1, or at `end`.
+pub(super) fn first_lost<'k>(
+    kept: &'k [Kept],
+    end: (f64, f64),
+    is_asked: impl Fn(usize) -> bool,
+) -> Option<(&'k Kept, (f64, f64))> {
+    let lost = kept.iter().filter(|kept| kept.sign != 0);
+    let lost = lost.filter_map(|kept| Some((kept, kept.lost?)));
+    // What cannot be told from the end of the path is no end before it; but t = 1 is to be reached by a figure.
+    let before = lost.filter(|(kept, t)| (t.1 < end.0 || end.0 >= 1.0) && !is_asked(kept.object));
+    let first = before.min_by(|a, b| a.1.0.total_cmp(&b.1.0));
+    first.map(|(kept, t)| (kept, (t.0.max(0.0), t.1.min(1.0))))
+}
+
+/// In wide tubes a line or arc cannot be told from nothing long before it vanishes, or where it never does. Where that is so the way is
+/// followed again in tubes of at most these radii, as parts of the unit of length.
+pub(super) const NARROWER: [f64; 2] = [1e-4, 1e-9];
+
+/// That a segment ends an edit, in words.
+pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
+    let object = &problem.objects[kept.object];
+    let name = &object.name;
+    let words = match (&object.shape, kept.sign) {
+        (Shape::Arc { .. }, ..=-1) => format!(
+            "there the arc {name} grows to a whole circle (or so near to it that it cannot be told), and beyond it would begin anew"
+        ),
+        (Shape::Arc { .. }, _) => format!(
+            "there the arc {name} shrinks to nothing (or so near to it that it cannot be told), and beyond it would come out turned \
+             round, as the rest of its circle"
+        ),
+        _ => format!(
+            "there the line {name} shrinks to nothing (or so near to it that it cannot be told), and beyond it would come out turned \
+             round, its end before its start"
+        ),
+    };
+    Stop::new(StopKind::Vanishes, words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::{hull, point};
+
+    #[test]
+    fn an_arc_vanishes_at_0_and_360_degrees_and_not_at_180() {
+        let extent = Extent::Sweep { points: [0, 1, 2] };
+        let sign = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let around = |x: f64| hull(x - 1e-3, x + 1e-3);
+            extent.sign(|k| match k {
+                0 => [point(0.0); 3],
+                1 => [point(2.0), point(0.0), point(0.0)],
+                _ => [around(3.0 * cos), around(3.0 * sin), point(0.0)],
+            })
+        };
+        for (degrees, wanted) in [
+            (0.0, 0),
+            (1.0, 1),
+            (170.0, 1),
+            (180.0, 1),
+            (190.0, -1),
+            (359.0, -1),
+            (360.0, 0),
+        ] {
+            assert_eq!(sign(degrees), wanted, "{degrees}");
+        }
+    }
+}
