@@ -343,6 +343,10 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
             let items = Arguments::new(problem, &problem.constraints[index].items);
             let hint = match measure {
                 Measure::Slope => Some("for 0 degrees say `parallel`, for 90 `perpendicular`"),
+                Measure::Degrees if *number > straight => Some(
+                    "an angle has no sense of turn here, so that one beyond 180 degrees is what it lacks to 360; which way it turns \
+                     is read off the sketch",
+                ),
                 Measure::Degrees => Some("for 0 and 180 degrees say `parallel` or `collinear`"),
                 _ if number.is_zero() => kind.instead_of_zero(items),
                 _ => None,

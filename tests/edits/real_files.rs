@@ -294,12 +294,13 @@ fn planes_of_solvespace_are_turned_and_not_stretched() {
         other.edited("c010=11").bytes,
     );
     let after = String::from_utf8_lossy(&after).into_owned();
-    let changed = before.lines().zip(after.lines()).filter(|(a, b)| a != b);
-    let places = changed.filter(|(a, _)| a.contains("actPoint")).count();
-    assert!(
-        places <= 3,
-        "one point moves, and {places} of its coordinates"
-    );
+    let number = |line: &str| -> f64 { line.split_once('=').unwrap().1.parse().unwrap() };
+    let pairs = before.lines().zip(after.lines());
+    // What does not move in the plane does not move in space, where its stretched place was another by up to 1e-5 of its size.
+    for (a, b) in pairs.filter(|(a, b)| a != b && a.contains("actPoint")) {
+        let moved = (number(a) - number(b)).abs();
+        assert!(!(1e-9..1e-2).contains(&moved), "{a} is {b} then");
+    }
 }
 
 #[test]
