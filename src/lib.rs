@@ -101,12 +101,16 @@ macro_rules! debug_in_words {
 }
 pub(crate) use debug_in_words;
 
-// Tests in here and in tests/ draw the same problems.
-#[cfg(test)]
+// Tests in here and in tests/ draw the same problems, and the command line speaks of the library as other programs do.
+#[cfg(any(test, feature = "cli"))]
 extern crate self as krawl;
 
 pub mod blocks;
 pub mod certificate;
+// In the library, so that what both need of generic code is made once.
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod cli;
 pub mod compare;
 pub mod complete;
 pub mod complex;

@@ -1,7 +1,5 @@
-//! The command line: parse, call, print.
-
-mod cli;
+//! The program.
 
 fn main() -> std::process::ExitCode {
-    cli::run()
+    krawl::cli::run()
 }

@@ -30,9 +30,7 @@ macro_rules! with_width {
         match $width {
             1 => $self.$f::<1>($($arg),*),
             2 => $self.$f::<2>($($arg),*),
-            3 => $self.$f::<3>($($arg),*),
             4 => $self.$f::<4>($($arg),*),
-            6 => $self.$f::<6>($($arg),*),
             _ => $self.$f::<8>($($arg),*),
         }
     };
@@ -46,9 +44,9 @@ pub(crate) const MAX_KEYS: usize = 8 * LANE;
 pub(crate) fn width_for(columns: usize) -> Option<usize> {
     match columns.div_ceil(LANE) {
         0 | 1 => Some(1),
-        lanes @ (2..=4 | 6 | 8) => Some(lanes),
-        5 => Some(6),
-        7 => Some(8),
+        2 => Some(2),
+        3 | 4 => Some(4),
+        5..=8 => Some(8),
         _ => None,
     }
 }
