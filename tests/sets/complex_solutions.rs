@@ -484,7 +484,7 @@ fn exported_systems_are_what_other_programs_read() {
 /// floats; the solutions and their number are the proof.
 ///
 /// ```sh
-/// cargo test --release --test complex_solutions -- --ignored icosahedron
+/// cargo test --release --test sets -- --ignored complex_solutions::the_true_icosahedron
 /// ```
 #[test]
 #[ignore = "half an hour or more"]
