@@ -42,6 +42,7 @@ mod pieces;
 mod place;
 mod plan;
 mod search;
+mod spare;
 mod store;
 mod surplus;
 mod targets;

@@ -35,7 +35,6 @@ mod lowering;
 mod objects;
 mod polynomial;
 mod quadratic;
-mod spare;
 mod structure;
 mod subtracted;
 mod supposed;
@@ -50,11 +49,11 @@ pub use heights::{Divided, Origin, divide, odd_ones};
 pub use kind::{Fixes, Kind, Measure};
 pub use kinds::KINDS;
 pub(crate) use kinds::is_opposite_nearer;
+pub use lowering::Spare;
 pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
     difference, product, value,
 };
-pub use spare::Spare;
 pub(crate) use structure::check_structure;
 pub use structure::{size, size_in_edits};
 pub use supposed::supposed_lengths;

@@ -117,6 +117,20 @@ impl Homotopy {
     /// # Panics
     /// If `unit` is not a power of two.
     pub fn for_sets_in(problem: &Problem, unit: f64) -> Result<Self, GaugeError> {
+        Self::for_sets_without(problem, unit, |_, _, _| Ok(Vec::new()))
+    }
+
+    /// The same, where `leave_out` takes equations out if there are more than unknowns; it is given the equations, the gauge, and
+    /// the sketch as seen from the reference.
+    pub(crate) fn for_sets_without(
+        problem: &Problem,
+        unit: f64,
+        leave_out: impl FnOnce(
+            &mut constraint::Lowered,
+            &Gauge,
+            &[[Interval; 3]],
+        ) -> Result<Vec<constraint::Spare>, String>,
+    ) -> Result<Self, GaugeError> {
         let distances = match constraint::has_distances_in_sets(problem) {
             true => &[],
             false => &problem.distances[..],
@@ -127,7 +141,7 @@ impl Homotopy {
             let unknowns = gauge.place.len() + lowered.tail.unknowns.len();
             match distances.len() + lowered.tail.equations.len() > unknowns && distances.is_empty()
             {
-                true => lowered.make_square(problem, &gauge, &sketch, unit),
+                true => leave_out(lowered, &gauge, &sketch),
                 false => Ok(Vec::new()),
             }
         });

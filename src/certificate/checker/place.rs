@@ -103,23 +103,17 @@ impl Place {
         let radius = around(point(claim.radius.into()));
         let claimed: Vec<Interval> = claim.centre.iter().map(|&x| point(x) + radius).collect();
         let prove = |extended| Place::at_target(eq, (&claim.centre, extended), claimed.clone());
-        let is_held = |place: &Place| {
-            place.spot.is_within(&claim.centre, claim.radius) && place.covers(&claimed)
-        };
-        let extended = !at.low.is_empty();
-        let mut place = prove(extended);
+        let held = |p: &Place| p.spot.is_within(&claim.centre, claim.radius) && p.covers(&claimed);
         // Where some unknowns are large, others small, 53 bits of the largest may tell a point less well than the claim.
-        if !extended
-            && !place.as_ref().is_ok_and(is_held)
-            && let Ok(finer) = prove(true)
-        {
-            place = Ok(finer);
-        }
+        let place = match prove(!at.low.is_empty()) {
+            Ok(place) if held(&place) => Ok(place),
+            coarse => prove(true).or(coarse),
+        };
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
         }
         let place = place?;
-        match is_held(&place) {
+        match held(&place) {
             true => Ok(place),
             false => Err(Fault::because(
                 "it is too narrow to hold the one near it, or so wide that it may hold another one",

@@ -38,6 +38,7 @@ mod test;
 use super::outcome::{Method, too_long};
 use super::pairs::Pairs;
 use super::search::Run as Watched;
+use super::spare::make_square;
 use super::store::{Keep, Store};
 use super::targets::Targets;
 use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptiness};
@@ -45,8 +46,8 @@ use crate::blocks::{Block as Cut, Blocks, LeftOutConstraint as LeftOut};
 use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;
-use crate::system::Homotopy;
 use crate::system::told::{self, Told};
+use crate::system::{GaugeError, Homotopy, typical_length};
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
 use contract::{contract, entire, upper_half};
@@ -73,8 +74,8 @@ const FAR: f64 = 1e30;
 /// Searches for all figures of a problem, up to its symmetries.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
-    let homotopy = Homotopy::for_sets(problem)
-        .map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
+    let homotopy =
+        square(problem).map_err(|error| Unserved::Refused(format!("not served: {error}")))?;
     if !homotopy.spare.is_empty() && (options.cover || options.store.is_some()) {
         let what = "not served: of more equations than unknowns there is no certificate, and no store (--cert, --store)";
         return Err(Unserved::Refused(what.to_owned()));
@@ -110,8 +111,15 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
 /// Whether a problem, which need not be well constrained, has more equations than unknowns and enough that say something new, so that
 /// [`all`](super::all) searches those that do and tests the figures against the others.
 pub fn has_equations_to_spare(problem: &Problem) -> bool {
-    let homotopy = Homotopy::for_sets(problem);
-    homotopy.is_ok_and(|homotopy| !homotopy.spare.is_empty())
+    square(problem).is_ok_and(|homotopy| !homotopy.spare.is_empty())
+}
+
+/// The equations of a problem, without those that are more than unknowns.
+fn square(problem: &Problem) -> Result<Homotopy, GaugeError> {
+    let unit = typical_length(problem);
+    Homotopy::for_sets_without(problem, unit, |lowered, gauge, sketch| {
+        make_square(lowered, problem, gauge, sketch, unit)
+    })
 }
 
 fn searched(

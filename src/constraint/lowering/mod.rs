@@ -99,6 +99,15 @@ pub struct Lowered {
     pub vanishing: Vec<bool>,
 }
 
+/// An equation that was left out where there are more than unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spare {
+    /// What it says.
+    pub equation: Equation,
+    /// Whose it is: a count of objects, constraints, none, and distances.
+    pub owner: usize,
+}
+
 impl<'a> Lowering<'a> {
     /// Nothing yet. With `editable`, the left-hand sides will be the same whatever the values of dimensions are.
     pub fn new(problem: &'a Problem, from: Start<'a>, editable: bool) -> Self {

@@ -448,28 +448,25 @@ impl Check<'_> {
         let space = &self.space;
         let mut left = space.narrow(&mut part);
         // The blocks that were reduced since the ranges were narrowed.
-        let mut reduced = 0;
+        let (mut reduced, blocks) = (0, self.cover.blocks.len());
         while left.is_ok() {
             let (mark, next) = Mark::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;
             self.at = next;
             let proved = match mark {
-                Mark::Block(k) | Mark::Bound(k) | Mark::Reduced(k)
-                    if k < self.cover.blocks.len() =>
-                {
-                    let before = part.ranges().to_vec();
-                    let is_reduced = part.is_reduced(k);
+                Mark::Block(k) | Mark::Bound(k) | Mark::Reduced(k) if k < blocks => {
+                    let (before, again) = (part.ranges().to_vec(), part.is_reduced(k));
                     left = match mark {
                         Mark::Block(_) => space.narrow_together(k, &mut part),
                         Mark::Bound(_) => space.bound(k, &mut part),
                         _ => space.reduce(k, &mut part),
                     };
-                    let is_narrowed = left.is_err() || part.ranges() != before;
-                    let is_new = matches!(mark, Mark::Reduced(_)) && !is_reduced;
-                    reduced = if is_narrowed { 0 } else { reduced + 1 };
-                    match is_narrowed || is_new && reduced <= self.cover.blocks.len() {
-                        true => continue,
-                        false => return Err(IDLE),
+                    let stays = left.is_ok() && part.ranges() == before;
+                    reduced = if stays { reduced + 1 } else { 0 };
+                    let anew = !again && matches!(mark, Mark::Reduced(_)) && reduced <= blocks;
+                    if stays && !anew {
+                        return Err(IDLE);
                     }
+                    continue;
                 }
                 Mark::Halves(unknown) => part.halved(unknown).is_some_and(|[low, high]| {
                     self.stack.extend([high, low].map(Open::Part));
@@ -510,13 +507,7 @@ impl Check<'_> {
             let mark = Turned::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;
             self.at += 1;
             match mark {
-                Turned::Narrowed => {
-                    let within = turn.within(&left).ok_or(UNPROVED)?;
-                    if within.ranges() == turn.ranges() {
-                        return Err(IDLE);
-                    }
-                    turn = within;
-                }
+                Turned::Narrowed => turn = turn.within(&left).ok_or(UNPROVED)?,
                 Turned::Height(axis) => {
                     turn = space.with_height(body, &turn, axis).ok_or(UNPROVED)?;
                 }

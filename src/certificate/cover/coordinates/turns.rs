@@ -293,7 +293,7 @@ impl Turn {
         })
     }
 
-    /// The box that is left where the symbols are in parts of their ranges.
+    /// The box that is left where the symbols are in parts of their ranges; `None` if that is nothing, or all of it.
     pub fn within(&self, u: &[Interval]) -> Option<Turn> {
         let mut out = self.clone();
         for i in 0..self.ranges().len() {
@@ -301,7 +301,7 @@ impl Turn {
             let range = self.ranges[i].intersection(point(middle) + point(radius) * u[i]);
             out.ranges[i] = (!range.is_empty()).then_some(range)?;
         }
-        Some(out)
+        (out.ranges() != self.ranges()).then_some(out)
     }
 
     /// The middle of a range, and how far it goes from there at most.

@@ -2,21 +2,11 @@
 //!
 //! Seen in floats; what is claimed of the equations used does not rest on it, and what was left out is tested for itself.
 
-use super::lowering::Lowered;
-use super::quadratic::{Entry, Equation, Form};
+use crate::constraint::{Entry, Equation, Form, Lowered, Product, Spare};
 use crate::interval::Interval;
 use crate::linalg::Span;
 use crate::problem::Problem;
 use crate::system::Gauge;
-
-/// An equation that was left out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Spare {
-    /// What it says.
-    pub equation: Equation,
-    /// Whose it is: a count of objects, constraints, none, and distances.
-    pub owner: usize,
-}
 
 /// Steps towards a figure that meets all equations, at most.
 const STEPS: usize = 60;
@@ -161,81 +151,77 @@ fn solved(mut a: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     Some(right)
 }
 
-impl Lowered {
-    /// Leaves out as many equations as there are more than unknowns: those that say nothing new beside the others. What defines objects and unknowns
-    /// is used first, then what is `fixed`, dimensions, and constraints without a number, in the order of the file. `Err`: too few say something new.
-    pub(crate) fn make_square(
-        &mut self,
-        problem: &Problem,
-        gauge: &Gauge,
-        sketch: &[[Interval; 3]],
-        unit: f64,
-    ) -> Result<Vec<Spare>, String> {
-        let (objects, constraints) = (problem.objects.len(), problem.constraints.len());
-        let rank = |owner: usize| match owner.checked_sub(objects) {
-            Some(c) if c < constraints => match &problem.constraints[c] {
-                constraint if constraint.kind == "fixed" => 1,
-                constraint if constraint.value.is_some() => 2,
-                _ => 3,
-            },
-            Some(c) if c > constraints => 2,
-            _ => 0,
-        };
-        let equations = Equations {
-            lowered: self,
-            gauge,
-            sketch,
-            unit,
-        };
-        let (x, width) = (equations.nearest(), equations.width());
-        let mut order: Vec<usize> = (0..self.owners.len()).collect();
-        order.sort_by_key(|&e| rank(self.owners[e]));
-        let mut is_used = vec![false; order.len()];
-        let mut span = Span::default();
-        for e in order {
-            is_used[e] = span.take([equations.row(&self.tail.equations[e], &x).1]);
-        }
-        if span.rank() < width {
-            return Err(format!(
-                "of {} equations for {width} unknowns no more than {} say something new where the sketch comes nearest to meeting all",
-                is_used.len(),
-                span.rank()
-            ));
-        }
-        let mut spare = Vec::new();
-        for e in (0..is_used.len()).rev().filter(|&e| !is_used[e]) {
-            let (equation, owner) = (self.tail.equations.remove(e), self.owners.remove(e));
-            self.vanishing.remove(e);
-            spare.push(Spare { equation, owner });
-        }
-        spare.reverse();
-        // A line is the same with its direction reversed only where all equations say so.
-        let twins = std::mem::take(&mut self.tail.twins);
-        let is_kept = |twin: &Vec<bool>| spare.iter().all(|spare| spare.is_kept(twin));
-        self.tail.twins = twins.into_iter().filter(is_kept).collect();
-        Ok(spare)
+/// Leaves out as many equations as there are more than unknowns: those that say nothing new beside the others. What defines objects and unknowns
+/// is used first, then what is `fixed`, dimensions, and constraints without a number, in the order of the file. `Err`: too few say something new.
+pub(super) fn make_square(
+    lowered: &mut Lowered,
+    problem: &Problem,
+    gauge: &Gauge,
+    sketch: &[[Interval; 3]],
+    unit: f64,
+) -> Result<Vec<Spare>, String> {
+    let (objects, constraints) = (problem.objects.len(), problem.constraints.len());
+    let rank = |owner: usize| match owner.checked_sub(objects) {
+        Some(c) if c < constraints => match &problem.constraints[c] {
+            constraint if constraint.kind == "fixed" => 1,
+            constraint if constraint.value.is_some() => 2,
+            _ => 3,
+        },
+        Some(c) if c > constraints => 2,
+        _ => 0,
+    };
+    let equations = Equations {
+        lowered,
+        gauge,
+        sketch,
+        unit,
+    };
+    let (x, width) = (equations.nearest(), equations.width());
+    let mut order: Vec<usize> = (0..lowered.owners.len()).collect();
+    order.sort_by_key(|&e| rank(lowered.owners[e]));
+    let mut is_used = vec![false; order.len()];
+    let mut span = Span::default();
+    for e in order {
+        is_used[e] = span.take([equations.row(&lowered.tail.equations[e], &x).1]);
     }
+    if span.rank() < width {
+        return Err(format!(
+            "of {} equations for {width} unknowns no more than {} say something new where the sketch comes nearest to meeting all",
+            is_used.len(),
+            span.rank()
+        ));
+    }
+    let mut spare = Vec::new();
+    for e in (0..is_used.len()).rev().filter(|&e| !is_used[e]) {
+        let (equation, owner) = (lowered.tail.equations.remove(e), lowered.owners.remove(e));
+        lowered.vanishing.remove(e);
+        spare.push(Spare { equation, owner });
+    }
+    spare.reverse();
+    // A line is the same with its direction reversed only where all equations say so.
+    let twins = std::mem::take(&mut lowered.tail.twins);
+    let stays = |twin: &Vec<bool>| spare.iter().all(|spare| is_kept(spare, twin));
+    lowered.tail.twins = twins.into_iter().filter(stays).collect();
+    Ok(spare)
 }
 
-impl Spare {
-    /// Whether it says the same where these auxiliary unknowns change their signs, as far as each product tells.
-    fn is_kept(&self, changes: &[bool]) -> bool {
-        let sign = |entry: Entry| matches!(entry, Entry::Unknown(u) if changes[u]);
-        let of = |form: Form| match form {
-            Form::One => Some(false),
-            Form::Difference(a, Entry::Zero) | Form::Difference(Entry::Zero, a) => Some(sign(a)),
-            Form::Difference(a, b) => (sign(a) == sign(b)).then(|| sign(a)),
-        };
-        let both = |p: &super::quadratic::Product| Some(of(p.left)? ^ of(p.right)?);
-        let mut products = self.equation.products.iter().map(both);
-        let first = products.next().flatten();
-        first.is_some_and(|change| {
-            let is_zero = self
-                .equation
-                .right
-                .iter()
-                .all(crate::interval::Real::is_zero);
-            products.all(|p| p == Some(change)) && (!change || is_zero)
-        })
-    }
+/// Whether it says the same where these auxiliary unknowns change their signs, as far as each product tells.
+fn is_kept(spare: &Spare, changes: &[bool]) -> bool {
+    let sign = |entry: Entry| matches!(entry, Entry::Unknown(u) if changes[u]);
+    let of = |form: Form| match form {
+        Form::One => Some(false),
+        Form::Difference(a, Entry::Zero) | Form::Difference(Entry::Zero, a) => Some(sign(a)),
+        Form::Difference(a, b) => (sign(a) == sign(b)).then(|| sign(a)),
+    };
+    let both = |p: &Product| Some(of(p.left)? ^ of(p.right)?);
+    let mut products = spare.equation.products.iter().map(both);
+    let first = products.next().flatten();
+    first.is_some_and(|change| {
+        let is_zero = spare
+            .equation
+            .right
+            .iter()
+            .all(crate::interval::Real::is_zero);
+        products.all(|p| p == Some(change)) && (!change || is_zero)
+    })
 }
