@@ -9,8 +9,10 @@ use crate::track::certified::reasons::{Doubt, Rejection};
 impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// Adds the tube that is `advance` further on. Tells whether the path ends in it.
     pub(super) fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
-        // Far away floats are no nearer to each other.
-        let tolerance = POINT_TOLERANCE.max(16.0 * f64::EPSILON * self.figure_size());
+        // Far away floats are no nearer to each other. (How large t is has no part in that: what is exact in it stays so.)
+        let places = self.now.local.z[0][..self.equations.m].iter();
+        let size = places.fold(0.0, |max: f64, x| max.max(x.abs()));
+        let tolerance = POINT_TOLERANCE.max(16.0 * f64::EPSILON * size);
         let equations = &self.equations;
         let next = &mut self.next;
         let previous = self.has_previous.then_some(&self.previous[..]);

@@ -38,7 +38,7 @@ const MIN_WEIGHT: f64 = 0.1;
 /// Far away unknowns differ in size as powers of each other do, and weights have to; no more than certificates tell well.
 const MIN_WEIGHT_FAR: f64 = 1.0 / 4096.0;
 
-/// The least weight at a point.
+/// The least weight where the unknowns, t left aside, are these.
 fn least_weight(z: &[f64]) -> f64 {
     let size = z.iter().fold(OUTSIDE, |max: f64, x| max.max(x.abs()));
     (MIN_WEIGHT * OUTSIDE / size).max(MIN_WEIGHT_FAR)
@@ -137,7 +137,7 @@ impl<const D: usize> KrawczykTest<D> {
         let norms = self.norms(equations, local, weights, max_h)?;
         let norms = self.in_precision(equations, local, norms)?;
         let proof = norms.longest(weights[equations.m]);
-        let least = least_weight(&local.z[0]);
+        let least = least_weight(&local.z[0][..equations.m]);
         self.improve(weights, least);
         proof
     }
