@@ -3,8 +3,9 @@
 use super::exact::{Range, exact, middle, ranges, root_near, squared_distance, squared_target};
 use krawl::problem::Problem;
 use krawl::track::Solution;
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 /// Checks, in exact arithmetic and without the trackers' equations, what a certified run says
 /// about its solutions: each box can hold a solution and holds the one that Newton's method finds
@@ -65,9 +66,16 @@ fn check_gauge(problem: &Problem, box_: &[[Range; 3]]) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether a figure is in a box.
+/// Whether a figure that is known to some thirty digits ([`root_near`]) is in a box, which may be a single point.
 pub fn holds(box_: &[[Range; 3]], figure: &[[BigRational; 3]]) -> bool {
-    let inside = |(range, x): (&Range, &BigRational)| range.contains(x);
+    let all = || figure.iter().flatten();
+    let size = all()
+        .map(|x| x.abs())
+        .max()
+        .unwrap_or_else(BigRational::zero);
+    let known = size / BigRational::from_integer(BigInt::from(10).pow(28));
+    let inside =
+        |(range, x): (&Range, &BigRational)| range.lo <= x + &known && x - &known <= range.hi;
     box_.iter()
         .zip(figure)
         .all(|(ranges, point)| ranges.iter().zip(point).all(inside))
