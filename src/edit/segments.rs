@@ -103,11 +103,11 @@ impl Reversed {
 }
 
 /// The segment that is the first not proved to keep its sense, before a path comes to its own end: at t = 1, or at `end`.
-pub(super) fn first_lost<'k>(
-    kept: &'k [Kept],
+pub(super) fn first_lost(
+    kept: &[Kept],
     end: (f64, f64),
     is_asked: impl Fn(usize) -> bool,
-) -> Option<(&'k Kept, (f64, f64))> {
+) -> Option<(&Kept, (f64, f64))> {
     let lost = kept.iter().filter(|kept| kept.sign != 0);
     let lost = lost.filter_map(|kept| Some((kept, kept.lost?)));
     // What cannot be told from the end of the path is no end before it; but t = 1 is to be reached by a figure.

@@ -344,7 +344,7 @@ impl Reader {
     }
 
     /// A line as an angle takes it: away from the end that the constraint names, from the second end to the first if it is that.
-    fn from_end(&self, (_, position): (i64, i64), line: usize) -> Vec<Item> {
+    fn measured_from_end(&self, (_, position): (i64, i64), line: usize) -> Vec<Item> {
         match *self.drawing.shape(line) {
             Shape::Line([a, b]) if position == 2 => vec![Item::Point(b), Item::Point(a)],
             _ => vec![Item::Object(line)],
@@ -439,9 +439,11 @@ impl Reader {
                     _ => ("angles", Some(degrees)),
                 };
                 let items = match (kind, has_second) {
-                    ("angles", true) => {
-                        [self.from_end(first, one), self.from_end(second, other)].concat()
-                    }
+                    ("angles", true) => [
+                        self.measured_from_end(first, one),
+                        self.measured_from_end(second, other),
+                    ]
+                    .concat(),
                     _ => vec![Item::Object(one), Item::Object(other)],
                 };
                 self.drawing.constrain(source, kind, items, value);

@@ -182,7 +182,7 @@ fn vanishes(problem: &Problem, dimension: &str, to: &str, value: f64) {
     let mut session = Session::open(problem).unwrap();
     let before = session.figure();
     let setting = Setting::named(problem, dimension, to).unwrap();
-    let edited = session.edit(&[setting.clone()]);
+    let edited = session.edit(std::slice::from_ref(&setting));
     let Ending::Stopped(stop) = &edited.ending else {
         panic!("{dimension} = {to}: {:?}", edited.ending);
     };
