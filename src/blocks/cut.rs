@@ -1,9 +1,9 @@
 //! A sketch in its own frame: merged, made square, and cut into blocks.
 
 use super::follows::{Combination, Given, combination};
-use super::{Block, Blocks, Choice, System};
+use super::{Account, Block, Blocks, Choice, Held, Ruler, System, Verdict};
 use crate::constraint::{Entry, Form, Lowered, Owner, Record, Role, Tail, try_lower_all};
-use crate::interval::Real;
+use crate::interval::{Interval, Real};
 use crate::problem::{Decimal, Problem, Shape};
 use crate::system::typical_length;
 use std::collections::BTreeSet;
@@ -222,6 +222,22 @@ impl Cut {
         .collect()
     }
 
+    /// What a claim about figures is proved of. `verdict`: how they stand to each row that was left out, by place.
+    pub fn account(&self, verdict: impl Fn(usize) -> Verdict) -> Account {
+        let value = |u: usize| self.system.values[u].enclose();
+        let left_out = self.redundant.iter().enumerate();
+        let left_out =
+            left_out.map(|(k, &row)| (self.name(self.system.rows[row].index), verdict(k)));
+        account(&self.used, &self.system, value, left_out)
+    }
+
+    /// How a row that was left out, by place, is measured.
+    pub fn ruler(&self, redundant: usize, tolerance: Option<f64>) -> Ruler {
+        let index = self.system.rows[self.redundant[redundant]].index;
+        let (unit, power) = (self.unit, self.powers[index]);
+        Ruler::new(&self.problem, self.owners[index], (unit, power), tolerance)
+    }
+
     /// The names of a block's unknowns.
     pub fn unknowns_of(&self, block: &Block) -> Vec<String> {
         let unknowns = block.unknowns.iter();
@@ -236,20 +252,29 @@ impl Cut {
     }
 }
 
-/// The names of points (or other unknowns) that are held, because nothing determines them wholly.
-pub(crate) fn free_names(problem: &Problem, system: &System, free: &[usize]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for &u in free {
-        let place = system.coordinates.iter().position(|&c| c == u);
-        let name = match place {
-            Some(place) => &problem.points[place / problem.dimension].name,
-            None => &system.unknowns[u].name,
-        };
-        if !names.contains(name) {
-            names.push(name.clone());
+/// What a claim is proved of: the equations used, what is held (with its `value` in the unit of the problem), and the names of
+/// what was left out, with what is known of it.
+pub(crate) fn account(
+    used: &[Used],
+    system: &System,
+    value: impl Fn(usize) -> Interval,
+    left_out: impl Iterator<Item = (String, Verdict)>,
+) -> Account {
+    let mut account = Account::default();
+    for used in used {
+        match *used {
+            Used::Row(_) => account.equations += 1,
+            Used::Held(u) => {
+                let at = value(u);
+                account.held.push(Held {
+                    what: system.unknowns[u].name.clone(),
+                    at: (at.inf(), at.sup()),
+                });
+            }
         }
     }
-    names
+    left_out.for_each(|(name, verdict)| account.leave_out(name, verdict));
+    account
 }
 
 /// What people call the owner of an equation, a count of objects, constraints, none, and distances.

@@ -32,15 +32,13 @@ mod path;
 mod pinned;
 
 pub(crate) use account::Ruler;
-pub use account::{Account, LeftOut as LeftOutConstraint, Verdict, rounded_down, rounded_up};
+pub use account::{Account, Held, LEAST_PART, LeftOut, Verdict, Why, rounded_down, rounded_up};
 pub use choose::Choice;
 pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
-pub(crate) use cut::{Cut, Used, free_names, name, name as owner_name};
+pub(crate) use cut::{Cut, Used, account, name, name as owner_name};
 pub use decompose::{Block, Blocks};
-pub use figures::{
-    BlockAccount, Chosen, Comparison, Figures, First, LeftOut, Sense, Way, WithSenses,
-};
+pub use figures::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way, WithSenses};
 pub use follows::{Combination, Given, combination};
 pub use merge::{Row, System};
 pub use pinned::pinned;

@@ -1,7 +1,7 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, input, output};
-use krawl::blocks::{MOST_POINTS, clusters, pinned};
+use krawl::blocks::{MOST_POINTS, Why, clusters, pinned};
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
@@ -9,7 +9,6 @@ use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target};
 use krawl::remarks::{in_words, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
-use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -218,8 +217,7 @@ impl Loose {
                     .iter()
                     .any(|end| message.contains(&format!(" {plain}{end}")));
                 // Of several that depend on each other in different ways the message lists those of one.
-                let left_out = self.found.redundant.iter().chain(&self.found.follows);
-                let is_one = left_out.collect::<BTreeSet<_>>().len() == 1;
+                let is_one = self.found.account.left_out.len() == 1;
                 let is_sided = ["`distances:", "`tangent:"]
                     .iter()
                     .any(|kind| message.contains(kind));
@@ -246,16 +244,15 @@ impl Loose {
         let fault = self.decide(&self.fault);
         let mut text = format!("{}: not in order: {fault}{taken}\n", self.problem.name);
         text += &in_rows(&understood(&self.problem));
-        let (left_out, follows) = (&self.found.redundant, &self.found.follows);
-        text += &decomposition_in_words(&Decomposition {
-            redundant: Vec::new(),
-            follows: Vec::new(),
-            ..self.found.clone()
-        });
-        for (names, why) in [
-            (follows, "as they follow from the others"),
-            (left_out, "as they say nothing new at the sketch"),
+        let mut found = self.found.clone();
+        let left_out = std::mem::take(&mut found.account.left_out);
+        text += &decomposition_in_words(&found);
+        for (of, why) in [
+            (Why::Follows, "as they follow from the others"),
+            (Why::NothingNew, "as they say nothing new at the sketch"),
         ] {
+            let those = left_out.iter().filter(|one| one.why == of);
+            let names: Vec<&str> = those.map(|one| one.name.as_str()).collect();
             if !names.is_empty() {
                 let _ = writeln!(
                     text,

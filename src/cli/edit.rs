@@ -8,7 +8,7 @@ use krawl::certificate::Writer;
 use krawl::edit::{Decomposition, Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
 use krawl::report::page::Page;
-use krawl::report::{edit_to_document, edit_to_table, freedom_in_words};
+use krawl::report::{account_in_words, edit_to_document, edit_to_table};
 use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -101,7 +101,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let settings = settings.map_err(|e| in_file(&e))?;
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     let warnings = loaded.warnings(&settings);
-    let mut found = None;
+    let mut account = None;
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
@@ -111,11 +111,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 ..Control::default()
             };
             let edited = session.probe(&settings, &mut control);
+            account = Some(edited.account.clone());
             reason(&edited).map(str::to_owned)
         })? {
             Some((whole, decomposition)) => {
                 led = carried(&settings, (&problem, &whole)).map_err(|e| in_file(&e))?;
-                (problem, found) = (whole, decomposition);
+                // The whole is followed as it is; what it was made from is what the claim is about.
+                account = account.or(decomposition.map(|found| found.account));
+                problem = whole;
             }
             None => cert = None,
         }
@@ -136,9 +139,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
-    let edited = session.edit_with(&led, &mut control);
+    let mut edited = session.edit_with(&led, &mut control);
+    if let (Some(account), true) = (account, cert.is_some()) {
+        edited.account = account;
+    }
     let moved = session.moved();
-    let found = found.or_else(|| session.decomposition());
 
     let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, &edited) {
         true => (true, None),
@@ -150,11 +155,6 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let document = || {
         let mut value = edit_to_document(&problem, &edited, &session);
-        if let Some(found) = found.clone() {
-            value["free"] = found.free.into();
-            value["redundant"] = found.redundant.into();
-            value["follows"] = found.follows.into();
-        }
         value["warnings"] = warnings.clone().into();
         value
     };
@@ -181,8 +181,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
-        let free = found.as_ref().map_or(String::new(), freedom_in_words);
-        let mut text = edit_to_table(&problem, &edited, moved) + &free;
+        let mut text = edit_to_table(&problem, &edited, moved) + &account_in_words(&edited.account);
         for warning in &warnings {
             text += &format!("warning             {warning}\n");
         }
@@ -203,7 +202,7 @@ pub(super) fn certified(
     stops: impl FnOnce(&mut Session) -> Option<String>,
 ) -> Result<Option<(Problem, Option<Decomposition>)>, String> {
     let (whole, found) = input::provable(file, problem)?;
-    let is_left_out = |found: &Decomposition| found.follows.len() + found.redundant.len() > 0;
+    let is_left_out = |found: &Decomposition| !found.account.left_out.is_empty();
     if !found.as_ref().is_some_and(is_left_out) {
         return Ok(Some((whole, found)));
     }

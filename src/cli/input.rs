@@ -61,28 +61,12 @@ pub fn provable(
     Ok((completed(problem).map_err(in_file)?, Some(found)))
 }
 
-/// What was held and left out of a sketch that has not as many equations as unknowns.
+/// What was held and left out of a sketch that has not as many equations as unknowns, as the end of a sentence.
 pub fn held_and_left_out(found: Option<&Decomposition>) -> String {
-    let mut text = String::new();
-    if let Some(found) = found {
-        if !found.free.is_empty() {
-            let free = found.free.join(", ");
-            text += &format!("; what nothing determines is held where the sketch has it: {free}");
-        }
-        let out: Vec<&str> = found
-            .redundant
-            .iter()
-            .chain(&found.follows)
-            .map(String::as_str)
-            .collect();
-        if !out.is_empty() {
-            text += &format!(
-                "; left out, and nothing is proved of it: {}",
-                out.join(", ")
-            );
-        }
+    match found.map(|found| found.account.clause()) {
+        Some(clause) if !clause.is_empty() => format!(", {clause}"),
+        _ => String::new(),
     }
-    text
 }
 
 /// The problem of a file as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as

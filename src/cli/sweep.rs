@@ -84,6 +84,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         });
     let ((mut index, from), (_, to)) = (from?, to?);
     let mut cert = arguments.cert.as_deref();
+    let mut account = None;
     if cert.is_some() {
         let frames = arguments.frames as usize;
         match certified(&arguments.file, &problem, |session| {
@@ -92,10 +93,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 ..Control::default()
             };
             let sweep = session.sweep(index, (&from, &to), frames, &mut control);
+            account = Some(sweep.account.clone());
             let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
             reason(last).map(str::to_owned)
         })? {
-            Some((whole, _)) => {
+            Some((whole, found)) => {
+                account = account.or(found.map(|found| found.account));
                 let setting = Setting::new(&problem, index, from.clone());
                 let setting = [setting.map_err(|e| in_file(&e))?];
                 let led = carried(&setting, (&problem, &whole));
@@ -121,7 +124,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
-    let sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
+    let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
+    if let (Some(account), true) = (account, cert.is_some()) {
+        sweep.account = account;
+    }
     let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
     let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, last) {
         true => (true, None),

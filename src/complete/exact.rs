@@ -6,7 +6,7 @@
 //! halves of sums of squared distances, and Δ = AB − C² > 0, the squared height is N/Δ with N = rΔ − (q₁²B − 2q₁q₂C + q₂²A); in the
 //! plane Δ = A and N = rA − q₁².
 
-use crate::blocks::{Account, LeftOutConstraint as LeftOut, Ruler, Verdict};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict};
 use crate::interval::vector::Vector;
 use crate::interval::{Interval, ZERO, enclose};
 use crate::problem::{Problem, Target};

@@ -9,7 +9,7 @@
 use super::outcome::{Method, are_apart};
 use super::surplus::Tested;
 use super::{Complete, Options, Part, Status, Unserved, Why, all, exact};
-use crate::blocks::{Combined, LeftOutConstraint as LeftOut, clusters};
+use crate::blocks::{Combined, LeftOut, clusters};
 use crate::problem::Problem;
 use crate::track::Solution;
 use std::time::Instant;

@@ -6,7 +6,7 @@
 //! of the problem), or neither.
 
 use super::{Complete, Options, Unserved, all};
-use crate::blocks::{Account, LeftOutConstraint as LeftOut, Ruler, Verdict};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict};
 use crate::interval::{Interval, enclose, point};
 use crate::linalg::Span;
 use crate::problem::{Decimal, Distance, Problem, Target, free_coordinates, rigidity};

@@ -1,5 +1,6 @@
 //! What comes of an edit.
 
+use crate::blocks::Account;
 use crate::interval::Interval;
 use crate::track::Stop;
 use crate::track::arc::Orientation;
@@ -89,6 +90,8 @@ pub struct Edited {
     pub length: f64,
     /// What was switched on beyond the plain run, and why.
     pub switched_on: Vec<String>,
+    /// What it is proved of: how many equations, what was left out and how the figures stand to that, what is held.
+    pub account: Account,
     /// Wall-clock seconds.
     pub seconds: f64,
 }

@@ -3,6 +3,7 @@
 use super::ending::{Edited, Ending, Limit};
 use super::setting::measure;
 use super::{Session, Setting};
+use crate::blocks::Account;
 use crate::constraint::Measure;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
@@ -39,6 +40,8 @@ pub struct Range {
     pub low_figure: Vec<[Interval; 3]>,
     /// The figure at the high end, likewise.
     pub high_figure: Vec<[Interval; 3]>,
+    /// What both ends are proved of.
+    pub account: Account,
 }
 
 impl End {
@@ -81,7 +84,8 @@ impl Session {
             _ => (SMALLEST * value.mid(), value.mid() / SMALLEST),
         };
         let ends = [low, high].map(|goal| self.end(index, goal, control));
-        let [(low, low_figure), (high, high_figure)] = ends;
+        let [(low, low_figure, mut account), (high, high_figure, other)] = ends;
+        account.join(&other);
         Range {
             index,
             value,
@@ -89,6 +93,7 @@ impl Session {
             high,
             low_figure,
             high_figure,
+            account,
         }
     }
 
@@ -101,7 +106,12 @@ impl Session {
     }
 
     /// How far a dimension can go towards a value, and the figure there.
-    fn end(&mut self, index: usize, goal: f64, control: &mut Control) -> (End, Vec<[Interval; 3]>) {
+    fn end(
+        &mut self,
+        index: usize,
+        goal: f64,
+        control: &mut Control,
+    ) -> (End, Vec<[Interval; 3]>, Account) {
         let rounded = match measure(self.problem(), index) {
             // So many digits that it stays below 180, or 90.
             angle @ (Measure::Degrees | Measure::Slope) => {
@@ -117,7 +127,8 @@ impl Session {
         let rounded = rounded.parse::<Decimal>();
         let Ok(goal) = rounded else {
             let reason = format!("{goal:e} is out of the range of lengths");
-            return (End::Unknown(self.length(index), reason), self.points());
+            let end = End::Unknown(self.length(index), reason);
+            return (end, self.points(), self.account());
         };
         let setting = Setting {
             index,
@@ -128,6 +139,7 @@ impl Session {
             ending,
             dimensions,
             points,
+            account,
             ..
         } = edited;
         let value = dimensions[0].value;
@@ -140,6 +152,6 @@ impl Session {
             ),
             Ending::Stopped(reason) => End::Unknown(value, reason.text),
         };
-        (end, points)
+        (end, points, account)
     }
 }

@@ -5,6 +5,7 @@ use super::open::{Moved, OpenError};
 use super::parts::Parts;
 use super::setting::Setting;
 use super::whole::Whole;
+use crate::blocks::Account;
 use crate::interval::Interval;
 use crate::problem::Problem;
 use crate::track::{Control, Options, StartError};
@@ -116,29 +117,12 @@ impl Session {
         }
     }
 
-    /// The names of points (or radii) that nothing determines wholly: they stay put, at least in one direction.
-    pub fn free(&self) -> Vec<String> {
+    /// What is proved of the figure as it is now: how many equations were used, which constraints were left out and how the
+    /// figure stands to them, which coordinates are held where they are. Of an edit see [`Edited::account`].
+    pub fn account(&self) -> Account {
         match &self.way {
-            Way::Whole(_) => Vec::new(),
-            Way::Parts(parts) => parts.free(),
-        }
-    }
-
-    /// Constraints that seem to follow from all others at the figure, as far as floats tell, and are not among
-    /// [`Session::follows`]. They are left out of the proof; after each edit they are looked at, and an edit that breaks one is `stopped`.
-    pub fn redundant(&self) -> Vec<String> {
-        match &self.way {
-            Way::Whole(_) => Vec::new(),
-            Way::Parts(parts) => parts.redundant(false),
-        }
-    }
-
-    /// Constraints that are proved to follow from the others, by an identity with rational coefficients. They are left out
-    /// of what is followed, and hold wherever the others do.
-    pub fn follows(&self) -> Vec<String> {
-        match &self.way {
-            Way::Whole(_) => Vec::new(),
-            Way::Parts(parts) => parts.redundant(true),
+            Way::Whole(whole) => whole.scope(),
+            Way::Parts(parts) => parts.scope(),
         }
     }
 
@@ -190,7 +174,7 @@ pub fn completed(problem: &Problem) -> Result<Problem, String> {
 }
 
 /// How the equations of a sketch fall apart.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Decomposition {
     /// How many coordinates are one with others, by coincidences and the like.
     pub merged: usize,
@@ -199,12 +183,9 @@ pub struct Decomposition {
     /// The names of the unknowns of each block that has to be solved, in an order in which each needs only those before;
     /// single numbers that are known exactly once those before are come in none of them.
     pub blocks: Vec<Vec<String>>,
-    /// See [`Session::free`].
-    pub free: Vec<String>,
-    /// See [`Session::redundant`].
-    pub redundant: Vec<String>,
-    /// See [`Session::follows`].
-    pub follows: Vec<String>,
+    /// What is held and left out. At the drawing, which is no figure: nothing is said of what was left out but whether it
+    /// follows from the others.
+    pub account: Account,
 }
 
 /// What becomes of a sketch's constraints where it is led to its dimensions, which may be too many.

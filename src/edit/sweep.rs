@@ -1,6 +1,7 @@
 //! A dimension driven through a range: the figure as a function of it.
 
 use super::{Edited, Ending, Session, Setting};
+use crate::blocks::Account;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
 use crate::track::Control;
@@ -26,6 +27,8 @@ pub struct Sweep {
     pub frames: Vec<Frame>,
     /// How the sweep ended before the last frame, if it did: the edit that would have led to the next.
     pub end: Option<Edited>,
+    /// What all of it is proved of: how all frames stand to what was left out.
+    pub account: Account,
 }
 
 impl Session {
@@ -50,6 +53,7 @@ impl Session {
         };
         let approach = self.edit_with(&set(from.clone()), control);
         let mut sweep = Sweep {
+            account: approach.account.clone(),
             approach,
             frames: Vec::new(),
             end: None,
@@ -64,6 +68,7 @@ impl Session {
         for k in 1..frames {
             let value = between(from, to, k, frames - 1);
             let edited = self.edit_with(&set(value), control);
+            sweep.account.join(&edited.account);
             if edited.ending != Ending::Reached {
                 sweep.end = Some(edited);
                 break;

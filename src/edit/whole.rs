@@ -7,6 +7,7 @@ use super::parts::senses::senses;
 use super::place::Stand;
 use super::segments::{NARROWER, Reversed, first_lost, is_same_by_constraint, segments, stop};
 use super::setting::Setting;
+use crate::blocks::Account;
 use crate::constraint::{Entry, Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
 use crate::problem::{Decimal, Object, Problem, Shape, Target};
@@ -128,6 +129,14 @@ impl Whole {
     /// in space the next one off that line stays on its side of their plane.
     pub fn points(&self) -> Vec<[Interval; 3]> {
         self.in_problem(&self.figure)
+    }
+
+    /// What a claim is proved of: as many equations as unknowns, all of them.
+    pub fn scope(&self) -> Account {
+        Account {
+            equations: self.arcs.homotopy().equations,
+            ..Account::default()
+        }
     }
 
     /// The radii of circles, by object, in floats; zero for what is none.
@@ -348,6 +357,7 @@ impl Whole {
             rejected: run.rejected,
             length: run.length,
             switched_on: run.switched_on,
+            account: self.scope(),
             seconds: 0.0,
         };
         (edited, figure)

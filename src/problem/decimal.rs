@@ -220,6 +220,19 @@ mod tests {
     }
 
     #[test]
+    fn knows_its_last_digit() {
+        for (text, place) in [
+            ("1.120", -3),
+            ("5", 0),
+            ("5e1", 1),
+            ("-0.5e1", 0),
+            ("2.5e-3", -4),
+        ] {
+            assert_eq!(read(text).unwrap().last_digit(), place, "{text}");
+        }
+    }
+
+    #[test]
     fn says_what_is_wrong() {
         for text in [
             "", "-", ".", "1e", "1e+", "0x10", "1..2", "1_0", "one", "1.2.3", "--1",

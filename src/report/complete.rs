@@ -5,7 +5,7 @@ use super::drawing::{Drawing, names};
 use super::json::Points;
 use super::objects::Objects;
 use super::table::write_objects;
-use crate::blocks::{Account, LeftOutConstraint, rounded_down, rounded_up};
+use crate::blocks::{Account, LeftOut, rounded_down, rounded_up};
 use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, supposed_lengths, symmetry};
@@ -154,11 +154,11 @@ struct Entry<'a> {
     class: usize,
     width: f64,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    left_out: &'a [LeftOutConstraint],
+    left_out: &'a [LeftOut],
 }
 
 /// How a solution stands to what was left out, if anything was.
-fn figure(result: &Complete, index: usize) -> &[LeftOutConstraint] {
+fn figure(result: &Complete, index: usize) -> &[LeftOut] {
     let tested = result.tested.as_ref();
     tested.map_or(&[], |tested| &tested.figures[index])
 }

@@ -3,6 +3,7 @@
 use super::JSON_VERSION;
 use super::certain_digits;
 use super::drawing::{Drawing, names};
+use crate::blocks::{Account, Why};
 use crate::edit::{Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted, list};
@@ -39,10 +40,25 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         ),
         None => String::new(),
     };
+    let account = &edited.account;
+    let left_out = match account.left_out_in_words() {
+        words if words.is_empty() => words,
+        words => format!("; {words}"),
+    };
+    let clause = match account.clause() {
+        words if words.is_empty() => words,
+        words => format!(" {words}"),
+    };
     match &edited.ending {
-        Ending::Reached => format!(
-            "Reached, proved: the figure is the one and only continuation of the old one, {changes}."
-        ),
+        Ending::Reached => {
+            let scope = match account.scope() {
+                scope if scope.is_empty() => scope,
+                scope => format!(" {scope}"),
+            };
+            format!(
+                "Reached, proved: the figure is the one and only continuation of the old one{scope}, {changes}{left_out}."
+            )
+        }
         Ending::Limit(limit) => {
             let reached = edited.dimensions.iter().map(|d| {
                 let name = problem.dimension_name(d.index);
@@ -60,18 +76,22 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
             } else {
                 ""
             };
+            let scope = match account.scope() {
+                scope if scope.is_empty() => scope,
+                scope => format!("{scope}, "),
+            };
             format!(
-                "Limit, proved: {reached}{together}. {}",
+                "Limit, proved: {scope}{reached}{together}{left_out}. {}",
                 limit_in_words(problem, limit)
             )
         }
         Ending::Passes(reason) => format!(
             "Passes: near t = {:.6} of the way ({changes}) branches of figures seem to meet, so that none of \
-                 them continues this one more than another; proved up to there ({reason}).{far}",
+                 them continues this one more than another; proved up to there{clause} ({reason}).{far}",
             edited.t.0
         ),
         Ending::Stopped(reason) => format!(
-            "Stopped: proved up to t = {:.6} of the way ({changes}), and not further: {reason}.{far}",
+            "Stopped: proved up to t = {:.6} of the way ({changes}){clause}, and not further: {reason}.{far}",
             edited.t.0
         ),
     }
@@ -316,6 +336,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         "length": edited.length,
         "seconds": edited.seconds,
         "switched_on": edited.switched_on,
+        "account": edited.account,
     })
 }
 
@@ -323,9 +344,6 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
 /// what the session knows besides. `problem` is the one that was opened.
 pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -> Value {
     let mut value = edit_to_value(problem, edited, session.moved());
-    value["free"] = session.free().into();
-    value["redundant"] = session.redundant().into();
-    value["follows"] = session.follows().into();
     // The session's figure is the new one where that was reached.
     if edited.ending == Ending::Reached {
         let radii = problem.objects.iter().zip(session.radii());
@@ -367,33 +385,16 @@ pub(super) fn bounds(x: Interval) -> Value {
     json!([x.inf() + 0.0, x.sup() + 0.0])
 }
 
-/// What of a figure stays put because nothing determines it, and which constraints are left out of proofs because they
-/// follow from others: lines of text, none where there is nothing to say.
-pub fn freedom_in_words(found: &Decomposition) -> String {
+/// What a claim about a figure was proved of, as lines under its table; none where that is the figure as it is.
+pub fn account_in_words(account: &Account) -> String {
     let mut out = String::new();
-    let Decomposition {
-        free,
-        redundant,
-        follows,
-        ..
-    } = found;
-    if !free.is_empty() {
-        let _ = writeln!(out, "free, stay put      {}", list(free, LISTED));
+    let held = account.names_held();
+    if !held.is_empty() {
+        let _ = writeln!(out, "held where it is    {}", list(&held, LISTED));
     }
-    if !follows.is_empty() {
-        let _ = writeln!(
-            out,
-            "left out            {}: follow from the others, proved",
-            list(follows, LISTED)
-        );
-    }
-    if !redundant.is_empty() {
-        let _ = writeln!(
-            out,
-            "left out            {}: follow from the others at this figure, as far as floats tell; they hold to 1e-7 \
-             still, which is looked at, not proved",
-            list(redundant, LISTED)
-        );
+    let left_out = account.left_out_in_words();
+    if !left_out.is_empty() {
+        let _ = writeln!(out, "left out            {left_out}");
     }
     out
 }
@@ -401,16 +402,18 @@ pub fn freedom_in_words(found: &Decomposition) -> String {
 /// Whether a sketch is in order, or what of it can still move and what seems to be too much.
 pub fn freedom_of_sketch_in_words(found: &Decomposition) -> String {
     let mut parts = Vec::new();
-    if !found.free.is_empty() {
+    let held = found.account.names_held();
+    if !held.is_empty() {
         parts.push(format!(
-            "under-constrained: {} can still move (edits keep what is free where it is)",
-            list(&found.free, LISTED)
+            "under-constrained: it can still move (edits hold {} where they are)",
+            list(&held, LISTED)
         ));
     }
-    if !found.redundant.is_empty() {
+    let (_, seem) = left_out(&found.account);
+    if !seem.is_empty() {
         parts.push(format!(
             "over-constrained: {} seem to follow from the others",
-            list(&found.redundant, LISTED)
+            list(&seem, LISTED)
         ));
     }
     match parts.is_empty() {
@@ -438,26 +441,37 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
             list(block, LISTED)
         );
     }
-    if !found.free.is_empty() {
+    let held = found.account.names_held();
+    if !held.is_empty() {
         let _ = writeln!(
             out,
-            "  free (edits keep them where they are): {}",
-            list(&found.free, LISTED)
+            "  free (edits hold them where they are): {}",
+            list(&held, LISTED)
         );
     }
-    if !found.follows.is_empty() {
+    let (follow, seem) = left_out(&found.account);
+    if !follow.is_empty() {
         let _ = writeln!(
             out,
             "  follow from the others, proved: {}",
-            list(&found.follows, LISTED)
+            list(&follow, LISTED)
         );
     }
-    if !found.redundant.is_empty() {
+    if !seem.is_empty() {
         let _ = writeln!(
             out,
             "  seem to follow from the others: {}",
-            list(&found.redundant, LISTED)
+            list(&seem, LISTED)
         );
     }
     out
+}
+
+/// The names of what was left out: what is proved to follow from the others, and what seems to.
+fn left_out(account: &Account) -> (Vec<String>, Vec<String>) {
+    let names = |why: Why| {
+        let those = account.left_out.iter().filter(|one| one.why == why);
+        those.map(|one| one.name.clone()).collect()
+    };
+    (names(Why::Follows), names(Why::NothingNew))
 }

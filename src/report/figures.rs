@@ -71,32 +71,11 @@ pub fn figures_in_words(figures: &Figures) -> String {
     out += &provided(figures);
     out.push('.');
     out += &senses_in_words(figures);
-    let seem: Vec<_> = figures.left_out().iter().filter(|c| !c.follows).collect();
-    if !seem.is_empty() {
-        let each = seem
-            .iter()
-            .take(LISTED)
-            .map(|c| format!("{}, missed by at most {}", c.name, rounded_up(c.missed)));
-        let more = match seem.len() > LISTED {
-            true => format!(", and {} more", seem.len() - LISTED),
-            false => String::new(),
-        };
-        let _ = write!(
-            out,
-            " Left out, as they seem to follow from the others at the sketch: {}{more}.",
-            each.collect::<Vec<_>>().join(", ")
-        );
+    let left_out = figures.account().left_out_in_words();
+    if !left_out.is_empty() {
+        let _ = write!(out, " {left_out}.");
     }
     out
-}
-
-/// A number of two digits that is no less than this one.
-fn rounded_up(x: f64) -> String {
-    let text = format!("{x:.1e}");
-    match text.parse::<f64>() {
-        Ok(shown) if shown < x => format!("{:.1e}", x * 1.06),
-        _ => text,
-    }
 }
 
 /// How many of the figures have all senses of the sketch, in a sentence.
@@ -139,14 +118,15 @@ fn senses_in_words(figures: &Figures) -> String {
 /// What is taken as the sketch has it, in brackets.
 fn provided(figures: &Figures) -> String {
     let mut with = Vec::new();
-    if !figures.free().is_empty() {
-        with.push("what is free held where it is drawn");
+    let held = figures.account().names_held();
+    if !held.is_empty() {
+        with.push(format!("{} held where it is drawn", list(&held)));
     }
     if figures.keeps_directions() {
-        with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch");
+        with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch".to_owned());
     }
     if figures.has_cases() {
-        with.push("points on the side of lines and circles where the sketch has them, angles and tangents whichever way they turn");
+        with.push("points on the side of lines and circles where the sketch has them, angles and tangents whichever way they turn".to_owned());
     }
     match with.is_empty() {
         true => String::new(),
@@ -159,13 +139,13 @@ fn none_in_words(figures: &Figures, doubt: Option<String>) -> String {
     if let Some(doubt) = doubt {
         return format!("Stopped: no figure was proved: {doubt}");
     }
-    let refused = figures.left_out().iter().find(|c| c.refused > 0);
+    let refused = figures.refused().next();
     let what = match (figures.impossible(), refused) {
         (Some(block), _) => {
             format!("block {block} has no solution where the blocks before it are")
         }
-        (None, Some(refused)) => {
-            format!("{} does not hold in any figure of the others", refused.name)
+        (None, Some((name, _))) => {
+            format!("{name} does not hold in any figure of the others")
         }
         (None, None) => "the blocks have no figure in common".to_owned(),
     };
@@ -326,14 +306,9 @@ fn write_blocks(out: &mut String, figures: &Figures) -> std::fmt::Result {
             "  none to solve: all numbers are known exactly, one after the other"
         )?;
     }
-    let free = figures.free();
-    if !free.is_empty() {
-        writeln!(out, "free, held where it is drawn: {}", list(&free))?;
-    }
-    let follow = figures.left_out().iter().filter(|c| c.follows);
-    let follow: Vec<String> = follow.map(|c| c.name.clone()).collect();
-    if !follow.is_empty() {
-        writeln!(out, "follow from the others, proved: {}", list(&follow))?;
+    let held = figures.account().names_held();
+    if !held.is_empty() {
+        writeln!(out, "free, held where it is drawn: {}", list(&held))?;
     }
     Ok(())
 }
@@ -423,11 +398,8 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
             "doubt": account.doubt,
         })
     });
-    let left_out = figures.left_out().iter();
-    let left_out = left_out.map(|c| match c.follows {
-        true => json!({"name": c.name, "proved": true}),
-        false => json!({"name": c.name, "proved": false, "missed": c.missed, "refused": c.refused}),
-    });
+    let refused = figures.refused();
+    let refused = refused.map(|(name, n)| json!({"name": name, "figures": n}));
     let doubt = figures.doubt();
     let status = match (&doubt, count, figures.has_paths()) {
         (Some(_), ..) => "stopped",
@@ -441,8 +413,8 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
         "verdict": figures_in_words(figures),
         "count": count,
         "blocks": blocks.collect::<Vec<_>>(),
-        "free": figures.free(),
-        "left_out": left_out.collect::<Vec<_>>(),
+        "account": figures.account(),
+        "refused": refused.collect::<Vec<_>>(),
         "senses": senses,
         "figures": numbers.map(of_number).collect::<Vec<_>>(),
     });

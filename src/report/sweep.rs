@@ -34,6 +34,12 @@ fn write_ranges(
         )?;
     }
     writeln!(out)?;
+    let account = ranges.iter().map(|range| range.account.clone());
+    let account = account.reduce(|mut all, one| {
+        all.join(&one);
+        all
+    });
+    let account = account.as_ref();
     let cells = |range: &Range| {
         [
             problem.dimension_name(range.index),
@@ -61,10 +67,15 @@ fn write_ranges(
     for row in &rows {
         writeln!(out, "  {}", line(row.each_ref().map(String::as_str)))?;
     }
+    let scope = account.map_or(String::new(), |account| after(account.scope()));
+    let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
+        words if words.is_empty() => words,
+        words => format!(" At all these figures {words}."),
+    });
     writeln!(
         out,
-        "\nEvery value is a limit, proved, and differs from the exact one by at most 1 in its last digit shown; but \
-         \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond."
+        "\nEvery value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
+         \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}"
     )?;
     for range in ranges {
         for (end, verb) in [(&range.low, "shrinks to"), (&range.high, "grows to")] {
@@ -110,11 +121,19 @@ pub fn ranges_to_value(problem: &Problem, ranges: &[Range], moved: Moved) -> Val
     let ranges = ranges.iter().map(|range| {
         let value =
             json!({"constraint": range.index, "value": bounds(range.value),
-                   "low": end(&range.low, &range.low_figure), "high": end(&range.high, &range.high_figure)});
+                   "account": range.account, "low": end(&range.low, &range.low_figure), "high": end(&range.high, &range.high_figure)});
         (problem.dimension_name(range.index), value)
     });
     let ranges: Map<String, Value> = ranges.collect();
     Drawing::in_place("limits", problem).with(json!({"moved": moved.distance, "ranges": ranges}))
+}
+
+/// A clause after a space, where there is one.
+fn after(clause: String) -> String {
+    match clause.is_empty() {
+        true => clause,
+        false => format!(" {clause}"),
+    }
 }
 
 /// The edit that a sweep did not get over, if there is one.
@@ -130,10 +149,11 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
     let name = problem.dimension_name(index);
     let frames = match (sweep.frames.first(), sweep.frames.last()) {
         (Some(first), Some(last)) => format!(
-            "{} of {name} from {} to {}, each proved to be the one and only continuation of the one before",
+            "{} of {name} from {} to {}, each proved to be the one and only continuation of the one before{}",
             crate::problem::counted(sweep.frames.len(), "frame"),
             short(first.value),
-            short(last.value)
+            short(last.value),
+            after(sweep.account.clause())
         ),
         _ => format!("no frame of {name}"),
     };
@@ -155,6 +175,7 @@ pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
         "status": end.map_or("reached", |edited| edited.ending.name()),
         "words": sweep_in_words(problem, index, sweep),
         "frames": frames.collect::<Vec<_>>(),
+        "account": sweep.account,
         "end": end.map(|edited| edit_to_value(problem, edited, Moved::default())),
     }))
 }

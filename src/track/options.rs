@@ -45,6 +45,9 @@ pub struct Options {
     pub threads: usize,
     /// The run ends `stopped` after so many steps.
     pub max_steps: usize,
+    /// Constraints that were left out, as there are more than unknowns, count as met within this, in the unit of their
+    /// numbers; `None`: within half a unit of the last digit of their numbers (see [`crate::blocks::Account`]).
+    pub redundant_tolerance: Option<f64>,
 }
 
 /// How float mode steps.
@@ -75,6 +78,7 @@ impl Options {
             extended: true,
             threads: 1,
             max_steps: 10_000_000,
+            redundant_tolerance: None,
         }
     }
 

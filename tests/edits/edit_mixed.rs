@@ -354,7 +354,7 @@ fn compare(seed: u64, rounds: usize, absolute: bool) -> Counts {
             }
             Err(error) => panic!("{error}\n{text}"),
         };
-        if !session.free().is_empty() || !session.redundant().is_empty() {
+        if !session.account().is_whole() {
             counts.loose += 1;
             continue;
         }

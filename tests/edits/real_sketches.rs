@@ -149,8 +149,8 @@ fn real_sketches_load_and_survive_edits() {
                     .iter()
                     .map(Vec::len)
                     .collect::<Vec<_>>(),
-                session.free().len(),
-                session.redundant().len(),
+                session.account().held.len(),
+                session.account().left_out.len(),
                 opening.as_secs_f64() * 1e3,
                 start.elapsed().as_secs_f64() * 1e3 / f64::from(edits.max(1)),
             );

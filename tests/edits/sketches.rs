@@ -43,7 +43,7 @@ fn a_solvespace_sketch_is_edited_and_given_back() {
     assert!(sketch.unsupported.is_empty());
     let mut session = Session::open(&sketch.problem).unwrap();
     assert!(session.moved().distance < 1e-9, "{:?}", session.moved());
-    assert!(session.free().is_empty() && session.redundant().is_empty());
+    assert!(session.account().held.is_empty() && session.account().meets_all());
     // What does not change is not touched.
     assert_eq!(
         rewritten(&sketch, &bytes, &Session::open(&sketch.problem).unwrap()).len(),
@@ -199,7 +199,8 @@ fn what_is_free_stays_put() {
     assert!((apart(&session, "a", "b") - 5.0).abs() < 1e-12);
     assert!((apart(&session, "b", "c") - 3.0).abs() < 1e-12);
     assert_eq!(place(&session, "d"), [9.0, 9.0, 0.0]);
-    assert!(session.free().contains(&"d".to_owned()));
+    let held = session.account().names_held();
+    assert!(held.contains(&"x of d".to_owned()), "{held:?}");
 }
 
 #[test]

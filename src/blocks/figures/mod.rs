@@ -20,12 +20,13 @@ mod parts;
 mod search;
 mod senses;
 
-use super::cut::{Cut, free_names};
+use super::cut::Cut;
 use super::number::Number;
+use super::{Account, Verdict};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::{Control, Options};
-use parts::{is_met, may_be_reversed, parts_of, vanishes};
+use parts::{may_be_reversed, parts_of, vanishes, verdict};
 use search::Search;
 
 pub use first::{First, WithSenses};
@@ -57,19 +58,6 @@ pub struct BlockAccount {
     pub doubt: Option<String>,
 }
 
-/// A constraint that was left out because it seems to follow from the others at the sketch.
-#[derive(Debug, Clone)]
-pub struct LeftOut {
-    /// What people call it.
-    pub name: String,
-    /// Whether it is proved to hold wherever the others do.
-    pub follows: bool,
-    /// Otherwise by how much a figure that is listed misses it at most, in its own unit.
-    pub missed: f64,
-    /// How many figures of a part were not taken because they do not meet it.
-    pub refused: usize,
-}
-
 /// A solution of a block, by their places.
 pub type Chosen = (usize, usize);
 
@@ -90,7 +78,9 @@ pub struct Figures {
     parts: Vec<Vec<Figure>>,
     /// The blocks that have to be solved, with their accounts.
     accounts: Vec<(usize, BlockAccount)>,
-    left_out: Vec<LeftOut>,
+    account: Account,
+    /// What was left out and does not follow, with how many figures of a part were not taken because they miss it.
+    refused: Vec<(String, usize)>,
     /// Whether there were too many to look at all.
     truncated: bool,
     /// Whether of a distance along an axis one direction was taken of two.
@@ -164,15 +154,12 @@ impl Figures {
         }
         search.moving = (0..count).filter(|&b| !is_fixed[b]).collect();
         let follow = cut.proved_redundant();
-        let mut left_out: Vec<LeftOut> = cut
-            .redundant
+        let mut refused = vec![0; follow.len()];
+        let mut verdicts: Vec<Verdict> = follow
             .iter()
-            .zip(follow)
-            .map(|(&row, follows)| LeftOut {
-                name: cut.name(cut.system.rows[row].index),
-                follows,
-                missed: 0.0,
-                refused: 0,
+            .map(|follows| match follows {
+                true => Verdict::Follows,
+                false => Verdict::Met { within: 0.0 },
             })
             .collect();
         let mut vanished = None;
@@ -197,9 +184,18 @@ impl Figures {
                         }
                     }
                 }
-                part.rows
-                    .iter()
-                    .all(|&k| is_met(&cut, k, &values, &mut left_out[k]))
+                let rows = part.rows.iter().filter(|&&k| !follow[k]);
+                let found =
+                    rows.map(|&k| (k, verdict(&cut, k, &values, options.redundant_tolerance)));
+                let found: Vec<(usize, Verdict)> = found.collect();
+                if let Some((k, _)) = found.iter().find(|(_, verdict)| verdict.is_missed()) {
+                    refused[*k] += 1;
+                    return false;
+                }
+                for (k, verdict) in found {
+                    verdicts[k] = verdicts[k].and(verdict);
+                }
+                true
             });
             let numbers: Vec<_> = figures.iter().map(|figure| &figure.numbers[..]).collect();
             if may_be_reversed(&cut, &fixed, &numbers) {
@@ -217,11 +213,14 @@ impl Figures {
         let accounts = order
             .filter_map(|b| Some((b, accounts.remove(&b)?)))
             .collect();
+        let refused = refused.into_iter().zip(&cut.redundant);
+        let refused = refused.map(|(n, &row)| (cut.name(cut.system.rows[row].index), n));
         Ok(Figures {
+            refused: refused.collect(),
+            account: cut.account(|k| verdicts[k]),
             fixed,
             parts,
             accounts,
-            left_out,
             truncated,
             keeps_directions,
             vanished,
@@ -240,14 +239,16 @@ impl Figures {
         self.accounts.iter().map(|(_, account)| account)
     }
 
-    /// The names of what nothing determines wholly: it is held where it is drawn.
-    pub fn free(&self) -> Vec<String> {
-        free_names(&self.cut.problem, &self.cut.system, &self.cut.free)
+    /// What it is proved of: what nothing determines is held where it is drawn, and what says nothing new at the sketch was
+    /// left out, with how the figures listed stand to it.
+    pub fn account(&self) -> &Account {
+        &self.account
     }
 
-    /// Constraints that were left out.
-    pub fn left_out(&self) -> &[LeftOut] {
-        &self.left_out
+    /// Constraints that were left out and how many figures of a part were not taken because they are proved to miss it.
+    pub fn refused(&self) -> impl Iterator<Item = (&str, usize)> {
+        let refused = self.refused.iter().filter(|(_, n)| *n > 0);
+        refused.map(|(name, n)| (name.as_str(), *n))
     }
 
     /// How many figures there are; `None` where that has no place in 64 bits.
@@ -293,7 +294,7 @@ impl Figures {
 
     /// Whether every constraint is proved to be met: none was left out but those that follow from the others.
     pub fn meets_all(&self) -> bool {
-        self.left_out.iter().all(|constraint| constraint.follows)
+        self.account.meets_all()
     }
 
     /// Whether there are constraints whose words leave more than one case open (docs/problem-files.md): sides of lines and

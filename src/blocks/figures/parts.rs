@@ -1,15 +1,11 @@
 //! Which blocks hang together, and what their figures have to meet beyond the blocks' equations.
 
-use super::LeftOut;
+use crate::blocks::Verdict;
 use crate::blocks::cut::Cut;
 use crate::blocks::number::Number;
 use crate::constraint::{Entry, Form};
 use crate::interval::Interval;
 use std::collections::HashMap;
-
-/// Constraints that seem to follow from others may be missed by so much, relative to the sketch's unit: sketches that say
-/// a thing twice do so to the digits that they store.
-const MISSED: f64 = 1e-7;
 
 /// Blocks whose figures hang together, in order, with what is to be looked at once all of them are known.
 pub(super) struct Part {
@@ -118,16 +114,13 @@ pub(super) fn vanishes(cut: &Cut, vector: usize, values: &[Option<Number>]) -> O
     signs.iter().all(Option::is_some).then_some(true)
 }
 
-/// Whether a figure meets a constraint that was left out, as nearly as sketches do that say a thing twice.
-pub(super) fn is_met(
+/// How a figure stands to a row that was left out.
+pub(super) fn verdict(
     cut: &Cut,
     k: usize,
     values: &[Option<Number>],
-    account: &mut LeftOut,
-) -> bool {
-    if account.follows {
-        return true;
-    }
+    tolerance: Option<f64>,
+) -> Verdict {
     let row = &cut.system.rows[cut.redundant[k]];
     let right = Number::of(&cut.at_target(row.index));
     let off = row
@@ -137,13 +130,8 @@ pub(super) fn is_met(
             let product = side(p.left, values).times(&side(p.right, values));
             sum.plus(&Number::halves(p.factor.into()).times(&product))
         });
-    let scale = cut.unit.powi(cut.powers[row.index]);
-    let is_met = off.enclosure().mig() <= MISSED * scale;
-    match is_met {
-        true => account.missed = account.missed.max(off.enclosure().mag()),
-        false => account.refused += 1,
-    }
-    is_met
+    let ruler = cut.ruler(k, tolerance);
+    ruler.verdict(off.enclosure(), right.enclosure())
 }
 
 /// Whether two of these figures of a part may be one in which lines or planes of their own run the other way: all that

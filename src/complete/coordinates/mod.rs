@@ -42,7 +42,7 @@ use super::spare::make_square;
 use super::store::{Keep, Store};
 use super::targets::Targets;
 use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptiness};
-use crate::blocks::{Block as Cut, Blocks, LeftOutConstraint as LeftOut};
+use crate::blocks::{Block as Cut, Blocks, LeftOut};
 use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::problem::Problem;

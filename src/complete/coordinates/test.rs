@@ -1,7 +1,7 @@
 //! Equations that were left out, as there are more than unknowns: how far each figure found is from meeting them.
 
 use super::entry;
-use crate::blocks::{Account, LeftOutConstraint as LeftOut, Ruler, Verdict, owner_name};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict, owner_name};
 use crate::constraint::{Form, Spare};
 use crate::interval::{Interval, ZERO, point};
 use crate::problem::Problem;

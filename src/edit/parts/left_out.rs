@@ -1,7 +1,7 @@
 //! Constraints that are left out because they follow from others at the figure: by proof, or as far as floats tell.
 
 use super::{Known, Parts, Used, moves};
-use crate::blocks::{Given, Row, combination};
+use crate::blocks::{Given, Row, Ruler, Verdict, combination, rounded_down};
 use crate::constraint::{Entry, Form};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
@@ -68,14 +68,13 @@ impl Parts {
         self.proved = now;
     }
 
-    /// An equation that was left out, by its place among these, is not proved to follow, and does not hold at the figure.
-    /// `end`: where the figure is a limit's, t there, and otherwise nothing.
-    pub(super) fn broken(
+    /// How a figure stands to each equation that was left out, by its place among these. `time`: t there, where that is not 1.
+    pub(super) fn verdicts(
         &self,
         figure: &[Known],
         rights: &[Vec<Real>],
-        end: Option<Interval>,
-    ) -> Option<(usize, Stop)> {
+        time: Option<Interval>,
+    ) -> Vec<Verdict> {
         let side = |form: Form| match form {
             Form::One => point(1.0),
             Form::Difference(a, b) => {
@@ -86,9 +85,10 @@ impl Parts {
                 a - b
             }
         };
-        for (k, &row) in self.redundant.iter().enumerate() {
+        let rows = self.redundant.iter().enumerate();
+        rows.map(|(k, &row)| {
             if self.is_proved(k, rights) {
-                continue;
+                return Verdict::Follows;
             }
             let Row {
                 index, products, ..
@@ -96,21 +96,39 @@ impl Parts {
             let left = products.iter().fold(point(0.0), |sum, p| {
                 sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
             });
-            let right = Right::polynomial(&rights[*index], self.scale(*index));
-            let right = match end {
+            let scale = self.scale(*index);
+            let right = Right::polynomial(&rights[*index], scale);
+            let right = match time {
                 Some(t) => right.enclose(t),
                 None => right.at_target(),
             };
-            let off = (left - right).mig();
-            if off > 1e-7 {
-                let words = format!(
-                    "{} seemed to follow from the other constraints, but contradicts them",
-                    self.name(*index)
-                );
-                return Some((k, Stop::new(StopKind::Contradiction, words)));
-            }
-        }
-        None
+            let unit = point(scale);
+            self.ruler(k).verdict((left - right) * unit, right * unit)
+        })
+        .collect()
+    }
+
+    /// How an equation that was left out is measured.
+    pub(super) fn ruler(&self, redundant: usize) -> Ruler {
+        let index = self.system.rows[self.redundant[redundant]].index;
+        let measured = (self.unit, self.powers[index]);
+        let tolerance = self.options.redundant_tolerance;
+        Ruler::new(&self.problem, self.owners[index], measured, tolerance)
+    }
+
+    /// The first constraint that was left out and is proved to be missed, by its place, and what to say of it.
+    pub(super) fn missed(&self, verdicts: &[Verdict]) -> Option<(usize, Stop)> {
+        verdicts.iter().enumerate().find_map(|(k, verdict)| {
+            let &Verdict::Missed { by } = verdict else {
+                return None;
+            };
+            let name = self.name(self.system.rows[self.redundant[k]].index);
+            let words = format!(
+                "{name} contradicts the other constraints: the figure that meets them misses it by at least {}, proved",
+                rounded_down(by)
+            );
+            Some((k, Stop::new(StopKind::Contradiction, words)))
+        })
     }
 
     /// A dimension that is to move but follows from others, and not so as these move.

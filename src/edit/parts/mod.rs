@@ -13,7 +13,7 @@ pub(super) mod senses;
 mod standing;
 mod words;
 
-use crate::blocks::{Blocks, Combination, Cut, Given, System, Used};
+use crate::blocks::{Account, Blocks, Combination, Cut, Given, System, Used, Verdict};
 use crate::constraint::{Record, try_lower_all};
 use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use crate::edit::lowered;
@@ -72,6 +72,8 @@ pub(super) struct Parts {
     follows: Vec<Option<Combination>>,
     /// For each whether that is proved of the figure.
     proved: Vec<bool>,
+    /// How the figure stands to each.
+    verdicts: Vec<Verdict>,
     free: Vec<usize>,
     blocks: Blocks,
     /// Blocks of one equation that is linear in exactly known numbers.
@@ -180,6 +182,7 @@ impl Parts {
             given: Vec::new(),
             follows: Vec::new(),
             proved: Vec::new(),
+            verdicts: Vec::new(),
             used,
             redundant,
             free,
@@ -233,8 +236,9 @@ impl Parts {
             tubes: run.tubes.max(usize::from(distance > 0.0)),
         };
         self.figure = figure;
+        self.verdicts = self.verdicts(&self.figure, &at_rest_all(rights), None);
         match self
-            .broken(&self.figure, &at_rest_all(rights), None)
+            .missed(&self.verdicts)
             .map(|(_, stop)| stop)
             .or_else(|| self.vanished(&self.figure))
         {
@@ -340,7 +344,7 @@ impl Parts {
         }) {
             Err(fault) => {
                 let stop = Stop::new(StopKind::Refused, fault);
-                (self.account(settings, stopped(stop)), None)
+                (self.edited(settings, stopped(stop), self.scope()), None)
             }
             Ok(lowered) => {
                 let rights: Vec<Vec<Real>> = lowered
@@ -355,27 +359,31 @@ impl Parts {
                 };
                 self.end_where_segments_vanish((settings, &rights), &mut run, control);
                 let mut figure = None;
-                let broken = match &run.end {
-                    End::Reached(reached) => self
-                        .broken(reached, &rights, None)
-                        .map(|(_, stop)| stop)
-                        .or_else(|| self.vanished(reached)),
-                    End::Limit(there, _) => self
-                        .broken(there, &rights, Some(hull(run.t.0, run.t.1)))
-                        .map(|(_, stop)| stop),
-                    _ => None,
+                let verdicts = match &run.end {
+                    End::Reached(reached) => self.verdicts(reached, &rights, None),
+                    End::Limit(there, _) => {
+                        self.verdicts(there, &rights, Some(hull(run.t.0, run.t.1)))
+                    }
+                    _ => self.verdicts.clone(),
                 };
-                if let Some(what) = broken {
+                let stop = self.missed(&verdicts).map(|(_, stop)| stop);
+                let stop = stop.or_else(|| match &run.end {
+                    End::Reached(reached) => self.vanished(reached),
+                    _ => None,
+                });
+                let account = self.account_of(|k| verdicts[k]);
+                if let Some(what) = stop {
                     run.end = End::Stopped(what);
                     run.t = (0.0, 0.0);
                 } else if let End::Reached(reached) = &run.end {
-                    figure = Some((reached.clone(), lowered.record, rights));
+                    figure = Some((reached.clone(), lowered.record, rights, verdicts));
                 }
-                (self.account(settings, run), figure)
+                (self.edited(settings, run, account), figure)
             }
         };
-        if let (Some((figure, record, rights)), true) = (figure, keep) {
+        if let (Some((figure, record, rights, verdicts)), true) = (figure, keep) {
             (self.figure, self.record, self.problem) = (figure, record, problem);
+            self.verdicts = verdicts;
             self.note_what_follows(&rights);
         }
         Edited {
@@ -435,7 +443,7 @@ impl Parts {
         self.unit.powi(self.powers[index])
     }
 
-    fn account(&self, settings: &[Setting], run: Run) -> Edited {
+    fn edited(&self, settings: &[Setting], run: Run, account: Account) -> Edited {
         let t = hull(run.t.0, run.t.1);
         let is_reached = matches!(run.end, End::Reached(_));
         let dimensions = settings.iter().map(|setting| {
@@ -471,6 +479,7 @@ impl Parts {
             rejected: run.rejected,
             length: run.length,
             switched_on: run.switched_on,
+            account,
             seconds: 0.0,
         }
     }

@@ -30,7 +30,7 @@ impl Parts {
         let broken = match led {
             Err(OpenError::Correction { ending, .. }) => match *ending {
                 Ending::Stopped(stop) if stop.kind == StopKind::Contradiction => {
-                    self.broken(&self.figure, &at_rest, None).map(|(k, _)| k)
+                    self.missed(&self.verdicts).map(|(k, _)| k)
                 }
                 _ => None,
             },

@@ -1,30 +1,33 @@
 //! What people are told of a sketch and its parts, in its own names.
 
 use super::Parts;
-use crate::blocks::{Block, free_names, name};
+use crate::blocks::{Account, Block, Verdict, account, name};
 use crate::constraint::KINDS;
 use crate::edit::session::Decomposition;
+use crate::interval::point;
 use crate::problem::{Constraint, Item, Problem, Shape};
 use std::collections::BTreeSet;
 
 impl Parts {
-    /// What stays put because nothing determines it, and what was left out because it follows from the rest at the
-    /// figure: names.
-    pub fn free(&self) -> Vec<String> {
-        free_names(&self.problem, &self.system, &self.free)
+    /// What a claim is proved of, with what is known of each row that was left out, by place.
+    pub(super) fn account_of(&self, verdict: impl Fn(usize) -> Verdict) -> Account {
+        let value = |u: usize| {
+            self.figure[u].enclosure() * point(self.unit.powi(self.system.unknowns[u].power))
+        };
+        let left_out = self.redundant.iter().enumerate();
+        let left_out =
+            left_out.map(|(k, &row)| (self.name(self.system.rows[row].index), verdict(k)));
+        account(&self.used, &self.system, value, left_out)
     }
 
-    /// See [`Parts::free`]: those that seem to follow, and with `proved` those that are proved to.
-    pub fn redundant(&self, proved: bool) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        let all = self.redundant.iter().zip(&self.proved);
-        for (&row, _) in all.filter(|(_, known)| **known == proved) {
-            let name = self.name(self.system.rows[row].index);
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names
+    /// What is proved of the figure as it is now.
+    pub fn scope(&self) -> Account {
+        self.account_of(|k| {
+            self.verdicts
+                .get(k)
+                .copied()
+                .unwrap_or(Verdict::NotLookedAt)
+        })
     }
 
     /// How the equations fall apart.
@@ -43,9 +46,10 @@ impl Parts {
                 .filter(|(_, exact)| !**exact)
                 .map(|(block, _)| names(block))
                 .collect(),
-            free: self.free(),
-            redundant: self.redundant(false),
-            follows: self.redundant(true),
+            account: self.account_of(|k| match self.proved[k] {
+                true => Verdict::Follows,
+                false => Verdict::NotLookedAt,
+            }),
         }
     }
 

@@ -64,8 +64,8 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         let label = "figures with all senses of the sketch".to_owned();
         page.rows.push((label, kept.to_string()));
     }
-    let free = list(result, "free")?.iter().filter_map(Value::as_str);
-    let free: Vec<&str> = free.collect();
+    let held = list(&result["account"], "held")?.iter();
+    let free: Vec<&str> = held.filter_map(|held| held["what"].as_str()).collect();
     if !free.is_empty() {
         let label = "free, held where it is drawn".to_owned();
         page.rows.push((label, free.join(", ")));
