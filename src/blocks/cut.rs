@@ -1,6 +1,8 @@
 //! A sketch in its own frame: merged, made square, and cut into blocks.
 
+use super::drawn::{Drawn, Floats, look};
 use super::follows::{Combination, Given, combination};
+use super::singular::Singular;
 use super::{Account, Block, Blocks, Choice, Held, Ruler, System, Verdict};
 use crate::constraint::{Entry, Form, Lowered, Owner, Record, Role, Tail, try_lower_all};
 use crate::interval::{Interval, Real};
@@ -51,6 +53,10 @@ pub(crate) struct Cut {
     pub owners: Vec<usize>,
     /// Whether the same figure has several solutions, as with a line or plane of its own, whose direction has two signs.
     pub has_twins: bool,
+    /// Where the drawing is singular: what is so about it, and how far it was moved off that.
+    pub singular: Option<Singular>,
+    /// The values of the unknowns as they are drawn, where the drawing was moved.
+    pub drawn: Option<Vec<Real>>,
 }
 
 /// Whether the same figure has several solutions that differ in signs of unknowns: in changes of sign of which none is that of
@@ -79,6 +85,11 @@ fn has_twins(tail: &Tail) -> bool {
 impl Cut {
     /// Merges, chooses and cuts. The error says what is wrong with the sketch.
     pub fn new(problem: &Problem) -> Result<Self, String> {
+        Self::drawn(problem, 0)
+    }
+
+    /// The same; a singular drawing is moved off that place in one of several ways, two and two in opposite directions.
+    pub fn drawn(problem: &Problem, way: u64) -> Result<Self, String> {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
         problem.homotopy.detour = Decimal::from(0);
@@ -94,7 +105,7 @@ impl Cut {
                 Some(c) => c > all,
             }
         };
-        let system = System::new(&problem, &lowered, |index| {
+        let mut system = System::new(&problem, &lowered, |index| {
             owner_is_dimension(lowered.owners[index])
         });
         let has_twins = has_twins(&lowered.tail);
@@ -103,7 +114,33 @@ impl Cut {
         let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
         let at: Vec<f64> = at.collect();
         let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
-        let choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
+        let mut choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
+        let equations = &lowered.tail.equations;
+        let target = system.rows.iter().map(|row| {
+            let equation = &equations[row.index];
+            let right = equation.right.iter().map(|c| c.enclose().mid());
+            right.sum::<f64>() / unit.powi(equation.power)
+        });
+        let rows = system.rows.iter();
+        let structural = rows.map(|row| !owner_is_dimension(lowered.owners[row.index]));
+        let structural: Vec<bool> = structural.collect();
+        let floats = Floats::new(&system, target.collect());
+        let mut moved_rights: Vec<(usize, Vec<Real>)> = Vec::new();
+        let (mut singular, mut drawn) = (None, None);
+        if let Drawn::Singular { rows, off } = look(&floats, &structural, (&at, &choice), way) {
+            let owner = |row: usize| lowered.owners[system.rows[row].index];
+            let mut place = Singular::new(&problem, &system, &rows, owner);
+            if let Some(off) = off {
+                choice = Choice::new(&system, &off, |u| coordinates.contains(&u));
+                place.moved = Some(system.moved(&off, problem.dimension, unit));
+                drawn = Some(system.values.clone());
+                moved_rights = system.set_off(&off, unit, |index| {
+                    let right = equations[index].right.iter();
+                    right.fold(Real::zero(), |sum, c| &sum + c)
+                });
+            }
+            singular = Some(place);
+        }
         let held = choice.free.iter().map(|&u| Used::Held(u));
         let used = choice.used.iter().map(|&r| Used::Row(r));
         let used: Vec<Used> = used.chain(held).collect();
@@ -146,7 +183,10 @@ impl Cut {
         });
         let own = own.collect();
         let powers = tail.equations.iter().map(|e| e.power).collect();
-        let rights = tail.equations.into_iter().map(|e| e.right).collect();
+        let mut rights: Vec<Vec<Real>> = tail.equations.into_iter().map(|e| e.right).collect();
+        for (index, right) in moved_rights {
+            rights[index] = right;
+        }
         let mut cut = Cut {
             redundant: choice.redundant,
             free: choice.free,
@@ -163,6 +203,8 @@ impl Cut {
             unit,
             owners,
             has_twins,
+            singular,
+            drawn,
         };
         cut.find_exact();
         let implied = cut.system.implied.iter();
@@ -189,6 +231,12 @@ impl Cut {
             self.is_exact
                 .push(known && block.unknowns.len() == 1 && is_linear());
         }
+    }
+
+    /// Where an unknown is drawn.
+    pub fn drawn_at(&self, unknown: usize) -> &Real {
+        let values = self.drawn.as_ref().unwrap_or(&self.system.values);
+        &values[unknown]
     }
 
     /// What the right-hand side of one of the problem's equations is to be.

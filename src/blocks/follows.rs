@@ -242,6 +242,14 @@ impl Combination {
         })
     }
 
+    /// What the right-hand side has to be with these of the given equations, numbers for all t.
+    pub fn value(&self, of: impl Fn(usize) -> Vec<Real>) -> Real {
+        let terms = self.sum.iter();
+        terms.fold(Real::zero(), |sum, (i, factor)| {
+            &sum + &(&Real::from(factor.clone()) * &number(&of(*i)))
+        })
+    }
+
     /// Whether with these right-hand sides, numbers for all t, it is certain that the equation does not hold where the given
     /// ones do. `before`: see [`Combination::holds`].
     pub fn fails<'r>(
@@ -254,17 +262,17 @@ impl Combination {
         if !self.kept.iter().all(is_kept) {
             return false;
         }
-        let number = |right: &[Real]| right.iter().fold(Real::zero(), |sum, c| &sum + c);
-        let terms = self.sum.iter();
-        let sum = terms.fold(Real::zero(), |sum, (i, factor)| {
-            &sum + &(&Real::from(factor.clone()) * &number(&of(*i)))
-        });
-        let off = &number(right) - &sum;
+        let off = &number(right) - &self.value(of);
         match off.as_rational() {
             Some(off) => !off.is_zero(),
             None => !off.enclose().contains(0.0),
         }
     }
+}
+
+/// What a right-hand side is at t = 1.
+fn number(right: &[Real]) -> Real {
+    right.iter().fold(Real::zero(), |sum, c| &sum + c)
 }
 
 /// Whether a sum of multiples of numbers is zero; numbers that are no ratios are told apart by how they are written.

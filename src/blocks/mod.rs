@@ -22,6 +22,7 @@ mod clusters;
 mod combine;
 mod cut;
 mod decompose;
+mod drawn;
 mod figures;
 mod follows;
 mod formula;
@@ -30,6 +31,8 @@ mod merge;
 mod number;
 mod path;
 mod pinned;
+mod singular;
+mod surplus;
 
 pub(crate) use account::Ruler;
 pub use account::{Account, Held, LEAST_PART, LeftOut, Verdict, Why, rounded_down, rounded_up};
@@ -38,10 +41,13 @@ pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
 pub(crate) use cut::{Cut, Used, account, name, name as owner_name};
 pub use decompose::{Block, Blocks};
+pub(crate) use drawn::Floats;
 pub use figures::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way, WithSenses};
 pub use follows::{Combination, Given, combination};
 pub use merge::{Row, System};
 pub use pinned::pinned;
+pub use singular::Singular;
+pub use surplus::{Census, Finding, Surplus, surplus};
 
 use crate::constraint::{Entry, Form, Product};
 

@@ -1,12 +1,12 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
-use super::{BAD_INPUT, CLOSED, input, output};
-use krawl::blocks::{MOST_POINTS, Why, clusters, pinned};
+use super::{BAD_INPUT, CLOSED, OVER, input, output};
+use krawl::blocks::{Census, MOST_POINTS, Why, clusters, pinned, surplus};
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
 use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target};
-use krawl::remarks::{in_words, remarks};
+use krawl::remarks::{in_words, moves, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
 use std::fmt::Write;
@@ -21,7 +21,8 @@ Examples:
   krawl generate tower --size 60 | krawl check -
   krawl check problems/sketches/parts.FCStd --sketch Slot
 
-Exit codes: 0 in order, 2 not in order, with the line and what to do.")]
+Exit codes: 0 in order, 2 not in order, with the line and what to do, 6 over-constrained: constraints that are one too
+many, each with the few that it follows from or contradicts.")]
 pub struct Arguments {
     /// The problem file (TOML), `-` is standard input; or a file of SolveSpace (.slvs) or FreeCAD (.FCStd),
     /// or a molecule (.xyz, .mol, .sdf)
@@ -47,7 +48,7 @@ pub fn run(arguments: &Arguments) -> u8 {
         && !is_single(&arguments.file, is_molecule)
     {
         return match describe_sketches(&arguments.file, arguments.sketch.as_deref()) {
-            Ok(text) if output::print(&text) => CLOSED,
+            Ok((text, code)) if output::print(&text) => code,
             Ok(_) => BAD_INPUT,
             Err(message) => {
                 output::complain(&message);
@@ -63,6 +64,9 @@ pub fn run(arguments: &Arguments) -> u8 {
                 Some(loose) => {
                     output::complain(&loose.decide(&message));
                     output::print(&loose.in_words());
+                    if !loose.census.surplus.is_empty() {
+                        return OVER;
+                    }
                 }
             }
             return BAD_INPUT;
@@ -70,6 +74,12 @@ pub fn run(arguments: &Arguments) -> u8 {
     };
     let mut text = describe(&problem, None);
     text += &remarks_in_words(&problem);
+    let census = match problem.is_distances_only() {
+        true => Census::default(),
+        false => surplus(&problem).unwrap_or_default(),
+    };
+    text += &surplus_in_words(&census);
+    let code = exit_code(&census);
     text += &match problem.is_absolute() {
         true => blocks_in_words(&Decomposition::of(&problem)),
         false if problem.is_distances_only() => clusters_in_words(&problem),
@@ -79,7 +89,7 @@ pub fn run(arguments: &Arguments) -> u8 {
         text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
                  unknowns and equations by itself\n";
         return if output::print(&text) {
-            CLOSED
+            code
         } else {
             BAD_INPUT
         };
@@ -98,6 +108,35 @@ pub fn run(arguments: &Arguments) -> u8 {
     }
 }
 
+/// The exit code of what was read.
+fn exit_code(census: &Census) -> u8 {
+    match census.surplus.is_empty() {
+        true => CLOSED,
+        false => OVER,
+    }
+}
+
+/// Constraints that are one too many, as lines of text; none where there are none.
+fn surplus_in_words(census: &Census) -> String {
+    let mut text = String::new();
+    if !census.surplus.is_empty() {
+        text += "too many\n";
+    }
+    for one in &census.surplus {
+        let _ = writeln!(text, "  {}", one.in_words());
+    }
+    text
+}
+
+/// A decomposition without what was left out of it: what is one too many is told by [`surplus`].
+fn without_left_out(found: Decomposition) -> Decomposition {
+    Decomposition {
+        redundant: Vec::new(),
+        follows: Vec::new(),
+        ..found
+    }
+}
+
 /// Whether a file holds one molecule, which is described as a problem.
 fn is_single(file: &Path, is_molecule: bool) -> bool {
     let name = file.display().to_string();
@@ -106,7 +145,7 @@ fn is_single(file: &Path, is_molecule: bool) -> bool {
 }
 
 /// What a file of another program holds: its sketches, or the one of them.
-fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String> {
+fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), String> {
     let name = file.display().to_string();
     let bytes = input::bytes(file)?;
     let listed = import::list(&name, &bytes).map_err(|error| error.to_string())?;
@@ -120,13 +159,18 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
             let constraints = counted(one.constraints, "constraint", "constraints");
             let _ = writeln!(text, "  {}: {drawn}, {constraints}", one.name);
         }
-        return Ok(text);
+        return Ok((text, CLOSED));
     }
     let (imported, _) = input::import(file, sketch)?;
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
-    let blocks = Decomposition::of(problem);
-    text += &describe(problem, Some(&blocks));
+    let census = surplus(problem).unwrap_or_default();
+    let blocks = match census.surplus.is_empty() {
+        true => Decomposition::of(problem),
+        false => Decomposition::of(problem).map(without_left_out),
+    };
+    text += &describe(problem, Some((&blocks, &census)));
+    text += &surplus_in_words(&census);
     if !imported.unsupported.is_empty() {
         let _ = writeln!(
             text,
@@ -156,7 +200,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<String, String
         let _ = writeln!(text, "  {name:<13} {what}{tied}");
     }
     text += &blocks_in_words(&blocks);
-    Ok(text)
+    Ok((text, exit_code(&census)))
 }
 
 /// `1 sketch`, `2 sketches`.
@@ -179,6 +223,7 @@ struct Loose {
     fault: String,
     found: Decomposition,
     standing: Standing,
+    census: Census,
 }
 
 impl Loose {
@@ -195,6 +240,7 @@ impl Loose {
         let (found, standing) = Decomposition::led(&problem).ok()?;
         Some(Loose {
             fault: fault.to_string(),
+            census: surplus(&problem).unwrap_or_default(),
             problem,
             found,
             standing,
@@ -244,6 +290,8 @@ impl Loose {
         let fault = self.decide(&self.fault);
         let mut text = format!("{}: not in order: {fault}{taken}\n", self.problem.name);
         text += &in_rows(&understood(&self.problem));
+        text += &in_rows(&freedom(&self.census));
+        text += &surplus_in_words(&self.census);
         let mut found = self.found.clone();
         let left_out = std::mem::take(&mut found.account.left_out);
         text += &decomposition_in_words(&found);
@@ -315,6 +363,9 @@ fn remarks_in_words(problem: &Problem) -> String {
         format!("{label}: {}\n", in_words(problem, remark))
     });
     let mut text: String = lines.collect();
+    if let Some(moves) = moves(problem) {
+        let _ = writeln!(text, "warning: {}", moves.in_words(problem));
+    }
     if found.len() > MOST {
         let _ = writeln!(text, "and {} more of these", found.len() - MOST);
     }
@@ -407,7 +458,11 @@ fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
 }
 
 /// What is in a problem; with `blocks` of one that has not been checked, of which is said first what is free.
-fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -> String {
+fn describe(
+    problem: &Problem,
+    blocks: Option<(&Result<Decomposition, String>, &Census)>,
+) -> String {
+    let (blocks, census) = blocks.unzip();
     let mut rows = understood(problem);
     let (free, distances) = (problem.free_coordinates(), problem.distances.len());
     rows.push(("free coordinates", free.to_string()));
@@ -426,6 +481,7 @@ fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -
             ),
         ));
     }
+    rows.extend(census.into_iter().flat_map(freedom));
     let (label, frame) = frame(problem);
     rows.push((label, frame));
     let homotopy = &problem.homotopy;
@@ -442,10 +498,27 @@ fn describe(problem: &Problem, blocks: Option<&Result<Decomposition, String>>) -
 
     let state = match blocks {
         None => "the input is in order".to_owned(),
-        Some(Ok(found)) => freedom_of_sketch_in_words(found),
+        Some(Ok(found)) => {
+            let surplus = census.map_or(0, |census| census.surplus.len());
+            let words = freedom_of_sketch_in_words(found);
+            let too_many = counted(surplus, "constraint", "constraints");
+            match (surplus, words.as_str()) {
+                (0, _) => words,
+                (_, "the input is in order") => format!("over-constrained: {too_many} too many"),
+                _ => format!("{words}; over-constrained: {too_many} too many"),
+            }
+        }
         Some(Err(fault)) => format!("not in order: {fault}"),
     };
     format!("{}: {state}\n{}", problem.name, in_rows(&rows))
+}
+
+/// In how many ways a sketch can still move, as a row of text.
+fn freedom(census: &Census) -> Vec<(&'static str, String)> {
+    let freedom = census.freedom.iter();
+    freedom
+        .map(|freedom| ("degrees of freedom", freedom.to_string()))
+        .collect()
 }
 
 /// Where coordinates are counted from.

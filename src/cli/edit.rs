@@ -7,6 +7,7 @@ use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::certificate::Writer;
 use krawl::edit::{Decomposition, Edited, Ending, OpenError, Session, Setting};
 use krawl::problem::Problem;
+use krawl::remarks::moves;
 use krawl::report::page::Page;
 use krawl::report::{account_in_words, edit_to_document, edit_to_table};
 use krawl::track::{Control, Options, StopKind, Witness};
@@ -135,6 +136,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..Control::default()
     };
+    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
+    if !arguments.quiet
+        && !elsewhere
+        && let Some(moves) = moves(&problem)
+    {
+        output::print(&format!(
+            "{}: {}\n\n",
+            problem.name,
+            moves.in_words(&problem)
+        ));
+    }
     let mut session = match open(&problem, &arguments.file, extended, &mut control)? {
         Ok(session) => session,
         Err(code) => return Ok(code),
@@ -179,9 +191,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let beside = Beside::new(out)?;
         written &= beside.commit(beside.file().write_all(&bytes));
     }
-    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
-        let mut text = edit_to_table(&problem, &edited, moved) + &account_in_words(&edited.account);
+        let drawn = match &edited.singular {
+            None => drawn_in_words(&problem, &session),
+            Some(_) => String::new(),
+        };
+        let table = edit_to_table(&problem, &edited, moved);
+        let mut text = drawn + &table + &account_in_words(&edited.account);
         for warning in &warnings {
             text += &format!("warning             {warning}\n");
         }
@@ -293,6 +309,13 @@ pub(super) fn beside(file: &Path, results: Option<&Path>) -> Result<Option<Desti
         ));
     }
     results.map(Destination::new).transpose()
+}
+
+/// What is said of a drawing that is singular, a line of text; nothing of others.
+pub(super) fn drawn_in_words(problem: &Problem, session: &Session) -> String {
+    session.singular().map_or(String::new(), |singular| {
+        format!("{}: {}\n", problem.name, singular.in_words())
+    })
 }
 
 /// Takes the sketch for the figure, or says why it is none: then the exit code.

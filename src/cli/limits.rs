@@ -1,6 +1,6 @@
 //! `krawl limits`: how far each dimension can go alone.
 
-use super::edit::{beside, open};
+use super::edit::{beside, drawn_in_words, open};
 use super::output::{self, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
@@ -86,7 +86,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
-        written &= output::print(&ranges_to_table(&problem, &ranges, session.moved()));
+        let drawn = drawn_in_words(&problem, &session);
+        written &= output::print(&(drawn + &ranges_to_table(&problem, &ranges, session.moved())));
     }
     let is_known = |end: &End| !matches!(end, End::Unknown(..));
     let all = ranges

@@ -44,6 +44,8 @@ pub const NOT_PROVED: u8 = 3;
 pub const INCOMPLETE: u8 = 4;
 /// Exit code of an edit that comes to a limit before the new dimensions.
 pub const LIMIT: u8 = 3;
+/// Exit code of a check that finds constraints that are one too many, whether they follow from others or contradict them.
+pub const OVER: u8 = 6;
 /// Exit code of an edit that comes to where branches of figures seem to meet.
 pub const PASSES: u8 = 4;
 
@@ -68,7 +70,8 @@ Examples:
 
 Exit codes: 0 closed, complete, verified or reached, 1 stopped or refuted, 2 bad input or results that
 could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's branches meet or
-an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore, 5 open: a path that came to an end both ways, proved between."
+an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore, 5 open: a path that came to an end both ways, proved between,
+6 constraints that are one too many (check)."
 )]
 struct Arguments {
     #[command(subcommand)]

@@ -9,7 +9,7 @@ use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
 use krawl::complete::{Among, among};
 use krawl::problem::Problem;
-use krawl::remarks::{Remark, in_words, remarks};
+use krawl::remarks::{Remark, in_words, moves, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
     BlockRuns, Listed, ProgressLine, Run, among_in_words, figures_to_summary, figures_to_table,
@@ -290,6 +290,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     for (problem, file) in named {
         let problem = &problem;
         let which = output::which_of((k, count), file);
+        if !silent
+            && !arguments.summary
+            && let Some(moves) = moves(problem)
+        {
+            let words = moves.in_words(problem);
+            written &= output::print(&format!("{}: {words}\n\n", problem.name));
+        }
         if arguments.is_by_blocks(file) {
             let found = arguments.by_blocks(problem);
             let (text, value, code) =

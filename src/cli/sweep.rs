@@ -1,6 +1,8 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{beside, carried, certified, commit, exit_code, is_unwitnessed, open, reason};
+use super::edit::{
+    beside, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open, reason,
+};
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt};
@@ -152,7 +154,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             .iter()
             .any(|d| **d == Some(Destination::StandardOutput));
     if !arguments.quiet && !is_piped {
-        written &= output::print(&(sweep_in_words(&problem, index, &sweep) + "\n"));
+        let drawn = drawn_in_words(&problem, &session);
+        written &= output::print(&(drawn + &sweep_in_words(&problem, index, &sweep) + "\n"));
     }
     Ok(match (written, &sweep.end) {
         (false, _) => BAD_INPUT,

@@ -1,6 +1,6 @@
 //! What comes of an edit.
 
-use crate::blocks::Account;
+use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
 use crate::track::Stop;
 use crate::track::arc::Orientation;
@@ -92,6 +92,9 @@ pub struct Edited {
     pub switched_on: Vec<String>,
     /// What it is proved of: how many equations, what was left out and how the figures stand to that, what is held.
     pub account: Account,
+    /// Where the old figure was singular itself, so that no continuation is the one: what was so about it, and how far it was moved
+    /// off that place before it was led to the new dimensions.
+    pub singular: Option<Singular>,
     /// Wall-clock seconds.
     pub seconds: f64,
 }

@@ -5,7 +5,7 @@ use super::open::{Moved, OpenError};
 use super::parts::Parts;
 use super::setting::Setting;
 use super::whole::Whole;
-use crate::blocks::Account;
+use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
 use crate::problem::Problem;
 use crate::track::{Control, Options, StartError};
@@ -126,6 +126,15 @@ impl Session {
         }
     }
 
+    /// Where the drawing of a problem in its own frame was singular, though figures near it are not: what was so about it, and how
+    /// far it was moved off that place before it was led to its dimensions.
+    pub fn singular(&self) -> Option<&Singular> {
+        match &self.way {
+            Way::Whole(_) => None,
+            Way::Parts(parts) => parts.singular(),
+        }
+    }
+
     /// How the equations fall apart, if they are followed part by part.
     pub fn decomposition(&self) -> Option<Decomposition> {
         match &self.way {
@@ -186,6 +195,8 @@ pub struct Decomposition {
     /// What is held and left out. At the drawing, which is no figure: nothing is said of what was left out but whether it
     /// follows from the others.
     pub account: Account,
+    /// See [`Session::singular`].
+    pub singular: Option<Singular>,
 }
 
 /// What becomes of a sketch's constraints where it is led to its dimensions, which may be too many.

@@ -358,6 +358,7 @@ impl Whole {
             length: run.length,
             switched_on: run.switched_on,
             account: self.scope(),
+            singular: None,
             seconds: 0.0,
         };
         (edited, figure)

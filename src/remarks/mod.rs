@@ -18,6 +18,7 @@
 
 mod flat;
 mod mirror;
+mod moving;
 mod redundant;
 mod target;
 mod twins;
@@ -25,6 +26,8 @@ mod words;
 
 use crate::problem::{Item, Problem, Shape};
 
+pub use moving::{Moves, moves};
+pub(crate) use redundant::noise;
 pub(crate) use target::detour;
 pub use words::in_words;
 

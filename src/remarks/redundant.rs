@@ -192,7 +192,7 @@ impl<'a> System<'a> {
 }
 
 /// Uniform between −1 and 1 (SplitMix64: Steele, Lea, Flood 2014).
-fn noise(state: &mut u64) -> f64 {
+pub(crate) fn noise(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *state;
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

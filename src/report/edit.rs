@@ -49,6 +49,13 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         words if words.is_empty() => words,
         words => format!(" {words}"),
     };
+    if let (Ending::Reached, Some(singular)) = (&edited.ending, &edited.singular) {
+        return format!(
+            "Reached, proved: the figure meets the dimensions{clause}, {changes}. The old one is singular, so that no \
+             continuation is the one and only. {}",
+            singular.in_words()
+        );
+    }
     match &edited.ending {
         Ending::Reached => {
             let scope = match account.scope() {
@@ -410,10 +417,16 @@ pub fn freedom_of_sketch_in_words(found: &Decomposition) -> String {
         ));
     }
     let (_, seem) = left_out(&found.account);
-    if !seem.is_empty() {
+    if !seem.is_empty() && found.singular.is_none() {
         parts.push(format!(
             "over-constrained: {} seem to follow from the others",
             list(&seem, LISTED)
+        ));
+    }
+    if let Some(singular) = &found.singular {
+        parts.push(format!(
+            "{}; nothing follows from that of which constraint is one too many",
+            singular.place_in_words()
         ));
     }
     match parts.is_empty() {
@@ -463,6 +476,9 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
             "  seem to follow from the others: {}",
             list(&seem, LISTED)
         );
+    }
+    if let Some(singular) = &found.singular {
+        let _ = writeln!(out, "  {}", singular.place_in_words());
     }
     out
 }

@@ -42,6 +42,14 @@ impl Listed {
 
 /// What is proved of the figures of a sketch, in a sentence or two.
 pub fn figures_in_words(figures: &Figures) -> String {
+    match figures.singular() {
+        Some(singular) => format!("{} {}", claim_in_words(figures), singular.in_words()),
+        None => claim_in_words(figures),
+    }
+}
+
+/// What is proved, without what is said of the drawing.
+fn claim_in_words(figures: &Figures) -> String {
     let doubt = figures.doubt();
     let number = match figures.count() {
         Some(0) => return none_in_words(figures, doubt),
@@ -156,6 +164,14 @@ fn none_in_words(figures: &Figures, doubt: Option<String>) -> String {
         ),
         false => String::new(),
     };
+    // At a singular drawing what was left out need not be what is one too many.
+    if figures.singular().is_some() && !figures.left_out().is_empty() {
+        return format!(
+            "Stopped: no figure was found, and nothing is said of whether there is one: {what}{paths}{}, but the drawing is \
+             singular (`krawl all` looks for all figures).",
+            provided(figures)
+        );
+    }
     format!("None, proved: {what}{paths}{}.", provided(figures))
 }
 

@@ -10,4 +10,5 @@ mod edit_mixed;
 mod measures;
 mod real_files;
 mod real_sketches;
+mod singular_drawings;
 mod sketches;

@@ -175,7 +175,7 @@ impl Figures {
                 for (u, number) in &figure.numbers {
                     values[*u] = Some(number.clone());
                     if weights[*u] > 0 {
-                        let sketch = Number::of(&self.cut.system.values[*u]).enclosure();
+                        let sketch = Number::of(self.cut.drawn_at(*u)).enclosure();
                         let off = number.enclosure() - sketch;
                         squared += point(weights[*u] as f64) * off.sqr();
                     }

@@ -22,6 +22,7 @@ mod senses;
 
 use super::cut::Cut;
 use super::number::Number;
+use super::singular::Singular;
 use super::{Account, Verdict};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
@@ -243,6 +244,12 @@ impl Figures {
     /// left out, with how the figures listed stand to it.
     pub fn account(&self) -> &Account {
         &self.account
+    }
+
+    /// Where the drawing was singular, though figures near it are not: what was so about it, and how far it was moved off that
+    /// place.
+    pub fn singular(&self) -> Option<&Singular> {
+        self.cut.singular.as_ref()
     }
 
     /// Constraints that were left out and how many figures of a part were not taken because they are proved to miss it.

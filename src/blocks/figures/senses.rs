@@ -203,7 +203,7 @@ impl Sense {
 /// The senses of a sketch; `None` where there are too many to look at.
 pub(super) fn senses(cut: &Cut) -> Option<Vec<Sense>> {
     let problem = &cut.problem;
-    let sketch = |u: usize| Number::of(&cut.system.values[u]);
+    let sketch = |u: usize| Number::of(cut.drawn_at(u));
     let mut found: Vec<(String, Quantity)> = Vec::new();
     for (c, constraint) in problem.constraints.iter().enumerate() {
         let items = Arguments::new(problem, &constraint.items);
@@ -370,7 +370,7 @@ fn both_round(cut: &Cut, one: usize, other: usize) -> Vec<Quantity> {
         let (u, v) = (Arrow::Between(c, end), Arrow::Between(k, end));
         out.push(Quantity::Direction(u, v));
     }
-    let sketch = |u: usize| Number::of(&cut.system.values[u]);
+    let sketch = |u: usize| Number::of(cut.drawn_at(u));
     let is_outside = center(cut, one)
         .zip(center(cut, other))
         .is_some_and(|(c, k)| {

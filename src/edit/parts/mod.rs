@@ -9,11 +9,12 @@
 mod exact;
 mod follow;
 mod left_out;
+mod off;
 pub(super) mod senses;
 mod standing;
 mod words;
 
-use crate::blocks::{Account, Blocks, Combination, Cut, Given, System, Used, Verdict};
+use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
 use crate::constraint::{Record, try_lower_all};
 use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
 use crate::edit::lowered;
@@ -92,6 +93,8 @@ pub(super) struct Parts {
     /// Lines along an axis and arcs, which must not vanish: followed always.
     segments: Vec<Segment>,
     figure: Vec<Known>,
+    /// Where the drawing was singular: what was so about it.
+    singular: Option<Singular>,
     unit: f64,
     moved: Moved,
     /// Followers of parts that were needed before, by their blocks.
@@ -130,8 +133,14 @@ impl Parts {
         control: &mut Control,
     ) -> Result<Self, OpenError> {
         let (mut parts, rights) = Self::assemble(problem, options).map_err(refuse)?;
-        parts.lead(&rights, control)?;
-        Ok(parts)
+        match parts.lead(&rights, control) {
+            Ok(()) if parts.singular.is_some() => {
+                parts.find_other(problem, 0, control);
+                Ok(parts)
+            }
+            Ok(()) => Ok(parts),
+            Err(error) => parts.lead_otherwise(problem, control).ok_or(error),
+        }
     }
 
     /// Merges, chooses and cuts; the figure is the sketch still, which the right-hand sides that come along lead to its
@@ -139,6 +148,15 @@ impl Parts {
     pub fn assemble(
         problem: &Problem,
         options: &Options,
+    ) -> Result<(Self, Vec<Vec<Real>>), String> {
+        Self::assemble_in(problem, options, 0)
+    }
+
+    /// The same, moved off a singular drawing in this way.
+    pub(super) fn assemble_in(
+        problem: &Problem,
+        options: &Options,
+        way: u64,
     ) -> Result<(Self, Vec<Vec<Real>>), String> {
         let Cut {
             problem,
@@ -156,7 +174,9 @@ impl Parts {
             owners,
             has_twins: _,
             own: _,
-        } = Cut::new(problem)?;
+            singular,
+            drawn: _,
+        } = Cut::drawn(problem, way)?;
         let values = system.unknowns.iter().zip(&system.values);
         let scaled = values.map(|(unknown, value)| {
             let scale = unit.powi(unknown.power);
@@ -191,6 +211,7 @@ impl Parts {
             owners,
             radii,
             figure,
+            singular,
             unit,
             moved: Moved::default(),
             ready: HashMap::new(),
@@ -243,6 +264,7 @@ impl Parts {
             .or_else(|| self.vanished(&self.figure))
         {
             Some(stop) => {
+                let stop = self.sober(stop);
                 let what = stop.text.clone();
                 Err(failed(Ending::Stopped(stop), what))
             }
@@ -334,6 +356,24 @@ impl Parts {
     }
 
     pub fn edit(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
+        let edited = self.continued(settings, keep, control);
+        let stop = match &edited.ending {
+            Ending::Stopped(stop)
+                if stop.kind == StopKind::Contradiction && self.is_singular_figure() =>
+            {
+                stop.clone()
+            }
+            _ => return edited,
+        };
+        let off = self.moved_off(settings, keep, control);
+        off.unwrap_or_else(|| Edited {
+            ending: Ending::Stopped(self.sober(stop)),
+            ..edited
+        })
+    }
+
+    /// Follows the figure as its dimensions change.
+    fn continued(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
         let clock = Instant::now();
         let mut problem = self.problem.clone();
         for setting in settings {
@@ -480,6 +520,7 @@ impl Parts {
             length: run.length,
             switched_on: run.switched_on,
             account,
+            singular: None,
             seconds: 0.0,
         }
     }

@@ -38,6 +38,8 @@ impl Parts {
         };
         let too_many = match broken {
             _ if count == 0 => TooMany::None,
+            // At a singular drawing what is left out need not be what is one too many.
+            Some(_) if self.singular.is_some() => TooMany::Undecided,
             Some(k) => TooMany::Contradict {
                 name: self.name(self.system.rows[self.redundant[k]].index),
                 is_proved: false,

@@ -50,6 +50,7 @@ impl Parts {
                 true => Verdict::Follows,
                 false => Verdict::NotLookedAt,
             }),
+            singular: self.singular.clone(),
         }
     }
 
