@@ -381,7 +381,7 @@ impl Surplus {
                  floats)"
             ),
             Finding::Open => format!(
-                "{part}depends on {set}: whether it follows from these or contradicts them is not certain"
+                "{part}depends on {set}: whether these make it hold or contradict it is not certain"
             ),
         };
         let cure = match self.others.is_empty() {
