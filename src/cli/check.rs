@@ -129,12 +129,9 @@ fn surplus_in_words(census: &Census) -> String {
 }
 
 /// A decomposition without what was left out of it: what is one too many is told by [`surplus`].
-fn without_left_out(found: Decomposition) -> Decomposition {
-    Decomposition {
-        redundant: Vec::new(),
-        follows: Vec::new(),
-        ..found
-    }
+fn without_left_out(mut found: Decomposition) -> Decomposition {
+    found.account.left_out.clear();
+    found
 }
 
 /// Whether a file holds one molecule, which is described as a problem.

@@ -165,7 +165,7 @@ fn none_in_words(figures: &Figures, doubt: Option<String>) -> String {
         false => String::new(),
     };
     // At a singular drawing what was left out need not be what is one too many.
-    if figures.singular().is_some() && !figures.left_out().is_empty() {
+    if figures.singular().is_some() && !figures.account().left_out.is_empty() {
         return format!(
             "Stopped: no figure was found, and nothing is said of whether there is one: {what}{paths}{}, but the drawing is \
              singular (`krawl all` looks for all figures).",

@@ -57,7 +57,7 @@ fn triangles_drawn_flat_have_all_their_figures() {
     let singular = found.singular().unwrap();
     assert!(singular.moved.is_some_and(|moved| moved < 5.0));
     assert_eq!(singular.flat, [["A", "B", "C", "D"]]);
-    assert_eq!(found.left_out().len(), 0);
+    assert_eq!(found.account().left_out.len(), 0);
     let (session, edited) = edit(TWO_TRIANGLES, "A-B=70");
     assert_eq!(edited.ending, Ending::Reached);
     assert!(missed(session.problem(), &session.figure()) < 1e-9);
@@ -97,7 +97,7 @@ fn no_constraint_is_blamed_for_a_singular_drawing() {
                 .singular()
                 .is_some_and(|singular| singular.moved.is_some())
         );
-        assert_eq!(session.redundant(), [""; 0]);
+        assert_eq!(session.account().left_out, []);
         assert_eq!(surplus(&problem(text)).unwrap().surplus, []);
     }
 }
@@ -288,13 +288,13 @@ fn look_at(seed: u64) {
     let found = figures(&flat);
     let is_none = found.doubt().is_none() && found.count() == Some(0);
     assert!(!is_none, "{seed}: {} figures are there", all.len());
-    if found.doubt().is_none() && !found.has_paths() && found.left_out().is_empty() {
+    if found.doubt().is_none() && !found.has_paths() && found.account().left_out.is_empty() {
         assert_eq!(found.count(), Some(all.len() as u64), "{seed}");
     }
     assert_eq!(surplus(&flat).unwrap().surplus, [], "{seed}");
     if let Ok(session) = Session::open(&flat) {
         assert!(missed(&flat, &session.figure()) < 1e-9, "{seed}");
-        assert_eq!(session.redundant(), [""; 0], "{seed}");
+        assert_eq!(session.account().left_out, [], "{seed}");
     }
     // One more: the true distance in the figure that was drawn, by nine digits.
     let joined = |a: usize, b: usize| {

@@ -100,6 +100,7 @@ impl Parts {
             rejected: 0,
             length: 0.0,
             switched_on: Vec::new(),
+            account: parts.scope(),
             singular: parts.singular.clone(),
             seconds: clock.elapsed().as_secs_f64(),
         };
