@@ -131,7 +131,7 @@ pub(crate) fn look(
     let unknowns: BTreeSet<usize> = rows.iter().flat_map(of).copied().collect();
     let beside = |way: u64| {
         let mut state = way / 2 + 1;
-        let sign = if way % 2 == 0 { MOVED } else { -MOVED };
+        let sign = if way.is_multiple_of(2) { MOVED } else { -MOVED };
         let mut moved = at.to_vec();
         for &u in &unknowns {
             moved[u] += sign * noise(&mut state);
