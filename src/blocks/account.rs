@@ -24,6 +24,10 @@ pub struct Account {
     pub left_out: Vec<LeftOut>,
     /// The coordinates (or radii, directions) that are held because nothing determines them.
     pub held: Vec<Held>,
+    /// How often on the way equations and what is held were chosen anew: each of `held` is then held on a part of the way, and
+    /// a constraint may be left out on a part of it.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub chosen_anew: usize,
 }
 
 /// A constraint that was left out.
@@ -146,6 +150,14 @@ impl Account {
             }
         }
         self.equations = self.equations.max(other.equations);
+        self.chosen_anew = self.chosen_anew.max(other.chosen_anew);
+    }
+
+    /// The same of a way in two parts, of which `before` is what the first is proved of.
+    pub fn follow_on(&mut self, before: &Account) {
+        let anew = self.chosen_anew + before.chosen_anew + 1;
+        self.join(before);
+        self.chosen_anew = anew;
     }
 
     /// Whether the claim is about the figure as it is: nothing is held, and what was left out follows, proved.
@@ -173,6 +185,12 @@ impl Account {
         match self.held.as_slice() {
             [] => String::new(),
             [one] => format!("with {} held where it is", one.what),
+            _ if self.chosen_anew > 0 => {
+                format!(
+                    "with {} held, not all of them all the way",
+                    list(&self.names_held())
+                )
+            }
             _ => format!("with {} held where they are", list(&self.names_held())),
         }
     }
@@ -250,6 +268,9 @@ impl Account {
     pub fn scope(&self) -> String {
         let used = match self.meets_all() {
             true => String::new(),
+            false if self.chosen_anew > 0 => {
+                format!("in {} equations at a time", self.equations)
+            }
             false => format!("in the {} equations used", self.equations),
         };
         joined([used, self.held_in_words()], ", ")
@@ -259,6 +280,10 @@ impl Account {
     pub fn clause(&self) -> String {
         joined([self.scope(), self.left_out_in_words()], "; ")
     }
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// `a, b and c`, or `a, b and 7 more`.

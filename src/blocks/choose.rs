@@ -1,7 +1,7 @@
 //! Which equations say something new at a figure, and which unknowns nothing determines.
 //!
-//! This is seen in floats, by elimination with full pivoting. Nothing of a proof rests on it: whatever is chosen
-//! here, what is proved is about the equations chosen, with the unknowns that nothing determines standing still.
+//! This is seen in floats, by elimination, what says most that is new first, up to a factor. Nothing of a proof
+//! rests on it: whatever is chosen here, what is proved is about the equations chosen, with the unknowns that nothing determines standing still.
 
 use super::System;
 use crate::constraint::{Entry, Form};
@@ -9,6 +9,10 @@ use crate::constraint::{Entry, Form};
 /// A pivot below this part of its row's largest entry counts as zero. Sketches meet their constraints to some eight
 /// digits, and where one constraint follows from others a pivot is as small as that.
 const PIVOT: f64 = 1e-6;
+/// For choices of which the order of the rows is to decide: two digits are lost at most where it does.
+pub(crate) const COARSE: f64 = 1e-2;
+/// For choices of which how much is new in each row is to decide.
+pub(crate) const FINE: f64 = 0.8;
 
 /// What was chosen.
 #[derive(Debug, Clone, Default)]
@@ -21,10 +25,20 @@ pub struct Choice {
     pub free: Vec<usize>,
 }
 
+/// A row that is used after all others, whatever is new in them.
+pub(crate) const LAST: u8 = u8::MAX;
+
 impl Choice {
     /// Looks at a system where its unknowns have these values, coordinates and lengths in a unit in which the figure
-    /// is of size about 1. `later`: unknowns that shall rather be free than others.
-    pub fn new(system: &System, at: &[f64], later: impl Fn(usize) -> bool) -> Self {
+    /// is of size about 1. `later`: unknowns that shall rather be free than others. `first`: of rows in which as
+    /// much is new, up to `factor`, those with less of it are rather used than those with more, and of these the earlier.
+    pub fn new(
+        system: &System,
+        at: &[f64],
+        later: impl Fn(usize) -> bool,
+        first: impl Fn(usize) -> u8,
+        factor: f64,
+    ) -> Self {
         let width = system.unknowns.len();
         let form = |form: Form| match form {
             Form::One => 1.0,
@@ -52,42 +66,54 @@ impl Choice {
             }
             rows.push(entries);
         }
-        let mut is_pivot = vec![false; width];
-        let mut left: Vec<usize> = (0..rows.len()).collect();
-        let mut used = Vec::new();
-        for may_be_free in [false, true] {
-            loop {
-                let mut best = (PIVOT, None);
-                for (k, &row) in left.iter().enumerate() {
-                    for (column, x) in rows[row].iter().enumerate() {
-                        if x.abs() > best.0 && later(column) == may_be_free {
-                            best = (x.abs(), Some((k, column)));
-                        }
-                    }
-                    // A row with an entry of full size will do.
-                    if best.0 >= 1.0 {
-                        break;
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        order.sort_by_key(|&row| (first(row), row));
+        let of_all = order.partition_point(|&row| first(row) < LAST);
+        let after_all = order.split_off(of_all);
+        // Rows already taken, each with the column that it is solved for.
+        let mut taken: Vec<(usize, usize)> = Vec::new();
+        let mut left = order;
+        let rounds = std::iter::successors(Some(factor), |least| Some(least * factor));
+        let rounds = rounds.take_while(|&least| least > PIVOT).chain([PIVOT]);
+        let rounds = rounds.map(|least| (least, false));
+        for (least, is_last) in rounds.chain([(PIVOT, true)]) {
+            if is_last {
+                left.extend(&after_all);
+            }
+            let mut again = Vec::new();
+            for row in left {
+                let mut entries = std::mem::take(&mut rows[row]);
+                // What is new in it; it was cleared of those taken in the round before already.
+                for &(other, column) in &taken {
+                    let factor = entries[column] / rows[other][column];
+                    if factor != 0.0 {
+                        let pivots = entries.iter_mut().zip(&rows[other]);
+                        pivots.for_each(|(entry, x)| *entry -= factor * x);
+                        entries[column] = 0.0;
                     }
                 }
-                let Some((k, column)) = best.1 else {
-                    break;
+                let largest = |may_be_free: bool| {
+                    let columns = (0..width).filter(|&column| later(column) == may_be_free);
+                    let sizes = columns.map(|column| (entries[column].abs(), column));
+                    sizes.fold((least, None), |best, (size, column)| match size > best.0 {
+                        true => (size, Some(column)),
+                        false => best,
+                    })
                 };
-                let row = left.swap_remove(k);
-                is_pivot[column] = true;
-                used.push(row);
-                let pivot = std::mem::take(&mut rows[row]);
-                let support: Vec<usize> = (0..width).filter(|&c| pivot[c] != 0.0).collect();
-                for &other in &left {
-                    let factor = rows[other][column] / pivot[column];
-                    if factor != 0.0 {
-                        for &c in &support {
-                            rows[other][c] -= factor * pivot[c];
-                        }
-                        rows[other][column] = 0.0;
-                    }
+                let column = largest(false).1.or_else(|| largest(true).1);
+                rows[row] = entries;
+                match column {
+                    Some(column) => taken.push((row, column)),
+                    None => again.push(row),
                 }
             }
+            left = again;
         }
+        let mut is_pivot = vec![false; width];
+        taken
+            .iter()
+            .for_each(|&(_, column)| is_pivot[column] = true);
+        let mut used: Vec<usize> = taken.into_iter().map(|(row, _)| row).collect();
         used.sort_unstable();
         left.sort_unstable();
         Choice {

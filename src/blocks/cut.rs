@@ -3,7 +3,7 @@
 use super::drawn::{Drawn, Floats, look};
 use super::follows::{Combination, Given, combination};
 use super::singular::Singular;
-use super::{Account, Block, Blocks, Choice, Held, Ruler, System, Verdict};
+use super::{Account, Block, Blocks, COARSE, Choice, Held, Ruler, System, Verdict};
 use crate::constraint::{Entry, Form, Lowered, Owner, Record, Role, Tail, try_lower_all};
 use crate::interval::{Interval, Real};
 use crate::problem::{Decimal, Problem, Shape};
@@ -82,6 +82,48 @@ fn has_twins(tail: &Tail) -> bool {
     false
 }
 
+/// Which of a problem's equations are rather used than left out where not all are needed: the less the rather.
+pub(crate) fn keep(problem: &Problem, owner: usize) -> u8 {
+    let (objects, all) = (problem.objects.len(), problem.constraints.len());
+    match owner.checked_sub(objects) {
+        None => 1,
+        Some(c) if c < all => match &problem.constraints[c] {
+            constraint if constraint.kind.as_str() == "fixed" => 0,
+            constraint if constraint.value.is_some() => 2,
+            _ => 3,
+        },
+        Some(_) => 2,
+    }
+}
+
+impl Blocks {
+    /// The blocks of a square system of rows and of unknowns that are held. `None` as in [`Blocks::new`].
+    pub(crate) fn of(used: &[Used], system: &System) -> Option<Self> {
+        let of = used.iter().map(|used| match *used {
+            Used::Row(row) => system.rows[row].unknowns.clone(),
+            Used::Held(u) => vec![u],
+        });
+        Blocks::new(&of.collect::<Vec<_>>(), system.unknowns.len())
+    }
+}
+
+/// For each block whether it is one linear equation in numbers known exactly.
+pub(crate) fn is_exact(blocks: &Blocks, used: &[Used], system: &System) -> Vec<bool> {
+    let mut exact: Vec<bool> = Vec::with_capacity(blocks.blocks.len());
+    for block in &blocks.blocks {
+        let known = block.needs.iter().all(|&need| exact[need]);
+        let is_linear = || match used[block.equations[0]] {
+            Used::Held(u) => !matches!(system.values[u], Real::Within(_)),
+            Used::Row(row) => {
+                let mut products = system.rows[row].products.iter();
+                products.all(|p| p.left == Form::One || p.right == Form::One)
+            }
+        };
+        exact.push(known && block.unknowns.len() == 1 && is_linear());
+    }
+    exact
+}
+
 impl Cut {
     /// Merges, chooses and cuts. The error says what is wrong with the sketch.
     pub fn new(problem: &Problem) -> Result<Self, String> {
@@ -114,7 +156,9 @@ impl Cut {
         let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
         let at: Vec<f64> = at.collect();
         let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
-        let mut choice = Choice::new(&system, &at, |u| coordinates.contains(&u));
+        // What is fixed is left out last, dimensions after what has no number.
+        let kept = |row: usize| keep(&problem, lowered.owners[system.rows[row].index]);
+        let mut choice = Choice::new(&system, &at, |u| coordinates.contains(&u), kept, COARSE);
         let equations = &lowered.tail.equations;
         let target = system.rows.iter().map(|row| {
             let equation = &equations[row.index];
@@ -131,7 +175,7 @@ impl Cut {
             let owner = |row: usize| lowered.owners[system.rows[row].index];
             let mut place = Singular::new(&problem, &system, &rows, owner);
             if let Some(off) = off {
-                choice = Choice::new(&system, &off, |u| coordinates.contains(&u));
+                choice = Choice::new(&system, &off, |u| coordinates.contains(&u), kept, COARSE);
                 place.moved = Some(system.moved(&off, problem.dimension, unit));
                 drawn = Some(system.values.clone());
                 moved_rights = system.set_off(&off, unit, |index| {
@@ -144,15 +188,9 @@ impl Cut {
         let held = choice.free.iter().map(|&u| Used::Held(u));
         let used = choice.used.iter().map(|&r| Used::Row(r));
         let used: Vec<Used> = used.chain(held).collect();
-        let of: Vec<Vec<usize>> = used
-            .iter()
-            .map(|used| match *used {
-                Used::Row(row) => system.rows[row].unknowns.clone(),
-                Used::Held(u) => vec![u],
-            })
-            .collect();
-        let blocks = Blocks::new(&of, system.unknowns.len())
+        let blocks = Blocks::of(&used, &system)
             .ok_or("its equations do not match its unknowns: the sketch is singular")?;
+        let is_exact = is_exact(&blocks, &used, &system);
         let Lowered {
             tail,
             owners,
@@ -187,10 +225,10 @@ impl Cut {
         for (index, right) in moved_rights {
             rights[index] = right;
         }
-        let mut cut = Cut {
+        let cut = Cut {
             redundant: choice.redundant,
             free: choice.free,
-            is_exact: Vec::new(),
+            is_exact,
             problem,
             system,
             used,
@@ -206,7 +244,6 @@ impl Cut {
             singular,
             drawn,
         };
-        cut.find_exact();
         let implied = cut.system.implied.iter();
         let mut contradicted = implied.filter(|&&index| !cut.at_target(index).is_zero());
         if let Some(&index) = contradicted.next() {
@@ -216,21 +253,6 @@ impl Cut {
             ));
         }
         Ok(cut)
-    }
-
-    fn find_exact(&mut self) {
-        for block in &self.blocks.blocks {
-            let known = block.needs.iter().all(|&need| self.is_exact[need]);
-            let is_linear = || match self.used[block.equations[0]] {
-                Used::Held(_) => true,
-                Used::Row(row) => self.system.rows[row]
-                    .products
-                    .iter()
-                    .all(|p| p.left == Form::One || p.right == Form::One),
-            };
-            self.is_exact
-                .push(known && block.unknowns.len() == 1 && is_linear());
-        }
     }
 
     /// Where an unknown is drawn.

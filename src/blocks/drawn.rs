@@ -5,7 +5,7 @@
 //! floats, and nothing that is proved rests on it: a drawing that is found to be singular is moved off that place, and led to
 //! its dimensions from there, by proof as from any other. The constraints stay what they are.
 
-use super::{Choice, Row, System};
+use super::{Choice, FINE, Row, System};
 use crate::constraint::{Entry, Form, Role};
 use crate::interval::{Real, point};
 use crate::remarks::noise;
@@ -120,7 +120,11 @@ pub(crate) fn look(
     if choice.redundant.is_empty() || at.len() > MANY {
         return Drawn::Regular;
     }
-    let rank = |at: &[f64]| Choice::new(floats.system, at, |_| false).used.len();
+    let rank = |at: &[f64]| {
+        Choice::new(floats.system, at, |_| false, |_| 0, FINE)
+            .used
+            .len()
+    };
     let here = choice.used.len();
     let all: Vec<usize> = (0..structural.len()).collect();
     let kept: Vec<usize> = all.iter().copied().filter(|&r| structural[r]).collect();

@@ -10,7 +10,7 @@
 use super::cut::name;
 use super::drawn::{Drawn, Floats, look};
 use super::follows::{Given, combination};
-use super::{Choice, System};
+use super::{Choice, FINE, System};
 use crate::constraint::{Owner, try_lower_all};
 use crate::interval::{Real, enclose_rational, point};
 use crate::problem::{Decimal, Problem, Target, list};
@@ -131,7 +131,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     let at = system.unknowns.iter().zip(&system.values);
     let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
     let mut at: Vec<f64> = at.collect();
-    let choice = Choice::new(&system, &at, |_| false);
+    let choice = Choice::new(&system, &at, |_| false, |_| 0, FINE);
     if choice.redundant.is_empty() {
         return Ok(census(choice.used.len(), Vec::new()));
     }

@@ -204,6 +204,16 @@ impl Setting {
         }
     }
 
+    /// A setting to what the dimension is at t on its way there, rounded; `None`: that is no number.
+    pub(super) fn before(&self, problem: &Problem, t: f64) -> Option<Self> {
+        let value = self.between(problem, point(t)).mid();
+        let target = Target::Length(format!("{value:e}").parse().ok()?);
+        Some(Setting {
+            index: self.index,
+            target,
+        })
+    }
+
     /// From a text such as `a-b=5.2`: the distance between the points a and b, in either order, shall be
     /// exactly 52/10.
     pub fn parse(problem: &Problem, text: &str) -> Result<Self, SettingError> {

@@ -72,9 +72,16 @@ fn write_ranges(
         words if words.is_empty() => words,
         words => format!(" At all these figures {words}."),
     });
+    let loose = match account.is_none_or(|account| account.held.is_empty()) {
+        true => "",
+        false => {
+            "The figure can move with all its dimensions as they are, if only as a whole: each can go at least so far, and with \
+             other coordinates held perhaps further. "
+        }
+    };
     writeln!(
         out,
-        "\nEvery value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
+        "\n{loose}Every value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
          \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}"
     )?;
     for range in ranges {

@@ -473,7 +473,7 @@ fn the_program_certifies_sketches_that_are_not_complete() {
         "edit", loose, "--set", "a-p=6", "--cert", cert, "--out", out,
     ]);
     assert!(
-        code == 0 && text.contains("with x of b held where it is"),
+        code == 0 && text.contains("with y of b and y of p held where they are"),
         "{text}"
     );
     let edited = std::fs::read_to_string(out).unwrap();

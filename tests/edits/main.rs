@@ -4,6 +4,7 @@
 mod common;
 
 mod blocks;
+mod chosen_anew;
 mod claims;
 mod edit;
 mod edit_mixed;

@@ -162,7 +162,7 @@ impl Parts {
             .iter()
             .map(|&used| self.rights_of(used, rights))
             .collect();
-        let mut follower = match self.ready.remove(&blocks) {
+        let mut follower = match self.ready.0.remove(&blocks) {
             Some(mut follower) => {
                 let homotopy = follower.homotopy_mut();
                 for (k, polynomial) in polynomials.iter().enumerate() {
@@ -179,7 +179,7 @@ impl Parts {
             radius: unknowns.iter().map(|&u| self.figure[u].radius).collect(),
         };
         let run = follower.follow(&start, control);
-        self.ready.insert(blocks, follower);
+        self.ready.0.insert(blocks, follower);
         PartRun { unknowns, run }
     }
 

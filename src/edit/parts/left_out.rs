@@ -75,6 +75,26 @@ impl Parts {
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> Vec<Verdict> {
+        let rows = self.redundant.iter().enumerate();
+        rows.map(|(k, &row)| {
+            if self.is_proved(k, rights) {
+                return Verdict::Follows;
+            }
+            let unit = point(self.scale(self.system.rows[row].index));
+            let (miss, right) = self.sides(row, figure, rights, time);
+            self.ruler(k).verdict(miss * unit, right * unit)
+        })
+        .collect()
+    }
+
+    /// By what a figure misses a row, and its right-hand side, in the homotopy's unit. `time`: t there, where that is not 1.
+    pub(super) fn sides(
+        &self,
+        row: usize,
+        figure: &[Known],
+        rights: &[Vec<Real>],
+        time: Option<Interval>,
+    ) -> (Interval, Interval) {
         let side = |form: Form| match form {
             Form::One => point(1.0),
             Form::Difference(a, b) => {
@@ -85,27 +105,18 @@ impl Parts {
                 a - b
             }
         };
-        let rows = self.redundant.iter().enumerate();
-        rows.map(|(k, &row)| {
-            if self.is_proved(k, rights) {
-                return Verdict::Follows;
-            }
-            let Row {
-                index, products, ..
-            } = &self.system.rows[row];
-            let left = products.iter().fold(point(0.0), |sum, p| {
-                sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
-            });
-            let scale = self.scale(*index);
-            let right = Right::polynomial(&rights[*index], scale);
-            let right = match time {
-                Some(t) => right.enclose(t),
-                None => right.at_target(),
-            };
-            let unit = point(scale);
-            self.ruler(k).verdict((left - right) * unit, right * unit)
-        })
-        .collect()
+        let Row {
+            index, products, ..
+        } = &self.system.rows[row];
+        let left = products.iter().fold(point(0.0), |sum, p| {
+            sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
+        });
+        let right = Right::polynomial(&rights[*index], self.scale(*index));
+        let right = match time {
+            Some(t) => right.enclose(t),
+            None => right.at_target(),
+        };
+        (left - right, right)
     }
 
     /// How an equation that was left out is measured.

@@ -6,6 +6,7 @@
 //! that nothing determines stay put, and equations that follow from others at the figure are left out and looked at in
 //! the end.
 
+mod anew;
 mod exact;
 mod follow;
 mod left_out;
@@ -57,8 +58,18 @@ impl Known {
     }
 }
 
+/// Followers of parts that were needed before, by their blocks. A copy has none yet.
+#[derive(Debug, Default)]
+struct Followers(HashMap<Vec<usize>, Box<dyn FollowArcs>>);
+
+impl Clone for Followers {
+    fn clone(&self) -> Self {
+        Followers::default()
+    }
+}
+
 /// A sketch and its figure.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Parts {
     problem: Problem,
     options: Options,
@@ -97,8 +108,7 @@ pub(super) struct Parts {
     singular: Option<Singular>,
     unit: f64,
     moved: Moved,
-    /// Followers of parts that were needed before, by their blocks.
-    ready: HashMap<Vec<usize>, Box<dyn FollowArcs>>,
+    ready: Followers,
 }
 
 /// A path of the whole sketch.
@@ -214,7 +224,7 @@ impl Parts {
             singular,
             unit,
             moved: Moved::default(),
-            ready: HashMap::new(),
+            ready: Followers::default(),
             blocks,
             system,
         };
@@ -363,7 +373,7 @@ impl Parts {
             {
                 stop.clone()
             }
-            _ => return edited,
+            _ => return self.go_on(settings, keep, edited, control),
         };
         let off = self.moved_off(settings, keep, control);
         off.unwrap_or_else(|| Edited {

@@ -1,0 +1,254 @@
+//! Other equations, and other coordinates held, where those that were chosen at the first figure are singular and all together are
+//! not.
+//!
+//! A sketch that is loose or has more constraints than unknowns is followed in as many equations as unknowns, chosen where
+//! it starts. Where these end the figure need not: with other coordinates held, or other constraints left out, it goes on.
+//! So the way is followed to shortly before that place, equations and what is held are chosen anew there, and the rest
+//! of the way is followed in these. Every leg is proved as all edits are. What is newly held stays where the box of the figure
+//! says it is, whichever of its numbers that may be; and a constraint that was left out and is used now is led from what the figure
+//! misses it by to its number.
+
+use super::left_out::at_rest_all;
+use super::{End, Followers, Parts};
+use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep};
+use crate::constraint::try_lower_all;
+use crate::edit::ending::{Edited, Ending, Limit, Lost};
+use crate::edit::setting::Setting;
+use crate::interval::{Real, point};
+use crate::track::{Control, StopKind};
+use std::collections::BTreeSet;
+use std::sync::atomic::Ordering;
+
+/// So often equations are chosen anew on one way.
+const MOST_LEGS: usize = 12;
+/// Before a place where the equations are singular they are chosen anew after one of these parts of the way there: the first that is
+/// reached, and where others are chosen.
+const BEFORE: [f64; 5] = [0.98, 0.999, 0.99999, 0.9, 0.6];
+/// A leg that goes less than this part of the way so far beyond the last one's end is the last.
+const LEAST_GAIN: f64 = 1e-3;
+
+impl Parts {
+    /// Where an edit ended before its dimensions were met, and coordinates are held or constraints left out: the same edit with others held
+    /// or left out from shortly before on. What came of `first` otherwise.
+    pub(super) fn go_on(
+        &mut self,
+        settings: &[Setting],
+        keep: bool,
+        first: Edited,
+        control: &mut Control,
+    ) -> Edited {
+        if self.free.is_empty() && self.redundant.is_empty() || !can_go_on(&first.ending) {
+            return first;
+        }
+        let mut ahead = self.clone();
+        // How far on the whole way it is, and what came of the legs so far.
+        let (mut done, mut legs): (f64, Vec<Edited>) = (0.0, Vec::new());
+        let mut last = first.clone();
+        let mut best: Option<Edited> = None;
+        for _ in 0..MOST_LEGS {
+            let is_cancelled = control
+                .cancel
+                .is_some_and(|flag| flag.load(Ordering::Relaxed));
+            if is_cancelled {
+                break;
+            }
+            let next = match last.t.0 > 0.0 {
+                true => BEFORE.iter().find_map(|part| {
+                    let t = part * last.t.0;
+                    let between = settings.iter().map(|s| s.before(&ahead.problem, t));
+                    let between: Vec<Setting> = between.collect::<Option<_>>()?;
+                    let mut there = ahead.clone();
+                    let leg = there.continued(&between, true, control);
+                    let is_reached = leg.ending == Ending::Reached;
+                    let moved = is_reached.then(|| there.choose_anew(settings, control))??;
+                    Some((there, t, Some(leg), moved))
+                }),
+                false => {
+                    let mut there = ahead.clone();
+                    let moved = there.choose_anew(settings, control);
+                    moved.map(|moved| (there, 0.0, None, moved))
+                }
+            };
+            let Some((there, t, leg, moved)) = next else {
+                break;
+            };
+            ahead = there;
+            done += t * (1.0 - done);
+            legs.extend(leg);
+            last = ahead.continued(settings, true, control);
+            let reached = (done + last.t.0 * (1.0 - done)).min(1.0);
+            let so_far = best.as_ref().unwrap_or(&first).t.0;
+            if let Some(leg) = legs.last_mut() {
+                leg.switched_on.push(in_words(done, moved));
+            } else {
+                last.switched_on.push(in_words(done, moved));
+            }
+            let is_reached = last.ending == Ending::Reached;
+            let is_limit = |ending: &Ending| matches!(ending, Ending::Limit(_));
+            let is_more = is_limit(&last.ending)
+                && !is_limit(&best.as_ref().unwrap_or(&first).ending)
+                || reached > so_far * (1.0 + LEAST_GAIN);
+            if !is_reached && !is_more {
+                break;
+            }
+            best = Some(self.joined(&first, &legs, (&last, done)));
+            if is_reached || !can_go_on(&last.ending) {
+                break;
+            }
+        }
+        let Some(best) = best else { return first };
+        if keep && best.ending == Ending::Reached {
+            *self = ahead;
+        }
+        best
+    }
+
+    /// Chooses equations and what is held anew where the figure is now. How far the figure moved to meet constraints that were left out
+    /// and are used now; `None`: nothing else can be chosen, or the figure could not be led to it.
+    fn choose_anew(&mut self, settings: &[Setting], control: &mut Control) -> Option<f64> {
+        let lowered = try_lower_all(&self.problem, Some(&self.record)).ok()?;
+        let rights = lowered.tail.equations.into_iter().map(|e| e.right);
+        let rights = at_rest_all(&rights.collect::<Vec<_>>());
+        let head = self.problem.objects.len() + self.problem.constraints.len() + 1;
+        let is_driven = |owner: usize| {
+            settings.iter().any(|setting| {
+                owner
+                    == match setting.index.checked_sub(self.problem.distances.len()) {
+                        None => head + setting.index,
+                        Some(c) => self.problem.objects.len() + c,
+                    }
+            })
+        };
+        let first = |row: usize| match self.owners[self.system.rows[row].index] {
+            // Where a path turns back the others are independent by themselves.
+            owner if is_driven(owner) => LAST,
+            owner => keep(&self.problem, owner),
+        };
+        let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
+        let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
+        let choice = Choice::new(&self.system, &at, |u| coordinates.contains(&u), first, FINE);
+        let new: Vec<usize> = {
+            let is_new = |row: &&usize| self.redundant.contains(row);
+            choice.used.iter().filter(is_new).copied().collect()
+        };
+        let is_other = !new.is_empty() || choice.free != self.free;
+        if !is_other || choice.free.len() > self.free.len() {
+            return None;
+        }
+        // From what the figure misses of constraints that are used now to none of it.
+        let mut led = rights.clone();
+        for &row in &new {
+            let place = self.redundant.iter().position(|&other| other == row)?;
+            if !self.is_proved(place, &rights) {
+                let index = self.system.rows[row].index;
+                let miss = Real::within(
+                    self.sides(row, &self.figure, &rights, None).0 * point(self.scale(index)),
+                );
+                led[index] = vec![&led[index][0] + &miss, -&miss];
+            }
+        }
+        for &u in &choice.free {
+            if !self.free.contains(&u) {
+                let unit = point(self.unit.powi(self.system.unknowns[u].power));
+                self.system.values[u] = Real::within(self.figure[u].enclosure() * unit);
+            }
+        }
+        let held = choice.free.iter().map(|&u| Used::Held(u));
+        self.used = choice
+            .used
+            .iter()
+            .map(|&row| Used::Row(row))
+            .chain(held)
+            .collect();
+        self.blocks = Blocks::of(&self.used, &self.system)?;
+        self.is_exact = is_exact(&self.blocks, &self.used, &self.system);
+        (self.redundant, self.free) = (choice.redundant, choice.free);
+        self.together = self.bound_together();
+        self.ready = Followers::default();
+        self.find_what_follows(&rights);
+        let mut moved = 0.0;
+        if led.iter().any(|right| right.len() > 1) {
+            let End::Reached(figure) = self.follow(&led, control).end else {
+                return None;
+            };
+            moved = self.distance(&figure);
+            self.figure = figure;
+        }
+        self.verdicts = self.verdicts(&self.figure, &rights, None);
+        self.missed(&self.verdicts).is_none().then_some(moved)
+    }
+
+    /// Legs and what came of the last one, as one edit. `done`: how far on the way the last one began.
+    fn joined(&self, first: &Edited, legs: &[Edited], (last, done): (&Edited, f64)) -> Edited {
+        let whole = |t: (f64, f64)| match t {
+            (1.0, 1.0) => (1.0, 1.0),
+            (low, high) => (done + low * (1.0 - done), done + high * (1.0 - done)),
+        };
+        let mut edited = last.clone();
+        edited.t = whole(last.t);
+        for (dimension, before) in edited.dimensions.iter_mut().zip(&first.dimensions) {
+            dimension.from = before.from;
+        }
+        if !matches!(last.ending, Ending::Reached | Ending::Limit(_)) {
+            edited.points = self.points();
+        }
+        for lost in &mut edited.orientations.lost {
+            lost.t = whole(lost.t);
+        }
+        for leg in legs.iter().rev() {
+            edited.tubes += leg.tubes;
+            edited.rejected += leg.rejected;
+            edited.length += leg.length;
+            let mut remarks = leg.switched_on.clone();
+            remarks.append(&mut edited.switched_on);
+            remarks.dedup();
+            edited.switched_on = remarks;
+            edited.account.follow_on(&leg.account);
+            let kept = std::mem::take(&mut edited.orientations.kept);
+            let of =
+                |points: &Vec<usize>| leg.orientations.kept.iter().any(|(own, _)| own == points);
+            for (points, sign) in kept {
+                let is_lost = leg
+                    .orientations
+                    .lost
+                    .iter()
+                    .any(|lost| lost.points == points);
+                match of(&points) || !is_lost {
+                    true => edited.orientations.kept.push((points, sign)),
+                    false => edited.orientations.lost.push(Lost {
+                        points,
+                        t: (0.0, done),
+                    }),
+                }
+            }
+        }
+        edited
+    }
+}
+
+/// Whether the equations that were chosen may be why an edit ended so.
+fn can_go_on(ending: &Ending) -> bool {
+    match ending {
+        Ending::Reached => false,
+        Ending::Limit(Limit { .. }) | Ending::Passes(_) => true,
+        Ending::Stopped(stop) => matches!(
+            stop.kind,
+            StopKind::NoStep
+                | StopKind::Singular
+                | StopKind::Undecided
+                | StopKind::TurnsBack
+                | StopKind::Limit
+        ),
+    }
+}
+
+fn in_words(done: f64, moved: f64) -> String {
+    let beside = match moved > 0.0 {
+        true => format!("; points moved by at most {moved:.0e} to meet what was left out before"),
+        false => String::new(),
+    };
+    format!(
+        "other equations, or other coordinates held, {:.4} of the way: those before are singular further on{beside}",
+        done
+    )
+}
