@@ -316,6 +316,11 @@ impl Cut {
             .collect()
     }
 
+    /// What people call a constraint, by its index.
+    pub fn constraint_name(&self, constraint: usize) -> String {
+        name(&self.problem, self.problem.objects.len() + constraint)
+    }
+
     /// See [`name`].
     pub fn name(&self, equation: usize) -> String {
         name(&self.problem, self.owners[equation])

@@ -26,6 +26,7 @@
 
 mod begun;
 mod checker;
+mod compared;
 pub mod complex;
 pub mod cover;
 mod format;
@@ -36,13 +37,14 @@ mod writer;
 
 pub use begun::write_header;
 pub use checker::{Settings, Stage, verify};
+pub use compared::Compared;
 pub use format::{
     ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, Record, SolutionClaim, TubeClaim,
     VERSION,
 };
 pub use head::{Contents, contents};
 pub use reader::Reader;
-pub use verdict::{Arc, Compared, Fault, Flaw, Outcome, Verdict};
+pub use verdict::{Arc, Fault, Flaw, Outcome, Verdict};
 pub use writer::{Writer, write_record};
 
 // Not beside the type: the checker's files use nothing but what they check with.

@@ -108,7 +108,7 @@ pub fn combined<const N: usize, const S: usize, const M: usize>(
     let (mut size, mut r) = (start.polynomial(), start.r);
     for (sign, f, g) in terms {
         let (a, b) = (&f.model.c, &g.model.c);
-        debug_assert!(sign.abs() == 1.0);
+        assert!(sign.abs() == 1.0);
         let lead = sign * a[0];
         c[0] += lead * b[0];
         let mut q = 1 + S;

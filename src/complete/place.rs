@@ -309,7 +309,7 @@ fn moving<const D: usize, const S: usize, const M: usize>(
     let radius = |k: usize| match (squares.radii[k], radii[k]) {
         (Some(known), _) => Fixed(known),
         (None, Radius::Parameter(parameter)) => {
-            debug_assert!(matches!(plan.drives[parameter], Drive::Square(_)));
+            assert!(matches!(plan.drives[parameter], Drive::Square(_)));
             let (middle, reach) = node.middle(parameter);
             Moving(Model::symbol(parameter, middle, reach))
         }

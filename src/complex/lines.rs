@@ -340,7 +340,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
             Kind::Fixed(half),
         );
     }
-    debug_assert_eq!(unknowns.len(), equations.len());
+    assert_eq!(unknowns.len(), equations.len());
     for equation in &mut equations {
         let right = std::mem::replace(&mut equation.right, Kind::Fixed(Exact::zero()));
         equation.right = in_unit(right, unit, equation.power);

@@ -368,7 +368,7 @@ pub(super) fn half_square(target: &Target) -> Real {
 
 /// What a right-hand side is: zero throughout, or a dimension.
 fn right_of(coefficients: &[Real]) -> Kind {
-    debug_assert!(coefficients.len() <= MAX_DEGREE + 1);
+    assert!(coefficients.len() <= MAX_DEGREE + 1);
     if coefficients.iter().all(Real::is_zero) {
         return Kind::Fixed(Exact::zero());
     }

@@ -98,7 +98,7 @@ pub fn read_as(problem: &Problem, index: usize) -> Option<String> {
 /// # Panics
 /// If the problem has not been checked ([`Problem::check`]).
 pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
-    debug_assert_eq!(problem.points.len(), sketch.len());
+    assert_eq!(problem.points.len(), sketch.len());
     match try_lower(problem) {
         Ok(lowered) => lowered.tail,
         Err((_, fault)) => panic!("the problem has not been checked: {fault}"),

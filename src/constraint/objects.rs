@@ -436,7 +436,7 @@ impl Coordinates {
         let origin = places[base[0]].clone();
         let edge = |&k: &usize| minus(&places[k], &origin);
         let edges: Vec<Vector> = base[1..].iter().map(edge).collect();
-        debug_assert_eq!(edges.len(), dimension - 1);
+        assert_eq!(edges.len(), dimension - 1);
         Coordinates { origin, edges }
     }
 

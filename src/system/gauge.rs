@@ -64,7 +64,7 @@ impl Gauge {
                 place.push(p * dimension + axis);
             }
         }
-        debug_assert_eq!(place.len(), m);
+        assert_eq!(place.len(), m);
         Gauge {
             dimension,
             reference,

@@ -483,7 +483,7 @@ fn the_program_certifies_sketches_that_are_not_complete() {
     );
     let (code, text) = krawl(&["verify", cert, loose]);
     assert!(
-        code == 0 && text.contains("held where the sketch has it: b, p"),
+        code == 0 && text.contains("exactly, with y of b and y of p held where they are"),
         "{text}"
     );
     let (code, text) = krawl(&["verify", cert, out]);
@@ -523,7 +523,7 @@ fn the_program_certifies_sketches_that_are_not_complete() {
     );
     let (code, text) = krawl(&["verify", cert, twice]);
     assert!(
-        code == 0 && text.contains("`b-c` was left out and follows from the others"),
+        code == 0 && text.contains("`a-d` was left out and follows from the others"),
         "{text}"
     );
     let sweep = ["--from", "7", "--to", "9", "--frames", "3", "--cert", cert];

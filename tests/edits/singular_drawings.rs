@@ -335,3 +335,39 @@ fn many_drawings_singular_by_chance() {
         .and_then(|n| n.parse().ok());
     (0..count.unwrap_or(2000)).for_each(look_at);
 }
+
+/// P is on the x-axis and on a circle that touches it there: the contact goes along with the circle, and one figure has it.
+#[test]
+fn a_circle_that_touches_by_its_numbers_keeps_the_contact() {
+    let text = "dimension = 2\n[points]\nO = [0, 0]\nM = [12, 6]\nP = [12, 0]\nQ = [30, 0]\n[circles]\n\
+                c = { center = \"M\", radius = 6 }\n[constraints]\nfixed = [\"O\"]\n\
+                on = [[\"P\", \"x-axis\"], [\"Q\", \"x-axis\"], [\"P\", \"c\"]]\n\
+                dx = [[\"O\", \"M\", 12], [\"O\", \"Q\", 30]]\ndy = [[\"O\", \"M\", 6]]\nradii = [[\"c\", 6]]\n";
+    let problem = Problem::parse_loosely(text, "test").unwrap();
+    let mut session = Session::open(&problem).unwrap();
+    let edited = session.edit(&[Setting::parse(&problem, "dx:O-M=14").unwrap()]);
+    assert_eq!(edited.ending, Ending::Reached, "{edited:?}");
+    let at = |p: usize| [0, 1].map(|k| edited.points[p][k].mid());
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12;
+    assert!(
+        near(at(1), [14.0, 6.0]) && near(at(2), [14.0, 0.0]),
+        "{edited:?}"
+    );
+    assert_eq!(edited.account.names_left_out(), ["`on: P, c`"]);
+    assert!(edited.account.scope().contains("equations used"));
+    assert!(edited.switched_on[0].contains("that contact is kept"));
+    // The problem is the one that was given, but for the number.
+    assert_eq!(
+        session.problem().constraints.len(),
+        problem.constraints.len()
+    );
+    // A larger circle cuts the axis in two points: the contact is left, and P is in either.
+    let edited = session.edit(&[Setting::parse(&problem, "radii:c=7").unwrap()]);
+    assert_eq!(edited.ending, Ending::Reached, "{edited:?}");
+    let x = edited.points[2][0].mid();
+    assert!(((x - 14.0).abs() - 13f64.sqrt()).abs() < 1e-9, "{x}");
+    assert!(edited.singular.is_some());
+    // None reaches the axis from farther away than it is large.
+    let edited = session.edit(&[Setting::parse(&problem, "radii:c=5").unwrap()]);
+    assert_ne!(edited.ending, Ending::Reached);
+}

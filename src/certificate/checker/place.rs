@@ -105,23 +105,16 @@ impl Place {
         let prove = |extended| Place::at_target(eq, (&claim.centre, extended), claimed.clone());
         let held = |p: &Place| p.spot.is_within(&claim.centre, claim.radius) && p.covers(&claimed);
         // Where some unknowns are large, others small, 53 bits of the largest may tell a point less well than the claim.
-        let coarse = prove(!at.low.is_empty());
-        let is_told = coarse.as_ref().is_ok_and(held);
-        let place = if is_told {
-            coarse
-        } else {
-            prove(true).or(coarse)
+        let place = match prove(!at.low.is_empty()) {
+            Ok(place) if held(&place) => Ok(place),
+            coarse => prove(true).or(coarse),
         };
         if refute::empty(eq, &claimed, place.as_ref().ok()) {
             return Err(Fault::proof("there is none in it"));
         }
-        let place = place?;
-        match held(&place) {
-            true => Ok(place),
-            false => Err(Fault::because(
-                "it is too narrow to hold the one near it, or so wide that it may hold another one",
-            )),
-        }
+        let wrong =
+            "it is too narrow to hold the one near it, or so wide that it may hold another one";
+        place.and_then(|place| held(&place).then_some(place).ok_or(Fault::because(wrong)))
     }
 
     /// Proves that near these unknowns there is exactly one solution of F(X, a(1)) = 0.

@@ -13,10 +13,11 @@ mod infinity;
 mod numbers;
 mod zero;
 
+use super::Compared;
 use super::begun::before_one_record;
 use super::format::TAG_COMPLEX_SET;
 use super::head::Head;
-use super::verdict::{Compared, are_same};
+use super::verdict::are_same;
 use crate::interval::Interval;
 use crate::problem::Problem;
 use figure::Equations;

@@ -14,9 +14,10 @@ mod plan;
 
 pub use plan::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 
+use super::Compared;
 use super::format::TAG_COVER_OF_COORDINATES;
 use super::head::Head;
-use super::verdict::{Compared, are_same};
+use super::verdict::are_same;
 use crate::problem::Problem;
 
 /// Why bytes are no cover.

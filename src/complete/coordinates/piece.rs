@@ -128,7 +128,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             self.tally.leave(Why::Small, share);
             return;
         };
-        debug_assert!(self.block.square.own.contains(&which));
+        assert!(self.block.square.own.contains(&which));
         let mut other = x.clone();
         x[which] = low;
         other[which] = high;

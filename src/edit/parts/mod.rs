@@ -7,6 +7,7 @@
 //! the end.
 
 mod anew;
+mod contacts;
 mod exact;
 mod follow;
 mod left_out;
@@ -106,6 +107,9 @@ pub(super) struct Parts {
     figure: Vec<Known>,
     /// Where the drawing was singular: what was so about it.
     singular: Option<Singular>,
+    /// What is said of circles that touch lines by their numbers; and the problem without what was added to it for these.
+    contacts: Vec<String>,
+    plain: Option<Box<Problem>>,
     unit: f64,
     moved: Moved,
     ready: Followers,
@@ -168,6 +172,8 @@ impl Parts {
         options: &Options,
         way: u64,
     ) -> Result<(Self, Vec<Vec<Real>>), String> {
+        let asked = problem;
+        let (cut, contacts) = contacts::followed(asked, Cut::drawn(asked, way)?, way);
         let Cut {
             problem,
             system,
@@ -186,7 +192,10 @@ impl Parts {
             own: _,
             singular,
             drawn: _,
-        } = Cut::drawn(problem, way)?;
+        } = cut;
+        let mut plain = problem.clone();
+        plain.constraints.truncate(asked.constraints.len());
+        let plain = (!contacts.is_empty()).then(|| Box::new(plain));
         let values = system.unknowns.iter().zip(&system.values);
         let scaled = values.map(|(unknown, value)| {
             let scale = unit.powi(unknown.power);
@@ -194,8 +203,10 @@ impl Parts {
         });
         let figure = scaled.collect();
         let mut parts = Parts {
-            senses: senses::senses(&problem),
-            followed: senses::followed(&problem),
+            senses: senses::senses(asked),
+            followed: senses::followed(asked),
+            contacts,
+            plain,
             segments: segments(&problem, |a, b, axis| {
                 let place = |p: usize| system.coordinates[p * problem.dimension + axis];
                 place(a) == place(b)
@@ -321,7 +332,7 @@ impl Parts {
     }
 
     pub fn problem(&self) -> &Problem {
-        &self.problem
+        self.plain.as_deref().unwrap_or(&self.problem)
     }
 
     pub fn moved(&self) -> Moved {
@@ -369,7 +380,8 @@ impl Parts {
         let edited = self.continued(settings, keep, control);
         let stop = match &edited.ending {
             Ending::Stopped(stop)
-                if stop.kind == StopKind::Contradiction && self.is_singular_figure() =>
+                if stop.kind == StopKind::Contradiction
+                    && (self.is_singular_figure() || self.plain.is_some()) =>
             {
                 stop.clone()
             }
@@ -433,6 +445,9 @@ impl Parts {
         };
         if let (Some((figure, record, rights, verdicts)), true) = (figure, keep) {
             (self.figure, self.record, self.problem) = (figure, record, problem);
+            if let Some(plain) = &mut self.plain {
+                settings.iter().for_each(|setting| setting.apply(plain));
+            }
             self.verdicts = verdicts;
             self.note_what_follows(&rights);
         }
@@ -528,7 +543,7 @@ impl Parts {
             tubes: run.tubes,
             rejected: run.rejected,
             length: run.length,
-            switched_on: run.switched_on,
+            switched_on: [self.contacts.clone(), run.switched_on].concat(),
             account,
             singular: None,
             seconds: 0.0,

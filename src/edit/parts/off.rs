@@ -78,7 +78,7 @@ impl Parts {
         control: &mut Control,
     ) -> Option<Edited> {
         let clock = Instant::now();
-        let mut changed = self.problem.clone();
+        let mut changed = self.problem().clone();
         settings
             .iter()
             .for_each(|setting| setting.apply(&mut changed));

@@ -276,7 +276,7 @@ impl Simplex {
             None => {}
         }
         let value = if self.what.points.len() == 3 {
-            debug_assert!(self.entries[0][2] as usize == middle.len() - 1);
+            assert!(self.entries[0][2] as usize == middle.len() - 1);
             minor(side(1), side(2), 0, 1)
         } else {
             let (u, v, w) = (side(1), side(2), side(3));

@@ -47,7 +47,7 @@ pub fn track<const D: usize>(
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
-    debug_assert_eq!(homotopy.dimension, D);
+    assert_eq!(homotopy.dimension, D);
     if !homotopy.tail.is_empty() {
         return structured::track::<D>(homotopy, options, control);
     }

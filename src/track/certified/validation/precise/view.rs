@@ -149,7 +149,7 @@ impl<'a, const D: usize> View<'a, D> {
                 *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
             }
         }
-        debug_assert_eq!(product.len(), n);
+        assert_eq!(product.len(), n);
         Some(product)
     }
 
