@@ -68,10 +68,31 @@ pub struct Arguments {
     #[arg(long)]
     no_extended: bool,
     #[command(flatten)]
+    left_out: LeftOut,
+    #[command(flatten)]
     time: interrupt::Time,
     /// Print nothing
     #[arg(long)]
     quiet: bool,
+}
+
+/// What counts as met of constraints that are left out.
+#[derive(clap::Args)]
+pub(super) struct LeftOut {
+    /// Where there are more constraints than unknowns, those that are left out count as met where the figure misses them by no more than
+    /// this, in the unit of their numbers [default: half a unit of the last digit that the file gives the number]
+    #[arg(long, value_name = "X", value_parser = super::all::seconds)]
+    pub redundant_tolerance: Option<f64>,
+}
+
+impl LeftOut {
+    /// Options for proofs.
+    pub fn options(&self) -> Options {
+        Options {
+            redundant_tolerance: self.redundant_tolerance,
+            ..Options::certified()
+        }
+    }
 }
 
 /// Runs the verb and returns the exit code.
@@ -84,10 +105,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let mut problem = loaded.problem.clone();
     let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
-    let extended = !arguments.no_extended;
+    let options = Options {
+        extended: !arguments.no_extended,
+        ..arguments.left_out.options()
+    };
     if arguments.serve {
         return Ok(
-            match open(&problem, &arguments.file, extended, &mut Control::default())? {
+            match open(&problem, &arguments.file, &options, &mut Control::default())? {
                 Ok(mut session) => match serve::serve(&mut session, &loaded) {
                     true => CLOSED,
                     false => BAD_INPUT,
@@ -147,7 +171,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             moves.in_words(&problem)
         ));
     }
-    let mut session = match open(&problem, &arguments.file, extended, &mut control)? {
+    let mut session = match open(&problem, &arguments.file, &options, &mut control)? {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
@@ -322,14 +346,10 @@ pub(super) fn drawn_in_words(problem: &Problem, session: &Session) -> String {
 pub(super) fn open(
     problem: &Problem,
     file: &Path,
-    extended: bool,
+    options: &Options,
     control: &mut Control,
 ) -> Result<Result<Session, u8>, String> {
-    let options = Options {
-        extended,
-        ..Options::certified()
-    };
-    match Session::open_with(problem, &options, control) {
+    match Session::open_with(problem, options, control) {
         Ok(session) => Ok(Ok(session)),
         Err(error @ OpenError::Correction { .. }) => {
             output::complain(&in_file(file, &error));

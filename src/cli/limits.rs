@@ -1,6 +1,6 @@
 //! `krawl limits`: how far each dimension can go alone.
 
-use super::edit::{beside, drawn_in_words, open};
+use super::edit::{LeftOut, beside, drawn_in_words, open};
 use super::output::{self, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
@@ -36,6 +36,8 @@ pub struct Arguments {
     #[command(flatten)]
     pictures: Pictures,
     #[command(flatten)]
+    left_out: LeftOut,
+    #[command(flatten)]
     time: interrupt::Time,
     /// Print nothing
     #[arg(long)]
@@ -64,7 +66,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         cancel: Some(interrupt::flag()),
         ..Control::default()
     };
-    let mut session = match open(&problem, &arguments.file, true, &mut control)? {
+    let mut session = match open(
+        &problem,
+        &arguments.file,
+        &arguments.left_out.options(),
+        &mut control,
+    )? {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };

@@ -1,5 +1,6 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
+use super::edit::LeftOut;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::verify::check_written;
@@ -124,6 +125,8 @@ pub struct Arguments {
     #[arg(long)]
     no_count: bool,
     #[command(flatten)]
+    left_out: LeftOut,
+    #[command(flatten)]
     time: interrupt::Time,
     /// Print no table and no progress
     #[arg(long)]
@@ -225,6 +228,7 @@ impl Arguments {
             alpha: self.alpha,
             extended: !self.no_extended,
             threads: self.threads.into(),
+            redundant_tolerance: self.left_out.redundant_tolerance,
             ..options
         }
     }

@@ -1,7 +1,8 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
 use super::edit::{
-    beside, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open, reason,
+    LeftOut, beside, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open,
+    reason,
 };
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
@@ -60,6 +61,8 @@ pub struct Arguments {
     no_verify: bool,
     #[command(flatten)]
     pictures: Pictures,
+    #[command(flatten)]
+    left_out: LeftOut,
     #[command(flatten)]
     time: interrupt::Time,
     /// Print no summary
@@ -122,7 +125,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..Control::default()
     };
-    let mut session = match open(&problem, &arguments.file, true, &mut control)? {
+    let mut session = match open(
+        &problem,
+        &arguments.file,
+        &arguments.left_out.options(),
+        &mut control,
+    )? {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };

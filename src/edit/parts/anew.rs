@@ -9,7 +9,7 @@
 //! misses it by to its number.
 
 use super::left_out::at_rest_all;
-use super::{End, Followers, Parts};
+use super::{End, Followers, MOST_TUBES, Parts};
 use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep};
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Limit, Lost};
@@ -49,7 +49,8 @@ impl Parts {
             let is_cancelled = control
                 .cancel
                 .is_some_and(|flag| flag.load(Ordering::Relaxed));
-            if is_cancelled {
+            let spent: usize = legs.iter().map(|leg| leg.tubes).sum();
+            if is_cancelled || spent > MOST_TUBES {
                 break;
             }
             let next = match last.t.0 > 0.0 {
@@ -233,11 +234,7 @@ fn can_go_on(ending: &Ending) -> bool {
         Ending::Limit(Limit { .. }) | Ending::Passes(_) => true,
         Ending::Stopped(stop) => matches!(
             stop.kind,
-            StopKind::NoStep
-                | StopKind::Singular
-                | StopKind::Undecided
-                | StopKind::TurnsBack
-                | StopKind::Limit
+            StopKind::NoStep | StopKind::Singular | StopKind::Undecided | StopKind::TurnsBack
         ),
     }
 }
