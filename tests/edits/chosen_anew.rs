@@ -1,5 +1,7 @@
 //! Sketches that are loose or have more constraints than unknowns, past where the equations chosen first are singular.
 
+use crate::common::edits::Random;
+use krawl::blocks::Verdict;
 use krawl::edit::{End, Ending, Session, Setting};
 use krawl::problem::Problem;
 use krawl::track::Control;
@@ -105,4 +107,139 @@ fn anchors_stay() {
         }
     }
     assert_eq!(edited.account.names_left_out(), ["`c-p`"]);
+}
+
+/// Chains of two to five bars, fixed at one end: their reach is from zero, or what the longest bar leaves, to the sum of the lengths. What is
+/// printed of them is within that, every figure meets all lengths, and most limits are near the true ones whatever is held.
+#[test]
+fn chains_reach_no_further_than_they_are_long() {
+    let mut random = Random(43);
+    let (mut near, mut all) = (0, 0);
+    for _ in 0..40 {
+        let bars = 2 + random.below(4);
+        let lengths: Vec<String> = (0..bars)
+            .map(|_| format!("{:.2}", random.between(0.5, 2.0)))
+            .collect();
+        let number: Vec<f64> = lengths.iter().map(|text| text.parse().unwrap()).collect();
+        let (mut points, mut distances) = ("p0 = [0, 0]\n".to_owned(), String::new());
+        let mut at = [0.0, 0.0];
+        for (k, length) in number.iter().enumerate() {
+            let turn = random.between(-3.0, 3.0);
+            at = [
+                at[0] + length * f64::cos(turn),
+                at[1] + length * f64::sin(turn),
+            ];
+            points += &format!("p{} = [{:.12}, {:.12}]\n", k + 1, at[0], at[1]);
+            distances += &format!("[\"p{k}\", \"p{}\", {}], ", k + 1, lengths[k]);
+        }
+        let reach = at[0].hypot(at[1]);
+        let text = format!(
+            "dimension = 2\n[points]\n{points}[constraints]\nfixed = [\"p0\"]\n\
+             distances = [{distances}[\"p0\", \"p{bars}\", {reach:.12}]]\n"
+        );
+        let problem = Problem::parse_loosely(&text, "chain").unwrap();
+        let Ok(mut session) = Session::open(&problem) else {
+            panic!("{text}");
+        };
+        let index = Setting::find(&problem, &format!("p0-p{bars}")).unwrap();
+        let range = session.range(index, &mut Control::default());
+        let most: f64 = number.iter().sum();
+        let least = number
+            .iter()
+            .fold(0.0, |least: f64, x| least.max(2.0 * x - most));
+        let (low, high) = (range.low.value(), range.high.value());
+        assert!(
+            low.sup() >= least - 1e-9 && low.inf() > 0.0,
+            "{low:?} {text}"
+        );
+        assert!(high.inf() <= most + 1e-9, "{high:?} {text}");
+        for (figure, value) in [(&range.low_figure, low), (&range.high_figure, high)] {
+            for (k, length) in number.iter().enumerate() {
+                assert!((apart(figure, k, k + 1) - length).abs() < 1e-9, "{text}");
+            }
+            let is_known =
+                !matches!(&range.low, End::Unknown(..)) && !matches!(&range.high, End::Unknown(..));
+            assert!(
+                !is_known || (apart(figure, 0, bars) - value.mid()).abs() < 1e-7,
+                "{text}"
+            );
+        }
+        all += 1;
+        near += usize::from(high.inf() > 0.99 * most);
+    }
+    println!("{near} of {all} reach 99 % of their length");
+    assert!(
+        4 * near >= 3 * all,
+        "{near} of {all} reach 99 % of their length"
+    );
+}
+
+/// A point measured from more anchors than it needs, each distance rounded to three digits, one of them changed: what was left out is
+/// within what is said of it, by the figure's own coordinates, and nothing is reached that misses a distance by more than its last digit.
+#[test]
+fn distances_to_spare_are_met_within_what_is_said() {
+    let mut random = Random(44);
+    let (mut met, mut missed) = (0, 0);
+    for _ in 0..60 {
+        let anchors = 3 + random.below(3);
+        let place =
+            |random: &mut Random| [random.between(-10.0, 10.0), random.between(-10.0, 10.0)];
+        let p = place(&mut random);
+        let (mut points, mut names, mut distances) = (String::new(), Vec::new(), Vec::new());
+        let mut at = Vec::new();
+        for k in 0..anchors {
+            let a = place(&mut random).map(|x| (x * 100.0).round() / 100.0);
+            points += &format!("a{k} = [{}, {}]\n", a[0], a[1]);
+            names.push(format!("\"a{k}\""));
+            distances.push((p[0] - a[0]).hypot(p[1] - a[1]));
+            at.push(a);
+        }
+        points += &format!("p = [{}, {}]\n", p[0], p[1]);
+        let list = distances.iter().enumerate();
+        let list: Vec<String> = list
+            .map(|(k, x)| format!("[\"a{k}\", \"p\", {x:.3}]"))
+            .collect();
+        let text = format!(
+            "dimension = 2\n[points]\n{points}[constraints]\nfixed = [{}]\ndistances = [{}]\n",
+            names.join(", "),
+            list.join(", ")
+        );
+        let problem = Problem::parse_loosely(&text, "anchors").unwrap();
+        let Ok(mut session) = Session::open(&problem) else {
+            continue;
+        };
+        let k = random.below(2);
+        let by = [0.0, 0.0004, 0.1][random.below(3)];
+        let value = format!("{:.4}", (distances[k] * 1000.0).round() / 1000.0 + by);
+        let edited = session.edit(&[Setting::parse(&problem, &format!("a{k}-p={value}")).unwrap()]);
+        let off = |k: usize| {
+            let now = [0, 1].map(|axis| edited.points[anchors][axis].mid() - at[k][axis]);
+            let asked = match edited.dimensions[0].index == k {
+                true => value.parse::<f64>().unwrap(),
+                false => (distances[k] * 1000.0).round() / 1000.0,
+            };
+            (now[0].hypot(now[1]) - asked).abs()
+        };
+        if edited.ending == Ending::Reached {
+            met += 1;
+            for one in &edited.account.left_out {
+                let name = one.name.trim_matches('`');
+                let k: usize = name[1..2].parse().unwrap();
+                match one.verdict {
+                    Verdict::Met { within } => {
+                        assert!(off(k) <= within && within <= 5.001e-4, "{one:?} {text}");
+                    }
+                    Verdict::Undecided { at_most } => assert!(off(k) <= at_most, "{one:?} {text}"),
+                    _ => panic!("{one:?} {text}"),
+                }
+            }
+            for (k, a) in at.iter().enumerate() {
+                let fixed = &edited.points[k];
+                assert!(fixed[0].contains(a[0]) && fixed[1].contains(a[1]), "{text}");
+            }
+        } else {
+            missed += 1;
+        }
+    }
+    assert!(met >= 10 && missed >= 10, "{met} {missed}");
 }
