@@ -1,6 +1,7 @@
 //! `krawl all`: searches all figures that meet the dimensions.
 
 use super::check::counted;
+use super::edit::say_if_it_moves;
 use super::input::Asked;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
@@ -152,6 +153,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }),
         ..Options::default()
     };
+    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
+    if !arguments.quiet && !elsewhere {
+        say_if_it_moves(&problem);
+    }
     let result = match &surplus {
         Some(surplus) => surplus.search(&options),
         None => all(&problem, &options),
@@ -197,7 +202,6 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(json) = &json {
         written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
     }
-    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
         let mut text = complete_to_table(&problem, &result);
         let made = input::held_and_left_out(made.as_ref());

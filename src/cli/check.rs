@@ -260,7 +260,8 @@ impl Loose {
                     .iter()
                     .any(|end| message.contains(&format!(" {plain}{end}")));
                 // Of several that depend on each other in different ways the message lists those of one.
-                let is_one = self.found.account.left_out.len() == 1;
+                let left_out = self.found.account.left_out.iter();
+                let is_one = left_out.filter(|one| one.why != Why::Follows).count() <= 1;
                 let is_sided = ["`distances:", "`tangent:"]
                     .iter()
                     .any(|kind| message.contains(kind));

@@ -161,15 +161,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ..Control::default()
     };
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
-    if !arguments.quiet
-        && !elsewhere
-        && let Some(moves) = moves(&problem)
-    {
-        output::print(&format!(
-            "{}: {}\n\n",
-            problem.name,
-            moves.in_words(&problem)
-        ));
+    if !arguments.quiet && !elsewhere {
+        say_if_it_moves(&problem);
     }
     let mut session = match open(&problem, &arguments.file, &options, &mut control)? {
         Ok(session) => session,
@@ -340,6 +333,17 @@ pub(super) fn drawn_in_words(problem: &Problem, session: &Session) -> String {
     session.singular().map_or(String::new(), |singular| {
         format!("{}: {}\n", problem.name, singular.in_words())
     })
+}
+
+/// Says before anything else that a sketch seems to move, where it does.
+pub(super) fn say_if_it_moves(problem: &Problem) {
+    if let Some(moves) = moves(problem) {
+        output::print(&format!(
+            "{}: {}\n\n",
+            problem.name,
+            moves.in_words(problem)
+        ));
+    }
 }
 
 /// Takes the sketch for the figure, or says why it is none: then the exit code.

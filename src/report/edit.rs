@@ -45,9 +45,10 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         words if words.is_empty() => words,
         words => format!("; {words}"),
     };
-    let clause = match account.clause() {
-        words if words.is_empty() => words,
-        words => format!(" {words}"),
+    let clause = match (account.scope(), account.clause()) {
+        (_, words) if words.is_empty() => words,
+        (scope, words) if scope.is_empty() => format!("; {words}"),
+        (_, words) => format!(" {words}"),
     };
     if let (Ending::Reached, Some(singular)) = (&edited.ending, &edited.singular) {
         return format!(

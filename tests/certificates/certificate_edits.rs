@@ -535,7 +535,7 @@ fn the_program_certifies_sketches_that_are_not_complete() {
     let none = none.to_str().unwrap();
     let (code, text) = krawl(&["edit", twice, "--set", "a-d=6", "--cert", none]);
     assert!(
-        code == 1 && text.contains("no certificate was written: ") && text.contains("`b-c`"),
+        code == 1 && text.contains("no certificate was written: ") && text.contains("`a-d`"),
         "{text}"
     );
     let sweep = ["--from", "5", "--to", "6", "--frames", "3", "--cert", none];

@@ -556,3 +556,35 @@ fn a_straight_path_that_ends_where_a_radius_vanishes_is_answered_by_blocks() {
         }
     }
 }
+
+/// An open belt about two pulleys: each line touches at the points where it ends, which are on the circles.
+#[test]
+fn lines_touch_circles_at_the_points_that_are_on_them() {
+    let text = "name = \"belt\"\ndimension = 2\n[points]\nP = [0, 0]\nQ = [100, 0]\nu1 = [3, 30]\nu2 = [102, 20]\nv1 = [3, -30]\n\
+                v2 = [102, -20]\n[circles]\nbig = { center = \"P\", radius = 30 }\nsmall = { center = \"Q\", radius = 20 }\n[lines]\n\
+                up = [\"u1\", \"u2\"]\nlo = [\"v1\", \"v2\"]\n[constraints]\nfixed = [\"P\"]\nhorizontal = [[\"P\", \"Q\"]]\n\
+                distances = [[\"P\", \"Q\", 100]]\nradii = [[\"big\", 30], [\"small\", 20]]\n\
+                on = [[\"u1\", \"big\"], [\"u2\", \"small\"], [\"v1\", \"big\"], [\"v2\", \"small\"]]\n\
+                tangent = [[\"big\", \"up\"], [\"small\", \"up\"], [\"big\", \"lo\"], [\"small\", \"lo\"]]\n";
+    let problem = krawl::problem::Problem::parse(text, "test").unwrap();
+    let mut session = krawl::edit::Session::open(&problem).unwrap();
+    let points = session.figure();
+    // The radii are parallel, with cosine (30 − 20) / 100 to the line of centres.
+    for (point, centre, radius, side) in [
+        (2, 0.0, 30.0, 1.0),
+        (3, 100.0, 20.0, 1.0),
+        (4, 0.0, 30.0, -1.0),
+        (5, 100.0, 20.0, -1.0),
+    ] {
+        let (x, y) = (centre + 0.1 * radius, side * radius * 0.99f64.sqrt());
+        assert!(
+            (points[point][0] - x).hypot(points[point][1] - y) < 1e-12,
+            "{points:?}"
+        );
+    }
+    let setting = krawl::edit::Setting::parse(&problem, "radii:big=35").unwrap();
+    assert_eq!(
+        session.edit(&[setting]).ending,
+        krawl::edit::Ending::Reached
+    );
+}

@@ -1,7 +1,7 @@
 //! `tangent`: a line and a circle, arc or sphere, two circles or arcs, a plane and a sphere, two spheres.
 //!
-//! A line that meets an arc at an end which both share is perpendicular to the radius there; two arcs that share
-//! an end have their centres in line with it. Otherwise the centre's signed distance from the line or plane is
+//! A line that meets an arc at an end which both share, or that goes through a point `on` a circle, is perpendicular to the radius
+//! there; two arcs that share an end have their centres in line with it. Otherwise the centre's signed distance from the line or plane is
 //! `± r` (in space a centre's distance from a line is r, which has no sign), and two centres are `r₁ + r₂` apart (from outside) or `|r₁ − r₂|` (from inside); which of these is
 //! read off the sketch. An arc is then as good as its whole circle.
 
@@ -19,7 +19,7 @@ impl Kind for Tangent {
 
     fn meaning(&self) -> &'static str {
         "a line and a circle, arc or sphere, two circles or arcs, a plane and a sphere, or two spheres touch; at an end \
-         that both share, if there is one, and otherwise from the side where the sketch has them"
+         or a point on them that both share, if there is one, and otherwise from the side where the sketch has them"
     }
 
     fn takes(&self) -> &'static str {
@@ -119,10 +119,16 @@ fn flat_or_round(items: &mut Arguments) -> Result<Other, Fault> {
     })
 }
 
-/// The ends of an arc; none of a circle.
+/// The ends of an arc, and of a circle in the plane the points that are `on` it: what goes through one of them touches there.
 fn ends(low: &Lowering, object: usize) -> Vec<usize> {
+    let on = low.problem.constraints.iter().filter(|c| c.kind == "on");
+    let on = on.filter_map(|on| match *on.items {
+        [Item::Point(p), Item::Object(o)] if o == object => Some(p),
+        _ => None,
+    });
     match low.problem.objects[object].shape {
         Shape::Arc { start, end, .. } => vec![start, end],
+        Shape::Round { .. } if low.dimension() == 2 => on.collect(),
         _ => Vec::new(),
     }
 }
