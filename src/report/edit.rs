@@ -76,7 +76,12 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
                     "shrink"
                 };
                 let digits = certain_digits(d.value);
-                format!("{name} can {verb} to {digits} and no further")
+                match account.chosen_anew > 0 && !account.held.is_empty() {
+                    true => format!(
+                        "{name} can {verb} to {digits} at least, and with what is held there no further"
+                    ),
+                    false => format!("{name} can {verb} to {digits} and no further"),
+                }
             });
             let reached = reached.collect::<Vec<_>>().join(", ");
             let together = if edited.dimensions.len() > 1 {
