@@ -184,13 +184,11 @@ impl Account {
     pub fn held_in_words(&self) -> String {
         match self.held.as_slice() {
             [] => String::new(),
-            [one] => format!("with {} held where it is", one.what),
             _ if self.chosen_anew > 0 => {
-                format!(
-                    "with {} held, not all of them all the way",
-                    list(&self.names_held())
-                )
+                let names = list(&self.names_held());
+                format!("with {names} held on all of the way or a part of it")
             }
+            [one] => format!("with {} held where it is", one.what),
             _ => format!("with {} held where they are", list(&self.names_held())),
         }
     }

@@ -1,7 +1,8 @@
 //! Which equations say something new at a figure, and which unknowns nothing determines.
 //!
 //! This is seen in floats, by elimination, what says most that is new first, up to a factor. Nothing of a proof
-//! rests on it: whatever is chosen here, what is proved is about the equations chosen, with the unknowns that nothing determines standing still.
+//! rests on it: whatever is chosen here, what is proved is about the equations chosen, with the unknowns that nothing
+//! determines standing still.
 
 use super::System;
 use crate::constraint::{Entry, Form};
@@ -85,10 +86,10 @@ impl Choice {
                 let mut entries = std::mem::take(&mut rows[row]);
                 // What is new in it; it was cleared of those taken in the round before already.
                 for &(other, column) in &taken {
-                    let factor = entries[column] / rows[other][column];
-                    if factor != 0.0 {
+                    let times = entries[column] / rows[other][column];
+                    if times != 0.0 {
                         let pivots = entries.iter_mut().zip(&rows[other]);
-                        pivots.for_each(|(entry, x)| *entry -= factor * x);
+                        pivots.for_each(|(entry, x)| *entry -= times * x);
                         entries[column] = 0.0;
                     }
                 }

@@ -112,6 +112,38 @@ impl Ending {
 }
 
 impl Orientations {
+    /// The same of a way in two parts, of which these are the second's and `before` the first's. A sign is kept that is proved to be so
+    /// in both; what was followed in one of them only may have lost it in the other, at any t.
+    pub(super) fn follow_on(&mut self, before: &Orientations) {
+        let then = std::mem::take(self);
+        self.flat = before.flat.clone();
+        let (kept, gone): (Vec<_>, Vec<_>) = before
+            .kept
+            .iter()
+            .cloned()
+            .partition(|one| then.kept.contains(one));
+        self.kept = kept;
+        let is_told = |points: &Vec<usize>| {
+            self.flat.contains(points) || before.lost.iter().any(|lost| lost.points == *points)
+        };
+        let later = then.lost.into_iter().filter(|lost| !is_told(&lost.points));
+        self.lost = later.collect();
+        let once = gone.into_iter().chain(then.kept).map(|(points, _)| points);
+        let once = before
+            .lost
+            .iter()
+            .map(|lost| lost.points.clone())
+            .chain(once);
+        for points in once.chain(then.flat) {
+            let told = self.kept.iter().map(|(own, _)| own).chain(&self.flat);
+            let mut told = told.chain(self.lost.iter().map(|lost| &lost.points));
+            if !told.any(|own| *own == points) {
+                let t = (0.0, 1.0);
+                self.lost.push(Lost { points, t });
+            }
+        }
+    }
+
     pub(super) fn new(all: Vec<Orientation>) -> Self {
         let mut out = Orientations::default();
         for Orientation { points, sign, lost } in all {
@@ -122,5 +154,40 @@ impl Orientations {
             }
         }
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sign_is_kept_that_is_kept_in_both_parts_of_a_way() {
+        let lost = |points: usize, t| Lost {
+            points: vec![points],
+            t,
+        };
+        let before = Orientations {
+            kept: vec![(vec![1], 1), (vec![2], -1), (vec![3], 1)],
+            lost: vec![lost(4, (0.1, 0.2))],
+            flat: vec![vec![5]],
+        };
+        let mut both = Orientations {
+            kept: vec![(vec![1], 1), (vec![4], 1), (vec![5], 1), (vec![6], 1)],
+            lost: vec![lost(2, (0.7, 0.8))],
+            flat: Vec::new(),
+        };
+        both.follow_on(&before);
+        assert_eq!(both.kept, [(vec![1], 1)]);
+        assert_eq!(both.flat, [vec![5]]);
+        // 4 was lost before, 3 and 6 were followed in one part only.
+        let anywhere = (0.0, 1.0);
+        let all = [
+            lost(2, (0.7, 0.8)),
+            lost(4, anywhere),
+            lost(3, anywhere),
+            lost(6, anywhere),
+        ];
+        assert_eq!(both.lost, all);
     }
 }

@@ -12,7 +12,7 @@ use super::left_out::at_rest_all;
 use super::{End, Followers, MOST_TUBES, Parts};
 use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep};
 use crate::constraint::try_lower_all;
-use crate::edit::ending::{Edited, Ending, Limit, Lost};
+use crate::edit::ending::{Edited, Ending};
 use crate::edit::setting::Setting;
 use crate::interval::{Real, point};
 use crate::track::{Control, StopKind};
@@ -78,7 +78,7 @@ impl Parts {
             legs.extend(leg);
             last = ahead.continued(settings, true, control);
             let reached = (done + last.t.0 * (1.0 - done)).min(1.0);
-            let so_far = best.as_ref().unwrap_or(&first).t.0;
+            let so_far = best.as_ref().unwrap_or(&first);
             if let Some(leg) = legs.last_mut() {
                 leg.switched_on.push(in_words(done, moved));
             } else {
@@ -86,9 +86,8 @@ impl Parts {
             }
             let is_reached = last.ending == Ending::Reached;
             let is_limit = |ending: &Ending| matches!(ending, Ending::Limit(_));
-            let is_more = is_limit(&last.ending)
-                && !is_limit(&best.as_ref().unwrap_or(&first).ending)
-                || reached > so_far * (1.0 + LEAST_GAIN);
+            let is_more = is_limit(&last.ending) && !is_limit(&so_far.ending)
+                || reached > so_far.t.0 * (1.0 + LEAST_GAIN);
             if !is_reached && !is_more {
                 break;
             }
@@ -205,23 +204,7 @@ impl Parts {
             remarks.dedup();
             edited.switched_on = remarks;
             edited.account.follow_on(&leg.account);
-            let kept = std::mem::take(&mut edited.orientations.kept);
-            let of =
-                |points: &Vec<usize>| leg.orientations.kept.iter().any(|(own, _)| own == points);
-            for (points, sign) in kept {
-                let is_lost = leg
-                    .orientations
-                    .lost
-                    .iter()
-                    .any(|lost| lost.points == points);
-                match of(&points) || !is_lost {
-                    true => edited.orientations.kept.push((points, sign)),
-                    false => edited.orientations.lost.push(Lost {
-                        points,
-                        t: (0.0, done),
-                    }),
-                }
-            }
+            edited.orientations.follow_on(&leg.orientations);
         }
         edited
     }
@@ -231,7 +214,7 @@ impl Parts {
 fn can_go_on(ending: &Ending) -> bool {
     match ending {
         Ending::Reached => false,
-        Ending::Limit(Limit { .. }) | Ending::Passes(_) => true,
+        Ending::Limit(_) | Ending::Passes(_) => true,
         Ending::Stopped(stop) => matches!(
             stop.kind,
             StopKind::NoStep | StopKind::Singular | StopKind::Undecided | StopKind::TurnsBack
