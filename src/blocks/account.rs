@@ -396,7 +396,7 @@ impl Ruler {
 }
 
 /// Half a unit of a number's last digit. Whole numbers are meant exactly.
-fn half_digit(number: &Decimal) -> f64 {
+pub(super) fn half_digit(number: &Decimal) -> f64 {
     match number.last_digit() {
         place if place < 0 => 0.5 * 10f64.powi(place),
         _ => 0.0,

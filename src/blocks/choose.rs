@@ -9,7 +9,7 @@ use crate::constraint::{Entry, Form};
 
 /// A pivot below this part of its row's largest entry counts as zero. Sketches meet their constraints to some eight
 /// digits, and where one constraint follows from others a pivot is as small as that.
-const PIVOT: f64 = 1e-6;
+pub(super) const PIVOT: f64 = 1e-6;
 /// For choices of which the order of the rows is to decide: one digit is lost at most where it does.
 pub(crate) const COARSE: f64 = 0.1;
 /// For choices of which how much is new in each row is to decide.

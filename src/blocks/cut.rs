@@ -4,7 +4,7 @@ use super::drawn::{Drawn, Floats, look};
 use super::follows::{Combination, Given, combination};
 use super::singular::Singular;
 use super::{Account, Block, Blocks, COARSE, Choice, Held, Ruler, System, Verdict};
-use crate::constraint::{Entry, Form, Lowered, Owner, Record, Role, Tail, try_lower_all};
+use crate::constraint::{Entry, Fault, Form, Lowered, Owner, Record, Role, Tail, try_lower_all};
 use crate::interval::{Interval, Real};
 use crate::problem::{Decimal, Problem, Shape};
 use crate::system::typical_length;
@@ -96,6 +96,23 @@ pub(crate) fn keep(problem: &Problem, owner: usize) -> u8 {
     }
 }
 
+/// A problem without a bend and its equations, or what is at fault in words.
+pub(crate) fn straight(problem: &Problem) -> Result<(Problem, Lowered), String> {
+    let mut problem = problem.clone();
+    problem.homotopy.bend_coefficient = Decimal::from(0);
+    problem.homotopy.detour = Decimal::from(0);
+    let lowered = try_lower_all(&problem, None).map_err(|fault| in_words(&problem, fault))?;
+    Ok((problem, lowered))
+}
+
+/// What is at fault with a problem's equations, in words.
+pub(crate) fn in_words(problem: &Problem, (owner, fault): (Owner, Fault)) -> String {
+    match owner {
+        Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
+        Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
+    }
+}
+
 impl Blocks {
     /// The blocks of a square system of rows and of unknowns that are held. `None` as in [`Blocks::new`].
     pub(crate) fn of(used: &[Used], system: &System) -> Option<Self> {
@@ -132,13 +149,7 @@ impl Cut {
 
     /// The same; a singular drawing is moved off that place in one of several ways, two and two in opposite directions.
     pub fn drawn(problem: &Problem, way: u64) -> Result<Self, String> {
-        let mut problem = problem.clone();
-        problem.homotopy.bend_coefficient = Decimal::from(0);
-        problem.homotopy.detour = Decimal::from(0);
-        let lowered = try_lower_all(&problem, None).map_err(|(owner, fault)| match owner {
-            Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
-            Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
-        })?;
+        let (problem, lowered) = straight(problem)?;
         let owner_is_dimension = |owner: usize| {
             let (objects, all) = (problem.objects.len(), problem.constraints.len());
             match owner.checked_sub(objects) {
@@ -152,23 +163,16 @@ impl Cut {
         });
         let has_twins = has_twins(&lowered.tail);
         let unit = typical_length(&problem);
-        let at = system.unknowns.iter().zip(&system.values);
-        let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
-        let at: Vec<f64> = at.collect();
+        let at = system.sketch(unit);
         let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
         // What is fixed is left out last, dimensions after what has no number.
         let kept = |row: usize| keep(&problem, lowered.owners[system.rows[row].index]);
         let mut choice = Choice::new(&system, &at, |u| coordinates.contains(&u), kept, COARSE);
         let equations = &lowered.tail.equations;
-        let target = system.rows.iter().map(|row| {
-            let equation = &equations[row.index];
-            let right = equation.right.iter().map(|c| c.enclose().mid());
-            right.sum::<f64>() / unit.powi(equation.power)
-        });
         let rows = system.rows.iter();
         let structural = rows.map(|row| !owner_is_dimension(lowered.owners[row.index]));
         let structural: Vec<bool> = structural.collect();
-        let floats = Floats::new(&system, target.collect());
+        let floats = Floats::new(&system, equations, unit);
         let mut moved_rights: Vec<(usize, Vec<Real>)> = Vec::new();
         let (mut singular, mut drawn) = (None, None);
         if let Drawn::Singular { rows, off } = look(&floats, &structural, (&at, &choice), way) {
@@ -178,10 +182,7 @@ impl Cut {
                 choice = Choice::new(&system, &off, |u| coordinates.contains(&u), kept, COARSE);
                 place.moved = Some(system.moved(&off, problem.dimension, unit));
                 drawn = Some(system.values.clone());
-                moved_rights = system.set_off(&off, unit, |index| {
-                    let right = equations[index].right.iter();
-                    right.fold(Real::zero(), |sum, c| &sum + c)
-                });
+                moved_rights = system.set_off(&off, unit, |index| equations[index].target());
             }
             singular = Some(place);
         }

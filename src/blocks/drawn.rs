@@ -6,7 +6,7 @@
 //! its dimensions from there, by proof as from any other. The constraints stay what they are.
 
 use super::{Choice, FINE, Row, System};
-use crate::constraint::{Entry, Form, Role};
+use crate::constraint::{Entry, Equation, Form, Role};
 use crate::interval::{Real, point};
 use crate::remarks::noise;
 use nalgebra::{DMatrix, DVector};
@@ -44,9 +44,16 @@ pub(crate) enum Drawn {
 }
 
 impl<'a> Floats<'a> {
-    /// With right-hand sides for the rows of a system.
-    pub fn new(system: &'a System, target: Vec<f64>) -> Self {
-        Floats { system, target }
+    /// Of a system with these equations, of which the rows are, in a `unit` of length.
+    pub fn new(system: &'a System, equations: &[Equation], unit: f64) -> Self {
+        let target = system.rows.iter().map(|row| {
+            let equation = &equations[row.index];
+            equation.target().enclose().mid() / unit.powi(equation.power)
+        });
+        Floats {
+            target: target.collect(),
+            system,
+        }
     }
 
     /// The Jacobian of some rows, each scaled to length 1, and by how much their left-hand sides, scaled, are too large.

@@ -45,6 +45,13 @@ fn root(parent: &[usize], mut x: usize) -> usize {
 }
 
 impl System {
+    /// The unknowns' values in the sketch in floats, in a `unit` of length.
+    pub fn sketch(&self, unit: f64) -> Vec<f64> {
+        let at = self.unknowns.iter().zip(&self.values);
+        at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power))
+            .collect()
+    }
+
     /// Merges unknowns. `is_dimension`: whether an equation, by index, has a value that edits may change; all others
     /// with zero on the right at t = 0 have it there always.
     pub fn new(problem: &Problem, lowered: &Lowered, is_dimension: impl Fn(usize) -> bool) -> Self {

@@ -40,7 +40,9 @@ pub use choose::Choice;
 pub(crate) use choose::{COARSE, FINE, LAST};
 pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
-pub(crate) use cut::{Cut, Used, account, is_exact, keep, name, name as owner_name};
+pub(crate) use cut::{
+    Cut, Used, account, in_words, is_exact, keep, name, name as owner_name, straight,
+};
 pub use decompose::{Block, Blocks};
 pub(crate) use drawn::Floats;
 pub use figures::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way, WithSenses};

@@ -7,24 +7,20 @@
 //! floats. Whether it follows or contradicts is proved where an identity tells it, and otherwise seen at the figure near the
 //! drawing that meets the rest.
 
-use super::cut::name;
+use super::account::half_digit;
+use super::choose::PIVOT;
+use super::cut::{name, straight};
 use super::drawn::{Drawn, Floats, look};
 use super::follows::{Given, combination};
-use super::{Choice, FINE, System};
-use crate::constraint::{Owner, try_lower_all};
-use crate::interval::{Real, enclose_rational, point};
-use crate::problem::{Decimal, Problem, Target, list};
+use super::{Choice, FINE, LEAST_PART, System};
+use crate::interval::{enclose_rational, point};
+use crate::problem::{Problem, Target, list};
 use crate::system::typical_length;
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// More equations or unknowns are not looked at: it would take seconds.
 const MANY: usize = 900;
-/// A row that is this near to those before says nothing new, as where equations are chosen for proofs.
-const NOTHING_NEW: f64 = 1e-6;
-/// Numbers that are whole, or have more digits than drawings keep, agree where they differ by no more than this part of the
-/// figure's mean length.
-const LEAST_PART: f64 = 1e-7;
 /// With no more equations than these an identity is looked for among all, where it is not found in the smallest set.
 const SMALL: usize = 60;
 /// Names that are listed before "and n more".
@@ -86,13 +82,7 @@ pub struct Census {
 /// # Errors
 /// What is wrong with the problem, in words.
 pub fn surplus(problem: &Problem) -> Result<Census, String> {
-    let mut problem = problem.clone();
-    problem.homotopy.bend_coefficient = Decimal::from(0);
-    problem.homotopy.detour = Decimal::from(0);
-    let lowered = try_lower_all(&problem, None).map_err(|(owner, fault)| match owner {
-        Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
-        Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
-    })?;
+    let (problem, lowered) = straight(problem)?;
     // No unknowns are merged: what says that two are one is an equation like others here.
     let system = System::new(&problem, &lowered, |_| true);
     let width = system.unknowns.len();
@@ -111,10 +101,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     };
     let unit = typical_length(&problem);
     let equations = &lowered.tail.equations;
-    let target = |row: usize| -> Real {
-        let right = equations[system.rows[row].index].right.iter();
-        right.fold(Real::zero(), |sum, c| &sum + c)
-    };
+    let target = |row: usize| equations[system.rows[row].index].target();
     let rows = 0..system.rows.len();
     let owners: Vec<usize> = rows
         .clone()
@@ -122,15 +109,8 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         .collect();
     let ranks: Vec<u8> = owners.iter().map(|&owner| rank(&problem, owner)).collect();
     let scale = |row: usize| unit.powi(equations[system.rows[row].index].power);
-    let floats = Floats::new(
-        &system,
-        rows.clone()
-            .map(|row| target(row).enclose().mid() / scale(row))
-            .collect(),
-    );
-    let at = system.unknowns.iter().zip(&system.values);
-    let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
-    let mut at: Vec<f64> = at.collect();
+    let floats = Floats::new(&system, equations, unit);
+    let mut at = system.sketch(unit);
     let choice = Choice::new(&system, &at, |_| false, |_| 0, FINE);
     if choice.redundant.is_empty() {
         return Ok(census(choice.used.len(), Vec::new()));
@@ -180,7 +160,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
             None => (None, circuit),
         };
         let numbers = circuit.iter().chain([&row]);
-        let digits: f64 = numbers.map(|&k| half_digit(&problem, owners[k])).sum();
+        let digits: f64 = numbers.map(|&k| digits_of(&problem, owners[k])).sum();
         let most = digits.max(LEAST_PART * unit);
         let divisor = match distance(&problem, owners[row]) {
             Some(length) => 2.0 * length,
@@ -268,8 +248,8 @@ fn distance(problem: &Problem, owner: usize) -> Option<f64> {
     Some(squared.sqrt().mid().max(f64::MIN_POSITIVE))
 }
 
-/// Half a unit of the last digit of a constraint's number. Whole numbers are meant exactly.
-fn half_digit(problem: &Problem, owner: usize) -> f64 {
+/// Half a unit of the last digit of a constraint's number; 0 where it has none, or a squared one.
+fn digits_of(problem: &Problem, owner: usize) -> f64 {
     let (objects, all) = (problem.objects.len(), problem.constraints.len());
     let number = match owner.checked_sub(objects) {
         Some(c) if c < all => problem.constraints[c].value.as_ref(),
@@ -279,15 +259,7 @@ fn half_digit(problem: &Problem, owner: usize) -> f64 {
         },
         _ => None,
     };
-    let text = number.map_or("", |number| number.text());
-    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let behind = mantissa
-        .split_once('.')
-        .map_or(0, |(_, digits)| digits.len());
-    match exponent.parse::<i32>().unwrap_or(0) - behind as i32 {
-        place if place < 0 => 0.5 * 10f64.powi(place),
-        _ => 0.0,
-    }
+    number.map_or(0.0, half_digit)
 }
 
 /// Of rows in this order those that say something new after those before, and each other one with the rows of which it is a
@@ -317,7 +289,7 @@ fn dependent(
             }
         }
         let size = rest.norm();
-        if size > NOTHING_NEW {
+        if size > PIVOT {
             of.push(1.0);
             of.iter_mut().for_each(|part| *part /= size);
             basis.push((rest / size, of));

@@ -65,6 +65,11 @@ pub struct Equation {
 }
 
 impl Equation {
+    /// E at t = 1.
+    pub fn target(&self) -> Real {
+        self.right.iter().fold(Real::zero(), |sum, c| &sum + c)
+    }
+
     /// The two points of an equation that has half the square of their distance on the left, in so many dimensions:
     /// a product of factor 1 for each axis, in order, of the difference of their coordinates with itself.
     pub fn ends(&self, dimension: usize) -> Option<[usize; 2]> {

@@ -57,6 +57,7 @@ pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use write::{WriteError, rewrite};
 
+use crate::blocks::in_words;
 use crate::constraint::{Fault, Lowered, Owner};
 use crate::problem::Problem;
 
@@ -65,8 +66,5 @@ fn lowered(
     problem: &Problem,
     lower: impl FnOnce(&Problem) -> Result<Lowered, (Owner, Fault)>,
 ) -> Result<Lowered, String> {
-    lower(problem).map_err(|(owner, fault)| match owner {
-        Owner::Object(o) => format!("`{}`: {fault}", problem.objects[o].name),
-        Owner::Constraint(c) => format!("`{}`: {fault}", problem.constraint_name(c)),
-    })
+    lower(problem).map_err(|fault| in_words(problem, fault))
 }

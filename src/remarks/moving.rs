@@ -5,10 +5,8 @@
 //! again. Only if it gets somewhere is that said, and as an observation: these are floats. A figure that is singular but stays
 //! where it is goes back each time.
 
-use crate::blocks::{Floats, System};
-use crate::constraint::try_lower_all;
-use crate::interval::Real;
-use crate::problem::{Decimal, Problem, list};
+use crate::blocks::{Floats, System, straight};
+use crate::problem::{Problem, list};
 use crate::system::typical_length;
 use nalgebra::{DMatrix, DVector};
 
@@ -54,10 +52,7 @@ impl Moves {
 /// Whether a sketch meets its dimensions and moves all the same. Nothing is said of sketches that have fewer constraints than
 /// they need, of those that do not meet their dimensions, and of large ones.
 pub fn moves(problem: &Problem) -> Option<Moves> {
-    let mut problem = problem.clone();
-    problem.homotopy.bend_coefficient = Decimal::from(0);
-    problem.homotopy.detour = Decimal::from(0);
-    let lowered = try_lower_all(&problem, None).ok()?;
+    let (problem, lowered) = straight(problem).ok()?;
     let system = System::new(&problem, &lowered, |_| true);
     let (width, d) = (system.unknowns.len(), problem.dimension);
     let whole = match problem.is_absolute() {
@@ -68,16 +63,9 @@ pub fn moves(problem: &Problem) -> Option<Moves> {
         return None;
     }
     let unit = typical_length(&problem);
-    let target = system.rows.iter().map(|row| {
-        let equation = &lowered.tail.equations[row.index];
-        let right = equation.right.iter().fold(Real::zero(), |sum, c| &sum + c);
-        right.enclose().mid() / unit.powi(equation.power)
-    });
-    let floats = Floats::new(&system, target.collect());
+    let floats = Floats::new(&system, &lowered.tail.equations, unit);
     let all: Vec<usize> = (0..system.rows.len()).collect();
-    let at = system.unknowns.iter().zip(&system.values);
-    let at = at.map(|(unknown, value)| value.enclose().mid() / unit.powi(unknown.power));
-    let sketch: Vec<f64> = at.collect();
+    let sketch = system.sketch(unit);
     if floats.missed(&all, &sketch) > MET {
         return None;
     }
