@@ -20,6 +20,9 @@ pub const LEAST_PART: f64 = 1e-7;
 pub struct Account {
     /// How many equations were used.
     pub equations: usize,
+    /// What is said by those of them that are none of the problem's, in words: contacts that are kept.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub added: Vec<String>,
     /// The constraints that are none of these.
     pub left_out: Vec<LeftOut>,
     /// The coordinates (or radii, directions) that are held because nothing determines them.
@@ -144,6 +147,11 @@ impl Account {
         for one in &other.left_out {
             self.leave_out(one.name.clone(), one.verdict);
         }
+        for added in &other.added {
+            if !self.added.contains(added) {
+                self.added.push(added.clone());
+            }
+        }
         for held in &other.held {
             if !self.held.iter().any(|own| own.what == held.what) {
                 self.held.push(held.clone());
@@ -160,9 +168,9 @@ impl Account {
         self.chosen_anew = anew;
     }
 
-    /// Whether the claim is about the figure as it is: nothing is held, and what was left out follows, proved.
+    /// Whether the claim is about the figure as it is: nothing is held or added, and what was left out follows, proved.
     pub fn is_whole(&self) -> bool {
-        self.held.is_empty() && self.meets_all()
+        self.held.is_empty() && self.added.is_empty() && self.meets_all()
     }
 
     /// Whether all constraints are proved to be met: none was left out but those that follow from the others.
@@ -264,14 +272,18 @@ impl Account {
     /// What a claim about the figures is to say of itself, after its verb: `in the 18 equations used, with x of B held where it
     /// is`. Empty where the claim is about the figure as it is.
     pub fn scope(&self) -> String {
-        let used = match self.meets_all() {
+        let used = match self.meets_all() && self.added.is_empty() {
             true => String::new(),
             false if self.chosen_anew > 0 => {
                 format!("in {} equations at a time", self.equations)
             }
             false => format!("in the {} equations used", self.equations),
         };
-        joined([used, self.held_in_words()], ", ")
+        let added = match self.added.is_empty() {
+            true => String::new(),
+            false => format!("among them {}", list(&self.added)),
+        };
+        joined([used, added, self.held_in_words()], ", ")
     }
 
     /// All of it as one clause: [`Account::scope`], and what was left out.
@@ -298,7 +310,7 @@ fn list(names: &[String]) -> String {
     }
 }
 
-fn joined(parts: [String; 2], between: &str) -> String {
+fn joined<const N: usize>(parts: [String; N], between: &str) -> String {
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     parts.join(between)
 }

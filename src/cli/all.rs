@@ -103,7 +103,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let asked = input::asked(file, sketch, arguments.redundant_tolerance)?;
     let (problem, made, surplus) = match asked {
         Asked::Surplus(surplus) => (surplus.problem.clone(), None, Some(surplus)),
-        Asked::Problem(problem, made) => (*problem, made, None),
+        Asked::Problem(read) => {
+            let (problem, made) = *read;
+            (problem, made, None)
+        }
     };
     let json = arguments
         .json

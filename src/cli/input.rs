@@ -86,7 +86,7 @@ pub enum Asked {
     /// More distances than are needed, and nothing else; or those of bonds and bond angles of a molecule.
     Surplus(Box<Surplus>),
     /// Anything else, and what was made of a sketch of another program for it. There may be more equations than unknowns.
-    Problem(Box<Problem>, Option<Decomposition>),
+    Problem(Box<(Problem, Option<Decomposition>)>),
 }
 
 /// Reads what a set of all solutions is to be about.
@@ -100,7 +100,7 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
                 match Surplus::of(&problem, tolerance) {
                     Some(surplus) => Some(of_surplus(surplus)),
                     None if has_equations_to_spare(&problem) => {
-                        Some(Asked::Problem(Box::new(problem), None))
+                        Some(Asked::Problem(Box::new((problem, None))))
                     }
                     None => None,
                 }
@@ -111,7 +111,7 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
     };
     match surplus {
         Some(asked) => Ok(asked),
-        None => whole(file, sketch).map(|(problem, made)| Asked::Problem(Box::new(problem), made)),
+        None => whole(file, sketch).map(|read| Asked::Problem(Box::new(read))),
     }
 }
 

@@ -6,7 +6,7 @@
 //! where it is goes back each time.
 
 use crate::blocks::{Floats, System, straight};
-use crate::problem::{Problem, list};
+use crate::problem::{Distance, Problem, Target, list};
 use crate::system::typical_length;
 use nalgebra::{DMatrix, DVector};
 
@@ -14,6 +14,8 @@ use nalgebra::{DMatrix, DVector};
 const MANY: usize = 150;
 /// A sketch that misses its dimensions by more, as a part of its unit, does not meet them.
 const MET: f64 = 1e-4;
+/// One that misses a distance by more, likewise: that is more than [`MET`] of its equation, divided by the length of its gradient.
+const FAR: f64 = 4.0 * MET;
 /// Figures on the way miss them by no more than this beyond what the first one does.
 const KEPT: f64 = 1e-9;
 /// Singular values below this part of the largest leave a motion.
@@ -52,6 +54,15 @@ impl Moves {
 /// Whether a sketch meets its dimensions and moves all the same. Nothing is said of sketches that have fewer constraints than
 /// they need, of those that do not meet their dimensions, and of large ones.
 pub fn moves(problem: &Problem) -> Option<Moves> {
+    let unit = typical_length(problem);
+    // Most sketches do not meet their dimensions: that is seen before any equation is made.
+    if problem
+        .distances
+        .iter()
+        .any(|d| off(problem, d) > FAR * unit)
+    {
+        return None;
+    }
     let (problem, lowered) = straight(problem).ok()?;
     let system = System::new(&problem, &lowered, |_| true);
     let (width, d) = (system.unknowns.len(), problem.dimension);
@@ -62,7 +73,6 @@ pub fn moves(problem: &Problem) -> Option<Moves> {
     if width > MANY || system.rows.len() + whole < width || width <= whole {
         return None;
     }
-    let unit = typical_length(&problem);
     let floats = Floats::new(&system, &lowered.tail.equations, unit);
     let all: Vec<usize> = (0..system.rows.len()).collect();
     let sketch = system.sketch(unit);
@@ -83,20 +93,32 @@ pub fn moves(problem: &Problem) -> Option<Moves> {
         way = internal(&floats, &all, &next, (&system, d, whole), Some(&step))?;
         (x, worst) = (next, worst.max(missed));
     }
-    let off = |p: usize| {
+    let far = |p: usize| {
         let of = system.coordinates[p * d..(p + 1) * d].iter();
         of.map(|&u| (x[u] - first[u]).powi(2)).sum::<f64>().sqrt()
     };
     let mut points: Vec<usize> = (0..problem.points.len()).collect();
-    points.sort_by(|&a, &b| off(b).total_cmp(&off(a)));
-    let by = off(points[0]);
-    points.retain(|&p| off(p) > 0.3 * by);
+    points.sort_by(|&a, &b| far(b).total_cmp(&far(a)));
+    let by = far(points[0]);
+    points.retain(|&p| far(p) > 0.3 * by);
     points.truncate(3);
     Some(Moves {
         points,
         by: by * unit,
         missed: worst * unit,
     })
+}
+
+/// By how much the sketch misses a distance.
+fn off(problem: &Problem, distance: &Distance) -> f64 {
+    let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+    let square = |k: usize| (a[k].to_f64() - b[k].to_f64()).powi(2);
+    let is: f64 = (0..problem.dimension).map(square).sum();
+    let target = match &distance.target {
+        Target::Length(length) => length.to_f64(),
+        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+    };
+    (is.sqrt() - target).abs()
 }
 
 /// A place led to where equations are met as nearly as what is well determined allows, and by how much it misses them.

@@ -356,6 +356,12 @@ fn a_circle_that_touches_by_its_numbers_keeps_the_contact() {
     assert_eq!(edited.account.names_left_out(), ["`on: P, c`"]);
     assert!(edited.account.scope().contains("equations used"));
     assert!(edited.switched_on[0].contains("that contact is kept"));
+    let scope = edited.account.scope();
+    assert!(
+        scope.contains("equations used, among them that the radius of `c` at P"),
+        "{scope}"
+    );
+    assert_eq!(edited.account.added.len(), 1);
     // The problem is the one that was given, but for the number.
     assert_eq!(
         session.problem().constraints.len(),

@@ -228,7 +228,7 @@ fn in_words(done: f64, moved: f64) -> String {
         false => String::new(),
     };
     format!(
-        "other equations, or other coordinates held, {:.4} of the way: those before are singular further on{beside}",
+        "other equations, or other coordinates held, from {:.4} of the way on: those before are singular further on{beside}",
         done
     )
 }

@@ -23,15 +23,43 @@ struct Contact {
     line: Vec<Item>,
 }
 
-/// The sketch cut as before, or where it is singular at such contacts with these followed: what is said of each.
-pub(super) fn followed(problem: &Problem, cut: Cut, way: u64) -> (Cut, Vec<String>) {
-    let (mut best, mut words) = (cut, Vec::new());
+/// A contact that is followed, in names.
+#[derive(Debug, Clone)]
+pub(super) struct Kept {
+    circle: String,
+    point: String,
+    /// See [`Contact::name`].
+    name: String,
+}
+
+impl Kept {
+    /// What its equation says.
+    pub fn equation(&self) -> String {
+        format!(
+            "that the radius of `{}` at {} is at a right angle to the line it touches there",
+            self.circle, self.point
+        )
+    }
+
+    /// What was done, and why.
+    pub fn in_words(&self) -> String {
+        format!(
+            "`{}` touches a line at {} by its numbers, where its equations are singular: that contact is kept, the radius at a \
+             right angle to the line, with {} left out",
+            self.circle, self.point, self.name
+        )
+    }
+}
+
+/// The sketch cut as before, or where it is singular at such contacts with these followed: each of which has an equation that is added.
+pub(super) fn followed(problem: &Problem, cut: Cut, way: u64) -> (Cut, Vec<Kept>) {
+    let (mut best, mut kept) = (cut, Vec::new());
     let mut problem = problem.clone();
     for contact in all(&best) {
         let Some(singular) = best.singular.as_ref().filter(|s| s.moved.is_none()) else {
             break;
         };
-        if words.len() >= MANY || !singular.constraints.contains(&contact.name) {
+        if kept.len() >= MANY || !singular.constraints.contains(&contact.name) {
             continue;
         }
         let mut more = problem.clone();
@@ -49,15 +77,15 @@ pub(super) fn followed(problem: &Problem, cut: Cut, way: u64) -> (Cut, Vec<Strin
             Some(now) => !now.constraints.contains(&contact.name),
         };
         if is_better {
-            words.push(format!(
-                "`{}` touches a line at {} by its numbers, where its equations are singular: that contact is kept, the radius at a \
-                 right angle to the line, with {} left out",
-                contact.circle, problem.points[contact.point].name, contact.name
-            ));
+            kept.push(Kept {
+                circle: contact.circle,
+                point: problem.points[contact.point].name.clone(),
+                name: contact.name,
+            });
             (best, problem) = (cut, more);
         }
     }
-    (best, words)
+    (best, kept)
 }
 
 /// The contacts of the sketch.

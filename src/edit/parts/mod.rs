@@ -107,8 +107,8 @@ pub(super) struct Parts {
     figure: Vec<Known>,
     /// Where the drawing was singular: what was so about it.
     singular: Option<Singular>,
-    /// What is said of circles that touch lines by their numbers; and the problem without what was added to it for these.
-    contacts: Vec<String>,
+    /// Circles that touch lines by their numbers, which have equations that were added; and the problem without these.
+    contacts: Vec<contacts::Kept>,
     plain: Option<Box<Problem>>,
     unit: f64,
     moved: Moved,
@@ -534,6 +534,7 @@ impl Parts {
             End::Passes(reason) => (Ending::Passes(reason), self.points()),
             End::Stopped(reason) => (Ending::Stopped(reason), self.points()),
         };
+        let contacts = self.contacts.iter().map(contacts::Kept::in_words);
         Edited {
             ending,
             t: run.t,
@@ -543,7 +544,7 @@ impl Parts {
             tubes: run.tubes,
             rejected: run.rejected,
             length: run.length,
-            switched_on: [self.contacts.clone(), run.switched_on].concat(),
+            switched_on: contacts.chain(run.switched_on).collect(),
             account,
             singular: None,
             seconds: 0.0,

@@ -1,6 +1,7 @@
 //! What people are told of a sketch and its parts, in its own names.
 
 use super::Parts;
+use super::contacts::Kept;
 use crate::blocks::{Account, Block, Verdict, account, name};
 use crate::constraint::KINDS;
 use crate::edit::session::Decomposition;
@@ -17,7 +18,10 @@ impl Parts {
         let left_out = self.redundant.iter().enumerate();
         let left_out =
             left_out.map(|(k, &row)| (self.name(self.system.rows[row].index), verdict(k)));
-        account(&self.used, &self.system, value, left_out)
+        Account {
+            added: self.contacts.iter().map(Kept::equation).collect(),
+            ..account(&self.used, &self.system, value, left_out)
+        }
     }
 
     /// What is proved of the figure as it is now.
