@@ -8,7 +8,7 @@ use crate::constraint::Measure;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
 use crate::remarks::detour;
-use crate::track::Control;
+use crate::track::{Control, StopKind};
 
 /// Towards zero a dimension is followed down to this part of what it is.
 const SMALLEST: f64 = 1.0 / 1024.0;
@@ -134,7 +134,7 @@ impl Session {
             index,
             target: Target::Length(goal),
         };
-        let edited = self.probe(&[setting], control);
+        let edited = self.follow_to(&[setting], false, control);
         let Edited {
             ending,
             dimensions,
@@ -143,6 +143,8 @@ impl Session {
             ..
         } = edited;
         let value = dimensions[0].value;
+        let is_contradicted =
+            matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);
         let end = match ending {
             Ending::Reached => End::Beyond(value),
             Ending::Limit(limit) => End::Limit(value, limit),
@@ -151,6 +153,11 @@ impl Session {
                 format!("branches of figures seem to meet there ({reason})"),
             ),
             Ending::Stopped(reason) => End::Unknown(value, reason.text),
+        };
+        // What a figure misses that is none is not said of the old one, which is printed in its place.
+        let account = match is_contradicted {
+            true => self.account(),
+            false => account,
         };
         (end, points, account)
     }

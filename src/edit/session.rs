@@ -162,6 +162,21 @@ impl Session {
         }
     }
 
+    /// Changes dimensions by a path of figures, and where there is none, in no other way, unlike [`Session::edit`] at figures that are
+    /// singular themselves: what is said of all values in between needs the path.
+    pub(super) fn follow_to(
+        &mut self,
+        settings: &[Setting],
+        keep: bool,
+        control: &mut Control,
+    ) -> Edited {
+        match (&mut self.way, keep) {
+            (Way::Whole(whole), true) => whole.edit_with(settings, control),
+            (Way::Whole(whole), false) => whole.probe(settings, control),
+            (Way::Parts(parts), _) => parts.follow_to(settings, keep, control),
+        }
+    }
+
     /// What [`Session::edit`] would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         match &mut self.way {

@@ -51,7 +51,7 @@ impl Session {
                 target: Target::Length(length),
             }]
         };
-        let approach = self.edit_with(&set(from.clone()), control);
+        let approach = self.follow_to(&set(from.clone()), true, control);
         let mut sweep = Sweep {
             account: approach.account.clone(),
             approach,
@@ -67,7 +67,7 @@ impl Session {
         });
         for k in 1..frames {
             let value = between(from, to, k, frames - 1);
-            let edited = self.edit_with(&set(value), control);
+            let edited = self.follow_to(&set(value), true, control);
             sweep.account.join(&edited.account);
             if edited.ending != Ending::Reached {
                 sweep.end = Some(edited);

@@ -4,7 +4,7 @@
 use crate::common::edits::Random;
 use assert_cmd::Command;
 use krawl::blocks::{Figures, Finding, Surplus, surplus};
-use krawl::edit::{Ending, Session, Setting};
+use krawl::edit::{End, Ending, Session, Setting};
 use krawl::problem::{Problem, Target};
 use krawl::track::{Control, Options};
 use proptest::prelude::*;
@@ -373,6 +373,23 @@ fn a_circle_that_touches_by_its_numbers_keeps_the_contact() {
     let x = edited.points[2][0].mid();
     assert!(((x - 14.0).abs() - 13f64.sqrt()).abs() < 1e-9, "{x}");
     assert!(edited.singular.is_some());
+    // No range and no frame goes through that: there is no path from the one to the other.
+    let mut again = Session::open(&problem).unwrap();
+    let radius = Setting::find(&problem, "radii:c").unwrap();
+    let range = again.range(radius, &mut Control::default());
+    assert!(
+        matches!(&range.high, End::Unknown(value, why) if value.contains(6.0) && why.contains("contact cannot be kept")),
+        "{range:?}"
+    );
+    assert!(
+        range
+            .account
+            .left_out
+            .iter()
+            .all(|one| !one.verdict.is_missed())
+    );
+    let sweep = again.sweep(radius, (&6.into(), &7.into()), 3, &mut Control::default());
+    assert_eq!(sweep.frames.len(), 1);
     // None reaches the axis from farther away than it is large.
     let edited = session.edit(&[Setting::parse(&problem, "radii:c=5").unwrap()]);
     assert_ne!(edited.ending, Ending::Reached);

@@ -376,24 +376,6 @@ impl Parts {
         }
     }
 
-    pub fn edit(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
-        let edited = self.continued(settings, keep, control);
-        let stop = match &edited.ending {
-            Ending::Stopped(stop)
-                if stop.kind == StopKind::Contradiction
-                    && (self.is_singular_figure() || self.plain.is_some()) =>
-            {
-                stop.clone()
-            }
-            _ => return self.go_on(settings, keep, edited, control),
-        };
-        let off = self.moved_off(settings, keep, control);
-        off.unwrap_or_else(|| Edited {
-            ending: Ending::Stopped(self.sober(stop)),
-            ..edited
-        })
-    }
-
     /// Follows the figure as its dimensions change.
     fn continued(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
         let clock = Instant::now();

@@ -22,7 +22,7 @@ impl Parts {
         self.singular.as_ref().is_some_and(|s| s.moved.is_none())
     }
 
-    /// At a singular figure nothing is said of which constraint contradicts others.
+    /// At a singular figure nothing is said of which constraint contradicts others, and with contacts that are kept nothing of others.
     pub(super) fn sober(&self, stop: Stop) -> Stop {
         match &self.singular {
             Some(singular) if stop.kind == StopKind::Contradiction => Stop::new(
@@ -33,7 +33,46 @@ impl Parts {
                     singular.place_in_words()
                 ),
             ),
+            None if stop.kind == StopKind::Contradiction && !self.contacts.is_empty() => {
+                let kept = self.contacts.iter().map(|contact| contact.equation());
+                let kept: Vec<String> = kept.collect();
+                let words = format!(
+                    "the contact cannot be kept: with what was added, {}, {stop}; the problem without it is singular here, and may \
+                     have figures there",
+                    kept.join(", and ")
+                );
+                Stop::new(stop.kind, words)
+            }
             _ => stop,
+        }
+    }
+
+    /// Whether the figure is singular itself, or would be without what was added for contacts.
+    fn is_singular(&self) -> bool {
+        self.is_singular_figure() || self.plain.is_some()
+    }
+
+    /// Changes dimensions by a path, and where a figure that is singular itself has none, by a figure moved off that place.
+    pub fn edit(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
+        let edited = self.follow_to(settings, keep, control);
+        let is_contradiction = matches!(
+            &edited.ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction
+        );
+        match is_contradiction && self.is_singular() {
+            true => self.moved_off(settings, keep, control).unwrap_or(edited),
+            false => edited,
+        }
+    }
+
+    /// Changes dimensions by a path, and in no other way.
+    pub fn follow_to(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
+        let edited = self.continued(settings, keep, control);
+        match &edited.ending {
+            Ending::Stopped(stop) if stop.kind == StopKind::Contradiction && self.is_singular() => {
+                let ending = Ending::Stopped(self.sober(stop.clone()));
+                Edited { ending, ..edited }
+            }
+            _ => self.go_on(settings, keep, edited, control),
         }
     }
 
@@ -71,7 +110,7 @@ impl Parts {
 
     /// From a figure that is singular itself no continuation is the one: its points are moved off that place, and led to the
     /// new dimensions from there. `None` if that leads nowhere.
-    pub(super) fn moved_off(
+    fn moved_off(
         &mut self,
         settings: &[Setting],
         keep: bool,
