@@ -290,6 +290,15 @@ impl Account {
     pub fn clause(&self) -> String {
         joined([self.scope(), self.left_out_in_words()], "; ")
     }
+
+    /// The same with what parts it from the words before: a space, or a semicolon where nothing is used or held that has to be said.
+    pub fn clause_behind(&self) -> String {
+        match (self.scope(), self.clause()) {
+            (_, words) if words.is_empty() => words,
+            (scope, words) if scope.is_empty() => format!("; {words}"),
+            (_, words) => format!(" {words}"),
+        }
+    }
 }
 
 fn is_zero(count: &usize) -> bool {

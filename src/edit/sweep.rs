@@ -68,11 +68,11 @@ impl Session {
         for k in 1..frames {
             let value = between(from, to, k, frames - 1);
             let edited = self.follow_to(&set(value), true, control);
-            sweep.account.join(&edited.account);
             if edited.ending != Ending::Reached {
                 sweep.end = Some(edited);
                 break;
             }
+            sweep.account.join(&edited.account);
             sweep.frames.push(Frame {
                 value: self.length(index),
                 points: edited.points,

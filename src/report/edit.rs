@@ -45,11 +45,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         words if words.is_empty() => words,
         words => format!("; {words}"),
     };
-    let clause = match (account.scope(), account.clause()) {
-        (_, words) if words.is_empty() => words,
-        (scope, words) if scope.is_empty() => format!("; {words}"),
-        (_, words) => format!(" {words}"),
-    };
+    let clause = account.clause_behind();
     if let (Ending::Reached, Some(singular)) = (&edited.ending, &edited.singular) {
         return format!(
             "Reached, proved: the figure meets the dimensions{clause}, {changes}. The old one is singular, so that no \
@@ -403,7 +399,11 @@ pub fn account_in_words(account: &Account) -> String {
     let mut out = String::new();
     let held = account.names_held();
     if !held.is_empty() {
-        let _ = writeln!(out, "held where it is    {}", list(&held, LISTED));
+        let label = match account.chosen_anew {
+            0 => "held where it is",
+            _ => "held, or in part",
+        };
+        let _ = writeln!(out, "{label}    {}", list(&held, LISTED));
     }
     let left_out = account.left_out_in_words();
     if !left_out.is_empty() {

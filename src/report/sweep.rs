@@ -160,7 +160,7 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
             crate::problem::counted(sweep.frames.len(), "frame"),
             short(first.value),
             short(last.value),
-            after(sweep.account.clause())
+            sweep.account.clause_behind()
         ),
         _ => format!("no frame of {name}"),
     };
