@@ -125,6 +125,9 @@ pub fn is_sketch(file: &Path) -> bool {
 pub struct Loaded {
     /// What was read.
     pub problem: Problem,
+    /// Whether it may have more equations than unknowns, or fewer: every sketch of another program may, and a problem file
+    /// that does.
+    pub may_be_loose: bool,
     /// The sketch with the bytes of its file.
     imported: Option<(Imported, Vec<u8>)>,
 }
@@ -142,6 +145,7 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
         return match Problem::read(file) {
             Ok(problem) => Ok(Loaded {
                 problem,
+                may_be_loose: false,
                 imported: None,
             }),
             Err(error) if error.is_about_structure() => {
@@ -149,6 +153,7 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
                 let problem = Problem::parse_loosely(&text, &name);
                 Ok(Loaded {
                     problem: problem.map_err(|_| error.to_string())?,
+                    may_be_loose: true,
                     imported: None,
                 })
             }
@@ -165,6 +170,7 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     }
     Ok(Loaded {
         problem: imported.problem.clone(),
+        may_be_loose: is_sketch(file),
         imported: Some((imported, bytes)),
     })
 }

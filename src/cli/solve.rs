@@ -8,14 +8,16 @@ use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
-use krawl::complete::{Among, among};
+use krawl::complete::{Among, Surplus, among};
+use krawl::constraint::fix_frame;
+use krawl::edit::alone;
 use krawl::problem::Problem;
 use krawl::remarks::{Remark, in_words, moves, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
-    BlockRuns, Listed, ProgressLine, Run, among_in_words, figures_to_summary, figures_to_table,
-    figures_to_value, first_in_words, to_first_table, to_no_first, to_short_table, to_summary,
-    to_table,
+    BlockRuns, Listed, ProgressLine, Run, alone_in_words, among_in_words, figures_to_summary,
+    figures_to_table, figures_to_value, first_in_words, to_first_table, to_no_first,
+    to_short_table, to_summary, to_table,
 };
 use krawl::track::{
     self, Control, EndKind, First, Options, Outcome, PathEnd, Progress, Status, Trace, Witness,
@@ -255,13 +257,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.check()?;
     arguments.check_count()?;
     // Whatever is wrong is said before anything runs.
-    let sketch = arguments.sketch.as_deref();
-    let read = |file: &PathBuf| match arguments.is_by_blocks(file) {
-        true => input::load(file, sketch).map(|loaded| loaded.problem),
-        false => input::read(file, sketch),
-    };
-    let problems = arguments.files.iter().map(read);
-    let problems = problems.collect::<Result<Vec<Problem>, String>>()?;
+    let problems = arguments.files.iter().map(|file| arguments.read(file));
+    let problems = problems.collect::<Result<Vec<(Problem, bool)>, String>>()?;
     let json = arguments
         .json
         .as_deref()
@@ -291,7 +288,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let (mut written, mut worst) = (true, CLOSED);
     let named = problems.into_iter().zip(&arguments.files);
     let (count, mut k) = (arguments.files.len(), 0);
-    for (problem, file) in named {
+    for ((problem, is_by_blocks), file) in named {
         let problem = &problem;
         let which = output::which_of((k, count), file);
         if !silent
@@ -301,7 +298,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let words = moves.in_words(problem);
             written &= output::print(&format!("{}: {words}\n\n", problem.name));
         }
-        if arguments.is_by_blocks(file) {
+        if is_by_blocks {
             let found = arguments.by_blocks(problem);
             let (text, value, code) =
                 found.map_err(|error| format!("{}: {error}", input::name(file)))?;
@@ -315,6 +312,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             if !silent {
                 let gap = arguments.gap_before(k);
                 written &= output::print(&format!("{gap}{text}"));
+                if value["count"] == 0 {
+                    written &= output::print(&arguments.alone_in_words(problem));
+                }
             }
             worst = worse(worst, code);
             k += 1;
@@ -474,6 +474,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let hints = hints(problem, &outcome, &input::name(file));
             let whole = arguments.whole_in_words(file);
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
+            if outcome.status == Status::Closed && outcome.solutions.is_empty() {
+                written &= output::print(&arguments.alone_in_words(problem));
+            }
         }
         // What the path came to is out by now.
         let among = arguments.among(problem, &outcome, !silent || json.is_some());
@@ -610,10 +613,45 @@ impl Arguments {
         self.mode == Mode::Certified && !self.first && !cancel.load(Ordering::Relaxed)
     }
 
-    /// Whether a file's problem is solved block by block from the start: a sketch of another program, where nothing is asked
-    /// for that a path of the whole has alone.
-    fn is_by_blocks(&self, file: &Path) -> bool {
-        input::is_sketch(file) && self.mode == Mode::Certified && self.wants_path().is_none()
+    /// What one dimension alone can do where the path has no figure with all of them; empty where that is not asked for, or there
+    /// are many.
+    fn alone_in_words(&self, problem: &Problem) -> String {
+        const MOST_DIMENSIONS: usize = 64;
+        const MOST_TUBES: usize = 300;
+        let is_asked = self.mode == Mode::Certified && !self.summary && !self.first;
+        if !is_asked || problem.dimensions().count() > MOST_DIMENSIONS {
+            return String::new();
+        }
+        let options = Options {
+            max_steps: MOST_TUBES,
+            ..self.options()
+        };
+        let mut control = Control {
+            cancel: Some(interrupt::flag()),
+            ..Control::default()
+        };
+        alone_in_words(&alone(problem, &options, &mut control))
+    }
+
+    /// A file's problem, and whether it is solved block by block from the start: a sketch of another program, or a problem in its own
+    /// frame that has not as many equations as unknowns, where nothing is asked for that a path of the whole has alone.
+    fn read(&self, file: &Path) -> Result<(Problem, bool), String> {
+        let sketch = self.sketch.as_deref();
+        let may_be = self.mode == Mode::Certified && self.wants_path().is_none();
+        if !may_be || file == Path::new("-") {
+            return Ok((input::read(file, sketch)?, false));
+        }
+        let loaded = input::load(file, sketch)?;
+        match loaded.may_be_loose && !input::is_sketch(file) && !fix_frame(&loaded.problem) {
+            // What is wrong with it.
+            true => match input::read(file, sketch) {
+                Err(error) if Surplus::of(&loaded.problem, None).is_some() => Err(format!(
+                    "{error}; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
+                )),
+                read => Ok((read?, false)),
+            },
+            false => Ok((loaded.problem, loaded.may_be_loose)),
+        }
     }
 
     /// How many of all figures the path has, where that is wanted and costs little.

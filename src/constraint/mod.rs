@@ -299,6 +299,12 @@ pub fn pinned_axes(problem: &Problem) -> Vec<usize> {
     (0..problem.dimension).filter(|&k| !fixes.axes[k]).collect()
 }
 
+/// Whether constraints say where the figure is or how it is turned, as a place or a coordinate does. Otherwise it is a figure up to
+/// rigid motions.
+pub fn fix_frame(problem: &Problem) -> bool {
+    frame_of(problem).frame
+}
+
 /// What of the frame the constraints fix together.
 pub(crate) fn frame_of(problem: &Problem) -> Fixes {
     let kinds = problem.constraints.iter();

@@ -9,9 +9,13 @@ use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
 use crate::remarks::detour;
 use crate::track::{Control, StopKind};
+use std::slice;
 
 /// Towards zero a dimension is followed down to this part of what it is.
 const SMALLEST: f64 = 1.0 / 1024.0;
+
+/// Where constraints were left out, so many figures on the way to each end are looked at as well.
+pub const BETWEEN: u32 = 7;
 
 /// Where a dimension's range ends on one side.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,6 +109,37 @@ impl Session {
             .collect()
     }
 
+    /// What is proved of figures on the way to the one at t, which has constraints left out that need not follow. Where one of
+    /// them misses such a constraint, or is not proved, the end is the one before it.
+    fn on_the_way(
+        &mut self,
+        setting: &Setting,
+        t: f64,
+        control: &mut Control,
+    ) -> Result<Account, End> {
+        let mut account = self.account();
+        let mut value = self.length(setting.index);
+        for k in 1..=BETWEEN {
+            let part = t * f64::from(k) / f64::from(BETWEEN + 1);
+            let Some(there) = setting.before(self.problem(), part) else {
+                break;
+            };
+            let edited = self.follow_to(&[there], false, control);
+            match edited.ending {
+                Ending::Reached => account.join(&edited.account),
+                Ending::Stopped(reason) | Ending::Passes(reason) => {
+                    return Err(End::Unknown(value, reason.text));
+                }
+                Ending::Limit(_) => {
+                    let reason = "the way there could not be followed a second time".to_owned();
+                    return Err(End::Unknown(value, reason));
+                }
+            }
+            value = edited.dimensions[0].value;
+        }
+        Ok(account)
+    }
+
     /// How far a dimension can go towards a value, and the figure there.
     fn end(
         &mut self,
@@ -134,14 +169,20 @@ impl Session {
             index,
             target: Target::Length(goal),
         };
-        let edited = self.follow_to(&[setting], false, control);
         let Edited {
             ending,
+            t,
             dimensions,
             points,
-            account,
+            mut account,
             ..
-        } = edited;
+        } = self.follow_to(slice::from_ref(&setting), false, control);
+        if matches!(ending, Ending::Reached | Ending::Limit(_)) && !account.meets_all() {
+            match self.on_the_way(&setting, t.0, control) {
+                Ok(between) => account.join(&between),
+                Err(end) => return (end, self.points(), self.account()),
+            }
+        }
         let value = dimensions[0].value;
         let is_contradicted =
             matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);

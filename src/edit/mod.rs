@@ -36,6 +36,7 @@
 //! # }
 //! ```
 
+mod alone;
 mod ending;
 mod flat;
 mod limits;
@@ -49,8 +50,9 @@ mod sweep;
 mod whole;
 mod write;
 
+pub use alone::{Alone, alone};
 pub use ending::{Dimension, Edited, Ending, Limit, Lost, Orientations};
-pub use limits::{End, Range};
+pub use limits::{BETWEEN, End, Range};
 pub use open::{Moved, OpenError};
 pub use session::{Decomposition, Session, Standing, TooMany, completed};
 pub use setting::{Setting, SettingError};

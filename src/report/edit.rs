@@ -4,11 +4,39 @@ use super::JSON_VERSION;
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use crate::blocks::{Account, Why};
-use crate::edit::{Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
+use crate::edit::{Alone, Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
 use crate::problem::{Problem, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
+
+/// What is said of a sketch whose path has no figure with all dimensions: what comes of each of them alone. Empty if nothing is
+/// known of that.
+pub fn alone_in_words(found: &[Alone]) -> String {
+    const MOST: usize = 3;
+    let Some(first) = found.first() else {
+        return String::new();
+    };
+    let name = |one: &Alone| one.problem.dimension_name(one.edited.dimensions[0].index);
+    let words = |one: &Alone| edit_in_words(&one.problem, &one.edited);
+    if first.edited.ending == Ending::Reached {
+        return format!(
+            "There is a figure that is not on this path. Led to all dimensions but {} first, and then to this one: {}\n",
+            name(first),
+            words(first)
+        );
+    }
+    let mut text = "Led to all dimensions but one first, and then to this one:\n".to_owned();
+    for one in found.iter().take(MOST) {
+        let to = short(one.edited.dimensions[0].to);
+        text += &format!("  {}, to be {to}: {}\n", name(one), words(one));
+    }
+    match found.len().saturating_sub(MOST) {
+        0 => {}
+        more => text += &format!("  and {more} more likewise\n"),
+    }
+    text
+}
 
 /// The names of points, as people read them: `a, b and c`.
 pub(super) fn named(problem: &Problem, points: &[usize]) -> String {

@@ -70,7 +70,10 @@ fn write_ranges(
     let scope = account.map_or(String::new(), |account| after(account.scope()));
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,
-        words => format!(" At all these figures {words}."),
+        words => {
+            let between = crate::edit::BETWEEN;
+            format!(" At all these figures, and at {between} on the way to each, {words}.")
+        }
     });
     let loose = match account.is_none_or(|account| account.held.is_empty()) {
         true => "",

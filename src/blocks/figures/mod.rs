@@ -160,7 +160,7 @@ impl Figures {
             .iter()
             .map(|follows| match follows {
                 true => Verdict::Follows,
-                false => Verdict::Met { within: 0.0 },
+                false => Verdict::NotLookedAt,
             })
             .collect();
         let mut vanished = None;

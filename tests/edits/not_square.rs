@@ -1,0 +1,178 @@
+//! Problem files with more constraints than unknowns, or fewer, and dimensions that are out of reach: what `solve` and `limits` say.
+
+use assert_cmd::Command;
+use krawl::edit::{End, Session};
+use krawl::problem::Problem;
+use std::fs;
+
+/// What a verb prints of a problem, and its exit code.
+fn run(verb: &str, text: &str, more: &[&str]) -> (String, i32) {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("problem.toml");
+    fs::write(&file, text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
+    let output = command.arg(verb).arg(&file).args(more).output().unwrap();
+    let text = [output.stdout, output.stderr].concat();
+    (
+        String::from_utf8(text).unwrap(),
+        output.status.code().unwrap(),
+    )
+}
+
+/// A robot's last link: its axis stands on two fixed points, so that the length between them is said twice.
+fn link(length: &str) -> String {
+    format!(
+        r#"name = "link"
+dimension = 2
+[points]
+a = [0, 0]
+b = [3, 4]
+c = [5.1, 0.3]
+[constraints]
+fixed = ["a", "b"]
+distances = [["b", "c", 5], ["a", "c", 6], ["a", "b", {length}]]
+"#
+    )
+}
+
+#[test]
+fn what_is_said_twice_is_tested_at_the_figures() {
+    let (text, code) = run("solve", &link("5"), &[]);
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains("2 figures meet all constraints"), "{text}");
+    // c = (x, y) with x² + y² = 36 and (x − 3)² + (y − 4)² = 25: 3x + 4y = 18.
+    assert!(text.contains("  c  6"), "{text}");
+    assert!(text.contains("-1.68"), "{text}");
+    // And where it says otherwise there is no figure.
+    let (text, code) = run("solve", &link("5.25"), &[]);
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains("None, proved"), "{text}");
+    assert!(!text.contains("were left out and are met"), "{text}");
+    let (text, _) = run("solve", &link("5.25"), &["--json", "-"]);
+    assert!(!text.contains(r#""verdict":"met""#), "{text}");
+}
+
+#[test]
+fn a_figure_that_moves_says_what_is_held() {
+    let loose = link("5")
+        .replace("[\"b\", \"c\", 5], ", "")
+        .replace(", [\"a\", \"b\", 5]", "");
+    let (text, code) = run("solve", &loose, &[]);
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains("of c held where it is drawn"), "{text}");
+    // What a path of the whole is asked for needs as many equations as unknowns.
+    let (text, code) = run("solve", &loose, &["--mode", "float"]);
+    assert_eq!(code, 2, "{text}");
+    assert!(text.contains("under-constrained"), "{text}");
+}
+
+/// Up to rigid motions nothing is held for it: such problems are refused as before, and where `all` has an answer it is named.
+#[test]
+fn figures_up_to_motions_are_refused_with_the_verb_that_takes_them() {
+    let braced = r#"name = "braced"
+dimension = 2
+[points]
+a = [0, 0]
+b = [4, 0.1]
+c = [4.1, 3]
+d = [0, 3.1]
+[constraints]
+distances = [["a","b",4],["b","c",3],["c","d",4],["d","a",3],["a","c",5],["b","d",5]]
+"#;
+    let (text, code) = run("solve", braced, &[]);
+    assert_eq!(code, 2, "{text}");
+    assert!(
+        text.contains("1 is too many") && text.contains("krawl all"),
+        "{text}"
+    );
+    let (text, code) = run(
+        "solve",
+        &braced.replace(",[\"a\",\"c\",5],[\"b\",\"d\",5]", ""),
+        &[],
+    );
+    assert_eq!(code, 2, "{text}");
+    assert!(
+        text.contains("1 is missing") && !text.contains("krawl all"),
+        "{text}"
+    );
+}
+
+/// A toggle clamp whose handle cannot open its arm by 100 degrees.
+#[test]
+fn the_dimension_that_is_out_of_reach_is_named() {
+    let toggle = r#"name = "toggle"
+dimension = 2
+[points]
+A = [0, 0]
+B = [10, 28]
+C = [55, 42]
+D = [80, 5]
+J = [100, 60]
+[constraints]
+fixed = ["A", "D"]
+distances = [["A","B",30],["B","C",50],["C","D",45],["C","J",48],["D","J",58]]
+angles = [["A","D","C",100]]
+"#;
+    let (text, code) = run("solve", toggle, &[]);
+    assert_eq!(code, 0, "{text}");
+    assert!(
+        text.contains("the path through the sketch has no point with t = 1"),
+        "{text}"
+    );
+    // A, B and C are on one line there: |AC| = 80, and by the law of cosines from |AD|² = 6425 and |CD| = 45
+    // cos = (6425 + 2025 − 6400)/(2·45·√6425).
+    let cosine = (6425.0_f64 + 2025.0 - 6400.0) / (90.0 * 6425.0_f64.sqrt());
+    let degrees = cosine.acos().to_degrees();
+    // That is the angle at D.
+    let shown = format!("angles:A-D-C can grow to {degrees:.8}");
+    assert!(text.contains(&shown), "{shown}\n{text}");
+    // Within reach there is nothing to say.
+    let (text, _) = run("solve", &toggle.replace("100]]", "73]]"), &[]);
+    assert!(!text.contains("Led to all dimensions but one"), "{text}");
+}
+
+/// A slider on the x axis at the end of two bars of 6 and 4, which reaches 10, and a distance from a point beside the axis that is right
+/// at 3 and at 10 and nowhere else.
+#[test]
+fn a_range_does_not_run_over_figures_that_miss_a_constraint() {
+    let slider = r#"name = "slider"
+dimension = 2
+[points]
+O = [0, 0]
+Q = [6.5, 1]
+B = [3.5, 4.873397]
+P = [3, 0]
+[constraints]
+fixed = ["O", "Q"]
+y = [["P", 0]]
+distances = [["O", "B", 6], ["B", "P", 4]]
+x = [["P", 3]]
+"#;
+    let problem = |text: &str| Problem::parse_loosely(text, "slider.toml").unwrap();
+    let x_of = |problem: &Problem| {
+        let mut dimensions = problem.dimensions();
+        dimensions
+            .find(|&index| problem.dimension_name(index).starts_with("x:"))
+            .unwrap()
+    };
+    let alone = problem(slider);
+    let range = Session::open(&alone)
+        .unwrap()
+        .range(x_of(&alone), &mut Default::default());
+    assert!(matches!(range.high, End::Limit(value, _) if (value.mid() - 10.0).abs() < 1e-9));
+    // √(3.5² + 1) to the last digit that counts.
+    let beside = slider.replace(
+        "[\"B\", \"P\", 4]]",
+        "[\"B\", \"P\", 4], [\"Q\", \"P\", 3.640054944640259]]",
+    );
+    let both = problem(&beside);
+    let mut session = Session::open(&both).unwrap();
+    let names = session.account().names_left_out();
+    assert_eq!(names.len(), 1, "{names:?}");
+    let range = session.range(x_of(&both), &mut Default::default());
+    assert!(
+        matches!(&range.high, End::Unknown(value, _) if value.mid() < 4.0),
+        "{:?}",
+        range.high
+    );
+}
