@@ -7,8 +7,7 @@
 //! other equations, whose differences are zero; one comparison per row tells them apart.
 
 use super::layout::{Block, Kind, Layout, WIDEST};
-use crate::linalg::rstructure::elimination::invert_transposed;
-use crate::linalg::rstructure::rows::{Row, add, zeros};
+use crate::linalg::rstructure::{Row, add, invert_transposed, zeros};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Tail;
 
