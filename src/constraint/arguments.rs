@@ -117,11 +117,6 @@ impl<'a> Arguments<'a> {
         Arguments { problem, items }
     }
 
-    /// What was taken since an earlier state.
-    pub fn taken_since(&self, before: &Arguments<'a>) -> &'a [Item] {
-        &before.items[..before.items.len() - self.items.len()]
-    }
-
     /// The dimension of the problem.
     pub fn dimension(&self) -> usize {
         self.problem.dimension

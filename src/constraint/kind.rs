@@ -56,9 +56,6 @@ pub trait Kind: Sync {
     /// What an entry of it names, for messages: `two lines, or two planes`.
     fn takes(&self) -> &'static str;
 
-    /// An entry as it stands in a problem file.
-    fn example(&self) -> &'static str;
-
     /// What its number is.
     fn measure(&self) -> Measure {
         Measure::Nothing

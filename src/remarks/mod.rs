@@ -101,11 +101,6 @@ pub enum Remark {
 }
 
 impl Remark {
-    /// Whether it tells that no figure meets the targets.
-    pub fn is_impossible(&self) -> bool {
-        matches!(self, Remark::TooLong { .. } | Remark::NoTetrahedron(_))
-    }
-
     /// Whether the path may end there, or cannot begin: everything but what can be mirrored.
     pub fn is_warning(&self) -> bool {
         !matches!(self, Remark::Mirrored { .. })

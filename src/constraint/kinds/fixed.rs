@@ -23,10 +23,6 @@ impl Kind for Fixed {
         "a point, a line, a plane, a circle or a sphere"
     }
 
-    fn example(&self) -> &'static str {
-        r#""p1""#
-    }
-
     fn fixes(&self, problem: &Problem, items: &[Item]) -> Fixes {
         let shape = match items.first() {
             Some(&Item::Object(o)) => Some(&problem.objects[o].shape),

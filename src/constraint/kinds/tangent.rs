@@ -26,10 +26,6 @@ impl Kind for Tangent {
         "a circle, arc or sphere, and another one, a line or a plane"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["c1", "l1"]"#
-    }
-
     fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
         Fixes::beside_axis(items)
     }
