@@ -2,7 +2,7 @@
 //! points, a plane by three.
 
 use super::lowering::Fault;
-use crate::problem::{AXES, Item, Problem, Shape};
+use crate::statement::{AXES, Item, Problem, Shape};
 
 /// A line in a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

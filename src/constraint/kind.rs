@@ -2,7 +2,8 @@
 
 use super::arguments::Arguments;
 use super::lowering::{Fault, Lowering};
-use crate::problem::{Decimal, Item, Problem};
+use crate::decimal::Decimal;
+use crate::statement::{Item, Problem};
 
 /// What the number of a constraint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

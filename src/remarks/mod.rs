@@ -27,7 +27,6 @@ mod words;
 use crate::problem::{Item, Problem, Shape};
 
 pub use moving::{Moves, moves};
-pub(crate) use redundant::noise;
 pub(crate) use target::detour;
 pub use words::in_words;
 

@@ -5,7 +5,7 @@
 //! plane of its own likewise those of its normal, and its level; of a circle the centre and the radius.
 
 use super::prelude::*;
-use crate::problem::{Shape, most_along};
+use crate::statement::{Shape, most_along};
 
 /// See the module.
 pub struct Fixed;

@@ -7,7 +7,7 @@
 
 use super::distance::{CENTRE, off_line};
 use super::prelude::*;
-use crate::problem::Shape;
+use crate::statement::Shape;
 
 /// See the module.
 pub struct Tangent;

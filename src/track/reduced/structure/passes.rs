@@ -534,7 +534,7 @@ pub fn slices<const D: usize>(d: &[Vector; D]) -> [&[f64]; D] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::random::Random;
+    use crate::random::Random;
 
     /// A · A⁻¹ = I, and the sign of the determinant turns when two rows are exchanged.
     #[test]
