@@ -67,25 +67,33 @@
 //!
 //! From the ground up; each knows only those before it:
 //!
-//! - [`problem`]: points, constraints, sketch, the file format, checks of the input
-//! - [`generate`]: large problems made to measure
-//! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
-//! - [`constraint`]: what each kind of constraint means, and its equations
+//! - `decimal`: exact numbers as they are written
+//! - `hexadecimal`: bytes as text
+//! - `random`: numbers that look random
+//! - `residues`: arithmetic and elimination modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
+//! - `linalg`: dense kernels on small matrices, R-structured linear systems
+//! - `statement`: points, constraints and sketch of a problem, as plain data
+//! - [`constraint`]: what each kind of constraint means, and its equations
+//! - [`problem`]: the file format, problems from code, checks of the input; all of the statement is part of it
+//! - [`generate`]: large problems made to measure
 //! - [`system`]: the equations H(X, t) = 0, and where figures lie
+//! - `plan`: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
 //! - [`blocks`]: how the equations of a sketch fall apart, and its figures block by block
+//! - `remarks`: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
+//! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`complete`]: all real solutions, proved to be all
+//! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
 //! - [`complex`]: all complex solutions, every path proved
 //! - [`explore`]: new sketches from solutions, and their paths
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
-//! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
+//! - `cli`: the command line of the program
 //!
-//! Public for this package's own program, tests and benches, and not part of the interface: `linalg` (dense
-//! kernels on small matrices, R-structured linear systems), `plan` (construction plans with driving
-//! parameters), `remarks` (what can be told of a problem before any path is followed).
+//! Those that have no page here are this package's own; where they are public they are so for its program, its tests and
+//! `crates/lab`, which has what the papers describe and krawl does without.
 
 #![warn(missing_docs)]
 
@@ -115,6 +123,7 @@ pub mod compare;
 pub mod complete;
 pub mod complex;
 pub mod constraint;
+mod decimal;
 pub mod edit;
 #[cfg(feature = "explore")]
 pub mod explore;
@@ -127,9 +136,12 @@ pub mod linalg;
 #[doc(hidden)]
 pub mod plan;
 pub mod problem;
+mod random;
 #[doc(hidden)]
 pub mod remarks;
 pub mod report;
+mod residues;
+mod statement;
 pub mod system;
 pub mod track;
 

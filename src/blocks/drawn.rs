@@ -8,7 +8,7 @@
 use super::{Choice, FINE, Row, System};
 use crate::constraint::{Entry, Equation, Form, Role};
 use crate::interval::{Real, point};
-use crate::remarks::noise;
+use crate::random::Random;
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use std::collections::{BTreeMap, BTreeSet};
@@ -141,11 +141,11 @@ pub(crate) fn look(
     let of = |row: &usize| &floats.system.rows[*row].unknowns;
     let unknowns: BTreeSet<usize> = rows.iter().flat_map(of).copied().collect();
     let beside = |way: u64| {
-        let mut state = way / 2 + 1;
+        let mut random = Random::new(way / 2 + 1);
         let sign = if way.is_multiple_of(2) { MOVED } else { -MOVED };
         let mut moved = at.to_vec();
         for &u in &unknowns {
-            moved[u] += sign * noise(&mut state);
+            moved[u] += sign * random.symmetric();
         }
         floats.meet(&kept, moved).filter(|at| rank(at) > here)
     };

@@ -68,7 +68,7 @@ impl fmt::Display for Fault {
 /// the figure's size. Float runs correct their solutions to about 1e-15 times a condition number,
 /// so that it leaves room for conditions up to a billion; of several boxes the nearest counts.
 const PLACE: f64 = 1e-6;
-/// Figures meet the constraints if their residual (see [`super::residual_bound`]) is below this.
+/// Figures meet the constraints if their residual (see `residual.rs`) is below this.
 const MEETS: f64 = 1e-8;
 /// The lengths of a path that two runs measure agree to this. Chords are shorter than arcs, by the part
 /// δ²/24 where steps turn by δ: less than a quarter even if all of them turn by 2 radians.

@@ -53,9 +53,9 @@ pub struct Measured {
     pub seconds: Vec<f64>,
     /// The median of these.
     pub median: f64,
-    /// See [`residual_bound`](super::residual_bound); none where there is no solution.
+    /// The largest of `residuals`; none where there is no solution.
     pub residual: Option<f64>,
-    /// The same of each solution by itself.
+    /// By how much each solution misses the constraints at most (see `residual.rs`).
     pub residuals: Vec<f64>,
 }
 

@@ -30,7 +30,6 @@ mod ways;
 pub use judge::{Fault, Verdict};
 pub use measure::{Effort, Hooks, Measured};
 pub use path::{PathPoint, RecordedPath, record_path};
-pub use residual::residual_bound;
 pub use ways::{Knob, Method, Setting, Way};
 
 use crate::problem::Problem;

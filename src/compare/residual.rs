@@ -6,7 +6,7 @@ use crate::problem::{Problem, Target};
 use crate::system::Homotopy;
 use crate::track::Solution;
 
-/// An upper bound, over all constraints and all reported figures, on how far they are from being met, in intervals:
+/// Of each reported figure an upper bound, over all constraints, on how far they are from being met, in intervals:
 /// over the whole box where the solution is a box, at the reported point where it is a point. So a certified run is
 /// charged with the width of its boxes, which is what is known of its solutions, and a float run with the defect of
 /// its floats, which says nothing about how far the exact solution is.
@@ -15,28 +15,7 @@ use crate::track::Solution;
 /// [`crate::constraint`]) it is the difference of both sides divided by the sum of the sizes of what is added up on
 /// the left, or by 1 where that is less, lengths being counted in the power of two nearest to the typical one.
 ///
-/// None where there is no solution, and where a solution does not say what its auxiliary unknowns are
-/// ([`Solution::auxiliary`]).
-///
-/// ```
-/// use krawl::compare::residual_bound;
-/// use krawl::problem::Problem;
-/// use krawl::track::{Control, Options, Space, solve};
-/// for file in ["problems/k33.toml", "problems/constraints/3p3l.toml"] {
-///     let problem = Problem::read(file)?;
-///     let outcome = solve(&problem, &Options::float(Space::Full), &mut Control::default())?;
-///     assert!(residual_bound(&problem, &outcome.solutions).unwrap() < 1e-13);
-/// }
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn residual_bound(problem: &Problem, solutions: &[Solution]) -> Option<f64> {
-    let homotopy = Homotopy::new(problem).ok()?;
-    residuals(problem, &homotopy, solutions)
-        .into_iter()
-        .reduce(largest)
-}
-
-/// The same of each solution by itself; nothing where it is not known of all.
+/// Nothing where a solution does not say what its auxiliary unknowns are ([`Solution::auxiliary`]).
 pub(super) fn residuals(
     problem: &Problem,
     homotopy: &Homotopy,
@@ -97,13 +76,27 @@ mod tests {
     use crate::system::Located;
     use crate::track::{Control, Options, Space, solve};
 
+    fn worst(problem: &Problem, solutions: &[Solution]) -> Option<f64> {
+        let homotopy = Homotopy::new(problem).unwrap();
+        let each = residuals(problem, &homotopy, solutions).into_iter();
+        each.reduce(largest)
+    }
+
+    #[test]
+    fn distances_are_met() {
+        let problem = Problem::read("problems/k33.toml").unwrap();
+        let options = Options::float(Space::Full);
+        let outcome = solve(&problem, &options, &mut Control::default()).unwrap();
+        assert!(worst(&problem, &outcome.solutions).unwrap() < 1e-13);
+    }
+
     /// Constraints of all kinds count, not distances alone: here only what belongs to lines is off.
     #[test]
     fn constraints_count() {
         let problem = Problem::read("problems/constraints/3p3l.toml").unwrap();
         for options in [Options::certified(), Options::float(Space::Full)] {
             let outcome = solve(&problem, &options, &mut Control::default()).unwrap();
-            let bound = |solutions: &[Solution]| residual_bound(&problem, solutions);
+            let bound = |solutions: &[Solution]| worst(&problem, solutions);
             let good = bound(&outcome.solutions).unwrap();
             assert!(good < 1e-12, "{good:e}");
             let mut off = outcome.solutions.clone();
@@ -129,7 +122,7 @@ mod tests {
         let [problem, other] = [text, other].map(|text| Problem::parse(&text, "a.toml").unwrap());
         let options = Options::float(Space::Full);
         let outcome = solve(&problem, &options, &mut Control::default()).unwrap();
-        let residual = residual_bound(&other, &outcome.solutions).unwrap();
+        let residual = worst(&other, &outcome.solutions).unwrap();
         assert!(residual > 1e-4, "{residual:e}");
     }
 }

@@ -114,10 +114,9 @@ pub fn zero() -> Parameter {
     [Real::zero(), Real::zero()]
 }
 
-/// Numbers that look random and are the same everywhere (Steele, Lea, Flood, *Fast splittable
-/// pseudorandom number generators*, 2014).
+/// Complex numbers that look random and are the same everywhere.
 #[derive(Debug, Clone)]
-pub struct Random(u64);
+pub struct Random(crate::random::Random);
 
 /// Random numbers are whole multiples of 2 to minus this.
 const BITS: u32 = 10;
@@ -125,15 +124,12 @@ const BITS: u32 = 10;
 impl Random {
     /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
-        Random(seed)
+        Random(crate::random::Random::new(seed))
     }
 
     /// 64 bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     /// Between −1 and 1.

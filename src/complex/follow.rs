@@ -133,12 +133,6 @@ impl Follower {
         }
     }
 
-    /// Takes other right-hand sides.
-    pub fn set_rights(&mut self, rights: &[Right]) {
-        self.arcs.homotopy_mut().rights = rights.to_vec();
-        self.ends = None;
-    }
-
     /// Follows the path of one solution, proving every step.
     pub fn follow(&mut self, start: &SolutionBox, ways: &Ways, effort: &mut Effort) -> PathEnd {
         let far = Instant::now() + Duration::from_secs(1_000_000);

@@ -2,7 +2,7 @@
 //! points, a plane by three.
 
 use super::lowering::Fault;
-use crate::problem::{AXES, Item, Problem, Shape};
+use crate::statement::{AXES, Item, Problem, Shape};
 
 /// A line in a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,11 +115,6 @@ impl<'a> Arguments<'a> {
     /// The items of a constraint.
     pub fn new(problem: &'a Problem, items: &'a [Item]) -> Self {
         Arguments { problem, items }
-    }
-
-    /// What was taken since an earlier state.
-    pub fn taken_since(&self, before: &Arguments<'a>) -> &'a [Item] {
-        &before.items[..before.items.len() - self.items.len()]
     }
 
     /// The dimension of the problem.

@@ -7,7 +7,7 @@
 //! ways, as from angles or coordinates, is not seen: then the equations are too many, and that is said.
 
 use super::arguments::{Arguments, Flat, LineName, Thing};
-use crate::problem::Problem;
+use crate::statement::Problem;
 
 /// The directions that constraints name.
 pub struct Directions {

@@ -1,7 +1,8 @@
 //! The sketch in exact numbers, and the frame in which figures are described.
 
+use crate::decimal::Decimal;
 use crate::interval::Real;
-use crate::problem::{Decimal, Problem};
+use crate::statement::Problem;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 

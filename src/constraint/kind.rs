@@ -2,7 +2,8 @@
 
 use super::arguments::Arguments;
 use super::lowering::{Fault, Lowering};
-use crate::problem::{Decimal, Item, Problem};
+use crate::decimal::Decimal;
+use crate::statement::{Item, Problem};
 
 /// What the number of a constraint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,9 +56,6 @@ pub trait Kind: Sync {
 
     /// What an entry of it names, for messages: `two lines, or two planes`.
     fn takes(&self) -> &'static str;
-
-    /// An entry as it stands in a problem file.
-    fn example(&self) -> &'static str;
 
     /// What its number is.
     fn measure(&self) -> Measure {

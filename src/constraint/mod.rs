@@ -59,7 +59,7 @@ pub use structure::{size, size_in_edits};
 pub use supposed::supposed_lengths;
 
 use crate::interval::Interval;
-use crate::problem::Problem;
+use crate::statement::Problem;
 pub(crate) use arguments::{Arguments, Flat, LineName, Sort, Thing};
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};

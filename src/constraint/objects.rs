@@ -8,8 +8,9 @@ use super::frame::{
 use super::lowering::{Arrow, Fault, Lowering, Parity, Place};
 use super::polynomial::multiply;
 use super::quadratic::{Entry, Form, Product, Role, product, value};
+use crate::decimal::Decimal;
 use crate::interval::Real;
-use crate::problem::{Decimal, Shape};
+use crate::statement::Shape;
 use num_rational::BigRational;
 
 /// A line as equations see it.

@@ -9,9 +9,8 @@
 use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower, try_lower_editable};
-use crate::problem::echelon::Echelon;
-use crate::problem::field::{PRIME, Residues, add, mul, sub};
-use crate::problem::{DEPENDS, Problem, counted, list};
+use crate::residues::{Echelon, PRIME, Residues, add, mul, sub};
+use crate::statement::{DEPENDS, Problem, counted, list};
 
 /// Most names in one list of a message.
 const LISTED: usize = 8;

@@ -1,7 +1,7 @@
 //! Which lengths are supposed to be greater than zero, though no number says so.
 
 use super::arguments::Arguments;
-use crate::problem::{Constraint, Problem};
+use crate::statement::{Constraint, Problem};
 use num_traits::Signed;
 
 /// The lengths that `ratios` and `differences` compare, by the ends, and that are no dimension and not the longer ones of a difference: their

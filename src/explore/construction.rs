@@ -6,8 +6,8 @@
 //! constraint is not used by any step. All lengths are read off a figure; the two places where spheres and planes
 //! meet are the branches.
 
-use crate::generate::random::Random;
 use crate::problem::{Item, Problem};
+use crate::random::Random;
 
 /// What a point lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

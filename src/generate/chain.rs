@@ -1,7 +1,7 @@
 //! Octahedra edge to edge.
 
 use super::frame::{Frame, Hinge, JITTER, RADIUS, on_circle, plus};
-use super::random::Random;
+use crate::random::Random;
 
 /// Of the six points of an octahedron, a and b are an edge shared with the one before, c and d
 /// are opposite each other, and the last two are the edge shared with the next, opposite to a b.

@@ -1,7 +1,7 @@
 //! Hinges in a chain, and bars that close it.
 
 use super::frame::{Frame, Hinge, Structure, V3, cross, distance, dot, minus, plus, times};
-use super::random::Random;
+use crate::random::Random;
 
 /// The angle at the first hinge between its levers, to either end of the closing bar, where the
 /// bar is shortest at 0: in the sketch, in the target, and as far as the bend lets it go.

@@ -1,7 +1,7 @@
 //! Chains of points and bars, and problems made of them.
 
-use super::random::Random;
 use crate::problem::Problem;
+use crate::random::Random;
 
 pub(super) type V3 = [f64; 3];
 

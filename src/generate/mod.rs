@@ -15,12 +15,12 @@
 mod chain;
 mod close;
 mod frame;
-pub(crate) mod random;
 mod strip;
 mod tetrahedra;
 mod tower;
 
 use crate::problem::{MAX_POINTS, Problem, free_coordinates};
+use crate::random::Random;
 
 /// A family of structures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -194,7 +194,7 @@ impl Recipe {
                 least,
             });
         }
-        let mut random = random::Random::new(self.seed);
+        let mut random = Random::new(self.seed);
         let points = family.points(size);
         let structure = match family {
             Family::Strip => close::close(strip::frame(points, &mut random), loops, &mut random),

@@ -1,7 +1,7 @@
 //! Triangles in the plane.
 
 use super::frame::{Frame, Hinge, JITTER, RADIUS, on_circle, plus};
-use super::random::Random;
+use crate::random::Random;
 
 /// Each point is joined to the two before it. Without the bar to the second of these, what comes
 /// after turns about the first.

@@ -1,7 +1,7 @@
 //! Tetrahedra face to face.
 
 use super::frame::{Frame, Hinge, JITTER, RADIUS, on_circle, plus};
-use super::random::Random;
+use crate::random::Random;
 use std::f64::consts::TAU;
 
 /// Each point is joined to the three before it. Without the bar to the third of these, what comes

@@ -1,7 +1,7 @@
 //! Octahedra face to face.
 
 use super::frame::{JITTER, RADIUS, Structure, on_circle, plus};
-use super::random::Random;
+use crate::random::Random;
 use std::f64::consts::TAU;
 
 /// Triangles on top of each other, each turned by a sixth of a full turn against the one before:

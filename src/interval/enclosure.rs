@@ -1,7 +1,7 @@
 //! From exact numbers to intervals.
 
 use super::{Interval, hull};
-use crate::problem::Decimal;
+use crate::decimal::Decimal;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Float, ToPrimitive};

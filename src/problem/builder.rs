@@ -3,12 +3,12 @@
 use super::check::{check_structure, coincide, collinear};
 use super::draft::{DraftConstraint, DraftObject, check_names, what};
 use super::error::{MAX_NAME, MAX_POINTS, Place};
-use super::names::nearest;
 use super::{
     Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target, bend,
     reference,
 };
 use crate::constraint::{self, Owner};
+use crate::statement::nearest;
 use std::collections::HashMap;
 
 /// Collects the parts of a problem; [`ProblemBuilder::finish`] checks them together.

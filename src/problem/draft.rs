@@ -2,10 +2,9 @@
 
 use super::builder::{Number, ProblemBuilder, check_name, number};
 use super::error::{MAX_NAME, Place};
-use super::names::nearest;
-use super::object::{AXES, Constraint, Item, Object, Shape};
-use super::{Decimal, DecimalError, Point, ProblemError};
+use super::{AXES, Constraint, Decimal, DecimalError, Item, Object, Point, ProblemError, Shape};
 use crate::constraint::{self, KINDS};
+use crate::statement::nearest;
 use std::collections::{HashMap, HashSet};
 
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! What can be wrong with a problem, wherever it comes from.
 
-use super::DecimalError;
+use super::{DecimalError, counted};
 
 /// Why points, distances and homotopy do not make a problem that krawl takes.
 ///
@@ -253,9 +253,6 @@ pub enum ProblemError {
 
 crate::debug_in_words!(ProblemError);
 
-/// What is said of any one of constraints that depend on each other, as long as it is not known which of the two it is.
-pub const DEPENDS: &str = "follows from the others or contradicts them";
-
 /// Most points that are read.
 ///
 /// Large enough for structures of ten thousand free coordinates; small enough that the checks, which
@@ -347,15 +344,6 @@ pub(super) fn did_you_mean(nearest: &Option<String>) -> String {
     nearest
         .as_ref()
         .map_or(String::new(), |name| format!("; did you mean `{name}`?"))
-}
-
-/// `1 point`, `2 points`, `2 boxes`.
-pub(crate) fn counted(n: usize, what: &str) -> String {
-    match what {
-        _ if n == 1 => format!("1 {what}"),
-        _ if what.ends_with('x') => format!("{n} {what}es"),
-        _ => format!("{n} {what}s"),
-    }
 }
 
 /// What to say in place of a distance of two points that is zero.

@@ -5,9 +5,9 @@
 
 use super::builder::ProblemBuilder;
 use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
-use super::names::nearest;
 use super::{Decimal, DecimalError, Problem, ProblemError, Published};
 use crate::constraint::KINDS;
+use crate::statement::nearest;
 use std::collections::HashSet;
 use std::fmt;
 use std::io::Read;

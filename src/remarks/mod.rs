@@ -27,7 +27,6 @@ mod words;
 use crate::problem::{Item, Problem, Shape};
 
 pub use moving::{Moves, moves};
-pub(crate) use redundant::noise;
 pub(crate) use target::detour;
 pub use words::in_words;
 
@@ -101,11 +100,6 @@ pub enum Remark {
 }
 
 impl Remark {
-    /// Whether it tells that no figure meets the targets.
-    pub fn is_impossible(&self) -> bool {
-        matches!(self, Remark::TooLong { .. } | Remark::NoTetrahedron(_))
-    }
-
     /// Whether the path may end there, or cannot begin: everything but what can be mirrored.
     pub fn is_warning(&self) -> bool {
         !matches!(self, Remark::Mirrored { .. })

@@ -8,6 +8,7 @@
 use super::Remark;
 use crate::constraint::try_lower;
 use crate::problem::Problem;
+use crate::random::Random;
 use crate::system::{Homotopy, Term};
 use nalgebra::{DMatrix, DVector};
 
@@ -143,11 +144,11 @@ impl<'a> System<'a> {
         let rows: Vec<usize> = (0..self.terms.len())
             .filter(|&e| self.vanishes[e])
             .collect();
-        let mut state = seed + 1;
+        let mut random = Random::new(seed + 1);
         let mut x: Vec<f64> = self
             .sketch
             .iter()
-            .map(|x| x + MOVED * noise(&mut state))
+            .map(|x| x + MOVED * random.symmetric())
             .collect();
         for _ in 0..60 {
             let (jacobian, values) = self.linearise(&rows, &x);
@@ -189,16 +190,6 @@ impl<'a> System<'a> {
         };
         Some(all.into_iter().filter(|&row| weight(row) > 1e-6).collect())
     }
-}
-
-/// Uniform between −1 and 1 (SplitMix64: Steele, Lea, Flood 2014).
-pub(crate) fn noise(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
-    (z >> 11) as f64 * 2f64.powi(-52) - 1.0
 }
 
 #[cfg(test)]

@@ -219,12 +219,4 @@ impl Placement {
             self.origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]
         })
     }
-
-    /// A point of the gauge in the coordinates of the problem, in floats.
-    pub fn to_problem_nearly(&self, p: &[f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| {
-            let along: f64 = (0..3).map(|axis| self.axes[axis][k].mid() * p[axis]).sum();
-            self.origin[k].mid() + along
-        })
-    }
 }

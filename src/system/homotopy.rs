@@ -59,8 +59,6 @@ pub struct Homotopy {
     terms: Vec<Vec<Term>>,
     /// The right-hand sides E_e(t) of all equations.
     pub rights: Vec<Right>,
-    /// Which of the distances bends.
-    pub bend: usize,
     /// What people call the equations.
     pub names: Vec<String>,
     /// What they call the points.
@@ -204,7 +202,6 @@ impl Homotopy {
             lengths: Vec::new(),
             terms: Vec::new(),
             rights: Vec::new(),
-            bend: problem.homotopy.bend,
             names: (0..distances.len())
                 .map(|d| problem.distance_name(d))
                 .collect(),
@@ -263,7 +260,6 @@ impl Homotopy {
             lengths: Vec::new(),
             terms: Vec::new(),
             rights: Vec::new(),
-            bend: 0,
             names: Vec::new(),
             point_names: Vec::new(),
             sketch: vec![0.0; places],

@@ -45,13 +45,6 @@ impl Right {
         )
     }
 
-    /// Half the square of a length that stays what it is, with an enclosure of it.
-    pub fn constant_half_square(half_square: Interval, exact: ExactLength) -> Self {
-        let mut enclosures = [point(0.0); MAX_DEGREE + 1];
-        enclosures[0] = half_square;
-        Self::new(enclosures, half_square, Exact::HalfSquare(exact), 2)
-    }
-
     /// The polynomial with these coefficients, t⁰ first, divided by `unit`, a power of two.
     ///
     /// # Panics

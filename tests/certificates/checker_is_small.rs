@@ -38,7 +38,7 @@ fn the_checker_uses_only_the_problem_the_intervals_and_the_equations() {
         assert!(!text.contains("unsafe"), "{}", path.display());
     }
     // And what those use: nothing above them.
-    for folder in ["problem", "constraint", "interval", "system"] {
+    for folder in ["statement", "problem", "constraint", "interval", "system"] {
         for file in fs::read_dir(format!("src/{folder}")).unwrap() {
             let path = file.unwrap().path();
             if path.is_file() {

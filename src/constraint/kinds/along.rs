@@ -21,10 +21,6 @@ impl Kind for Along {
         "two points and a line"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2", "l1", 2]"#
-    }
-
     fn measure(&self) -> Measure {
         Measure::Signed
     }

@@ -26,10 +26,6 @@ impl Kind for Angles {
         "three points with the vertex in the middle, two lines, a line and a plane, or two planes"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2", "p3", 30]"#
-    }
-
     fn measure(&self) -> Measure {
         Measure::Degrees
     }

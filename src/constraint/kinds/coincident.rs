@@ -18,10 +18,6 @@ impl Kind for Coincident {
         "two or more points"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let points = distinct(&mut of.items)?;
         if points.len() < 2 {

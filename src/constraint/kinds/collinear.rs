@@ -21,10 +21,6 @@ impl Kind for Collinear {
         "three or more points"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2", "p3"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let points = distinct(&mut of.items)?;
         let [a, b, rest @ ..] = points.as_slice() else {

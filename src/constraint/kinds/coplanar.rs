@@ -22,10 +22,6 @@ impl Kind for Coplanar {
         "four or more points"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p0", "p1", "p2", "p3"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         if low.dimension() == 2 {
             return Err("all points are in one plane in a problem of dimension 2".to_owned());

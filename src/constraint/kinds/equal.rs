@@ -21,10 +21,6 @@ impl Kind for Equal {
         "lines through two points, or pairs of points; or circles, arcs or spheres"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["l1", "l2"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         if of.items.next() == Sort::Round {
             let mut rounds = Vec::new();

@@ -5,7 +5,7 @@
 //! plane of its own likewise those of its normal, and its level; of a circle the centre and the radius.
 
 use super::prelude::*;
-use crate::problem::{Shape, most_along};
+use crate::statement::{Shape, most_along};
 
 /// See the module.
 pub struct Fixed;
@@ -21,10 +21,6 @@ impl Kind for Fixed {
 
     fn takes(&self) -> &'static str {
         "a point, a line, a plane, a circle or a sphere"
-    }
-
-    fn example(&self) -> &'static str {
-        r#""p1""#
     }
 
     fn fixes(&self, problem: &Problem, items: &[Item]) -> Fixes {

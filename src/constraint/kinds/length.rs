@@ -37,14 +37,6 @@ impl Kind for Lengths {
         "two lines through two points each, or pairs of points"
     }
 
-    fn example(&self) -> &'static str {
-        if self.is_ratio {
-            r#"["l1", "l2", 2]"#
-        } else {
-            r#"["l1", "l2", 0.5]"#
-        }
-    }
-
     fn measure(&self) -> Measure {
         if self.is_ratio {
             Measure::Ratio

@@ -29,10 +29,6 @@ impl Kind for Level {
         "a line, or two points"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2"]"#
-    }
-
     fn fixes(&self, _: &Problem, _: &[Item]) -> Fixes {
         Fixes {
             frame: true,

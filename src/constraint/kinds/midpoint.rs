@@ -18,10 +18,6 @@ impl Kind for Midpoint {
         "a point, and two points or a line through two points"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2", "p3"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let middle = of.items.point()?;
         let ends = of.items.segment()?;

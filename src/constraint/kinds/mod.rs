@@ -66,7 +66,7 @@ mod prelude {
     pub use super::super::polynomial::multiply;
     pub use super::super::quadratic::{Form, product, value};
     pub use crate::interval::Real;
-    pub use crate::problem::{Item, Problem};
+    pub use crate::statement::{Item, Problem};
     pub use num_rational::BigRational;
     pub use num_traits::{Signed, Zero};
 

@@ -22,10 +22,6 @@ impl Kind for On {
         "a point and a line, plane, circle, sphere or arc"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "l1"]"#
-    }
-
     fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
         Fixes::beside_axis(items)
     }

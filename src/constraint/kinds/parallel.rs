@@ -45,10 +45,6 @@ impl Kind for Parallel {
         Some(names.in_words(things.map(Thing::Flat)))
     }
 
-    fn example(&self) -> &'static str {
-        r#"["l1", "l2"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let (first, second) = super::angle::directions(&mut of.items, low)?;
         if (first.1 == second.1) == self.right {

@@ -58,13 +58,6 @@ impl Kind for Position {
         }
     }
 
-    fn example(&self) -> &'static str {
-        match self.difference {
-            false => r#"["p1", 2.5]"#,
-            true => r#"["p1", "p2", -1.5]"#,
-        }
-    }
-
     fn measure(&self) -> Measure {
         Measure::Signed
     }

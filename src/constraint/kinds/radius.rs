@@ -30,10 +30,6 @@ impl Kind for Size {
         "a circle, sphere or arc"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["c1", 3]"#
-    }
-
     fn measure(&self) -> Measure {
         Measure::Length
     }

@@ -22,10 +22,6 @@ impl Kind for EqualAngles {
         "four lines, or six points with the vertices in the middle of three each"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["l1", "l2", "l3", "l4"]"#
-    }
-
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let at_points = of.items.left() == 6 && of.items.points_ahead() == 6;
         let mut cosines = Vec::new();

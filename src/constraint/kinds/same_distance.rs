@@ -21,10 +21,6 @@ impl Kind for EqualDistances {
         "a point and a line, and another point and a line (which may be the same), in the plane"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "l1", "p2", "l2"]"#
-    }
-
     fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
         Fixes::beside_axis(items)
     }

@@ -22,10 +22,6 @@ impl Kind for Symmetric {
         "two points, and a line, `x-axis`, `y-axis`, a plane or a point"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "p2", "l1"]"#
-    }
-
     fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
         match items.last() {
             // Mirrored in the x axis, heights add up to zero.

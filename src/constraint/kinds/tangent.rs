@@ -7,7 +7,7 @@
 
 use super::distance::{CENTRE, off_line};
 use super::prelude::*;
-use crate::problem::Shape;
+use crate::statement::Shape;
 
 /// See the module.
 pub struct Tangent;
@@ -24,10 +24,6 @@ impl Kind for Tangent {
 
     fn takes(&self) -> &'static str {
         "a circle, arc or sphere, and another one, a line or a plane"
-    }
-
-    fn example(&self) -> &'static str {
-        r#"["c1", "l1"]"#
     }
 
     fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {

@@ -7,7 +7,7 @@ use super::super::quadratic::{
 };
 use super::{Fault, Lowering, Parity, Start};
 use crate::interval::Real;
-use crate::problem::{AXES, Target};
+use crate::statement::{AXES, Target};
 use num_rational::BigRational;
 use num_traits::One;
 

@@ -15,7 +15,7 @@ use super::quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, product, value,
 };
 use crate::interval::Real;
-use crate::problem::{Item, Problem, Target};
+use crate::statement::{Item, Problem, Target};
 use num_rational::BigRational;
 use num_traits::Zero;
 use std::collections::HashMap;

@@ -4,7 +4,7 @@ use super::super::quadratic::{Entry, Form};
 use super::super::twins::twins;
 use super::super::zeros::zeros;
 use super::Lowering;
-use crate::problem::Shape;
+use crate::statement::Shape;
 
 impl Lowering<'_> {
     /// The changes of sign that leave a figure as it is, see [`twins`].

@@ -1,18 +1,18 @@
 //! The seven steps of 002, section 5, for any matrix that can substitute through its diagonal blocks.
 //!
 //! Written once for all: the trackers' Jacobians, whose rows are distances and short lists and whose blocks
-//! are points ([`crate::track::reduced`]), and matrices stored as such ([`Factors`](super::Factors)).
+//! are points (`track/reduced`), and matrices stored as such (`crates/lab`).
 //!
 //! K = −A⁻¹H is kept, with the identity for the key unknowns' rows. So steps 6 and 7, X = A⁻¹(R − H U), are one
 //! product, X = Z + K U with the Z = A⁻¹R of step 1, and a solution passes through A once.
 
-use super::rows::{Lane, MAX_KEYS, Row, add, width_for, with_width, zeros};
-use super::{Scalar, Singular};
-use crate::linalg::LANE;
+use super::Scalar;
+use super::rows::{Lane, Row, add, width_for, with_width, zeros};
+use crate::linalg::{LANE, Singular};
 
 /// What elimination reads of a matrix [[H, A], [C, L]] whose diagonal blocks are factored. Unknowns have any
 /// numbers; the ignored equations are counted from 0 to k − 1.
-pub(crate) trait Blocks<T> {
+pub trait Blocks<T> {
     /// The number k of key unknowns.
     fn keys(&self) -> usize;
 
@@ -35,7 +35,7 @@ pub(crate) trait Blocks<T> {
 }
 
 /// A matrix that also solves for right-hand sides given later.
-pub(crate) trait Solves<T>: Blocks<T> {
+pub trait Solves<T>: Blocks<T> {
     /// Step 1: sets A's unknowns, zero before as are the key unknowns, so that A's equations hold with the
     /// right-hand side `f`.
     fn substitute_one(&self, f: &[T], x: &mut [T]);
@@ -46,7 +46,7 @@ pub(crate) trait Solves<T>: Blocks<T> {
 
 /// What elimination leaves for the key unknowns.
 #[derive(Debug, Clone)]
-pub(crate) struct Elimination<T = f64> {
+pub struct Elimination<T = f64> {
     /// Lanes of a row.
     pub width: usize,
     /// K = −A⁻¹H with the identity for the key unknowns: a row per unknown.
@@ -77,13 +77,12 @@ impl<T> Default for Elimination<T> {
 }
 
 impl<T: Scalar> Elimination<T> {
-    /// Factors a matrix whose blocks are. Columns beyond the key unknowns' are right-hand sides: there may be
+    /// Factors a matrix whose blocks are; there is no room for more than [`MAX_KEYS`](super::MAX_KEYS) columns. Columns beyond the key unknowns' are right-hand sides: there may be
     /// one, and [`Blocks::substitute`] and [`Blocks::ignored_row`] take it, with a minus, for one more column of
     /// H and C.
     pub fn make(&mut self, matrix: &impl Blocks<T>, right_sides: usize) -> Result<(), Singular> {
         let keys = matrix.keys();
-        let width = width_for(keys + right_sides);
-        self.width = width.ok_or(Singular::TooManyKeys(keys, MAX_KEYS - right_sides))?;
+        self.width = width_for(keys + right_sides).ok_or(Singular)?;
         with_width!(self.width, self.make_in(matrix, right_sides))
     }
 
@@ -110,7 +109,7 @@ impl<T: Scalar> Elimination<T> {
         self.from.clear();
         self.from.extend(0..keys as u32);
         let inverted = invert_transposed(schur, &mut self.from, p);
-        self.is_negative = inverted.ok_or(Singular::Schur)?;
+        self.is_negative = inverted.ok_or(Singular)?;
         // Elimination has made S⁻¹ times the columns beyond.
         self.solved.clear();
         for column in keys..keys + right_sides {

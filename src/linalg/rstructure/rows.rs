@@ -4,19 +4,19 @@ use super::Scalar;
 use crate::linalg::LANE;
 
 /// Four numbers, in one register where they are floats.
-pub(crate) type Lane<T = f64> = [T; LANE];
+pub type Lane<T = f64> = [T; LANE];
 /// The numbers of one row.
-pub(crate) type Row<const W: usize, T = f64> = [Lane<T>; W];
+pub type Row<const W: usize, T = f64> = [Lane<T>; W];
 
 /// A row of zeros.
 #[inline(always)]
-pub(crate) fn zeros<const W: usize, T: Scalar>() -> Row<W, T> {
+pub fn zeros<const W: usize, T: Scalar>() -> Row<W, T> {
     [[T::zero(); LANE]; W]
 }
 
 /// `sum += factor · row`.
 #[inline(always)]
-pub(crate) fn add<const W: usize, T: Scalar>(sum: &mut Row<W, T>, factor: T, row: &Row<W, T>) {
+pub fn add<const W: usize, T: Scalar>(sum: &mut Row<W, T>, factor: T, row: &Row<W, T>) {
     for w in 0..W {
         for i in 0..LANE {
             sum[w][i] = sum[w][i].plus_product(row[w][i], factor);
@@ -38,7 +38,7 @@ macro_rules! with_width {
 pub(crate) use with_width;
 
 /// The largest number of key unknowns that rows have room for.
-pub(crate) const MAX_KEYS: usize = 8 * LANE;
+pub const MAX_KEYS: usize = 8 * LANE;
 
 /// Lanes for so many columns, those that there is code for; `None`: too many.
 pub(crate) fn width_for(columns: usize) -> Option<usize> {

@@ -1,11 +1,9 @@
-//! What R-structured matrices are made of: floats, intervals, residues modulo a prime power.
-
-use crate::interval::{Interval, point};
+//! What R-structured matrices are made of.
 
 /// A number that elimination works with.
 ///
-/// Elimination needs no more than this, so that one code serves floats, intervals and residues
-/// (002, the remark at the end of section 4).
+/// Elimination needs no more than this, so that one code serves the trackers' floats and, in `crates/lab`,
+/// intervals and residues (002, the remark at the end of section 4).
 pub trait Scalar: Copy + PartialEq + std::fmt::Debug + 'static {
     /// 0.
     fn zero() -> Self;
@@ -24,9 +22,6 @@ pub trait Scalar: Copy + PartialEq + std::fmt::Debug + 'static {
 
     /// `self + a b`.
     fn plus_product(self, a: Self, b: Self) -> Self;
-
-    /// `self − a b`.
-    fn minus_product(self, a: Self, b: Self) -> Self;
 
     /// `self b`.
     fn times(self, b: Self) -> Self;
@@ -67,11 +62,6 @@ impl Scalar for f64 {
     }
 
     #[inline(always)]
-    fn minus_product(self, a: Self, b: Self) -> Self {
-        (-a).mul_add(b, self)
-    }
-
-    #[inline(always)]
     fn times(self, b: Self) -> Self {
         self * b
     }
@@ -92,190 +82,15 @@ impl Scalar for f64 {
     }
 }
 
-/// Every operation encloses the exact results for all members of its operands.
-impl Scalar for Interval {
-    fn zero() -> Self {
-        point(0.0)
-    }
-
-    fn one() -> Self {
-        point(1.0)
-    }
-
-    #[inline]
-    fn negated(self) -> Self {
-        -self
-    }
-
-    fn is_negative(self) -> bool {
-        self.sup() < 0.0
-    }
-
-    #[inline]
-    fn plus(self, b: Self) -> Self {
-        self + b
-    }
-
-    #[inline]
-    fn plus_product(self, a: Self, b: Self) -> Self {
-        self + a * b
-    }
-
-    #[inline]
-    fn minus_product(self, a: Self, b: Self) -> Self {
-        self - a * b
-    }
-
-    #[inline]
-    fn times(self, b: Self) -> Self {
-        self * b
-    }
-
-    fn inverse(self) -> Self {
-        point(1.0) / self
-    }
-
-    /// The smallest absolute value of a member.
-    fn pivot_size(self) -> f64 {
-        if self.is_common_interval() {
-            self.mig()
-        } else {
-            0.0
-        }
-    }
-}
-
-/// An integer modulo `M`, a power of a prime below 2⁶³ (002, section 6).
-///
-/// Modulo a power of p the units are the numbers that p does not divide, and elimination with
-/// units for pivots succeeds wherever the matrix can be inverted. For other moduli, what is
-/// computed is right, but a matrix may be called singular that is not.
-///
-/// ```
-/// use krawl::linalg::rstructure::{Residue, Scalar};
-/// type Z = Residue<{ 7u64.pow(3) }>;
-/// assert_eq!(Z::new(-1).value(), 342);
-/// assert_eq!(Z::new(5).times(Z::new(5).inverse()), Z::new(1));
-/// assert_eq!(Z::new(14).pivot_size(), 0.0);
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Residue<const M: u64>(u64);
-
-impl<const M: u64> Residue<M> {
-    const MODULUS_IN_RANGE: () = assert!(M > 1 && M < 1 << 63);
-
-    /// The residue of an integer.
-    pub fn new(value: i64) -> Self {
-        let () = Self::MODULUS_IN_RANGE;
-        Residue(i128::from(value).rem_euclid(i128::from(M)) as u64)
-    }
-
-    /// The representative from 0 to M − 1.
-    pub fn value(self) -> u64 {
-        self.0
-    }
-
-    /// The inverse, if there is one (Euclid's algorithm).
-    fn checked_inverse(self) -> Option<Self> {
-        let (mut r, mut next) = (i128::from(M), i128::from(self.0));
-        let (mut s, mut s_next) = (0i128, 1i128);
-        while next != 0 {
-            let q = r / next;
-            (r, next) = (next, r - q * next);
-            (s, s_next) = (s_next, s - q * s_next);
-        }
-        (r == 1).then(|| Residue(s.rem_euclid(i128::from(M)) as u64))
-    }
-}
-
-impl<const M: u64> Scalar for Residue<M> {
-    fn zero() -> Self {
-        Residue(0)
-    }
-
-    fn one() -> Self {
-        Residue(1)
-    }
-
-    #[inline]
-    fn negated(self) -> Self {
-        Residue(if self.0 == 0 { 0 } else { M - self.0 })
-    }
-
-    fn is_negative(self) -> bool {
-        false
-    }
-
-    #[inline]
-    fn plus_product(self, a: Self, b: Self) -> Self {
-        self.plus(a.times(b))
-    }
-
-    #[inline]
-    fn plus(self, b: Self) -> Self {
-        let sum = self.0 + b.0;
-        Residue(if sum >= M { sum - M } else { sum })
-    }
-
-    #[inline]
-    fn minus_product(self, a: Self, b: Self) -> Self {
-        let product = a.times(b).0;
-        Residue(if self.0 >= product {
-            self.0 - product
-        } else {
-            self.0 + (M - product)
-        })
-    }
-
-    #[inline]
-    fn times(self, b: Self) -> Self {
-        Residue((u128::from(self.0) * u128::from(b.0) % u128::from(M)) as u64)
-    }
-
-    fn inverse(self) -> Self {
-        self.checked_inverse().expect("a pivot is a unit")
-    }
-
-    /// 1 for units, 0 for the others.
-    fn pivot_size(self) -> f64 {
-        if self.0 != 0 && self.checked_inverse().is_some() {
-            1.0
-        } else {
-            0.0
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn residues_form_a_ring_with_inverses_of_units() {
-        const M: u64 = 4_611_686_018_427_387_847; // the largest prime below 2⁶²
-        type Z = Residue<M>;
-        for x in [1i64, 2, 3, -1, i64::MAX, i64::MIN, 123_456_789_012] {
-            let z = Z::new(x);
-            assert_eq!(z.times(z.inverse()), Z::new(1));
-            assert_eq!(z.minus_product(z, Z::new(1)), Z::zero());
-            assert_eq!(
-                Z::zero().minus_product(z, z).value(),
-                (M - (i128::from(x).rem_euclid(i128::from(M)).pow(2) % i128::from(M)) as u64) % M
-            );
-        }
-        assert_eq!(Residue::<9>::new(6).pivot_size(), 0.0);
-        assert_eq!(Residue::<9>::new(4).inverse(), Residue::new(7));
-    }
-
-    #[test]
-    fn numbers_that_cannot_be_pivots() {
+    fn floats_that_cannot_be_pivots() {
         for x in [0.0, -0.0, f64::NAN, f64::INFINITY, 1e-310] {
             assert_eq!(x.pivot_size(), 0.0);
         }
         assert_eq!((-2.0).pivot_size(), 2.0);
-        assert_eq!(crate::interval::hull(-1.0, 2.0).pivot_size(), 0.0);
-        assert_eq!(crate::interval::hull(1.0, 2.0).pivot_size(), 1.0);
-        assert_eq!(Interval::ENTIRE.pivot_size(), 0.0);
-        assert_eq!(Interval::EMPTY.pivot_size(), 0.0);
     }
 }

@@ -1,7 +1,5 @@
 //! Whether the distances are as many as needed, and where they are needed.
 
-pub(crate) mod echelon;
-pub(crate) mod field;
 mod rigidity;
 mod sketch;
 mod triangle;
@@ -9,8 +7,7 @@ mod triangle;
 pub use rigidity::{Rigidity, rigidity};
 pub(super) use sketch::{coincide, collinear};
 
-use super::names::list;
-use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates};
+use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates, list};
 
 /// Most names in one list of a message.
 const LISTED: usize = 12;

@@ -7,8 +7,7 @@
 //! *is* rigid, and a rank that is too small by bad luck has a probability below m / 2⁶⁰ for m
 //! rows (Schwartz, Zippel). One method serves the plane and space alike.
 
-use super::echelon::Echelon;
-use super::field::{Residues, add, mul, sub};
+use crate::residues::{Echelon, Residues, add, mul, sub};
 
 /// What the graph of the distances fixes and what not.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -33,10 +33,6 @@ impl Kind for Distances {
         "two of points, lines, planes, circles, arcs and spheres; a line may be two points, and a plane three"
     }
 
-    fn example(&self) -> &'static str {
-        r#"["p1", "l1", 2]"#
-    }
-
     fn measure(&self) -> Measure {
         Measure::Length
     }

@@ -5,7 +5,7 @@ use super::series::SIGNED;
 use super::tail::TailSizes;
 use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
-use crate::linalg::rstructure::rows::Lane;
+use crate::linalg::rstructure::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};

@@ -76,7 +76,7 @@ pub fn bound_on_wide_inverse(b: &WideInverse, size: usize, bound: &mut WideInver
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::random::Random;
+    use crate::random::Random;
 
     /// (I − B)⁻¹ = I + B + B² + …, of which all terms are ≥ 0: a bound is no less than any sum of the first ones.
     #[test]

@@ -3,7 +3,7 @@
 use super::COEFFICIENTS;
 use super::resolvent::Resolvent;
 use crate::interval::rounding::{largest, round_up};
-use crate::linalg::rstructure::rows::{Lane, MAX_KEYS, with_width};
+use crate::linalg::rstructure::{Lane, MAX_KEYS, with_width};
 use crate::linalg::{LANE, Singular, Vector};
 use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::proof::Proof;

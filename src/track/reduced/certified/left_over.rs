@@ -6,7 +6,7 @@ use super::along::Along;
 use super::frame::{Reduction, SERIES};
 use super::series::{SIGNED, Series, add_product};
 use crate::linalg::LANE;
-use crate::linalg::rstructure::rows::{Row, add};
+use crate::linalg::rstructure::{Row, add};
 use crate::track::full::Equations;
 
 /// The two parts of a bound by key unknown.

@@ -10,7 +10,7 @@ use super::speed::speed;
 use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
-use crate::linalg::rstructure::rows::{MAX_KEYS, Row};
+use crate::linalg::rstructure::{MAX_KEYS, Row};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::Layout;
 

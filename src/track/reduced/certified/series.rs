@@ -3,7 +3,7 @@
 
 use super::COEFFICIENTS;
 use super::frame::{Locals, SERIES};
-use crate::linalg::rstructure::rows::{Lane, Row, add};
+use crate::linalg::rstructure::{Lane, Row, add};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::passes::{Derivative, slices};

@@ -3,7 +3,7 @@
 use super::frame::{Reduction, SERIES};
 use super::sides::{PerKey, Sides, row_of, weigh};
 use crate::interval::rounding::round_up;
-use crate::linalg::rstructure::rows::{Lane, MAX_KEYS, Row};
+use crate::linalg::rstructure::{Lane, MAX_KEYS, Row};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::Layout;

@@ -2,7 +2,7 @@
 
 use super::frame::Reduction;
 use crate::linalg::LANE;
-use crate::linalg::rstructure::rows::{Lane, MAX_KEYS, Row, with_width};
+use crate::linalg::rstructure::{Lane, MAX_KEYS, Row, with_width};
 use crate::track::full::Equations;
 
 /// One number per key unknown.

@@ -5,7 +5,7 @@ use super::bounds::Bounds;
 use super::frame::Reduction;
 use super::sides::{row_of, weigh};
 use crate::interval::rounding::largest;
-use crate::linalg::rstructure::rows::{MAX_KEYS, Row};
+use crate::linalg::rstructure::{MAX_KEYS, Row};
 
 /// How fast v = T(s)⁻¹ (z − ẑ(s)) changes with s for a fixed point z in the box, in the norm |·|_ρ.
 /// `slope_of` bounds |ẑ_i'|.

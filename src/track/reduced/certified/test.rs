@@ -38,7 +38,7 @@ use super::shape::Shape;
 use super::sides::Sides;
 use super::{COEFFICIENTS, ORDER};
 use crate::linalg::Vector;
-use crate::linalg::rstructure::rows::with_width;
+use crate::linalg::rstructure::with_width;
 use crate::system::Homotopy;
 use crate::track::certified::link::Tube;
 use crate::track::certified::shortfall::Shortfall;

@@ -3,8 +3,9 @@
 use super::layout::{Layout, Order};
 use super::passes::{Derivative, Inverses, slices};
 use super::substitution::Substitution;
-use crate::linalg::rstructure::elimination::{Blocks, Elimination as Reduced, Solves};
-use crate::linalg::rstructure::rows::{MAX_KEYS, Row, add, zeros};
+use crate::linalg::rstructure::{
+    Blocks, Elimination as Reduced, MAX_KEYS, Row, Solves, add, zeros,
+};
 use crate::linalg::{Singular, Vector};
 use crate::track::full::{Differences, Equations, Lengths, dot};
 use std::sync::Arc;
@@ -120,7 +121,7 @@ impl<const D: usize> Elimination<D> {
         let mut reduced = std::mem::take(&mut self.reduced);
         let made = reduced.make(&self.bordered(equations), 0);
         self.reduced = reduced;
-        made.map_err(|_| Singular)
+        made
     }
 
     /// [J; c] at this point, its diagonal blocks inverted.

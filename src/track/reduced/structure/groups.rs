@@ -4,7 +4,7 @@
 use super::layout::{Block, Kind, Layout, WIDEST};
 use super::sequence::Group;
 use crate::linalg::LANE;
-use crate::linalg::rstructure::rows::width_for;
+use crate::linalg::rstructure::width_for;
 use crate::track::full::{Differences, Equations};
 
 /// One number for each unknown of a group.

@@ -2,7 +2,7 @@
 
 use super::groups::Groups;
 use super::sequence::{Group, groups_in_order};
-use crate::linalg::rstructure::rows::MAX_KEYS;
+use crate::linalg::rstructure::MAX_KEYS;
 use crate::plan::Plan;
 use crate::system::{Edge, Homotopy};
 use crate::track::full::{Differences, Equations};

@@ -7,8 +7,7 @@
 //! other equations, whose differences are zero; one comparison per row tells them apart.
 
 use super::layout::{Block, Kind, Layout, WIDEST};
-use crate::linalg::rstructure::elimination::invert_transposed;
-use crate::linalg::rstructure::rows::{Row, add, zeros};
+use crate::linalg::rstructure::{Row, add, invert_transposed, zeros};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Tail;
 
@@ -535,7 +534,7 @@ pub fn slices<const D: usize>(d: &[Vector; D]) -> [&[f64]; D] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::random::Random;
+    use crate::random::Random;
 
     /// A · A⁻¹ = I, and the sign of the determinant turns when two rows are exchanged.
     #[test]

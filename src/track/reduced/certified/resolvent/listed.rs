@@ -1,7 +1,7 @@
 //! X, N and bounds on |A(s)⁻¹| in blocks whose rows are lists of entries.
 
 use super::{Diagonal, Resolvent};
-use crate::linalg::rstructure::rows::Lane;
+use crate::linalg::rstructure::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, WIDEST};

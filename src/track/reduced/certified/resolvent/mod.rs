@@ -16,7 +16,7 @@ mod listed;
 
 use super::diagonal::{bound_on_inverse, bound_on_wide_inverse};
 use crate::interval::rounding::round_up;
-use crate::linalg::rstructure::rows::Lane;
+use crate::linalg::rstructure::Lane;
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, Kind, Layout, WIDEST};

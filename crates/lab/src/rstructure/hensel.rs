@@ -9,7 +9,8 @@
 //! finds these in their residues.
 //!
 //! ```
-//! use krawl::linalg::rstructure::{Factors, Ordering, RMatrix, Residue, hensel};
+//! use krawl::linalg::rstructure::Ordering;
+//! use krawl_lab::rstructure::{Factors, RMatrix, Residue, Structure, hensel};
 //! use num_bigint::BigInt;
 //! use num_rational::BigRational;
 //!
@@ -45,7 +46,7 @@
 //! let unknowns = |p: Point| match p { Unknown(k) => vec![k, k + 1], Fixed(..) => vec![] };
 //! let equations = bars.map(|(p, q)| [unknowns(p), unknowns(q)].concat());
 //! let ordering = Ordering::new(6, &equations, &[0], &[5]).unwrap();
-//! let mut jacobian = RMatrix::<Residue<P>>::zeros(ordering.structure(&equations));
+//! let mut jacobian = RMatrix::<Residue<P>>::zeros(Structure::of(&ordering, &equations));
 //! let whole: Vec<BigRational> = start.iter().map(|x| x.clone().into()).collect();
 //! for (e, &(p, q)) in bars.iter().enumerate() {
 //!     for (one, other) in [(p, q), (q, p)] {

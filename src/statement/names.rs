@@ -1,5 +1,17 @@
 //! Names in messages: lists that stay short, and guesses at what was meant.
 
+/// What is said of any one of constraints that depend on each other, as long as it is not known which of the two it is.
+pub const DEPENDS: &str = "follows from the others or contradicts them";
+
+/// `1 point`, `2 points`, `2 boxes`.
+pub(crate) fn counted(n: usize, what: &str) -> String {
+    match what {
+        _ if n == 1 => format!("1 {what}"),
+        _ if what.ends_with('x') => format!("{n} {what}es"),
+        _ => format!("{n} {what}s"),
+    }
+}
+
 /// `a, b, c and 5 more`: at most `most` of the names.
 pub(crate) fn list<S: AsRef<str>>(names: &[S], most: usize) -> String {
     let join = |names: &[S]| {
@@ -15,7 +27,7 @@ pub(crate) fn list<S: AsRef<str>>(names: &[S], most: usize) -> String {
 
 /// The known name most similar to `name`, if there is one that is similar, and only one: a guess that
 /// may as well be another is of no help.
-pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     // The work is bounded, whatever the input: neither names nor differences are long.
     let length = name.chars().count();
     if length > 64 {

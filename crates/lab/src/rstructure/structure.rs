@@ -1,7 +1,9 @@
 //! Which entries an R-structured matrix has, and where they are stored.
 
 use super::kernel::CHUNK;
-use crate::linalg::LANE;
+use krawl::linalg::LANE;
+use krawl::linalg::rstructure::Ordering;
+use std::sync::Arc;
 
 /// The *R-structure* that matrices share (002, section 5): the number k of key unknowns, the
 /// sizes of A's diagonal blocks, and the columns that each block row has left of its block.
@@ -76,7 +78,7 @@ impl Structure {
     /// diagonal blocks are stored whole.
     ///
     /// ```
-    /// use krawl::linalg::rstructure::Structure;
+    /// use krawl_lab::rstructure::Structure;
     /// let figure_1 = Structure::new(1, &[2, 2, 2], [(3, 1), (3, 2), (4, 1), (4, 2), (5, 3), (5, 4)]);
     /// assert_eq!(figure_1.unwrap().size(), 7);
     /// ```
@@ -147,6 +149,23 @@ impl Structure {
             (block.columns, block.positions) = (columns, positions);
         }
         Ok(structure)
+    }
+
+    /// The structure of matrices with the pattern of equations, each given by the unknowns that occur in it,
+    /// in their order.
+    ///
+    /// # Panics
+    /// If the equations are others than those that were ordered.
+    pub fn of(ordering: &Ordering, equations: &[Vec<usize>]) -> Arc<Self> {
+        let entries = equations.iter().enumerate().flat_map(|(e, unknowns)| {
+            let column_of = |&u| ordering.column_of(u);
+            unknowns
+                .iter()
+                .map(column_of)
+                .map(move |column| (ordering.row_of(e), column))
+        });
+        let structure = Structure::new(ordering.keys(), ordering.block_sizes(), entries);
+        Arc::new(structure.expect("the equations that were ordered"))
     }
 
     /// The number k of key unknowns.

@@ -5,8 +5,9 @@
 //! tile stays in registers while the sums run.
 
 use super::Scalar;
-use super::rows::{Lane, Row};
-use crate::linalg::LANE;
+use super::scalar::Subtract;
+use krawl::linalg::LANE;
+use krawl::linalg::rstructure::{Lane, Row};
 
 /// Lanes in a tile.
 pub(super) const CHUNK: usize = 4;
@@ -338,7 +339,7 @@ pub(super) fn solve_rows<T: Scalar, const W: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::rstructure::Residue;
+    use crate::rstructure::Residue;
 
     fn rows_are_solved<T: Scalar, const W: usize>(
         block: &[Lane<T>],

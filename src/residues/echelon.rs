@@ -1,6 +1,6 @@
 //! Row echelon form modulo the prime, row by row.
 
-use super::field::{PRIME, Residues, add, invert, mul, sub};
+use super::{PRIME, Residues, add, invert, mul, sub};
 
 /// A row without its zeros: columns, ascending, and entries.
 type Row = Vec<(usize, u64)>;

@@ -1,7 +1,8 @@
 //! Objects beside points, and constraints beside distances, as plain data. What they mean is said in
 //! [`crate::constraint`].
 
-use super::{Decimal, Problem};
+use super::Problem;
+use crate::decimal::Decimal;
 use num_traits::Signed;
 
 /// A line, plane, circle, sphere, arc or rigid body.

@@ -1,7 +1,8 @@
 //! Enclosures of solutions for interval right-hand sides.
 
-use super::{Factors, RMatrix, Scalar, Singular};
-use crate::interval::{Interval, point};
+use super::scalar::{Enclosing, Subtract};
+use super::{Factors, RMatrix, Singular};
+use krawl::interval::{Interval, point};
 
 /// Encloses the solutions of J₀ x = b for a float matrix J₀ and all b in a box: the linear systems
 /// of interval Newton steps in the centred form (002, section 7, eq. 21),
@@ -14,7 +15,7 @@ use crate::interval::{Interval, point};
 ///
 /// ```
 /// use krawl::interval::hull;
-/// use krawl::linalg::rstructure::{Enclosure, RMatrix};
+/// use krawl_lab::rstructure::{Enclosure, RMatrix};
 /// let entries = [(0, 0, 1.0), (0, 1, 3.0), (1, 0, 1.0), (1, 1, -3.0)];
 /// let matrix = RMatrix::from_entries(1, &[1], &entries).unwrap();
 /// // u + 3 x = 1, u − 3 x ∈ [0, 1]: u ∈ [1/2, 1], x ∈ [0, 1/6].
@@ -26,7 +27,7 @@ use crate::interval::{Interval, point};
 #[derive(Debug, Clone)]
 pub struct Enclosure {
     floats: Factors<f64>,
-    intervals: Factors<Interval>,
+    intervals: Factors<Enclosing>,
 }
 
 impl Enclosure {
@@ -34,7 +35,7 @@ impl Enclosure {
     /// be regular.
     pub fn new(matrix: RMatrix<f64>) -> Result<Self, Singular> {
         assert_finite(&matrix);
-        let intervals = Factors::new(matrix.map(point))?;
+        let intervals = Factors::new(matrix.map(|x| Enclosing(point(x))))?;
         let floats = Factors::new(matrix)?;
         Ok(Enclosure { floats, intervals })
     }
@@ -53,12 +54,12 @@ impl Enclosure {
         near.iter_mut()
             .filter(|x| !x.is_finite())
             .for_each(|x| *x = 0.0);
-        let mut rest = right_side.to_vec();
+        let mut rest: Vec<Enclosing> = right_side.iter().copied().map(Enclosing).collect();
         self.intervals.matrix().for_each(|row, column, entry| {
-            rest[row] = rest[row].minus_product(entry, point(near[column]));
+            rest[row] = rest[row].minus_product(entry, Enclosing(point(near[column])));
         });
         self.intervals.solve_in_place(&mut rest);
-        rest.iter().zip(near).map(|(&d, x)| d + point(x)).collect()
+        rest.iter().zip(near).map(|(d, x)| d.0 + point(x)).collect()
     }
 }
 

@@ -1,11 +1,11 @@
 //! R-structured matrices that are stored as such: factor once, solve many.
 
-use super::elimination::{Blocks, Elimination, Solves};
 use super::kernel;
-use super::rows::{Lane, MAX_KEYS, Row, add, zeros};
+use super::scalar::Subtract;
 use super::structure::{Block, Structure};
 use super::{RMatrix, Scalar};
-use crate::linalg::LANE;
+use krawl::linalg::LANE;
+use krawl::linalg::rstructure::{Blocks, Elimination, Lane, MAX_KEYS, Row, Solves, add, zeros};
 use std::borrow::Borrow;
 
 /// Why a matrix could not be factored.
@@ -57,7 +57,7 @@ impl<T: Scalar, M: Borrow<RMatrix<T>>> Factors<T, M> {
     /// Factors a matrix.
     ///
     /// ```
-    /// use krawl::linalg::rstructure::{Factors, RMatrix};
+    /// use krawl_lab::rstructure::{Factors, RMatrix};
     /// // | 1  2  0 |   u    3
     /// // | 0  1  4 | · x₁ = 5      k = 1, blocks of size 1
     /// // | 3  1  1 |   x₂   5
@@ -135,10 +135,15 @@ impl<T: Scalar, M: Borrow<RMatrix<T>>> Factors<T, M> {
             diagonal: &storage.diagonal,
             right: x.as_deref(),
         };
+        let (keys, right_sides) = (m.structure.keys, usize::from(x.is_some()));
+        if keys + right_sides > MAX_KEYS {
+            return Err(Singular::TooManyKeys(keys, MAX_KEYS - right_sides));
+        }
         let elimination = &mut storage.elimination;
-        elimination.make(&whole, usize::from(x.is_some()))?;
+        let made = elimination.make(&whole, right_sides);
+        made.map_err(|_| Singular::Schur)?;
         if let Some(x) = x {
-            elimination.solution(m.structure.keys, x);
+            elimination.solution(keys, x);
         }
         Ok(Factors { matrix, storage })
     }

@@ -1,4 +1,10 @@
-//! Arithmetic modulo the prime 2⁶¹ − 1.
+//! Arithmetic and elimination modulo the prime 2⁶¹ − 1.
+
+mod echelon;
+
+pub use echelon::Echelon;
+
+use crate::random::Random;
 
 /// The Mersenne prime 2⁶¹ − 1.
 pub const PRIME: u64 = (1 << 61) - 1;
@@ -34,22 +40,18 @@ pub fn invert(a: u64) -> u64 {
     result
 }
 
-/// Residues that look random and are the same in every run (Steele, Lea, Flood, *Fast splittable
-/// pseudorandom number generators*, 2014).
-pub struct Residues(u64);
+/// Residues that look random and are the same in every run.
+pub struct Residues(Random);
 
 impl Residues {
     /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
-        Residues(seed)
+        Residues(Random::new(seed))
     }
 
     /// The next residue, never 0.
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        1 + (z ^ (z >> 31)) % (PRIME - 1)
+        1 + self.0.bits() % (PRIME - 1)
     }
 }
 

@@ -2,14 +2,16 @@
 
 /// A sequence of a seed (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*,
 /// 2014).
-pub(crate) struct Random(u64);
+#[derive(Debug, Clone)]
+pub struct Random(u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
         Random(seed)
     }
 
-    fn next(&mut self) -> u64 {
+    /// 64 bits.
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -19,7 +21,7 @@ impl Random {
     /// Between −1 and 1.
     pub fn symmetric(&mut self) -> f64 {
         // 53 bits, exactly.
-        (self.next() >> 11) as f64 * 2f64.powi(-52) - 1.0
+        (self.bits() >> 11) as f64 * 2f64.powi(-52) - 1.0
     }
 
     /// Three of them, or two and zero in the plane.

@@ -1,9 +1,9 @@
 //! R-structured matrices.
 
 use super::Scalar;
-use super::rows::Lane;
 use super::structure::{Place, Structure, StructureError};
-use crate::linalg::LANE;
+use krawl::linalg::LANE;
+use krawl::linalg::rstructure::Lane;
 use std::sync::Arc;
 
 /// A matrix `[[H, A], [C, L]]` with an [R-structure](Structure): A is block lower triangular, its

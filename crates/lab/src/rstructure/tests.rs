@@ -1,7 +1,9 @@
 //! Solutions against other arithmetic: another library's dense floats, exact fractions, residues.
 
+use super::scalar::Subtract;
 use super::*;
-use crate::interval::{Interval, enclose_rational, hull, point};
+use krawl::interval::{Interval, enclose_rational, hull, point};
+use krawl::linalg::rstructure::Ordering;
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -206,7 +208,7 @@ proptest! {
         let keys: Vec<usize> = (0..sample.keys).map(column).collect();
         let ignored: Vec<usize> = (n - sample.keys..n).map(row).collect();
         let ordering = Ordering::new(n, &equations, &keys, &ignored).unwrap();
-        let mut matrix = RMatrix::zeros(ordering.structure(&equations));
+        let mut matrix = RMatrix::zeros(Structure::of(&ordering, &equations));
         for &(i, j, x) in &sample.entries {
             matrix.set(ordering.row_of(row(i)), ordering.column_of(column(j)), Residue::<P>::new(x));
         }

@@ -15,7 +15,7 @@
 //! `-- quick` leaves out n = 4002.
 
 use faer::linalg::solvers::Solve;
-use krawl::linalg::rstructure::{Factors, RMatrix, Structure, backward_error};
+use krawl_lab::rstructure::{Factors, RMatrix, Structure, backward_error};
 use std::sync::Arc;
 use std::time::Instant;
 
