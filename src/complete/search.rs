@@ -10,6 +10,7 @@ use super::place::{Known, Squares};
 use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
+use crate::linalg::invert;
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -369,11 +370,10 @@ fn normal_solve(j: &[f64], right: &[f64], m: usize, epsilon: f64) -> Option<Vec<
     for i in 0..m {
         a[i * m + i] += epsilon;
     }
-    let mut y = Vec::new();
-    super::krawczyk::invert(&a, m, &mut y).then(|| {
+    invert(&mut a, m).then(|| {
         (0..m)
             .map(|i| {
-                y[i * m..(i + 1) * m]
+                a[i * m..(i + 1) * m]
                     .iter()
                     .zip(right)
                     .map(|(a, b)| a * b)

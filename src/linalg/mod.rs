@@ -4,6 +4,7 @@
 //! The dense kernels are plain floating point; what they may have rounded away is bounded by the
 //! caller with [`crate::interval::rounding`], from the operation counts stated with each kernel.
 
+pub mod elimination;
 mod inverse;
 mod large;
 mod matrix;
@@ -12,6 +13,7 @@ mod rank;
 pub mod rstructure;
 mod span;
 
+pub use elimination::invert;
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
 pub use matrix::{LANE, Matrix, Sparse, Vector};

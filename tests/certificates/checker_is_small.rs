@@ -27,8 +27,10 @@ fn the_checker_uses_only_the_problem_the_intervals_and_the_equations() {
         parts.next();
         for part in parts {
             let module: String = part.chars().take_while(|c| c.is_alphanumeric()).collect();
+            // Guesses may be made by anything.
+            let is_guess = module == "linalg" && path.ends_with("checker/guess.rs");
             assert!(
-                ALLOWED.contains(&module.as_str()),
+                is_guess || ALLOWED.contains(&module.as_str()),
                 "{}: crate::{module}",
                 path.display()
             );

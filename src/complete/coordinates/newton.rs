@@ -2,9 +2,9 @@
 
 use super::contract::Empty;
 use super::system::Row;
-use crate::complete::krawczyk::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
+use crate::linalg::invert;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -59,7 +59,14 @@ impl Square<'_> {
         out
     }
 
-    /// The same in intervals.
+    /// About its inverse; `None`: there is none.
+    fn inverse(&self, at: &[f64]) -> Option<Vec<f64>> {
+        let mut y = self.jacobian(at);
+        let is_regular = invert(&mut y, self.size()) && y.iter().all(|x| x.is_finite());
+        is_regular.then_some(y)
+    }
+
+    /// The Jacobian in intervals, row by row.
     fn derivatives(&self, at: &[Interval]) -> Vec<Interval> {
         let n = self.size();
         let mut out = vec![ZERO; n * n];
@@ -97,12 +104,11 @@ impl Square<'_> {
         let n = self.size();
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         let near = self.floats(x, &middle);
-        let mut y = Vec::new();
-        if !invert(&self.jacobian(&near), n, &mut y) || y.iter().any(|y| !y.is_finite()) {
+        let Some(y) = self.inverse(&near) else {
             return Ok(Step {
                 defect: f64::INFINITY,
             });
-        }
+        };
         let at = self.with(x, |k| point(middle[k]));
         let f: Vec<Interval> = self.rows.iter().map(|row| row.value(&at)).collect();
         let half = point(0.5);
@@ -157,13 +163,10 @@ impl Square<'_> {
     pub fn prove(&self, x: &[Interval]) -> Option<Zero> {
         let n = self.size();
         let mut own: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
-        let mut y = Vec::new();
         let mut last = f64::INFINITY;
         for _ in 0..30 {
             let at = self.floats(x, &own);
-            if !invert(&self.jacobian(&at), n, &mut y) || y.iter().any(|y| !y.is_finite()) {
-                return None;
-            }
+            let y = self.inverse(&at)?;
             let f: Vec<f64> = self.rows.iter().map(|row| row.nearly(&at)).collect();
             let mut size: f64 = 0.0;
             for i in 0..n {
@@ -180,13 +183,10 @@ impl Square<'_> {
                 break;
             }
         }
-        let at = self.floats(x, &own);
-        if !(last < 1e-6)
-            || !invert(&self.jacobian(&at), n, &mut y)
-            || y.iter().any(|y| !y.is_finite())
-        {
+        if !(last < 1e-6) {
             return None;
         }
+        let y = self.inverse(&self.floats(x, &own))?;
         self.test(x, own, &y)
     }
 
