@@ -24,8 +24,8 @@ mod write;
 #[cfg(feature = "explore")]
 pub(crate) use bend::default_coefficient as default_bend;
 pub use builder::ProblemBuilder;
+pub(crate) use check::field;
 pub use check::{Rigidity, rigidity};
-pub(crate) use check::{echelon, field};
 pub use decimal::{Decimal, DecimalError};
 pub(crate) use error::counted;
 pub use error::{DEPENDS, MAX_NAME, MAX_POINTS, Place, ProblemError};

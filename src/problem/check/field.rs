@@ -1,37 +1,66 @@
-//! Arithmetic modulo the prime 2⁶¹ − 1.
+//! Residues modulo a prime.
+
+use crate::linalg::elimination::Field;
+use std::ops::{Add, Div, Mul, Sub};
 
 /// The Mersenne prime 2⁶¹ − 1.
-pub const PRIME: u64 = (1 << 61) - 1;
+const PRIME: u64 = (1 << 61) - 1;
 
-/// a + b for residues.
-pub fn add(a: u64, b: u64) -> u64 {
-    let sum = a + b;
-    if sum >= PRIME { sum - PRIME } else { sum }
-}
+/// A residue modulo a prime below 2⁶³.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Residue<const P: u64 = PRIME>(u64);
 
-/// a − b for residues.
-pub fn sub(a: u64, b: u64) -> u64 {
-    if a >= b { a - b } else { a + PRIME - b }
-}
-
-/// a b for residues.
-pub fn mul(a: u64, b: u64) -> u64 {
-    // 2⁶¹ ≡ 1, so the product's upper bits are added to its lower ones.
-    let product = u128::from(a) * u128::from(b);
-    add((product as u64) & PRIME, (product >> 61) as u64)
-}
-
-/// 1 / a for a residue other than 0, by Fermat's little theorem.
-pub fn invert(a: u64) -> u64 {
-    let (mut result, mut base, mut exponent) = (1, a, PRIME - 2);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = mul(result, base);
-        }
-        base = mul(base, base);
-        exponent >>= 1;
+impl<const P: u64> Add for Residue<P> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let sum = self.0 + other.0;
+        Residue(if sum >= P { sum - P } else { sum })
     }
-    result
+}
+
+impl<const P: u64> Sub for Residue<P> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + Residue(P - other.0)
+    }
+}
+
+impl<const P: u64> Mul for Residue<P> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let product = u128::from(self.0) * u128::from(other.0);
+        match P {
+            // 2⁶¹ ≡ 1, so the product's upper bits are added to its lower ones.
+            PRIME => Residue((product as u64) & PRIME) + Residue((product >> 61) as u64),
+            _ => Residue((product % u128::from(P)) as u64),
+        }
+    }
+}
+
+impl<const P: u64> Div for Residue<P> {
+    type Output = Self;
+    /// By Fermat's little theorem: the divisor must not be 0.
+    fn div(self, mut power: Self) -> Self {
+        let (mut result, mut exponent) = (self, P - 2);
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                result = result * power;
+            }
+            power = power * power;
+            exponent >>= 1;
+        }
+        result
+    }
+}
+
+impl<const P: u64> Field for Residue<P> {
+    fn whole(number: i32) -> Self {
+        Residue(i64::from(number).rem_euclid(P as i64) as u64)
+    }
+
+    fn size(&self) -> f64 {
+        self.0 as f64
+    }
 }
 
 /// Residues that look random and are the same in every run (Steele, Lea, Flood, *Fast splittable
@@ -45,11 +74,11 @@ impl Residues {
     }
 
     /// The next residue, never 0.
-    pub fn next(&mut self) -> u64 {
+    pub fn next(&mut self) -> Residue {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        1 + (z ^ (z >> 31)) % (PRIME - 1)
+        Residue(1 + (z ^ (z >> 31)) % (PRIME - 1))
     }
 }
 
@@ -62,11 +91,12 @@ mod tests {
         let mut residues = Residues::new(1);
         for _ in 0..100 {
             let (a, b) = (residues.next(), residues.next());
-            assert_eq!(mul(a, invert(a)), 1);
-            assert_eq!(add(sub(a, b), b), a);
-            let exact = u128::from(a) * u128::from(b) % u128::from(PRIME);
-            assert_eq!(u128::from(mul(a, b)), exact);
+            assert_eq!(a / b * b, a);
+            assert_eq!(a - b + b, a);
+            let exact = u128::from(a.0) * u128::from(b.0) % u128::from(PRIME);
+            assert_eq!(u128::from((a * b).0), exact);
         }
-        assert_eq!(mul(PRIME - 1, PRIME - 1), 1);
+        assert_eq!(Residue(PRIME - 1) * Residue(PRIME - 1), Residue::<PRIME>(1));
+        assert_eq!(Residue::<7>(3) / Residue(5), Residue(2));
     }
 }

@@ -1,6 +1,5 @@
 //! Whether the distances are as many as needed, and where they are needed.
 
-pub(crate) mod echelon;
 pub(crate) mod field;
 mod rigidity;
 mod sketch;
