@@ -7,10 +7,10 @@ use super::follow::{Effort, PathEnd, Ways, follow_all, prove_all};
 use super::infinity::{Departure, enter};
 use super::lower::Lowered;
 use super::monodromy::bow;
-use super::number::Complex;
 use super::system::{Signs, System, segment};
 use super::template::Template;
 use crate::interval::DoubleDouble;
+use crate::interval::complex::Complex;
 use crate::problem::counted;
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! The equations of distances between complex points, and proofs of figures that satisfy them.
 
-use super::numbers::Z;
-use super::zero::{Quadratic, Zero};
+use super::zero::{Quadratic, Z, Zero};
+use crate::interval::complex::Complex;
 use crate::interval::{DoubleDouble, Interval, point};
 use crate::problem::{Problem, Target};
 use crate::system::Term;
@@ -34,8 +34,11 @@ pub fn square(target: &Target) -> BigRational {
 /// Numbers from a file: real and imaginary part, perhaps with what these leave; `None`: there are not two or four of them.
 pub fn number(parts: &[f64]) -> Option<Z> {
     match *parts {
-        [re, im] => Some([re.into(), im.into()]),
-        [re, im, a, b] => Some([DoubleDouble::sum(re, a), DoubleDouble::sum(im, b)]),
+        [re, im] => Some(Complex::new(re.into(), im.into())),
+        [re, im, a, b] => Some(Complex::new(
+            DoubleDouble::sum(re, a),
+            DoubleDouble::sum(im, b),
+        )),
         _ => None,
     }
 }
@@ -124,7 +127,7 @@ impl Equations {
         if !fits {
             return None;
         }
-        let mut near = vec![[DoubleDouble::default(); 2]; self.is_last.len()];
+        let mut near = vec![Z::default(); self.is_last.len()];
         for (place, unknowns) in places.iter().zip(&self.places) {
             for (parts, unknown) in place.iter().zip(unknowns) {
                 let number = number(parts)?;

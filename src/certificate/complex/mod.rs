@@ -10,7 +10,6 @@ mod bezout;
 mod figure;
 mod general;
 mod infinity;
-mod numbers;
 mod zero;
 
 use super::Compared;
