@@ -7,6 +7,7 @@
 pub mod elimination;
 mod inverse;
 mod large;
+mod least;
 mod matrix;
 mod pivots;
 mod rank;
@@ -16,6 +17,7 @@ mod span;
 pub use elimination::invert;
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
+pub use least::{damped, nearest_zero};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
 pub use rank::extreme_pivots;
 pub use span::Span;
