@@ -83,8 +83,8 @@
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`report`]: tables, JSON, pictures, progress
 //!
-//! Public for this package's own program, tests and benches, and not part of the interface: `linalg` (dense
-//! kernels on small matrices, R-structured linear systems), `plan` (construction plans with driving
+//! Public for this package's own program, tests and benches, and not part of the interface: `linalg` (elimination,
+//! dense kernels on small matrices, R-structured linear systems), `plan` (construction plans with driving
 //! parameters), `remarks` (what can be told of a problem before any path is followed).
 
 #![warn(missing_docs)]

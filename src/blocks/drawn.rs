@@ -97,7 +97,7 @@ impl<'a> Floats<'a> {
         if rows.is_empty() {
             return Some(at);
         }
-        let at = nearest_zero(at, |at| self.linearise(rows, at))?;
+        let at = nearest_zero(at, 1e-10, |at| self.linearise(rows, at))?;
         let all = self.system.unknowns.iter().zip(&at);
         let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
         positive.all(|(_, &x)| x > 0.0).then_some(at)

@@ -51,8 +51,9 @@ mod template;
 mod unknowns;
 mod vector;
 
+pub use crate::track::certified::Same;
 pub use bound::Bound;
-pub use boxes::{Found, Same, SolutionBox, SolutionSet};
+pub use boxes::{Found, SolutionBox, SolutionSet};
 pub use certify::to_certificate;
 pub use count::{Counts, count, count_generic};
 pub use exact::{Exact, Parameter, Random};

@@ -1,6 +1,7 @@
 //! All complex solutions of an instance: from those of a template.
 
-use super::boxes::{Found, Same, SolutionBox, SolutionSet};
+use super::Same;
+use super::boxes::{Found, SolutionBox, SolutionSet};
 use super::count::{Counts, count};
 use super::exact::Random;
 use super::follow::{Effort, PathEnd, Ways, follow_all, prove_all};

@@ -35,7 +35,8 @@ const LEAST: f64 = 1e-200;
 /// assert_eq!(matrix, [0.0, 0.25, 0.5, 0.0]);
 /// ```
 pub fn invert<F: Field>(a: &mut [F], n: usize) -> bool {
-    let ([zero, one], mut pivots) = ([0, 1].map(F::whole), Vec::with_capacity(n));
+    let [zero, one] = [0, 1].map(F::whole);
+    let (mut pivots, mut top) = (Vec::with_capacity(n), Vec::with_capacity(n));
     for k in 0..n {
         let size = |row: usize| a[row * n + k].size();
         let larger = |best: usize, row: usize| if size(row) > size(best) { row } else { best };
@@ -53,11 +54,12 @@ pub fn invert<F: Field>(a: &mut [F], n: usize) -> bool {
         let row = &mut a[k * n..(k + 1) * n];
         let over = one.clone() / std::mem::replace(&mut row[k], one.clone());
         row.iter_mut().for_each(|x| *x = x.clone() * over.clone());
-        let row = row.to_vec();
+        top.clear();
+        top.extend_from_slice(row);
         for (_, other) in a.chunks_mut(n).enumerate().filter(|(i, _)| *i != k) {
             let factor = std::mem::replace(&mut other[k], zero.clone());
             if factor != zero {
-                for (x, y) in other.iter_mut().zip(&row) {
+                for (x, y) in other.iter_mut().zip(&top) {
                     *x = x.clone() - factor.clone() * y.clone();
                 }
             }

@@ -11,10 +11,11 @@ pub fn damped(j: &DMatrix<f64>, epsilon: f64) -> Option<Cholesky<f64, Dyn>> {
     normal.cholesky()
 }
 
-/// A zero near a point, by at most 60 of Gauss and Newton's steps, which change least; with `linearise`, the Jacobian and the
-/// values at a point. `None`: there is none, or it is far away.
+/// A zero near a point, by at most 60 of Gauss and Newton's steps, which change least: singular values up to `zero` count as
+/// zero. `linearise`: the Jacobian and the values at a point. `None`: there is none, or it is far away.
 pub fn nearest_zero(
     mut x: Vec<f64>,
+    zero: f64,
     linearise: impl Fn(&[f64]) -> (DMatrix<f64>, DVector<f64>),
 ) -> Option<Vec<f64>> {
     const STEPS: usize = 60;
@@ -25,9 +26,13 @@ pub fn nearest_zero(
         if off.amax() < 1e-13 * size {
             return Some(x);
         }
-        let step = jacobian.svd(true, true).solve(&off, 1e-10).ok()?;
+        // Of others there is no decomposition.
+        if !jacobian.iter().chain(&off).all(|x| x.is_finite()) {
+            return None;
+        }
+        let step = jacobian.svd(true, true).solve(&off, zero).ok()?;
         x.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
-        if x.iter().any(|x| x.is_nan() || x.abs() > FAR * size) {
+        if !x.iter().all(|x| x.abs() <= FAR * size) {
             return None;
         }
     }

@@ -1,6 +1,8 @@
 //! Dense kernels on square matrices, small and large, the norms that proofs are made of, and large systems
 //! that fall apart but for a few unknowns ([`rstructure`]).
 //!
+//! Elimination outside of the trackers' loops, in floats, residues or complex numbers, is in [`elimination`].
+//!
 //! The dense kernels are plain floating point; what they may have rounded away is bounded by the
 //! caller with [`crate::interval::rounding`], from the operation counts stated with each kernel.
 

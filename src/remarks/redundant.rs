@@ -106,8 +106,8 @@ impl<'a> System<'a> {
         let mut jacobian = DMatrix::zeros(rows.len(), x.len());
         let mut values = DVector::zeros(rows.len());
         for (r, &equation) in rows.iter().enumerate() {
-            let add = |i, slope| jacobian[(r, i)] += slope;
-            values[r] = self.target.evaluate(equation, x, add);
+            let target = &self.target;
+            values[r] = target.evaluate(equation, x, |i, d| jacobian[(r, i)] += d);
             let size = jacobian.row(r).norm();
             if size > 0.0 {
                 jacobian.row_mut(r).scale_mut(1.0 / size);
@@ -124,7 +124,7 @@ impl<'a> System<'a> {
         let mut state = seed + 1;
         let sketch = self.sketch.iter();
         let moved = sketch.map(|x| x + MOVED * noise(&mut state));
-        let x = nearest_zero(moved.collect(), |x| self.linearise(&rows, x))?;
+        let x = nearest_zero(moved.collect(), 1e-10, |x| self.linearise(&rows, x))?;
         self.homotopy.is_proper(&x).then_some(x)
     }
 

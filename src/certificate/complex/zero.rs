@@ -360,6 +360,24 @@ impl Zero {
         image
     }
 
+    /// Whether it is real: the conjugate has to be a zero too. `None`: that is not clear.
+    pub fn is_real(&self) -> Option<bool> {
+        self.is_same(&self.image(|_| false, true))
+    }
+
+    /// Whether it is the image of another zero under one of these changes of signs. `None`: that is not clear.
+    pub fn is_image(&self, other: &Self, changes: &[Vec<bool>]) -> Option<bool> {
+        let mut clear = Some(false);
+        for changes in changes {
+            match self.is_same(&other.image(|k| changes[k], false)) {
+                Some(false) => {}
+                Some(true) => return Some(true),
+                None => clear = None,
+            }
+        }
+        clear
+    }
+
     /// Whether another zero of the same equations is the same one. `None`: that is not clear.
     pub fn is_same(&self, other: &Self) -> Option<bool> {
         let mut is_near = true;

@@ -4,7 +4,8 @@ use super::contract::Empty;
 use super::system::Row;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
-use crate::linalg::invert;
+use crate::linalg::{invert, nearest_zero};
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -274,34 +275,19 @@ impl Square<'_> {
     /// unknown.
     pub fn on_a_curve(&self, x: &[Interval]) -> Option<Vec<f64>> {
         let n = self.size();
-        let to_zero = |from: Vec<f64>| -> Option<(Vec<f64>, nalgebra::DMatrix<f64>)> {
-            let mut own = from;
-            for _ in 0..40 {
-                let at = self.floats(x, &own);
-                let jacobian = nalgebra::DMatrix::from_row_slice(n, n, &self.jacobian(&at));
-                let f = nalgebra::DVector::from_iterator(
-                    n,
-                    self.rows.iter().map(|row| row.nearly(&at)),
-                );
-                if !jacobian.iter().chain(f.iter()).all(|x| x.is_finite()) {
-                    return None;
-                }
-                let size = f.amax();
-                let inverse = jacobian.clone().pseudo_inverse(1e-7).ok()?;
-                let step = inverse * f;
-                own.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
-                if size < 1e-14 {
-                    return Some((own, jacobian));
-                }
-            }
-            None
+        let linearise = |own: &[f64]| {
+            let at = self.floats(x, own);
+            let values = self.rows.iter().map(|row| row.nearly(&at));
+            let jacobian = DMatrix::from_row_slice(n, n, &self.jacobian(&at));
+            (jacobian, DVector::from_iterator(n, values))
         };
+        let to_zero = |from| nearest_zero(from, 1e-7, linearise);
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         if !middle.iter().all(|x| x.abs() < 1e15) {
             return None;
         }
-        let (zero, jacobian) = to_zero(middle)?;
-        let svd = jacobian.svd(false, true);
+        let zero = to_zero(middle)?;
+        let svd = linearise(&zero).0.svd(false, true);
         let v = svd.v_t?;
         let greatest = svd.singular_values.max();
         let kernel = (0..n).filter(|&k| svd.singular_values[k] < 1e-7 * greatest);
@@ -309,7 +295,7 @@ impl Square<'_> {
         let goes_on = kernel.any(|k| {
             const ASIDE: f64 = 1e-2;
             let aside: Vec<f64> = (0..n).map(|i| zero[i] + ASIDE * v[(k, i)]).collect();
-            let Some((there, _)) = to_zero(aside.clone()) else {
+            let Some(there) = to_zero(aside.clone()) else {
                 return false;
             };
             let distance = |a: &[f64], b: &[f64]| {
