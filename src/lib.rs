@@ -70,7 +70,8 @@
 //! - `decimal`: exact numbers as they are written
 //! - `hexadecimal`: bytes as text
 //! - `random`: numbers that look random
-//! - `residues`: arithmetic and elimination modulo a prime
+//! - `elimination`: row echelon forms and inverses over any field
+//! - `residues`: numbers modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - `linalg`: dense kernels on small matrices, R-structured linear systems
 //! - `statement`: points, constraints and sketch of a problem, as plain data
@@ -125,6 +126,8 @@ pub mod complex;
 pub mod constraint;
 mod decimal;
 pub mod edit;
+#[doc(hidden)]
+pub mod elimination;
 #[cfg(feature = "explore")]
 pub mod explore;
 pub mod generate;

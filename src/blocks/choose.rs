@@ -5,7 +5,6 @@
 //! determines standing still.
 
 use super::System;
-use crate::constraint::{Entry, Form};
 
 /// A pivot below this part of its row's largest entry counts as zero. Sketches meet their constraints to some eight
 /// digits, and where one constraint follows from others a pivot is as small as that.
@@ -41,26 +40,10 @@ impl Choice {
         factor: f64,
     ) -> Self {
         let width = system.unknowns.len();
-        let form = |form: Form| match form {
-            Form::One => 1.0,
-            Form::Difference(a, b) => value(a, at) - value(b, at),
-        };
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(system.rows.len());
         for row in &system.rows {
             let mut entries = vec![0.0; width];
-            for p in &row.products {
-                let factor = f64::from(p.factor);
-                for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                    if let Form::Difference(a, b) = this {
-                        let slope = factor * form(other);
-                        for (entry, sign) in [(a, 1.0), (b, -1.0)] {
-                            if let Entry::Unknown(u) = entry {
-                                entries[u] += sign * slope;
-                            }
-                        }
-                    }
-                }
-            }
+            row.evaluate(at, |u, slope| entries[u] += slope);
             let largest = entries.iter().fold(0.0f64, |max, x| max.max(x.abs()));
             if largest > 0.0 {
                 entries.iter_mut().for_each(|x| *x /= largest);
@@ -122,12 +105,5 @@ impl Choice {
             redundant: left,
             free: (0..width).filter(|&u| !is_pivot[u]).collect(),
         }
-    }
-}
-
-fn value(entry: Entry, at: &[f64]) -> f64 {
-    match entry {
-        Entry::Unknown(u) => at[u],
-        _ => 0.0,
     }
 }

@@ -8,6 +8,7 @@
 use super::{Choice, FINE, Row, System};
 use crate::constraint::{Entry, Equation, Form, Role};
 use crate::interval::{Real, point};
+use crate::linalg::nearest_zero;
 use crate::random::Random;
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
@@ -92,27 +93,14 @@ impl<'a> Floats<'a> {
     }
 
     /// A place that meets some rows, by Newton's method with least changes; lengths and radii are positive there.
-    pub fn meet(&self, rows: &[usize], mut at: Vec<f64>) -> Option<Vec<f64>> {
-        const STEPS: usize = 60;
-        const FAR: f64 = 1e3;
+    pub fn meet(&self, rows: &[usize], at: Vec<f64>) -> Option<Vec<f64>> {
         if rows.is_empty() {
             return Some(at);
         }
-        for _ in 0..STEPS {
-            let (jacobian, off) = self.linearise(rows, &at);
-            let size = at.iter().fold(1.0, |max: f64, x| max.max(x.abs()));
-            if off.amax() < 1e-13 * size {
-                let all = self.system.unknowns.iter().zip(&at);
-                let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
-                return positive.all(|(_, &x)| x > 0.0).then_some(at);
-            }
-            let step = jacobian.svd(true, true).solve(&off, 1e-10).ok()?;
-            at.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
-            if at.iter().any(|x| x.is_nan() || x.abs() > FAR * size) {
-                return None;
-            }
-        }
-        None
+        let at = nearest_zero(at, 1e-10, |at| self.linearise(rows, at))?;
+        let all = self.system.unknowns.iter().zip(&at);
+        let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
+        positive.all(|(_, &x)| x > 0.0).then_some(at)
     }
 }
 

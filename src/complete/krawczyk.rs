@@ -3,6 +3,7 @@
 
 use super::plan::Plan;
 use super::targets::Targets;
+use crate::elimination::invert;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, point};
 use serde::{Deserialize, Serialize};
@@ -127,13 +128,13 @@ impl Prover {
         let m = self.m;
         let mut x = guess.to_vec();
         let (mut f, mut step) = (vec![0.0; m], vec![0.0; m]);
-        let (mut jacobian, mut y) = (Vec::new(), Vec::new());
+        let mut y = Vec::new();
         let mut last = f64::INFINITY;
         for round in 0..12 {
             // The last inverses differ by nothing that matters.
             if round < 5 {
-                self.jacobian(&x, &mut jacobian);
-                if !invert(&jacobian, m, &mut y) {
+                self.jacobian(&x, &mut y);
+                if !invert(&mut y, m) {
                     return Err(Doubt::Singular);
                 }
             }
@@ -159,8 +160,8 @@ impl Prover {
         if !(last < 1e-7) && m > 0 {
             return Err(Doubt::Away);
         }
-        self.jacobian(&x, &mut jacobian);
-        if !invert(&jacobian, m, &mut y) {
+        self.jacobian(&x, &mut y);
+        if !invert(&mut y, m) {
             return Err(Doubt::Singular);
         }
         self.test(x, &y).ok_or(Doubt::Singular)
@@ -262,49 +263,4 @@ impl Figure {
     pub fn is_same(&self, other: &Figure) -> bool {
         round_up(self.distance(other) + self.radius, 4) < other.alone
     }
-}
-
-/// Inverts a square matrix by Gauss–Jordan elimination with pivots of largest size in their columns. Whether there
-/// were pivots; nothing is claimed about the rounding.
-pub fn invert(a: &[f64], m: usize, y: &mut Vec<f64>) -> bool {
-    let mut a = a.to_vec();
-    y.clear();
-    y.resize(m * m, 0.0);
-    for i in 0..m {
-        y[i * m + i] = 1.0;
-    }
-    for k in 0..m {
-        let (mut best, mut at) = (0.0, k);
-        for r in k..m {
-            if a[r * m + k].abs() > best {
-                (best, at) = (a[r * m + k].abs(), r);
-            }
-        }
-        if !(best > 1e-200) {
-            return false;
-        }
-        if at != k {
-            for c in 0..m {
-                a.swap(at * m + c, k * m + c);
-                y.swap(at * m + c, k * m + c);
-            }
-        }
-        let over = 1.0 / a[k * m + k];
-        for c in 0..m {
-            a[k * m + c] *= over;
-            y[k * m + c] *= over;
-        }
-        for r in 0..m {
-            let factor = a[r * m + k];
-            if r != k && factor != 0.0 {
-                for c in k..m {
-                    a[r * m + c] -= factor * a[k * m + c];
-                }
-                for c in 0..m {
-                    y[r * m + c] -= factor * y[k * m + c];
-                }
-            }
-        }
-    }
-    true
 }

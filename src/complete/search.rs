@@ -10,6 +10,8 @@ use super::place::{Known, Squares};
 use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
+use crate::linalg::damped;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -288,7 +290,7 @@ impl Search {
         };
         for sign in [1.0, -1.0] {
             let mut y = x.clone();
-            self.prover.moved(&mut y, &direction, sign * 1e-2);
+            self.prover.moved(&mut y, direction.as_slice(), sign * 1e-2);
             let moved = |y: &[[f64; 3]]| {
                 let all = y.iter().flatten().zip(x.iter().flatten());
                 all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -301,86 +303,46 @@ impl Search {
         false
     }
 
+    /// The Jacobian, with (JᵀJ + ε)⁻¹.
+    fn linearise(&self, x: &[[f64; 3]]) -> Option<(DMatrix<f64>, Cholesky<f64, Dyn>)> {
+        let (m, mut j) = (self.prover.m, Vec::new());
+        self.prover.jacobian(x, &mut j);
+        let j = DMatrix::from_row_slice(m, m, &j);
+        damped(&j, 1e-12).map(|normal| (j, normal))
+    }
+
     /// Moves a figure to the nearest solution, or says that it does not get there.
     fn settle(&self, x: &mut [[f64; 3]], wanted: f64) -> bool {
-        let m = self.prover.m;
-        let mut f = vec![0.0; m];
-        let mut j = Vec::new();
+        let mut f = DVector::zeros(self.prover.m);
         for _ in 0..25 {
-            self.prover.residual(x, &mut f);
-            let size = f.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+            self.prover.residual(x, f.as_mut_slice());
+            let size = f.amax();
             if size < wanted {
                 return true;
             }
             if !(size < 1.0) {
                 return false;
             }
-            self.prover.jacobian(x, &mut j);
-            let Some(step) = least_squares(&j, &f, m, 1e-12) else {
+            let Some((j, normal)) = self.linearise(x) else {
                 return false;
             };
-            self.prover.moved(x, &step, -1.0);
+            let step = normal.solve(&j.tr_mul(&f));
+            self.prover.moved(x, step.as_slice(), -1.0);
         }
         false
     }
 
     /// A unit vector that the Jacobian nearly maps to 0, if there is one.
-    fn weakest(&self, x: &[[f64; 3]]) -> Option<Vec<f64>> {
-        let m = self.prover.m;
-        let mut j = Vec::new();
-        self.prover.jacobian(x, &mut j);
-        let mut v: Vec<f64> = (0..m)
-            .map(|i| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0)
-            .collect();
+    fn weakest(&self, x: &[[f64; 3]]) -> Option<DVector<f64>> {
+        let (j, normal) = self.linearise(x)?;
+        let start = |i: usize, _| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
+        let mut v = DVector::from_fn(self.prover.m, start);
         for _ in 0..6 {
-            // (JᵀJ + ε)⁻¹ v, by inverse iteration.
-            v = normal_solve(&j, &v, m, 1e-12)?;
-            let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            v.iter_mut().for_each(|x| *x /= norm);
+            // By inverse iteration.
+            v = normal.solve(&v).normalize();
         }
-        let image: f64 = (0..m)
-            .map(|e| {
-                let row = &j[e * m..(e + 1) * m];
-                row.iter().zip(&v).map(|(a, b)| a * b).sum::<f64>().powi(2)
-            })
-            .sum();
-        (image.sqrt() < 1e-4).then_some(v)
+        ((&j * &v).norm() < 1e-4).then_some(v)
     }
-}
-
-/// (JᵀJ + ε)⁻¹ Jᵀ f.
-fn least_squares(j: &[f64], f: &[f64], m: usize, epsilon: f64) -> Option<Vec<f64>> {
-    let right: Vec<f64> = (0..m)
-        .map(|i| (0..m).map(|e| j[e * m + i] * f[e]).sum())
-        .collect();
-    normal_solve(j, &right, m, epsilon)
-}
-
-fn normal_solve(j: &[f64], right: &[f64], m: usize, epsilon: f64) -> Option<Vec<f64>> {
-    let mut a = vec![0.0; m * m];
-    for e in 0..m {
-        let row = &j[e * m..(e + 1) * m];
-        for i in (0..m).filter(|&i| row[i] != 0.0) {
-            for k in 0..m {
-                a[i * m + k] += row[i] * row[k];
-            }
-        }
-    }
-    for i in 0..m {
-        a[i * m + i] += epsilon;
-    }
-    let mut y = Vec::new();
-    super::krawczyk::invert(&a, m, &mut y).then(|| {
-        (0..m)
-            .map(|i| {
-                y[i * m..(i + 1) * m]
-                    .iter()
-                    .zip(right)
-                    .map(|(a, b)| a * b)
-                    .sum()
-            })
-            .collect()
-    })
 }
 
 /// Figures without repetitions: mirror images in the base are one. `Err` if two of them cannot be told

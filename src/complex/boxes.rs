@@ -3,6 +3,7 @@
 use super::system::Signs;
 use crate::interval::{DoubleDouble, Interval, hull, point};
 use crate::track::arc::Figure;
+use crate::track::certified::Same;
 
 /// A box around a solution, proved to hold exactly one.
 #[derive(Debug, Clone)]
@@ -13,17 +14,6 @@ pub struct SolutionBox {
     pub parts: Vec<Interval>,
     /// Within this distance of the box's middle, in every part, there is no other solution.
     pub alone_within: f64,
-}
-
-/// Whether two boxes hold the same solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Same {
-    /// They do, proved.
-    Yes,
-    /// They do not, proved: the boxes are disjoint.
-    No,
-    /// Neither could be proved.
-    Unknown,
 }
 
 impl SolutionBox {

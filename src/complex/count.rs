@@ -1,6 +1,7 @@
 //! How many solutions there are: in the gauge, up to rotation, up to isometry.
 
-use super::boxes::{Same, SolutionBox, SolutionSet};
+use super::Same;
+use super::boxes::{SolutionBox, SolutionSet};
 use super::system::{Signs, System};
 
 /// The number of solutions, counted in three ways. In a frame of the problem's own there is no motion to divide by: the last

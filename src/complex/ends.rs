@@ -21,8 +21,9 @@
 
 use super::boxes::SolutionBox;
 use super::exact::Exact;
-use super::number::{Complex, Matrix};
+use super::matrix::Matrix;
 use super::system::System;
+use crate::interval::complex::Complex;
 use crate::interval::rounding::{UNDERFLOW, in_range, largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
 use crate::system::Right;

@@ -10,9 +10,10 @@
 //! The path may jump to another one. So what comes of it is a guess, to be proved at its end, and a claim about all
 //! solutions rests on their number alone.
 
-use super::number::{Complex, Matrix, Number};
+use super::matrix::Matrix;
 use super::system::System;
 use crate::interval::DoubleDouble;
+use crate::interval::complex::{Complex, Number};
 use crate::system::Right;
 
 /// Taylor coefficients beyond the zeroth.

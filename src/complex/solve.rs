@@ -1,16 +1,17 @@
 //! All complex solutions of an instance: from those of a template.
 
-use super::boxes::{Found, Same, SolutionBox, SolutionSet};
+use super::Same;
+use super::boxes::{Found, SolutionBox, SolutionSet};
 use super::count::{Counts, count};
 use super::exact::Random;
 use super::follow::{Effort, PathEnd, Ways, follow_all, prove_all};
 use super::infinity::{Departure, enter};
 use super::lower::Lowered;
 use super::monodromy::bow;
-use super::number::Complex;
 use super::system::{Signs, System, segment};
 use super::template::Template;
 use crate::interval::DoubleDouble;
+use crate::interval::complex::Complex;
 use crate::problem::counted;
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! Vectors of three complex numbers in double-doubles.
 
-use super::number::Complex;
 use crate::interval::DoubleDouble;
+use crate::interval::complex::Complex;
 
 /// A complex number in double-doubles.
 pub type Z = Complex<DoubleDouble>;

@@ -9,7 +9,8 @@
 use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower, try_lower_editable};
-use crate::residues::{Echelon, PRIME, Residues, add, mul, sub};
+use crate::elimination::{Echelon, Field};
+use crate::residues::{Residue, Residues};
 use crate::statement::{DEPENDS, Problem, counted, list};
 
 /// Most names in one list of a message.
@@ -208,7 +209,7 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
     }
     if found.rows.rank < unknowns {
         let motion = found.motion();
-        let movers = system.movers(|column| motion[column] != 0);
+        let movers = system.movers(|column| motion[column] != Residue::whole(0));
         let against = if problem.is_absolute() {
             String::new()
         } else {
@@ -241,7 +242,7 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
 /// The Jacobian at random values modulo a prime, in row echelon form.
 struct Eliminated {
     /// Columns are in the order of elimination, auxiliary unknowns first.
-    rows: Echelon,
+    rows: Echelon<Residue>,
     /// The equations that depend on each other, the last of which is the first that adds nothing.
     circuit: Option<Vec<usize>>,
     /// How many auxiliary unknowns there are.
@@ -250,70 +251,36 @@ struct Eliminated {
 
 impl System<'_> {
     fn eliminate(&self) -> Eliminated {
-        let plain = self.eliminate_with(false);
-        if plain.circuit.is_none() {
-            return plain;
-        }
-        Eliminated {
-            circuit: self.eliminate_with(true).circuit,
-            ..plain
-        }
-    }
-
-    /// With `combine`, stops at the first dependent row, having found what it depends on.
-    fn eliminate_with(&self, combine: bool) -> Eliminated {
         let mut residues = Residues::new(0x6b72_6177_6c00_0003);
-        let at: Vec<u64> = (0..self.width).map(|_| residues.next()).collect();
+        let at: Vec<Residue> = (0..self.width).map(|_| residues.next()).collect();
         let (width, equations) = (self.width, self.equations());
         // Auxiliary unknowns first: they have pivots of their own.
         let auxiliary = self.lowered.tail.unknowns.len();
         let order = |column: usize| (column + auxiliary) % width.max(1);
-        let mut rows = Echelon::new(width);
-        let mut work = vec![0u64; width + if combine { equations } else { 0 }];
-        let mut circuit = None;
-        for equation in 0..equations {
-            work.fill(0);
+        let signed = |sum: Residue, plus: bool, x: Residue| if plus { sum + x } else { sum - x };
+        let (rows, circuit) = Echelon::of((equations, width), |equation, row| {
             for (factor, sides) in self.products(equation) {
-                let factor = match factor {
-                    f if f < 0 => PRIME - f.unsigned_abs() as u64,
-                    f => f as u64,
-                };
                 let value = |side: &Option<Support>| match side {
-                    None => 1,
-                    Some(support) => support.iter().flatten().fold(0, |sum, &(column, plus)| {
-                        if plus {
-                            add(sum, at[column])
-                        } else {
-                            sub(sum, at[column])
-                        }
-                    }),
+                    None => Residue::whole(1),
+                    Some(support) => {
+                        let all = support.iter().flatten();
+                        all.fold(Residue::whole(0), |sum, &(column, plus)| {
+                            signed(sum, plus, at[column])
+                        })
+                    }
                 };
                 for (this, other) in [(0, 1), (1, 0)] {
                     let Some(support) = &sides[this] else {
                         continue;
                     };
-                    let slope = mul(factor, value(&sides[other]));
+                    let slope = Residue::whole(factor) * value(&sides[other]);
                     for &(column, plus) in support.iter().flatten() {
-                        let entry = &mut work[order(column)];
-                        *entry = if plus {
-                            add(*entry, slope)
-                        } else {
-                            sub(*entry, slope)
-                        };
+                        let entry = &mut row[order(column)];
+                        *entry = signed(*entry, plus, slope);
                     }
                 }
             }
-            if combine {
-                work[width + equation] = 1;
-            }
-            if !rows.take(&mut work) && circuit.is_none() {
-                let members = (0..equations).filter(|&e| combine && work[width + e] != 0);
-                circuit = Some(members.collect());
-                if combine {
-                    break;
-                }
-            }
-        }
+        });
         Eliminated {
             rows,
             circuit,
@@ -324,9 +291,9 @@ impl System<'_> {
 
 impl Eliminated {
     /// A random element of the null space, by column.
-    fn motion(&self) -> Vec<u64> {
+    fn motion(&self) -> Vec<Residue> {
         let mut residues = Residues::new(0x6b72_6177_6c00_0004);
-        let eliminated = self.rows.null_vector(&mut residues);
+        let eliminated = self.rows.null_vector(|_| residues.next());
         let width = eliminated.len();
         (0..width)
             .map(|column| eliminated[(column + self.auxiliary) % width])

@@ -8,6 +8,8 @@
 //! ([`super::zeros`]) are none.
 
 use super::quadratic::{Entry, Form, Role, Tail};
+use crate::elimination::{Echelon, Field};
+use crate::residues::Residue;
 
 /// A basis of the changes, per change the unknowns concerned. `vanishing`: for each equation whether its right-hand
 /// side is zero at t = 1. `same_sign`: pairs of entries that have to change together, so that objects stay what they are.
@@ -80,34 +82,13 @@ pub fn twins(
             }
         }
     }
-    null_space(rows, n)
-}
-
-/// A basis of the vectors that are orthogonal to all rows, modulo 2.
-fn null_space(mut rows: Vec<Vec<bool>>, n: usize) -> Vec<Vec<bool>> {
-    let mut pivots = Vec::new();
-    for column in 0..n {
-        let rank = pivots.len();
-        let Some(k) = (rank..rows.len()).find(|&k| rows[k][column]) else {
-            continue;
-        };
-        rows.swap(rank, k);
-        let pivot = rows[rank].clone();
-        for (k, row) in rows.iter_mut().enumerate() {
-            if k != rank && row[column] {
-                row.iter_mut().zip(&pivot).for_each(|(x, y)| *x ^= y);
-            }
-        }
-        pivots.push(column);
+    let mut echelon = Echelon::<Residue<2>>::new(n);
+    for row in rows {
+        let bits = row.into_iter().map(|bit| Residue::whole(bit.into()));
+        echelon.take(&mut bits.collect::<Vec<_>>());
     }
-    let free = (0..n).filter(|column| !pivots.contains(column));
-    free.map(|column| {
-        let mut vector = vec![false; n];
-        vector[column] = true;
-        for (row, &pivot) in rows.iter().zip(&pivots) {
-            vector[pivot] = row[column];
-        }
-        vector
-    })
-    .collect()
+    let changes = echelon.null_space();
+    changes
+        .map(|change| change.iter().map(|bit| *bit != Residue::whole(0)).collect())
+        .collect()
 }

@@ -8,6 +8,7 @@
 //! coefficients, solution boxes. The loops over whole matrices use plain floats with a-priori
 //! error bounds instead; those are in [`rounding`].
 
+pub mod complex;
 mod double_double;
 mod enclosure;
 #[cfg(any(test, not(hardware_intervals), feature = "portable"))]

@@ -6,6 +6,7 @@
 
 mod inverse;
 mod large;
+mod least;
 mod matrix;
 mod pivots;
 mod rank;
@@ -14,6 +15,7 @@ mod span;
 
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
+pub use least::{damped, nearest_zero};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
 pub use rank::extreme_pivots;
 pub use span::Span;

@@ -1,6 +1,7 @@
 //! How near to singular a matrix is.
 
 use super::matrix::Sparse;
+use nalgebra::DMatrix;
 
 /// The smallest and the largest pivot, in absolute value, of Gaussian elimination with complete pivoting,
 /// for a matrix of `rows` rows and no fewer columns. In floating point a matrix does not have full rank
@@ -24,48 +25,23 @@ pub fn extreme_pivots(pattern: &Sparse, values: &[f64], rows: usize) -> (f64, f6
     if !values.iter().all(|x| x.is_finite()) {
         return (f64::NAN, f64::NAN);
     }
-    let mut a = vec![vec![0.0; columns]; rows];
+    let mut a = DMatrix::zeros(rows, columns);
     for column in 0..columns {
         for (row, value) in pattern.column(values, column) {
-            a[row][column] = value;
+            a[(row, column)] = value;
         }
     }
-    let (mut least, mut largest) = (f64::INFINITY, 0.0f64);
-    for step in 0..rows {
-        let (mut size, mut place) = (0.0, (step, step));
-        for (row, entries) in a.iter().enumerate().skip(step) {
-            for (column, x) in entries.iter().enumerate().skip(step) {
-                if x.abs() > size {
-                    (size, place) = (x.abs(), (row, column));
-                }
-            }
-        }
-        (least, largest) = (least.min(size), largest.max(size));
-        if size == 0.0 {
-            break;
-        }
-        a.swap(step, place.0);
-        for row in &mut a {
-            row.swap(step, place.1);
-        }
-        let (done, rest) = a.split_at_mut(step + 1);
-        let pivot_row = &done[step];
-        for row in rest {
-            let factor = row[step] / pivot_row[step];
-            if factor != 0.0 {
-                for (x, p) in row[step..].iter_mut().zip(&pivot_row[step..]) {
-                    *x -= factor * p;
-                }
-            }
-        }
-    }
-    (least, largest)
+    let upper = a.full_piv_lu().u();
+    let pivots = || (0..rows).map(|k| upper[(k, k)].abs());
+    (
+        pivots().fold(f64::INFINITY, f64::min),
+        pivots().fold(0.0, f64::max),
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::DMatrix;
 
     /// Between the pivots' ratio and that of the singular values there is no more than a modest factor.
     #[test]

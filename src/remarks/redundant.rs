@@ -7,9 +7,11 @@
 
 use super::Remark;
 use crate::constraint::try_lower;
+use crate::linalg::nearest_zero;
 use crate::problem::Problem;
 use crate::random::Random;
-use crate::system::{Homotopy, Term};
+use crate::system::Homotopy;
+use crate::track::flexible::Target;
 use nalgebra::{DMatrix, DVector};
 
 /// More unknowns are not looked at: it would take seconds.
@@ -80,7 +82,7 @@ pub fn redundant(problem: &Problem) -> Vec<Remark> {
 /// All equations in floats.
 struct System<'a> {
     homotopy: &'a Homotopy,
-    terms: Vec<Vec<Term>>,
+    target: Target,
     /// Whether an equation has to hold with zero on the right.
     vanishes: Vec<bool>,
     sketch: Vec<f64>,
@@ -91,7 +93,7 @@ impl<'a> System<'a> {
         let head = homotopy.edges.len();
         System {
             homotopy,
-            terms: (0..homotopy.equations).map(|e| homotopy.terms(e)).collect(),
+            target: Target::new(homotopy),
             vanishes: (0..head)
                 .map(|_| false)
                 .chain(vanishing.iter().copied())
@@ -100,36 +102,13 @@ impl<'a> System<'a> {
         }
     }
 
-    /// The value of an equation's left-hand side, and its derivatives added to a row.
-    fn evaluate(&self, equation: usize, x: &[f64], mut add: impl FnMut(usize, f64)) -> f64 {
-        let at = |i: usize| x.get(i).copied().unwrap_or(0.0);
-        let factor = |ends: Option<[usize; 2]>| ends.map_or(1.0, |[i, j]| at(i) - at(j));
-        let mut sum = 0.0;
-        for term in &self.terms[equation] {
-            let half = 0.5 * f64::from(term.factor);
-            let (left, right) = (factor(term.left), factor(term.right));
-            sum += half * left * right;
-            for (ends, other) in [(term.left, right), (term.right, left)] {
-                if let Some([i, j]) = ends {
-                    add(i, half * other);
-                    add(j, -half * other);
-                }
-            }
-        }
-        sum
-    }
-
     /// The Jacobian of some equations, rows scaled to length 1, and their scaled values.
     fn linearise(&self, rows: &[usize], x: &[f64]) -> (DMatrix<f64>, DVector<f64>) {
-        let n = x.len();
-        let mut jacobian = DMatrix::zeros(rows.len(), n);
+        let mut jacobian = DMatrix::zeros(rows.len(), x.len());
         let mut values = DVector::zeros(rows.len());
         for (r, &equation) in rows.iter().enumerate() {
-            values[r] = self.evaluate(equation, x, |i, d| {
-                if i < n {
-                    jacobian[(r, i)] += d;
-                }
-            });
+            let target = &self.target;
+            values[r] = target.evaluate(equation, x, |i, d| jacobian[(r, i)] += d);
             let size = jacobian.row(r).norm();
             if size > 0.0 {
                 jacobian.row_mut(r).scale_mut(1.0 / size);
@@ -141,35 +120,19 @@ impl<'a> System<'a> {
 
     /// A figure near the sketch that meets all equations with zero on the right.
     fn figure(&self, seed: u64) -> Option<Vec<f64>> {
-        let rows: Vec<usize> = (0..self.terms.len())
-            .filter(|&e| self.vanishes[e])
-            .collect();
+        let rows = (0..self.vanishes.len()).filter(|&e| self.vanishes[e]);
+        let rows: Vec<usize> = rows.collect();
         let mut random = Random::new(seed + 1);
-        let mut x: Vec<f64> = self
-            .sketch
-            .iter()
-            .map(|x| x + MOVED * random.symmetric())
-            .collect();
-        for _ in 0..60 {
-            let (jacobian, values) = self.linearise(&rows, &x);
-            if values.amax() < 1e-13 * (1.0 + x.iter().fold(0.0, |max: f64, x| max.max(x.abs()))) {
-                return self.homotopy.is_proper(&x).then_some(x);
-            }
-            let step = jacobian.svd(true, true).solve(&values, 1e-10).ok()?;
-            x.iter_mut()
-                .zip(step.iter())
-                .for_each(|(x, step)| *x -= step);
-            if x.iter().any(|x| !x.is_finite()) {
-                return None;
-            }
-        }
-        None
+        let sketch = self.sketch.iter();
+        let moved = sketch.map(|x| x + MOVED * random.symmetric());
+        let x = nearest_zero(moved.collect(), 1e-10, |x| self.linearise(&rows, x))?;
+        self.homotopy.is_proper(&x).then_some(x)
     }
 
     /// The rows of a combination that vanishes, where the Jacobian of all equations is singular. `None`: it is not, or
     /// that cannot be told.
     fn dependent_rows(&self, x: &[f64]) -> Option<Vec<usize>> {
-        let all: Vec<usize> = (0..self.terms.len()).collect();
+        let all: Vec<usize> = (0..self.vanishes.len()).collect();
         let svd = self.linearise(&all, x).0.svd(true, false);
         let values = &svd.singular_values;
         let largest = values.max();

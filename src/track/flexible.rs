@@ -3,6 +3,7 @@
 //! Seen in floats, and said so: nothing of a proof rests on it.
 
 use crate::constraint::Role;
+use crate::linalg::damped;
 use crate::problem::list;
 use crate::system::{Homotopy, Term};
 use nalgebra::{DMatrix, DVector};
@@ -85,14 +86,15 @@ fn names(homotopy: &Homotopy, motions: &[&DVector<f64>]) -> Vec<String> {
 }
 
 /// F(X, 1) in floats.
-struct Target {
+pub(crate) struct Target {
     terms: Vec<Vec<Term>>,
     rights: Vec<f64>,
     m: usize,
 }
 
 impl Target {
-    fn new(homotopy: &Homotopy) -> Self {
+    /// All equations of a homotopy.
+    pub fn new(homotopy: &Homotopy) -> Self {
         let m = homotopy.equations;
         Target {
             terms: (0..m).map(|e| homotopy.terms(e)).collect(),
@@ -105,36 +107,34 @@ impl Target {
         }
     }
 
-    fn form(&self, x: &DVector<f64>, form: Option<[usize; 2]>) -> f64 {
+    /// The left-hand side of an equation, and its derivatives one by one.
+    pub fn evaluate(&self, e: usize, x: &[f64], mut slope: impl FnMut(usize, f64)) -> f64 {
         let at = |i: usize| if i < self.m { x[i] } else { 0.0 };
-        form.map_or(1.0, |[i, j]| at(i) - at(j))
+        let form = |ends: Option<[usize; 2]>| ends.map_or(1.0, |[i, j]| at(i) - at(j));
+        let mut sum = 0.0;
+        for term in &self.terms[e] {
+            let half = 0.5 * f64::from(term.factor);
+            let (left, right) = (form(term.left), form(term.right));
+            sum += half * left * right;
+            for (ends, other) in [(term.left, right), (term.right, left)] {
+                let ends = ends.map_or([(self.m, 0.0); 2], |[i, j]| [(i, half), (j, -half)]);
+                for (i, factor) in ends.into_iter().filter(|end| end.0 < self.m) {
+                    slope(i, factor * other);
+                }
+            }
+        }
+        sum
     }
 
     fn residual(&self, x: &DVector<f64>) -> DVector<f64> {
-        let value = |e: usize| {
-            let terms = self.terms[e].iter();
-            let sum: f64 = terms
-                .map(|t| 0.5 * f64::from(t.factor) * self.form(x, t.left) * self.form(x, t.right))
-                .sum();
-            sum - self.rights[e]
-        };
-        DVector::from_iterator(self.m, (0..self.m).map(value))
+        let left = |e: usize| self.evaluate(e, x.as_slice(), |_, _| ());
+        DVector::from_fn(self.m, |e, _| left(e) - self.rights[e])
     }
 
     fn jacobian(&self, x: &DVector<f64>) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(self.m, self.m);
-        for (e, terms) in self.terms.iter().enumerate() {
-            for t in terms {
-                for (this, other) in [(t.left, t.right), (t.right, t.left)] {
-                    let Some([i, j]) = this else { continue };
-                    let slope = 0.5 * f64::from(t.factor) * self.form(x, other);
-                    for (entry, sign) in [(i, 1.0), (j, -1.0)] {
-                        if entry < self.m {
-                            out[(e, entry)] += sign * slope;
-                        }
-                    }
-                }
-            }
+        for e in 0..self.m {
+            self.evaluate(e, x.as_slice(), |i, slope| out[(e, i)] += slope);
         }
         out
     }
@@ -153,11 +153,8 @@ impl Target {
                 break;
             }
             let j = self.jacobian(&x);
-            let mut normal = j.tr_mul(&j);
-            for k in 0..self.m {
-                normal[(k, k)] += damping * size * size;
-            }
-            let step = normal.cholesky()?.solve(&j.tr_mul(&f));
+            let normal = damped(&j, damping * size * size)?;
+            let step = normal.solve(&j.tr_mul(&f));
             let next = &x - step;
             let there = self.residual(&next);
             if there.norm() < f.norm() {

@@ -8,7 +8,7 @@ mod control;
 mod ends;
 mod events;
 mod first;
-mod flexible;
+pub(crate) mod flexible;
 pub(crate) mod full;
 mod options;
 mod outcome;

@@ -27,8 +27,11 @@ fn the_checker_uses_only_the_problem_the_intervals_and_the_equations() {
         parts.next();
         for part in parts {
             let module: String = part.chars().take_while(|c| c.is_alphanumeric()).collect();
+            // Guesses may be made by anything.
+            let is_guess =
+                ["elimination", "linalg"].contains(&&*module) && path.ends_with("checker/guess.rs");
             assert!(
-                ALLOWED.contains(&module.as_str()),
+                is_guess || ALLOWED.contains(&module.as_str()),
                 "{}: crate::{module}",
                 path.display()
             );
@@ -109,7 +112,7 @@ fn the_checker_is_short() {
         (
             "guesses, not trusted",
             lines(&["checker/guess.rs", "checker/sparse.rs", "checker/trial.rs"]),
-            475,
+            445,
         ),
         (
             "format, head, reader, verdict",
@@ -160,8 +163,10 @@ fn lines_of(folder: &str, allowed: &[&str]) -> usize {
 #[test]
 fn the_check_of_complex_sets_is_short_and_its_own() {
     // With other constraints than distances it has the kernel's equations, and the test of changes of signs that covers have.
+    // A guess of an inverse may be made by anything.
     let own = ["problem", "interval", "system", "constraint", "certificate"];
-    assert!(lines_of("src/certificate/complex", &own) <= 1220);
+    let with_guess = [&own[..], &["elimination"]].concat();
+    assert!(lines_of("src/certificate/complex", &with_guess) <= 1100);
 }
 
 /// The checks of covers use nothing of the searches; that of coordinates has the kernel's equations and the test

@@ -6,6 +6,7 @@ use super::matrix::{Columns, Matrix, add};
 use super::sparse::Sparse;
 use crate::certificate::format::{FoldClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
+use crate::elimination;
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -282,7 +283,7 @@ pub fn invert(columns: &Columns) -> Option<Matrix> {
         column.iter().for_each(|&(e, x)| row[e] += x);
     }
     if n < MANY {
-        let entries = eliminate(n, matrix)?;
+        let entries = elimination::invert(&mut matrix, n).then_some(matrix)?;
         return Some(Matrix { n, entries });
     }
     let inverse = MatRef::from_column_major_slice(&matrix, n, n)
@@ -291,38 +292,4 @@ pub fn invert(columns: &Columns) -> Option<Matrix> {
     let columns = (0..n).map(|j| inverse.col_as_slice(j));
     let entries = columns.flatten().copied().collect();
     Some(Matrix { n, entries })
-}
-
-/// Gauss and Jordan in place, with row pivots.
-fn eliminate(n: usize, mut a: Vec<f64>) -> Option<Vec<f64>> {
-    let mut pivots = Vec::with_capacity(n);
-    for k in 0..n {
-        let size = |i: &usize| a[i * n + k].abs();
-        let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
-        pivots.push(pivot);
-        if pivot > k {
-            let (above, below) = a.split_at_mut(pivot * n);
-            above[k * n..(k + 1) * n].swap_with_slice(&mut below[..n]);
-        }
-        let scale = 1.0 / a[k * n + k];
-        if !scale.is_finite() {
-            return None;
-        }
-        a[k * n + k] = 1.0;
-        let row: Vec<f64> = a[k * n..(k + 1) * n].iter().map(|x| x * scale).collect();
-        for (i, other) in a.chunks_mut(n).enumerate() {
-            if i == k {
-                other.copy_from_slice(&row);
-                continue;
-            }
-            let factor = std::mem::take(&mut other[k]);
-            if factor != 0.0 {
-                add(other, &row, |y| -factor * y);
-            }
-        }
-    }
-    for (k, &pivot) in pivots.iter().enumerate().rev() {
-        (0..n).for_each(|i| a.swap(i * n + k, i * n + pivot));
-    }
-    Some(a)
 }

@@ -1,7 +1,7 @@
 //! The equations of distances between complex points, and proofs of figures that satisfy them.
 
-use super::numbers::Z;
-use super::zero::{Quadratic, Zero};
+use super::zero::{Quadratic, Z, Zero};
+use crate::interval::complex::Complex;
 use crate::interval::{DoubleDouble, Interval, point};
 use crate::problem::{Problem, Target};
 use crate::system::Term;
@@ -17,8 +17,8 @@ pub struct Equations {
     system: Quadratic,
     /// The unknowns that are to be positive: the second fixed point's x, the third one's y.
     positive: Vec<usize>,
-    /// For each unknown whether it is a last coordinate, which reflection in the fixed points' line or plane changes.
-    is_last: Vec<bool>,
+    /// For each unknown whether its sign is changed: by nothing, and by reflection in the fixed points' line or plane.
+    pub changes: [Vec<bool>; 2],
     /// For each unknown whether it is a first coordinate.
     is_first: Vec<bool>,
 }
@@ -34,8 +34,11 @@ pub fn square(target: &Target) -> BigRational {
 /// Numbers from a file: real and imaginary part, perhaps with what these leave; `None`: there are not two or four of them.
 pub fn number(parts: &[f64]) -> Option<Z> {
     match *parts {
-        [re, im] => Some([re.into(), im.into()]),
-        [re, im, a, b] => Some([DoubleDouble::sum(re, a), DoubleDouble::sum(im, b)]),
+        [re, im] => Some(Complex::new(re.into(), im.into())),
+        [re, im, a, b] => Some(Complex::new(
+            DoubleDouble::sum(re, a),
+            DoubleDouble::sum(im, b),
+        )),
         _ => None,
     }
 }
@@ -111,7 +114,7 @@ impl Equations {
             system: Quadratic::new(unknowns, problem.distances.iter().map(equation).collect()),
             positive,
             places,
-            is_last,
+            changes: [vec![false; unknowns], is_last],
             is_first,
         })
     }
@@ -124,7 +127,7 @@ impl Equations {
         if !fits {
             return None;
         }
-        let mut near = vec![[DoubleDouble::default(); 2]; self.is_last.len()];
+        let mut near = vec![Z::default(); self.is_first.len()];
         for (place, unknowns) in places.iter().zip(&self.places) {
             for (parts, unknown) in place.iter().zip(unknowns) {
                 let number = number(parts)?;
@@ -141,28 +144,9 @@ impl Equations {
         self.positive.iter().all(is_positive).then_some(zero)
     }
 
-    /// The mirror image of a solution, which is one, too.
-    pub fn mirrored(&self, of: &Zero) -> Zero {
-        of.image(|unknown| self.is_last[unknown], false)
-    }
-
-    /// Whether a figure is its own mirror image.
+    /// Whether a figure is its own mirror image, which is a solution, too.
     pub fn is_its_own_mirror_image(&self, zero: &Zero) -> Option<bool> {
-        zero.is_same(&self.mirrored(zero))
-    }
-
-    /// Whether it is real: the same as its conjugate, which solves the same equations.
-    pub fn is_real(&self, zero: &Zero) -> Option<bool> {
-        zero.is_same(&zero.image(|_| false, true))
-    }
-
-    /// Whether two solutions are the same, or mirror images of each other.
-    pub fn are_congruent(&self, a: &Zero, b: &Zero) -> Option<bool> {
-        match (a.is_same(b), a.is_same(&self.mirrored(b))) {
-            (Some(false), Some(false)) => Some(false),
-            (Some(true), _) | (_, Some(true)) => Some(true),
-            _ => None,
-        }
+        zero.is_image(zero, &self.changes[1..])
     }
 
     /// An enclosure of a number that a figure has in common with its mirror image: a sum of the real parts of first coordinates, each

@@ -18,7 +18,7 @@ pub struct General {
     /// For each unknown what 1 is in the problem's unit of length, a power of two.
     units: Vec<f64>,
     /// For each of these changes of signs what it changes; the first changes nothing.
-    changes: Vec<Vec<bool>>,
+    pub changes: Vec<Vec<bool>>,
 }
 
 impl General {
@@ -59,24 +59,6 @@ impl General {
             number(&parts)
         });
         self.system.prove(&near.collect::<Option<Vec<_>>>()?)
-    }
-
-    /// Whether a zero is real: the conjugate, which is a zero too, is the same. `None`: that is not clear.
-    pub fn is_real(&self, zero: &Zero) -> Option<bool> {
-        zero.is_same(&zero.image(|_| false, true))
-    }
-
-    /// Whether two zeros are one. `None`: that is not clear.
-    pub fn are_one(&self, one: &Zero, other: &Zero) -> Option<bool> {
-        let mut clear = Some(false);
-        for changes in &self.changes {
-            match one.is_same(&other.image(|k| changes[k], false)) {
-                Some(false) => {}
-                Some(true) => return Some(true),
-                None => clear = None,
-            }
-        }
-        clear
     }
 
     /// A number that changes of signs do not change: where those of two zeros are disjoint they are not one.

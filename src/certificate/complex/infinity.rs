@@ -15,8 +15,7 @@
 
 use super::ComplexFlaw;
 use super::figure::{number, square};
-use super::numbers::Z;
-use super::zero::{Quadratic, Zero};
+use super::zero::{Quadratic, Z, Zero};
 use crate::interval::{Interval, Real, enclose_rational, point};
 use crate::problem::{Problem, Target};
 use crate::system::Term;
@@ -331,10 +330,7 @@ mod tests {
             (vec![term], whole(value))
         };
         let system = values.iter().flatten().enumerate().map(equation);
-        let near = values
-            .iter()
-            .flatten()
-            .map(|&x| [(x as f64).into(), 0.0.into()]);
+        let near = values.iter().flatten().map(|&x| Z::real(x as f64));
         let near: Vec<Z> = near.collect();
         let chart = Chart {
             parts: vec![Part::Goes, Part::Link, Part::Link, Part::Link, Part::Stays],

@@ -10,7 +10,6 @@ mod bezout;
 mod figure;
 mod general;
 mod infinity;
-mod numbers;
 mod zero;
 
 use super::Compared;
@@ -197,11 +196,11 @@ fn check(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), ComplexFl
         verdict.rotation += if flat { 1 } else { 2 };
     }
     verdict.isometry = zeros.len();
-    verdict.real = real(&zeros, |zero| equations.is_real(zero))?;
+    verdict.real = real(&zeros)?;
     are_apart(
         &zeros,
         |zero| equations.key(zero),
-        |a, b| equations.are_congruent(a, b),
+        &equations.changes,
         "they are the same, or mirror images of each other",
     )?;
     verdict.at_infinity = infinity::check(problem, &fixed, &set.at_infinity)?;
@@ -243,11 +242,11 @@ fn proved<T: Sync>(
 }
 
 /// How many solutions are real.
-fn real(zeros: &[Zero], is_real: impl Fn(&Zero) -> Option<bool>) -> Result<usize, ComplexFlaw> {
+fn real(zeros: &[Zero]) -> Result<usize, ComplexFlaw> {
     let mut count = 0;
     for (index, zero) in zeros.iter().enumerate() {
         let number = index + 1;
-        let real = is_real(zero).ok_or_else(|| {
+        let real = zero.is_real().ok_or_else(|| {
             ComplexFlaw::NotProved(format!("whether solution {number} is real is not clear"))
         })?;
         count += usize::from(real);
@@ -266,14 +265,9 @@ fn check_general(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), C
     }
     let equations = General::new(&verdict.problem).map_err(doubt)?;
     let zeros = proved(&set.unknowns, |unknowns| equations.prove(unknowns))?;
-    verdict.real = real(&zeros, |zero| equations.is_real(zero))?;
+    verdict.real = real(&zeros)?;
     let same = "they are the same, or signs of axes or of directions make one of the other";
-    are_apart(
-        &zeros,
-        |zero| equations.key(zero),
-        |a, b| equations.are_one(a, b),
-        same,
-    )?;
+    are_apart(&zeros, |zero| equations.key(zero), &equations.changes, same)?;
     (verdict.isometry, verdict.rotation) = (zeros.len(), zeros.len());
     verdict.cited = set.cited.filter(|&cited| cited == zeros.len() as u64);
     match set.cited {
@@ -285,11 +279,11 @@ fn check_general(set: &ComplexSet, verdict: &mut ComplexVerdict) -> Result<(), C
     }
 }
 
-/// Checks that no two solutions are congruent. `key`: a number that congruent ones have in common. `same`: what is said of two that are.
+/// Checks that no two solutions are congruent, images of each other under these changes of signs. `key`: a number that congruent ones have in common. `same`: what is said of two that are.
 fn are_apart(
     zeros: &[Zero],
     key: impl Fn(&Zero) -> Interval,
-    are_congruent: impl Fn(&Zero, &Zero) -> Option<bool>,
+    changes: &[Vec<bool>],
     same: &str,
 ) -> Result<(), ComplexFlaw> {
     // Solutions whose keys are disjoint are not congruent; those that meet come soon after each other.
@@ -304,7 +298,7 @@ fn are_apart(
         for &(_, _, other) in keys[k + 1..].iter().take_while(|key| key.0 <= high) {
             let [a, b] = [one.min(other), one.max(other)];
             let numbers = format!("solutions {} and {}", a + 1, b + 1);
-            match are_congruent(&zeros[a], &zeros[b]) {
+            match zeros[a].is_image(&zeros[b], changes) {
                 Some(false) => {}
                 Some(true) => {
                     return Err(ComplexFlaw::False(format!("{numbers} are not two: {same}")));

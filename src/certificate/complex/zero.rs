@@ -17,13 +17,17 @@
 //! off. D is computed in double-doubles with the bound of [`gamma_double`], all else in floats that are rounded up. Y and c may be
 //! anything.
 
-use super::numbers::{Number, Z, about_inverse, minus, plus, size, times};
+use crate::elimination;
+use crate::interval::complex::{Complex, Number};
 use crate::interval::rounding::{UNDERFLOW, in_range, round_up};
 use crate::interval::{Ball, DoubleDouble, Interval, gamma_double, hull, point};
 use crate::system::Term;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Float, Signed, ToPrimitive};
+
+/// A complex number in double-doubles.
+pub type Z = Complex<DoubleDouble>;
 
 /// The unit of whole numbers is two to minus this.
 const BITS: i32 = 256;
@@ -65,6 +69,11 @@ pub struct Zero {
     inner: Vec<f64>,
     /// There is no other one so near.
     outer: Vec<f64>,
+}
+
+/// |Re| + |Im|, which is not below the size, up to three roundings.
+fn size(z: Z) -> f64 {
+    z.re.size() + z.im.size()
 }
 
 /// The floats' exact sum, but for what is tiny.
@@ -118,10 +127,10 @@ impl Quadratic {
     /// F(c) for a point that was cut: about its value, and a bound on its size.
     fn residual(&self, c: &[Z]) -> Option<Vec<([f64; 2], f64)>> {
         let is_served = |x: &DoubleDouble| x.hi.abs() <= HUGE && x.lo.abs() <= HUGE;
-        if !c.iter().flatten().all(is_served) {
+        if !c.iter().all(|z| is_served(&z.re) && is_served(&z.im)) {
             return None;
         }
-        let c: Vec<[BigInt; 2]> = c.iter().map(|z| z.map(whole)).collect();
+        let c: Vec<[BigInt; 2]> = c.iter().map(|z| [whole(z.re), whole(z.im)]).collect();
         let part = |i: usize, axis: usize| c.get(i).map_or(BigInt::ZERO, |z| z[axis].clone());
         let form = |ends: Option<[usize; 2]>| match ends {
             Some([a, b]) => [0, 1].map(|axis| part(a, axis) - part(b, axis)),
@@ -149,11 +158,10 @@ impl Quadratic {
     /// The Jacobian's rows: unknown, value, and the sum of the sizes of the slopes that it is the sum of; with the greatest number of
     /// slopes in a row.
     fn jacobian(&self, c: &[Z]) -> (Vec<Vec<(usize, Z, f64)>>, usize) {
-        let nothing = [DoubleDouble::default(); 2];
-        let at = |i: usize| c.get(i).copied().unwrap_or(nothing);
+        let at = |i: usize| c.get(i).copied().unwrap_or_default();
         let form = |ends: Option<[usize; 2]>| match ends {
-            Some([a, b]) => minus(at(a), at(b)),
-            None => [1.0.into(), 0.0.into()],
+            Some([a, b]) => at(a) - at(b),
+            None => Complex::real(1.0),
         };
         let mut longest = 0;
         let rows = self.equations.iter().map(|Row { terms, .. }| {
@@ -163,15 +171,15 @@ impl Quadratic {
                 let half = DoubleDouble::from(0.5 * f64::from(term.factor));
                 for [of, other] in [[term.left, term.right], [term.right, term.left]] {
                     let Some([a, b]) = of else { continue };
-                    let slope = form(other).map(|x| x * half);
-                    for (unknown, slope) in [(a, slope), (b, slope.map(|x| -x))] {
+                    let slope = form(other).times(half);
+                    for (unknown, slope) in [(a, slope), (b, -slope)] {
                         if unknown >= self.unknowns {
                             continue;
                         }
                         slopes += 1;
                         match row.iter_mut().find(|entry| entry.0 == unknown) {
                             Some(entry) => {
-                                entry.1 = plus(entry.1, slope);
+                                entry.1 = entry.1 + slope;
                                 entry.2 += size(slope);
                             }
                             None => row.push((unknown, slope, size(slope))),
@@ -212,21 +220,24 @@ impl Quadratic {
     fn prove_with<T: Number>(&self, near: &[Z]) -> Option<Zero> {
         let n = self.unknowns;
         let mut c: Vec<Z> = near.iter().map(|z| z.map(cut)).collect();
-        let mut jacobian = vec![vec![[T::from(0.0); 2]; n]; n];
-        for (row, entries) in jacobian.iter_mut().zip(self.jacobian(&c).0) {
+        let mut y = vec![Complex::<T>::default(); n * n];
+        for (row, entries) in y.chunks_mut(n).zip(self.jacobian(&c).0) {
             for (unknown, value, _) in entries {
                 row[unknown] = value.map(T::near);
             }
         }
-        let y = about_inverse(jacobian)?;
-        let exactly = |row: Vec<[T; 2]>| row.into_iter().map(|z| z.map(T::exactly)).collect();
-        let y: Vec<Vec<Z>> = y.into_iter().map(exactly).collect();
+        if !elimination::invert(&mut y, n) {
+            return None;
+        }
+        let exactly = |x: T| DoubleDouble::sum(x.rough(), x.rest());
+        let exactly = |row: &[Complex<T>]| row.iter().map(|z| z.map(exactly)).collect();
+        let y: Vec<Vec<Z>> = y.chunks(n).map(exactly).collect();
         for _ in 0..CORRECTIONS {
             let f = self.residual(&c)?;
             for (x, row) in c.iter_mut().zip(&y) {
                 let terms = row.iter().zip(&f);
-                let moved = terms.fold(*x, |x, (&y, f)| {
-                    minus(x, times(y, f.0.map(DoubleDouble::from)))
+                let moved = terms.fold(*x, |x, (&y, &([re, im], _))| {
+                    x - y * Complex::new(re.into(), im.into())
                 });
                 *x = moved.map(cut);
             }
@@ -237,7 +248,11 @@ impl Quadratic {
     /// The proof of the module's text.
     fn contract(&self, c: Vec<Z>, y: &[Vec<Z>]) -> Option<Zero> {
         let n = self.unknowns;
-        if !y.iter().flatten().flatten().all(|x| in_range(x.hi)) {
+        if !y
+            .iter()
+            .flatten()
+            .all(|y| in_range(y.re.hi) && in_range(y.im.hi))
+        {
             return None;
         }
         let f = self.residual(&c)?;
@@ -251,12 +266,12 @@ impl Quadratic {
         let sizes: Vec<Vec<f64>> = y.iter().map(sizes_of).collect();
         let (mut eta, mut defects) = (Vec::with_capacity(n), Vec::with_capacity(n));
         for k in 0..n {
-            let mut defect = vec![[DoubleDouble::default(); 2]; n];
+            let mut defect = vec![Z::default(); n];
             let mut added = vec![0.0; n];
-            (defect[k][0], added[k]) = (1.0.into(), 1.0);
+            (defect[k], added[k]) = (Complex::real(1.0), 1.0);
             for (e, row) in rows.iter().enumerate() {
                 for &(unknown, value, slopes) in row {
-                    defect[unknown] = minus(defect[unknown], times(y[k][e], value));
+                    defect[unknown] = defect[unknown] - y[k][e] * value;
                     added[unknown] += sizes[k][e] * slopes;
                 }
             }
@@ -315,17 +330,17 @@ impl Zero {
     /// Intervals that hold the real and the imaginary part of an unknown.
     pub fn part(&self, unknown: usize) -> [Interval; 2] {
         let around = hull(-self.inner[unknown], self.inner[unknown]);
-        self.centre[unknown].map(|x| point(x.hi) + (point(x.lo) + around))
+        let Complex { re, im } = self.centre[unknown];
+        [re, im].map(|x| point(x.hi) + (point(x.lo) + around))
     }
 
     /// Whether no part is far from where it is claimed.
     fn is_near(&self, near: &[Z]) -> bool {
         let largest = near
             .iter()
-            .flatten()
-            .fold(0.0, |max: f64, x| max.max(x.size()));
+            .fold(0.0, |max: f64, z| max.max(z.re.size()).max(z.im.size()));
         (0..near.len()).all(|k| {
-            let parts = self.part(k).into_iter().zip(near[k]);
+            let parts = self.part(k).into_iter().zip([near[k].re, near[k].im]);
             let mut off = parts.map(|(part, near)| part - point(near.hi) - point(near.lo));
             off.all(|off| off.mag() <= NEAR * largest)
         })
@@ -334,25 +349,41 @@ impl Zero {
     /// The image under changes of some unknowns' signs, and the conjugate of it.
     pub fn image(&self, changes: impl Fn(usize) -> bool, conjugate: bool) -> Self {
         let mut image = self.clone();
-        for (k, [re, im]) in image.centre.iter_mut().enumerate() {
+        for (k, z) in image.centre.iter_mut().enumerate() {
             if changes(k) {
-                (*re, *im) = (-*re, -*im);
+                *z = -*z;
             }
             if conjugate {
-                *im = -*im;
+                z.im = -z.im;
             }
         }
         image
+    }
+
+    /// Whether it is real: the conjugate has to be a zero too. `None`: that is not clear.
+    pub fn is_real(&self) -> Option<bool> {
+        self.is_same(&self.image(|_| false, true))
+    }
+
+    /// Whether it is the image of another zero under one of these changes of signs. `None`: that is not clear.
+    pub fn is_image(&self, other: &Self, changes: &[Vec<bool>]) -> Option<bool> {
+        let mut clear = Some(false);
+        for changes in changes {
+            match self.is_same(&other.image(|k| changes[k], false)) {
+                Some(false) => {}
+                Some(true) => return Some(true),
+                None => clear = None,
+            }
+        }
+        clear
     }
 
     /// Whether another zero of the same equations is the same one. `None`: that is not clear.
     pub fn is_same(&self, other: &Self) -> Option<bool> {
         let mut is_near = true;
         for (k, (a, b)) in self.centre.iter().zip(&other.centre).enumerate() {
-            let between = [0, 1].map(|part| {
-                let (a, b) = (a[part], b[part]);
-                (point(a.hi) - point(b.hi)) + (point(a.lo) - point(b.lo))
-            });
+            let between = [(a.re, b.re), (a.im, b.im)]
+                .map(|(a, b)| (point(a.hi) - point(b.hi)) + (point(a.lo) - point(b.lo)));
             let both = round_up(self.inner[k] + other.inner[k], 1);
             if between.iter().any(|x| x.mig() > both) {
                 return Some(false);
@@ -385,7 +416,7 @@ mod tests {
     }
 
     fn at(re: f64, im: f64) -> Vec<Z> {
-        vec![[re.into(), im.into()]]
+        vec![Complex::new(re.into(), im.into())]
     }
 
     #[test]
@@ -451,14 +482,14 @@ mod tests {
                 ),
             ];
             let system = Quadratic::new(2, equations);
-            let near = [x, y].map(|x| [DoubleDouble::from(x * (1.0 + 1e-9)), 0.0.into()]);
+            let near = [x, y].map(|x| Complex::real(x * (1.0 + 1e-9)));
             let zero = system.prove(&near).unwrap();
             for (unknown, value) in [x, y].into_iter().enumerate() {
                 let [re, im] = zero.part(unknown);
                 assert!(re.contains(value) && im.contains(0.0));
                 assert!(re.wid() <= 1e-12 * value.abs());
                 // The inner radius says no less than the exact distance from the middle.
-                let middle = zero.centre[unknown][0];
+                let middle = zero.centre[unknown].re;
                 let off = (ratio(middle.hi) + ratio(middle.lo) - ratio(value)).abs();
                 assert!(off <= ratio(zero.inner[unknown]));
             }

@@ -2,9 +2,11 @@
 
 use super::contract::Empty;
 use super::system::Row;
-use crate::complete::krawczyk::invert;
+use crate::elimination::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
+use crate::linalg::nearest_zero;
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -59,7 +61,14 @@ impl Square<'_> {
         out
     }
 
-    /// The same in intervals.
+    /// About its inverse; `None`: there is none.
+    fn inverse(&self, at: &[f64]) -> Option<Vec<f64>> {
+        let mut y = self.jacobian(at);
+        let is_regular = invert(&mut y, self.size()) && y.iter().all(|x| x.is_finite());
+        is_regular.then_some(y)
+    }
+
+    /// The Jacobian in intervals, row by row.
     fn derivatives(&self, at: &[Interval]) -> Vec<Interval> {
         let n = self.size();
         let mut out = vec![ZERO; n * n];
@@ -97,12 +106,11 @@ impl Square<'_> {
         let n = self.size();
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         let near = self.floats(x, &middle);
-        let mut y = Vec::new();
-        if !invert(&self.jacobian(&near), n, &mut y) || y.iter().any(|y| !y.is_finite()) {
+        let Some(y) = self.inverse(&near) else {
             return Ok(Step {
                 defect: f64::INFINITY,
             });
-        }
+        };
         let at = self.with(x, |k| point(middle[k]));
         let f: Vec<Interval> = self.rows.iter().map(|row| row.value(&at)).collect();
         let half = point(0.5);
@@ -157,13 +165,10 @@ impl Square<'_> {
     pub fn prove(&self, x: &[Interval]) -> Option<Zero> {
         let n = self.size();
         let mut own: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
-        let mut y = Vec::new();
         let mut last = f64::INFINITY;
         for _ in 0..30 {
             let at = self.floats(x, &own);
-            if !invert(&self.jacobian(&at), n, &mut y) || y.iter().any(|y| !y.is_finite()) {
-                return None;
-            }
+            let y = self.inverse(&at)?;
             let f: Vec<f64> = self.rows.iter().map(|row| row.nearly(&at)).collect();
             let mut size: f64 = 0.0;
             for i in 0..n {
@@ -180,13 +185,10 @@ impl Square<'_> {
                 break;
             }
         }
-        let at = self.floats(x, &own);
-        if !(last < 1e-6)
-            || !invert(&self.jacobian(&at), n, &mut y)
-            || y.iter().any(|y| !y.is_finite())
-        {
+        if !(last < 1e-6) {
             return None;
         }
+        let y = self.inverse(&self.floats(x, &own))?;
         self.test(x, own, &y)
     }
 
@@ -274,34 +276,19 @@ impl Square<'_> {
     /// unknown.
     pub fn on_a_curve(&self, x: &[Interval]) -> Option<Vec<f64>> {
         let n = self.size();
-        let to_zero = |from: Vec<f64>| -> Option<(Vec<f64>, nalgebra::DMatrix<f64>)> {
-            let mut own = from;
-            for _ in 0..40 {
-                let at = self.floats(x, &own);
-                let jacobian = nalgebra::DMatrix::from_row_slice(n, n, &self.jacobian(&at));
-                let f = nalgebra::DVector::from_iterator(
-                    n,
-                    self.rows.iter().map(|row| row.nearly(&at)),
-                );
-                if !jacobian.iter().chain(f.iter()).all(|x| x.is_finite()) {
-                    return None;
-                }
-                let size = f.amax();
-                let inverse = jacobian.clone().pseudo_inverse(1e-7).ok()?;
-                let step = inverse * f;
-                own.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
-                if size < 1e-14 {
-                    return Some((own, jacobian));
-                }
-            }
-            None
+        let linearise = |own: &[f64]| {
+            let at = self.floats(x, own);
+            let values = self.rows.iter().map(|row| row.nearly(&at));
+            let jacobian = DMatrix::from_row_slice(n, n, &self.jacobian(&at));
+            (jacobian, DVector::from_iterator(n, values))
         };
+        let to_zero = |from| nearest_zero(from, 1e-7, linearise);
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         if !middle.iter().all(|x| x.abs() < 1e15) {
             return None;
         }
-        let (zero, jacobian) = to_zero(middle)?;
-        let svd = jacobian.svd(false, true);
+        let zero = to_zero(middle)?;
+        let svd = linearise(&zero).0.svd(false, true);
         let v = svd.v_t?;
         let greatest = svd.singular_values.max();
         let kernel = (0..n).filter(|&k| svd.singular_values[k] < 1e-7 * greatest);
@@ -309,7 +296,7 @@ impl Square<'_> {
         let goes_on = kernel.any(|k| {
             const ASIDE: f64 = 1e-2;
             let aside: Vec<f64> = (0..n).map(|i| zero[i] + ASIDE * v[(k, i)]).collect();
-            let Some((there, _)) = to_zero(aside.clone()) else {
+            let Some(there) = to_zero(aside.clone()) else {
                 return false;
             };
             let distance = |a: &[f64], b: &[f64]| {

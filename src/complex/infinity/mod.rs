@@ -61,9 +61,9 @@ mod chart;
 mod split;
 
 use super::boxes::{Found, SolutionSet};
-use super::number::Complex;
 use super::system::Signs;
 use crate::interval::DoubleDouble;
+use crate::interval::complex::Complex;
 use crate::problem::{Distance, Problem};
 use chart::prove;
 use num_rational::BigRational;

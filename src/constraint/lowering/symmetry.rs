@@ -4,6 +4,8 @@ use super::super::quadratic::{Entry, Form};
 use super::super::twins::twins;
 use super::super::zeros::zeros;
 use super::Lowering;
+use crate::elimination::{Echelon, Field};
+use crate::residues::Residue;
 use crate::statement::Shape;
 
 impl Lowering<'_> {
@@ -89,18 +91,10 @@ impl Lowering<'_> {
 
 /// In how many ways the changes, and sums of them, change the signs of these unknowns: the rank modulo 2.
 fn rank(changes: &[Vec<bool>], unknowns: &[usize]) -> usize {
-    let mut basis: Vec<Vec<bool>> = Vec::new();
+    let mut echelon = Echelon::<Residue<2>>::new(unknowns.len());
     for change in changes {
-        let mut row: Vec<bool> = unknowns.iter().map(|&u| change[u]).collect();
-        for other in &basis {
-            let pivot = other.iter().position(|&x| x);
-            if pivot.is_some_and(|k| row[k]) {
-                row.iter_mut().zip(other).for_each(|(x, y)| *x ^= y);
-            }
-        }
-        if row.contains(&true) {
-            basis.push(row);
-        }
+        let bits = unknowns.iter().map(|&u| Residue::whole(change[u].into()));
+        echelon.take(&mut bits.collect::<Vec<_>>());
     }
-    basis.len()
+    echelon.rank
 }

@@ -7,7 +7,8 @@
 //! *is* rigid, and a rank that is too small by bad luck has a probability below m / 2⁶⁰ for m
 //! rows (Schwartz, Zippel). One method serves the plane and space alike.
 
-use crate::residues::{Echelon, Residues, add, mul, sub};
+use crate::elimination::{Echelon, Field};
+use crate::residues::{Residue, Residues};
 
 /// What the graph of the distances fixes and what not.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,21 +26,16 @@ pub struct Rigidity {
 /// Analyses the graph on `points` points with the given `edges`, which join different points.
 pub fn rigidity(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Rigidity {
     let matrix = Matrix::generic(dimension, points, edges);
-    let plain = matrix.eliminate(false);
-    let circuit = match plain.first_dependent {
-        // Combinations are costly to carry along, so that happens only where they are needed.
-        Some(_) => matrix.eliminate(true).circuit,
-        None => Vec::new(),
-    };
-    let flexible = plain.rows.rank < super::super::free_coordinates(dimension, points);
+    let (rows, circuit) = matrix.eliminate();
+    let flexible = rows.rank < super::super::free_coordinates(dimension, points);
     let bodies = if flexible {
-        matrix.bodies(&plain.random_motion())
+        matrix.bodies(&matrix.random_motion(&rows))
     } else {
         Vec::new()
     };
     Rigidity {
-        rank: plain.rows.rank,
-        circuit,
+        rank: rows.rank,
+        circuit: circuit.unwrap_or_default(),
         bodies,
     }
 }
@@ -49,17 +45,8 @@ struct Matrix<'a> {
     dimension: usize,
     edges: &'a [[usize; 2]],
     /// Coordinates, point by point.
-    coordinates: Vec<u64>,
+    coordinates: Vec<Residue>,
     /// For each point the place at which its columns are eliminated.
-    place: Vec<usize>,
-}
-
-/// The matrix in row echelon form.
-struct Eliminated {
-    dimension: usize,
-    rows: Echelon,
-    first_dependent: Option<usize>,
-    circuit: Vec<usize>,
     place: Vec<usize>,
 }
 
@@ -74,59 +61,46 @@ impl<'a> Matrix<'a> {
         }
     }
 
-    /// Eliminates row by row, in the order of the edges. With `combine`, finds the circuit of the
-    /// first dependent row and stops there.
-    fn eliminate(&self, combine: bool) -> Eliminated {
-        let columns = self.coordinates.len();
-        let mut rows = Echelon::new(columns);
-        // Beyond the columns of the matrix stand those of the identity, which record the
-        // combination of edges that a row has become.
-        let mut work = vec![0u64; columns + if combine { self.edges.len() } else { 0 }];
-        let (mut first_dependent, mut circuit) = (None, Vec::new());
-        for (index, &[a, b]) in self.edges.iter().enumerate() {
-            work.fill(0);
+    /// Eliminates row by row, in the order of the edges.
+    fn eliminate(&self) -> (Echelon<Residue>, Option<Vec<usize>>) {
+        let size = (self.edges.len(), self.coordinates.len());
+        Echelon::of(size, |index, row| {
+            let [a, b] = self.edges[index];
             for k in 0..self.dimension {
-                let difference = sub(self.coordinate(a, k), self.coordinate(b, k));
-                work[self.place[a] * self.dimension + k] = difference;
-                work[self.place[b] * self.dimension + k] = sub(0, difference);
+                let difference = self.coordinate(a, k) - self.coordinate(b, k);
+                row[self.place[a] * self.dimension + k] = difference;
+                row[self.place[b] * self.dimension + k] = Residue::whole(0) - difference;
             }
-            if combine {
-                work[columns + index] = 1;
-            }
-            if !rows.take(&mut work) && first_dependent.is_none() {
-                first_dependent = Some(index);
-                if combine {
-                    circuit = (0..self.edges.len())
-                        .filter(|&e| work[columns + e] != 0)
-                        .collect();
-                    break;
-                }
-            }
-        }
-        Eliminated {
-            dimension: self.dimension,
-            rows,
-            first_dependent,
-            circuit,
-            place: self.place.clone(),
-        }
+        })
     }
 
-    fn coordinate(&self, point: usize, axis: usize) -> u64 {
+    fn coordinate(&self, point: usize, axis: usize) -> Residue {
         self.coordinates[point * self.dimension + axis]
+    }
+
+    /// A random element of the null space, point by point.
+    fn random_motion(&self, rows: &Echelon<Residue>) -> Vec<Residue> {
+        let mut residues = Residues::new(0x6b72_6177_6c00_0002);
+        let eliminated = rows.null_vector(|_| residues.next());
+        let d = self.dimension;
+        self.place
+            .iter()
+            .flat_map(|&place| eliminated[place * d..(place + 1) * d].iter().copied())
+            .collect()
     }
 
     /// The rigid parts under a random motion that keeps all distances: two points belong together
     /// if the motion keeps their distance too.
-    fn bodies(&self, motion: &[u64]) -> Vec<Vec<usize>> {
+    fn bodies(&self, motion: &[Residue]) -> Vec<Vec<usize>> {
         let d = self.dimension;
         let points = self.place.len();
         let keeps = |a: usize, b: usize| {
-            (0..d).fold(0, |sum, k| {
-                let apart = sub(self.coordinate(a, k), self.coordinate(b, k));
-                let drift = sub(motion[a * d + k], motion[b * d + k]);
-                add(sum, mul(apart, drift))
-            }) == 0
+            let along = |k: usize| {
+                let apart = self.coordinate(a, k) - self.coordinate(b, k);
+                apart * (motion[a * d + k] - motion[b * d + k])
+            };
+            let sum = (0..d).fold(Residue::whole(0), |sum, k| sum + along(k));
+            sum == Residue::whole(0)
         };
         // A frame, d points that keep their distances, spans a body: the points that keep their
         // distances to all of the frame.
@@ -167,19 +141,6 @@ impl<'a> Matrix<'a> {
             .collect();
         bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
         bodies
-    }
-}
-
-impl Eliminated {
-    /// A random element of the null space, point by point.
-    fn random_motion(&self) -> Vec<u64> {
-        let mut residues = Residues::new(0x6b72_6177_6c00_0002);
-        let eliminated = self.rows.null_vector(&mut residues);
-        let d = self.dimension;
-        self.place
-            .iter()
-            .flat_map(|&place| eliminated[place * d..(place + 1) * d].iter().copied())
-            .collect()
     }
 }
 

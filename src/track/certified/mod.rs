@@ -21,6 +21,7 @@ pub(in crate::track) mod tracker;
 mod validation;
 
 pub use figures::{FigureBox, FiguresSeen, Relation, prove_figure};
+pub use solution::Same;
 pub use trace::{Fold, Sample, Trace};
 
 use crate::system::Homotopy;
