@@ -96,7 +96,7 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
         Some(Format::Xyz | Format::Sdf) => import(file, sketch)?.0.surplus.map(of_surplus),
         None if file != Path::new("-") => match Problem::read(file) {
             Err(error) if error.is_about_structure() => {
-                let problem = load(file, sketch)?.problem;
+                let problem = load(file, sketch)?.problem.up_to_motions();
                 match Surplus::of(&problem, tolerance) {
                     Some(surplus) => Some(of_surplus(surplus)),
                     None if has_equations_to_spare(&problem) => {
@@ -113,6 +113,11 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
         Some(asked) => Ok(asked),
         None => whole(file, sketch).map(|read| Asked::Problem(Box::new(read))),
     }
+}
+
+/// Whether `krawl all` searches figures of a part of a problem's constraints, and tests them against the others.
+pub fn has_surplus(problem: &Problem) -> bool {
+    Surplus::of(problem, None).is_some() || has_equations_to_spare(problem)
 }
 
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.

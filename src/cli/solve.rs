@@ -8,7 +8,7 @@ use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use clap::ValueEnum;
 use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
-use krawl::complete::{Among, Surplus, among};
+use krawl::complete::{Among, among};
 use krawl::constraint::fix_frame;
 use krawl::edit::alone;
 use krawl::problem::Problem;
@@ -644,11 +644,11 @@ impl Arguments {
         let loaded = input::load(file, sketch)?;
         match loaded.may_be_loose && !input::is_sketch(file) && !fix_frame(&loaded.problem) {
             // What is wrong with it.
-            true => match input::read(file, sketch) {
-                Err(error) if Surplus::of(&loaded.problem, None).is_some() => Err(format!(
+            true => match (input::read(file, sketch), loaded.problem.up_to_motions()) {
+                (Err(error), problem) if input::has_surplus(&problem) => Err(format!(
                     "{error}; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
                 )),
-                read => Ok((read?, false)),
+                (read, _) => Ok((read?, false)),
             },
             false => Ok((loaded.problem, loaded.may_be_loose)),
         }

@@ -1,12 +1,31 @@
 //! Choosing the reference where the user does not.
 
 use super::check::collinear;
-use super::{Distance, Object, Point, Shape};
+use super::{Distance, Object, Point, Problem, Shape};
+use crate::constraint::fix_frame;
 
 /// A body whose roundest triangle is thinner than this tells its plane badly: other points are taken then.
 const THIN: f64 = 0.1;
 /// Of a body with more points these are enough to choose from.
 const MOST_OF_BODY: usize = 40;
+
+impl Problem {
+    /// A problem that was read loosely, up to rigid motions where no constraint says where the figure is or how it is turned.
+    pub fn up_to_motions(mut self) -> Self {
+        if !fix_frame(&self) {
+            let bend = self.homotopy.bend;
+            let chosen = choose(
+                self.dimension,
+                &self.points,
+                &self.distances,
+                &self.objects,
+                bend,
+            );
+            self.homotopy.reference = chosen.unwrap_or_default();
+        }
+        self
+    }
+}
 
 /// Chooses reference points, best-conditioned in the sketch among these, in this order of
 /// preference:

@@ -532,7 +532,7 @@ fn tested_in_words(tested: &Tested) -> String {
     let left_out = tested.left_out.len();
     let others = match left_out {
         1 => tested.left_out[0].clone(),
-        _ => format!("the other {left_out}"),
+        _ => format!("the other {}", tested.all - tested.used),
     };
     let mut parts = Vec::new();
     if tested.met > 0 {

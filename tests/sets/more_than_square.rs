@@ -1,7 +1,7 @@
 //! Figures with more distances than unknowns: what is said of those that were left out, against plain floats and against least squares on
 //! all distances from many starts. And what one exact step decides.
 
-use krawl::complete::{Complete, Options, Status, Surplus, all};
+use krawl::complete::{Complete, Options, Status, Surplus, all, has_equations_to_spare};
 use krawl::interval::Interval;
 use krawl::problem::Problem;
 use std::fmt::Write;
@@ -309,5 +309,65 @@ fn one_exact_step_is_decided_however_near_to_nothing_it_is() {
         assert_eq!(result.status, Status::Complete, "{squared}");
         assert_eq!(result.count, Some(count), "{squared}");
         assert_eq!(result.solutions.len() as u64, count, "{squared}");
+    }
+}
+
+/// A block beside another, told by three pairs of parallel faces at given distances: each pair says again that faces are parallel. The normals of the
+/// second block's faces are those of the first up to signs, whose product is 1, as it is not turned inside out; the sides are the sketch's: four
+/// figures.
+#[test]
+fn mates_of_three_faces_are_all_kept() {
+    let text = r#"name = "mates"
+dimension = 3
+[points]
+a0 = [0,0,20]
+a1 = [40,0,20]
+a2 = [0,30,20]
+a3 = [0,0,0]
+c0 = [4,5,26]
+c1 = [24,6,25]
+c2 = [3,15,25]
+c3 = [4,5,41]
+[bodies]
+one = { a0 = [0,0,0], a1 = [40,0,0], a2 = [0,30,0], a3 = [0,0,-20] }
+two = { c0 = [0,0,0], c1 = [20,0,0], c2 = [0,10,0], c3 = [0,0,15] }
+[planes]
+top1 = ["a0","a1","a2"]
+front1 = ["a0","a1","a3"]
+left1 = ["a0","a2","a3"]
+bot2 = ["c0","c1","c2"]
+front2 = ["c0","c1","c3"]
+left2 = ["c0","c2","c3"]
+[constraints]
+distances = [["top1","bot2",5],["front1","front2",3],["left1","left2",4]]
+"#;
+    let problem = Problem::parse_loosely(text, "mates.toml").unwrap();
+    let problem = problem.up_to_motions();
+    assert!(has_equations_to_spare(&problem));
+    let found = all(&problem, &options()).unwrap();
+    assert_eq!(found.status, Status::Complete);
+    let tested = found.tested.as_ref().unwrap();
+    assert_eq!((tested.met, tested.missed, tested.undecided), (4, 0, 0));
+    assert_eq!(found.solutions.len(), 4);
+    for solution in &found.solutions {
+        let at = middles(&solution.points);
+        let along = |[from, to]: [usize; 2]| [0, 1, 2].map(|k| at[to][k] - at[from][k]);
+        let cross = |u: [f64; 3], v: [f64; 3]| {
+            [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3])
+        };
+        let dot = |u: [f64; 3], v: [f64; 3]| -> f64 { (0..3).map(|k| u[k] * v[k]).sum() };
+        for (one, two, wanted) in [
+            ([1, 2], [5, 6], 5.0),
+            ([1, 3], [5, 7], 3.0),
+            ([2, 3], [6, 7], 4.0),
+        ] {
+            let normal = |first: usize, others: [usize; 2]| {
+                let n = cross(along([first, others[0]]), along([first, others[1]]));
+                n.map(|x| x / dot(n, n).sqrt())
+            };
+            let (n, m) = (normal(0, one), normal(4, two));
+            assert!((dot(n, m).abs() - 1.0).abs() < 1e-9);
+            assert!((dot(n, along([0, 4])).abs() - wanted).abs() < 1e-9);
+        }
     }
 }

@@ -1,5 +1,5 @@
 //! R-structured against dense elimination, after table 2 of "Re-parameterization reduces
-//! irreducible geometric constraint systems" (CAD 70, 2016): `cargo bench --bench rstructure`.
+//! irreducible geometric constraint systems" (CAD 70, 2016): `cargo bench -p krawl-lab`.
 //!
 //! Entries are random, uniform in [−1, 1], the diagonal not favoured: pivots are looked
 //! for. The paper does not say how many blocks of A below the diagonal are not zero; its times,
