@@ -63,7 +63,7 @@ pub enum Why {
 pub enum Verdict {
     /// It holds wherever those used do.
     Follows,
-    /// No figure was looked at: these are the constraints of a drawing.
+    /// No figure was looked at: these are the constraints of a drawing, or there is no figure.
     NotLookedAt,
     /// Proved to be met within this.
     Met {
@@ -106,8 +106,8 @@ impl Verdict {
     pub fn and(self, other: Self) -> Self {
         use Verdict::{Follows, Met, Missed, NotLookedAt, Undecided};
         match (self, other) {
-            (Follows, Follows) => Follows,
-            (Follows | NotLookedAt, that) | (that, Follows | NotLookedAt) => that,
+            (Follows, that) | (that, Follows) => that,
+            (NotLookedAt, that) | (that, NotLookedAt) => that,
             (Missed { by: a }, Missed { by: b }) => Missed { by: a.max(b) },
             (Missed { by }, _) | (_, Missed { by }) => Missed { by },
             (Met { within: a }, Met { within: b }) => Met { within: a.max(b) },
@@ -436,6 +436,23 @@ mod tests {
         assert_eq!(rounded_down(2.26), "2.2e0".replace("2.2e0", "2e0"));
         assert_eq!(rounded_down(2.24), "2.2e0");
         assert_eq!(rounded_up(0.0), "0e0");
+    }
+
+    /// Of a constraint with several equations no verdict is better than that of any of them.
+    #[test]
+    fn what_was_not_looked_at_does_not_follow() {
+        use Verdict::{Follows, Met, Missed, NotLookedAt};
+        let met = Met { within: 1e-12 };
+        for (one, other, both) in [
+            (Follows, NotLookedAt, NotLookedAt),
+            (Follows, met, met),
+            (NotLookedAt, met, met),
+            (met, Missed { by: 1.0 }, Missed { by: 1.0 }),
+            (Follows, Follows, Follows),
+        ] {
+            assert_eq!(one.and(other), both);
+            assert_eq!(other.and(one), both);
+        }
     }
 
     #[test]

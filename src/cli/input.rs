@@ -30,6 +30,11 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
     if file != Path::new("-") {
         return Problem::read(file).map_err(|error| error.to_string());
     }
+    Problem::parse(&standard_input()?, STANDARD_INPUT).map_err(|error| error.to_string())
+}
+
+/// All of standard input.
+fn standard_input() -> Result<String, String> {
     let mut text = String::new();
     io::stdin()
         .lock()
@@ -43,7 +48,7 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
             MAX_FILE_SIZE >> 10
         ));
     }
-    Problem::parse(&text, STANDARD_INPUT).map_err(|error| error.to_string())
+    Ok(text)
 }
 
 /// A problem of this file as certificates are about it, with as many equations as unknowns: of a sketch that is not so by
@@ -130,9 +135,8 @@ pub fn is_sketch(file: &Path) -> bool {
 pub struct Loaded {
     /// What was read.
     pub problem: Problem,
-    /// Whether it may have more equations than unknowns, or fewer: every sketch of another program may, and a problem file
-    /// that does.
-    pub may_be_loose: bool,
+    /// Of a problem file that has not as many equations as unknowns: what is wrong with it where that is needed.
+    pub fault: Option<String>,
     /// The sketch with the bytes of its file.
     imported: Option<(Imported, Vec<u8>)>,
 }
@@ -147,18 +151,29 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
                 "{name}: --sketch is for files that hold several sketches or molecules"
             ));
         }
-        return match Problem::read(file) {
+        let (text, read) = match file == Path::new("-") {
+            true => {
+                let text = standard_input()?;
+                let problem = Problem::parse(&text, STANDARD_INPUT);
+                (Some(text), problem)
+            }
+            false => (None, Problem::read(file)),
+        };
+        return match read {
             Ok(problem) => Ok(Loaded {
                 problem,
-                may_be_loose: false,
+                fault: None,
                 imported: None,
             }),
             Err(error) if error.is_about_structure() => {
-                let text = std::fs::read_to_string(file).map_err(|e| format!("{name}: {e}"))?;
+                let text = match text {
+                    Some(text) => text,
+                    None => std::fs::read_to_string(file).map_err(|e| format!("{name}: {e}"))?,
+                };
                 let problem = Problem::parse_loosely(&text, &name);
                 Ok(Loaded {
                     problem: problem.map_err(|_| error.to_string())?,
-                    may_be_loose: true,
+                    fault: Some(error.to_string()),
                     imported: None,
                 })
             }
@@ -175,7 +190,7 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     }
     Ok(Loaded {
         problem: imported.problem.clone(),
-        may_be_loose: is_sketch(file),
+        fault: None,
         imported: Some((imported, bytes)),
     })
 }

@@ -10,23 +10,25 @@ use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
 use krawl::complete::{Among, among};
 use krawl::constraint::fix_frame;
-use krawl::edit::alone;
+use krawl::edit::{Alone, alone};
 use krawl::problem::Problem;
 use krawl::remarks::{Remark, in_words, moves, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
-    BlockRuns, Listed, ProgressLine, Run, alone_in_words, among_in_words, figures_to_summary,
-    figures_to_table, figures_to_value, first_in_words, to_first_table, to_no_first,
-    to_short_table, to_summary, to_table,
+    BlockRuns, Listed, ProgressLine, Run, alone_in_words, alone_to_value, among_in_words,
+    figures_to_summary, figures_to_table, figures_to_value, first_in_words, to_first_table,
+    to_no_first, to_short_table, to_summary, to_table,
 };
 use krawl::track::{
-    self, Control, EndKind, First, Options, Outcome, PathEnd, Progress, Status, Trace, Witness,
+    self, Control, EndKind, First, Limit, Options, Outcome, PathEnd, Progress, Status, Trace,
+    Witness,
 };
 use num_traits::Zero;
 use serde_json::Value;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Follow the path through the sketch and list the figures on it that meet the dimensions
 ///
@@ -46,7 +48,8 @@ Examples:
   krawl solve problems/sketches/parts.FCStd --sketch Frame  a sketch of FreeCAD or SolveSpace, block by block
 
 A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
-its own frame that stops as a whole, and one of distances that falls apart (docs/sketches.md). A sketch is followed as a
+its own frame that stops as a whole or has not as many equations as unknowns, and one of distances that falls apart
+(docs/sketches.md). A sketch is followed as a
 whole where a path is asked for: --cert, --animation, --samples, --space, --reverse, --mode float.
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
@@ -300,8 +303,27 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
         if is_by_blocks {
             let found = arguments.by_blocks(problem);
-            let (text, value, code) =
-                found.map_err(|error| format!("{}: {error}", input::name(file)))?;
+            let (text, mut value, code) = match found {
+                Ok(found) => found,
+                // What came of other files is not lost.
+                Err(error) => {
+                    let all = match input::is_sketch(file) {
+                        true => "",
+                        false => "; `krawl all` may take it",
+                    };
+                    output::complain(&format!("{}: {error}{all}", input::name(file)));
+                    worst = worse(worst, BAD_INPUT);
+                    k += 1;
+                    continue;
+                }
+            };
+            let alone = match value["count"] == 0 && (!silent || json.is_some()) {
+                true => arguments.alone(problem),
+                false => Vec::new(),
+            };
+            if !alone.is_empty() {
+                value["alone"] = alone_to_value(&alone);
+            }
             if !pictures.is_empty() {
                 let page = Page::from_result(&value).map_err(|error| error.to_string())?;
                 written &= pictures.write(&page);
@@ -311,10 +333,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             }
             if !silent {
                 let gap = arguments.gap_before(k);
-                written &= output::print(&format!("{gap}{text}"));
-                if value["count"] == 0 {
-                    written &= output::print(&arguments.alone_in_words(problem));
-                }
+                written &= output::print(&format!("{gap}{text}{}", alone_in_words(&alone)));
             }
             worst = worse(worst, code);
             k += 1;
@@ -474,9 +493,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let hints = hints(problem, &outcome, &input::name(file));
             let whole = arguments.whole_in_words(file);
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
-            if outcome.status == Status::Closed && outcome.solutions.is_empty() {
-                written &= output::print(&arguments.alone_in_words(problem));
-            }
+        }
+        let alone = match outcome.status == Status::Closed && outcome.solutions.is_empty() {
+            true if !silent || json.is_some() => arguments.alone(problem),
+            _ => Vec::new(),
+        };
+        if !silent {
+            written &= output::print(&alone_in_words(&alone));
         }
         // What the path came to is out by now.
         let among = arguments.among(problem, &outcome, !silent || json.is_some());
@@ -487,7 +510,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             written &= output::print(&among_in_words(among));
         }
         if json.is_some() {
-            lines += &(run.to_json_among(among) + "\n");
+            lines += &(run.to_json_among(among, &alone) + "\n");
         }
         k += 1;
         if cancel.load(Ordering::Relaxed) {
@@ -613,14 +636,15 @@ impl Arguments {
         self.mode == Mode::Certified && !self.first && !cancel.load(Ordering::Relaxed)
     }
 
-    /// What one dimension alone can do where the path has no figure with all of them; empty where that is not asked for, or there
+    /// What one dimension can do alone where the path has no figure with all of them; nothing where that is not asked for, or there
     /// are many.
-    fn alone_in_words(&self, problem: &Problem) -> String {
+    fn alone(&self, problem: &Problem) -> Vec<Alone> {
         const MOST_DIMENSIONS: usize = 64;
         const MOST_TUBES: usize = 300;
+        const LONGEST: Duration = Duration::from_secs(1);
         let is_asked = self.mode == Mode::Certified && !self.summary && !self.first;
         if !is_asked || problem.dimensions().count() > MOST_DIMENSIONS {
-            return String::new();
+            return Vec::new();
         }
         let options = Options {
             max_steps: MOST_TUBES,
@@ -628,9 +652,13 @@ impl Arguments {
         };
         let mut control = Control {
             cancel: Some(interrupt::flag()),
+            limit: Some(Limit {
+                length: f64::INFINITY,
+                deadline: Instant::now() + LONGEST,
+            }),
             ..Control::default()
         };
-        alone_in_words(&alone(problem, &options, &mut control))
+        alone(problem, &options, &mut control)
     }
 
     /// A file's problem, and whether it is solved block by block from the start: a sketch of another program, or a problem in its own
@@ -638,19 +666,17 @@ impl Arguments {
     fn read(&self, file: &Path) -> Result<(Problem, bool), String> {
         let sketch = self.sketch.as_deref();
         let may_be = self.mode == Mode::Certified && self.wants_path().is_none();
-        if !may_be || file == Path::new("-") {
+        if !may_be {
             return Ok((input::read(file, sketch)?, false));
         }
         let loaded = input::load(file, sketch)?;
-        match loaded.may_be_loose && !input::is_sketch(file) && !fix_frame(&loaded.problem) {
-            // What is wrong with it.
-            true => match (input::read(file, sketch), loaded.problem.up_to_motions()) {
-                (Err(error), problem) if input::has_surplus(&problem) => Err(format!(
-                    "{error}; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
-                )),
-                (read, _) => Ok((read?, false)),
-            },
-            false => Ok((loaded.problem, loaded.may_be_loose)),
+        match loaded.fault {
+            None => Ok((loaded.problem, input::is_sketch(file))),
+            Some(_) if fix_frame(&loaded.problem) => Ok((loaded.problem, true)),
+            Some(fault) if input::has_surplus(&loaded.problem.up_to_motions()) => Err(format!(
+                "{fault}; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
+            )),
+            Some(fault) => Err(fault),
         }
     }
 

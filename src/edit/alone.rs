@@ -2,8 +2,11 @@
 
 use super::setting::Setting;
 use super::{Edited, Ending, Session};
+use crate::interval::Interval;
 use crate::problem::{Decimal, Item, Problem, Shape};
 use crate::track::{Control, Options};
+use std::slice;
+use std::time::Instant;
 
 /// What one dimension can do alone.
 #[derive(Debug, Clone)]
@@ -16,7 +19,8 @@ pub struct Alone {
 
 /// Leads a sketch to all of its dimensions but one, and then this one to what it is to be; so for each dimension that is a
 /// distance of two points, an angle at a point, a radius or a coordinate. Those come back that reach a limit, the one first that
-/// comes nearest to what it is to be, or the first one that is reached, alone. What could not be proved is left out.
+/// comes nearest to what it is to be; or, alone, the first one that is reached with nothing held and nothing left out that does not follow. What
+/// could not be proved is left out, as is what is at its limit just what it is to be. Ends when the limit of `control` has passed.
 ///
 /// ```
 /// use krawl::edit::{Ending, alone};
@@ -36,27 +40,41 @@ pub struct Alone {
 pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec<Alone> {
     let mut found = Vec::new();
     for index in problem.dimensions() {
-        if control.is_interrupted() {
+        let is_late = control
+            .limit
+            .is_some_and(|limit| Instant::now() > limit.deadline);
+        if is_late || control.is_interrupted() {
             break;
         }
         let wanted = Setting::now(problem, index);
         let Some(drawn) = drawn(problem, index) else {
             continue;
         };
+        if meet(drawn.value(), wanted.value()) {
+            continue;
+        }
         let mut others = problem.clone();
         drawn.apply(&mut others);
         let Ok(mut session) = Session::open_with(&others, options, control) else {
             continue;
         };
-        let edited = session.follow_to(&[wanted], false, control);
+        let edited = session.follow_to(slice::from_ref(&wanted), false, control);
         let one = Alone {
             problem: others,
             edited,
         };
+        let dimension = &one.edited.dimensions[0];
         match one.edited.ending {
-            Ending::Reached => return vec![one],
-            Ending::Limit(_) => found.push(one),
-            Ending::Passes(_) | Ending::Stopped(_) => {}
+            Ending::Reached if one.edited.account.is_whole() => return vec![one],
+            // What is just met at its limit is not out of reach; nor is it told by figures that miss what was left out.
+            Ending::Limit(_) if meet(dimension.value, dimension.to) => {}
+            Ending::Limit(_)
+                if one.edited.account.meets_all()
+                    || session.on_the_way(&wanted, one.edited.t.0, control).is_ok() =>
+            {
+                found.push(one);
+            }
+            _ => {}
         }
     }
     let missed = |one: &Alone| {
@@ -66,6 +84,11 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
     };
     found.sort_by(|a, b| missed(a).total_cmp(&missed(b)));
     found
+}
+
+/// Whether two enclosures may be of the same number.
+fn meet(a: Interval, b: Interval) -> bool {
+    a.inf() <= b.sup() && b.inf() <= a.sup()
 }
 
 /// A setting to what a dimension is in the sketch, to seven digits; `None`: it is of another kind than those named above, or

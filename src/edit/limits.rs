@@ -111,7 +111,7 @@ impl Session {
 
     /// What is proved of figures on the way to the one at t, which has constraints left out that need not follow. Where one of
     /// them misses such a constraint, or is not proved, the end is the one before it.
-    fn on_the_way(
+    pub(super) fn on_the_way(
         &mut self,
         setting: &Setting,
         t: f64,
@@ -122,7 +122,8 @@ impl Session {
         for k in 1..=BETWEEN {
             let part = t * f64::from(k) / f64::from(BETWEEN + 1);
             let Some(there) = setting.before(self.problem(), part) else {
-                break;
+                let reason = "a value on the way there is no number".to_owned();
+                return Err(End::Unknown(value, reason));
             };
             let edited = self.follow_to(&[there], false, control);
             match edited.ending {
@@ -174,18 +175,23 @@ impl Session {
             t,
             dimensions,
             points,
-            mut account,
+            account,
             ..
         } = self.follow_to(slice::from_ref(&setting), false, control);
-        if matches!(ending, Ending::Reached | Ending::Limit(_)) && !account.meets_all() {
+        let is_contradicted =
+            matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);
+        // What a figure misses that is none is not said of the old one, which is printed in its place.
+        let mut account = match is_contradicted {
+            true => self.account(),
+            false => account,
+        };
+        if t.0 > 0.0 && !account.meets_all() {
             match self.on_the_way(&setting, t.0, control) {
                 Ok(between) => account.join(&between),
                 Err(end) => return (end, self.points(), self.account()),
             }
         }
         let value = dimensions[0].value;
-        let is_contradicted =
-            matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);
         let end = match ending {
             Ending::Reached => End::Beyond(value),
             Ending::Limit(limit) => End::Limit(value, limit),
@@ -194,11 +200,6 @@ impl Session {
                 format!("branches of figures seem to meet there ({reason})"),
             ),
             Ending::Stopped(reason) => End::Unknown(value, reason.text),
-        };
-        // What a figure misses that is none is not said of the old one, which is printed in its place.
-        let account = match is_contradicted {
-            true => self.account(),
-            false => account,
         };
         (end, points, account)
     }

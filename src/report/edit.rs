@@ -21,7 +21,7 @@ pub fn alone_in_words(found: &[Alone]) -> String {
     let words = |one: &Alone| edit_in_words(&one.problem, &one.edited);
     if first.edited.ending == Ending::Reached {
         return format!(
-            "There is a figure that is not on this path. Led to all dimensions but {} first, and then to this one: {}\n",
+            "All dimensions can be met, one after the other. Led to all but {} first, and then to this one: {}\n",
             name(first),
             words(first)
         );
@@ -36,6 +36,22 @@ pub fn alone_in_words(found: &[Alone]) -> String {
         more => text += &format!("  and {more} more likewise\n"),
     }
     text
+}
+
+/// The same for programs; see docs/json.md.
+pub fn alone_to_value(found: &[Alone]) -> Value {
+    let one = |alone: &Alone| {
+        let dimension = &alone.edited.dimensions[0];
+        json!({
+            "dimension": alone.problem.dimension_name(dimension.index),
+            "ending": alone.edited.ending.name(),
+            "from": bounds(dimension.from),
+            "to": bounds(dimension.to),
+            "value": bounds(dimension.value),
+            "verdict": edit_in_words(&alone.problem, &alone.edited),
+        })
+    };
+    found.iter().map(one).collect()
 }
 
 /// The names of points, as people read them: `a, b and c`.

@@ -1,15 +1,18 @@
 //! Results for programs (docs/json.md, docs/schema/result.schema.json).
 
 use super::drawing::{Drawing, names};
+use super::edit::alone_to_value;
 use super::marks::Marks;
 use super::objects::Objects;
 use super::table::verdict;
 use crate::complete::Among;
+use crate::edit::Alone;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Problem};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
+use serde_json::Value;
 
 /// The version of the format: it grows when a key changes its meaning or goes; new keys alone do not
 /// change it.
@@ -40,11 +43,13 @@ impl Run<'_> {
             .expect("strings, numbers and lists have a form in JSON")
     }
 
-    /// The same, with how many of all figures the path has, where that is known.
-    pub fn to_json_among(&self, among: Option<Among>) -> String {
+    /// The same, with how many of all figures the path has, where that is known, and what one dimension can do alone, where the path has
+    /// no figure.
+    pub fn to_json_among(&self, among: Option<Among>, alone: &[Alone]) -> String {
         let whole = WithAll {
             document: Document::new(self),
             of_all: among.map(|among| among.all),
+            alone: (!alone.is_empty()).then(|| alone_to_value(alone)),
         };
         serde_json::to_string(&whole).expect("strings, numbers and lists have a form in JSON")
     }
@@ -62,6 +67,8 @@ struct WithAll<'a> {
     document: Document<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     of_all: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    alone: Option<Value>,
 }
 
 #[derive(Serialize)]

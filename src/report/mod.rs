@@ -34,9 +34,9 @@ pub use complete::{
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
 pub use digits::certain_digits;
 pub use edit::{
-    account_in_words, alone_in_words, decomposition_in_words, edit_in_words, edit_to_document,
-    edit_to_json, edit_to_table, edit_to_value, figure_to_value, freedom_of_sketch_in_words,
-    limit_in_words,
+    account_in_words, alone_in_words, alone_to_value, decomposition_in_words, edit_in_words,
+    edit_to_document, edit_to_json, edit_to_table, edit_to_value, figure_to_value,
+    freedom_of_sketch_in_words, limit_in_words,
 };
 #[cfg(feature = "explore")]
 pub use explore::{

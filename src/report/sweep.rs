@@ -3,7 +3,7 @@
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
-use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
+use crate::edit::{BETWEEN, Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::problem::Problem;
 use serde_json::{Map, Value, json};
@@ -70,10 +70,8 @@ fn write_ranges(
     let scope = account.map_or(String::new(), |account| after(account.scope()));
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,
-        words => {
-            let between = crate::edit::BETWEEN;
-            format!(" At all these figures, and at {between} on the way to each, {words}.")
-        }
+        words if account.meets_all() => format!(" At all these figures {words}."),
+        words => format!(" At all these figures, and at {BETWEEN} on the way to each, {words}."),
     });
     let loose = match account.is_none_or(|account| account.held.is_empty()) {
         true => "",

@@ -176,3 +176,74 @@ x = [["P", 3]]
         range.high
     );
 }
+
+/// The same at the other end of its way, where branches meet at 0: the proof ends there without a limit, and Q-P is missed all along but at 6.
+#[test]
+fn a_range_without_a_limit_does_not_run_over_them_either() {
+    let text = r#"name = "between"
+dimension = 2
+[points]
+O = [0, 0]
+B = [3, 4]
+P = [6, 0]
+Q = [3, 1]
+[constraints]
+fixed = ["O", "Q"]
+y = [["P", 0]]
+x = [["P", 6]]
+distances = [["O", "B", 5], ["B", "P", 5], ["Q", "P", 3.1622776601683795]]
+"#;
+    let (text, _) = run("limits", text, &["--json", "-"]);
+    let result: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let low = result["ranges"]["x:P"]["low"].to_string();
+    assert!(low.contains("contradicts"), "{low}");
+}
+
+/// What is not out of reach is not said to be: a dimension just met at its limit; one that can be met with other coordinates held is no figure of
+/// a sketch whose figures there are none of with those held.
+#[test]
+fn what_one_dimension_can_do_alone_is_said_of_that_alone() {
+    let just = r#"name = "just"
+dimension = 2
+[points]
+O = [0, 0]
+B = [3.5, 4.873397]
+P = [3, 0]
+[constraints]
+fixed = ["O"]
+y = [["P", 0]]
+x = [["P", 10]]
+distances = [["O", "B", 6], ["B", "P", 4]]
+"#;
+    let (text, _) = run("solve", just, &[]);
+    assert!(!text.contains("Led to all"), "{text}");
+    let (text, _) = run("solve", &just.replace("\"P\", 10", "\"P\", 12"), &[]);
+    assert!(text.contains("x:P can grow to 10.0000"), "{text}");
+    let held = "name = \"held\"\ndimension = 2\n[points]\na = [0, 0]\nb = [6, 1]\n[constraints]\nfixed = [\"a\"]\n\
+                distances = [[\"a\", \"b\", 0.5]]\n";
+    let (text, _) = run("solve", held, &[]);
+    assert!(
+        text.contains("None, proved") && !text.contains("can be met"),
+        "{text}"
+    );
+}
+
+/// What came of one file is not lost with what is wrong with another.
+#[test]
+fn other_files_keep_their_results() {
+    let directory = tempfile::tempdir().unwrap();
+    let [good, bad, out] =
+        ["good.toml", "bad.toml", "out.json"].map(|name| directory.path().join(name));
+    fs::write(&good, link("5")).unwrap();
+    let twins = "name = \"twins\"\ndimension = 3\n[points]\na = [0, 0, 0]\n[planes]\np = { point = [0, 0, 0], normal = [0, 1, 0] }\n\
+                 [constraints]\nfixed = [\"a\", \"p\"]\non = [[\"a\", \"p\"]]\n";
+    fs::write(&bad, twins).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
+    command
+        .arg("solve")
+        .args([&bad, &good])
+        .arg("--json")
+        .arg(&out);
+    assert_eq!(command.output().unwrap().status.code(), Some(2));
+    assert!(fs::read_to_string(&out).unwrap().contains("\"link\""));
+}

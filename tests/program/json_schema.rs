@@ -259,6 +259,37 @@ fn results_made_block_by_block_meet_the_schema() {
     assert_eq!(complain(&schema(), &documents[0]), Vec::<String>::new());
 }
 
+/// A triangle of 9, 5 and 3 does not exist; and one whose base stands where it is with a length said twice is solved by blocks.
+#[test]
+fn dimensions_out_of_reach_meet_the_schema() {
+    let folder = tempfile::tempdir().unwrap();
+    let points = "name = \"t\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [0, 3]\n[constraints]\n";
+    let of = |more: &str, kind: &str, dimension: &str| {
+        let file = folder.path().join("t.toml");
+        std::fs::write(&file, format!("{points}{more}\n")).unwrap();
+        let (document, complaints) = written(kind, &["solve", file.to_str().unwrap()]);
+        assert_eq!(complaints, Vec::<String>::new());
+        let alone = document["alone"].as_array().unwrap().clone();
+        let named = |one: &&Value| one["dimension"] == dimension;
+        let value = alone.iter().find(named).unwrap()["value"][0].as_f64();
+        assert!(alone.iter().all(|one| one["ending"] == "limit"));
+        value.unwrap()
+    };
+    let whole = of(
+        "distances = [[\"a\", \"b\", 9], [\"b\", \"c\", 5], [\"c\", \"a\", 3]]",
+        "result",
+        "a-b",
+    );
+    // With sides of 5 and 3 it grows to 8, with 4 and 3 to 7.
+    assert!((whole - 8.0).abs() < 1e-9, "{whole}");
+    let by_blocks = of(
+        "fixed = [\"a\", \"b\"]\ndistances = [[\"a\", \"b\", 4], [\"b\", \"c\", 8], [\"c\", \"a\", 3]]",
+        "figures",
+        "b-c",
+    );
+    assert!((by_blocks - 7.0).abs() < 1e-9, "{by_blocks}");
+}
+
 #[test]
 fn the_schemas_of_other_verbs_refuse_others() {
     let (edit, _) = written(
