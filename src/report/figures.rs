@@ -127,8 +127,10 @@ fn senses_in_words(figures: &Figures) -> String {
 fn provided(figures: &Figures) -> String {
     let mut with = Vec::new();
     let held = figures.account().names_held();
-    if !held.is_empty() {
-        with.push(format!("{} held where it is drawn", list(&held)));
+    match held.len() {
+        0 => {}
+        1 => with.push(format!("{} held where it is drawn", held[0])),
+        _ => with.push(format!("{} held where they are drawn", list(&held))),
     }
     if figures.keeps_directions() {
         with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch".to_owned());
@@ -324,7 +326,7 @@ fn write_blocks(out: &mut String, figures: &Figures) -> std::fmt::Result {
     }
     let held = figures.account().names_held();
     if !held.is_empty() {
-        writeln!(out, "free, held where it is drawn: {}", list(&held))?;
+        writeln!(out, "free, held as drawn: {}", list(&held))?;
     }
     Ok(())
 }

@@ -67,7 +67,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let held = list(&result["account"], "held")?.iter();
     let free: Vec<&str> = held.filter_map(|held| held["what"].as_str()).collect();
     if !free.is_empty() {
-        let label = "free, held where it is drawn".to_owned();
+        let label = "free, held as drawn".to_owned();
         page.rows.push((label, free.join(", ")));
     }
     Ok(page)
