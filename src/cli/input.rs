@@ -17,20 +17,13 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
     match Format::of(&name) {
         Some(Format::SolveSpace | Format::FreeCad) => {
             let problem = load(file, sketch)?.problem;
-            return completed(&problem).map_err(|e| format!("{name}: {e}"));
+            completed(&problem).map_err(|e| format!("{name}: {e}"))
         }
-        Some(Format::Xyz | Format::Sdf) => return Ok(import(file, sketch)?.0.problem),
-        None if sketch.is_some() => {
-            return Err(format!(
-                "{name}: --sketch is for files that hold several sketches or molecules"
-            ));
+        _ => {
+            let loaded = load(file, sketch)?;
+            loaded.fault.map_or(Ok(loaded.problem), Err)
         }
-        None => {}
     }
-    if file != Path::new("-") {
-        return Problem::read(file).map_err(|error| error.to_string());
-    }
-    Problem::parse(&standard_input()?, STANDARD_INPUT).map_err(|error| error.to_string())
 }
 
 /// All of standard input.
@@ -97,26 +90,28 @@ pub enum Asked {
 /// Reads what a set of all solutions is to be about.
 pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Result<Asked, String> {
     let of_surplus = |surplus: Surplus| Asked::Surplus(Box::new(surplus.with_tolerance(tolerance)));
-    let surplus = match Format::of(&file.display().to_string()) {
-        Some(Format::Xyz | Format::Sdf) => import(file, sketch)?.0.surplus.map(of_surplus),
-        None if file != Path::new("-") => match Problem::read(file) {
-            Err(error) if error.is_about_structure() => {
-                let problem = load(file, sketch)?.problem.up_to_motions();
-                match Surplus::of(&problem, tolerance) {
-                    Some(surplus) => Some(of_surplus(surplus)),
-                    None if has_equations_to_spare(&problem) => {
-                        Some(Asked::Problem(Box::new((problem, None))))
-                    }
-                    None => None,
-                }
+    let of_problem = |read| Asked::Problem(Box::new(read));
+    match Format::of(&file.display().to_string()) {
+        Some(Format::SolveSpace | Format::FreeCad) => whole(file, sketch).map(of_problem),
+        Some(Format::Xyz | Format::Sdf) => {
+            let imported = import(file, sketch)?.0;
+            let problem = imported.problem;
+            Ok(imported
+                .surplus
+                .map_or_else(|| of_problem((problem, None)), of_surplus))
+        }
+        None => {
+            let loaded = load(file, sketch)?;
+            let Some(fault) = loaded.fault else {
+                return Ok(of_problem((loaded.problem, None)));
+            };
+            let problem = loaded.problem.up_to_motions();
+            match Surplus::of(&problem, tolerance) {
+                Some(surplus) => Ok(of_surplus(surplus)),
+                None if has_equations_to_spare(&problem) => Ok(of_problem((problem, None))),
+                None => Err(fault),
             }
-            _ => None,
-        },
-        _ => None,
-    };
-    match surplus {
-        Some(asked) => Ok(asked),
-        None => whole(file, sketch).map(|read| Asked::Problem(Box::new(read))),
+        }
     }
 }
 

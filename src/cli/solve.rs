@@ -49,8 +49,8 @@ Examples:
 
 A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
 its own frame that stops as a whole or has not as many equations as unknowns, and one of distances that falls apart
-(docs/sketches.md). A sketch is followed as a
-whole where a path is asked for: --cert, --animation, --samples, --space, --reverse, --mode float.
+(docs/sketches.md). A sketch is followed as a whole where a path is asked for: --cert, --animation, --samples, --space,
+--reverse, --mode float.
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
 found), 2 bad input or results that could not be written, 5 open: a path came to an end both ways, and all between is

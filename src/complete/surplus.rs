@@ -210,8 +210,8 @@ impl Complete {
                     tested.met += 1;
                     tested.within = tested.within.max(within);
                 }
-                Verdict::Undecided { .. } => tested.undecided += 1,
-                Verdict::Follows | Verdict::NotLookedAt => tested.met += 1,
+                Verdict::Undecided { .. } | Verdict::NotLookedAt => tested.undecided += 1,
+                Verdict::Follows => tested.met += 1,
             }
             solution.class = self.solutions.len();
             self.solutions.push(solution);

@@ -70,7 +70,10 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
             Ending::Limit(_) if meet(dimension.value, dimension.to) => {}
             Ending::Limit(_)
                 if one.edited.account.meets_all()
-                    || session.on_the_way(&wanted, one.edited.t.0, control).is_ok() =>
+                    || session
+                        .on_the_way(&wanted, one.edited.t.0, control)
+                        .1
+                        .is_none() =>
             {
                 found.push(one);
             }

@@ -109,36 +109,35 @@ impl Session {
             .collect()
     }
 
-    /// What is proved of figures on the way to the one at t, which has constraints left out that need not follow. Where one of
-    /// them misses such a constraint, or is not proved, the end is the one before it.
+    /// Figures on the way to the one at t, which has constraints left out that need not follow: what is proved of them, and, where
+    /// one of them misses such a constraint or is not proved, the end, at the one before it.
     pub(super) fn on_the_way(
         &mut self,
         setting: &Setting,
         t: f64,
         control: &mut Control,
-    ) -> Result<Account, End> {
+    ) -> (Account, Option<End>) {
         let mut account = self.account();
         let mut value = self.length(setting.index);
         for k in 1..=BETWEEN {
             let part = t * f64::from(k) / f64::from(BETWEEN + 1);
-            let Some(there) = setting.before(self.problem(), part) else {
-                let reason = "a value on the way there is no number".to_owned();
-                return Err(End::Unknown(value, reason));
+            let there = setting.before(self.problem(), part);
+            let edited = there.map(|there| self.follow_to(&[there], false, control));
+            let reason = match edited {
+                Some(edited) if edited.ending == Ending::Reached => {
+                    account.join(&edited.account);
+                    value = edited.dimensions[0].value;
+                    continue;
+                }
+                Some(Edited {
+                    ending: Ending::Stopped(reason) | Ending::Passes(reason),
+                    ..
+                }) => reason.text,
+                _ => "the way there could not be followed a second time".to_owned(),
             };
-            let edited = self.follow_to(&[there], false, control);
-            match edited.ending {
-                Ending::Reached => account.join(&edited.account),
-                Ending::Stopped(reason) | Ending::Passes(reason) => {
-                    return Err(End::Unknown(value, reason.text));
-                }
-                Ending::Limit(_) => {
-                    let reason = "the way there could not be followed a second time".to_owned();
-                    return Err(End::Unknown(value, reason));
-                }
-            }
-            value = edited.dimensions[0].value;
+            return (account, Some(End::Unknown(value, reason)));
         }
-        Ok(account)
+        (account, None)
     }
 
     /// How far a dimension can go towards a value, and the figure there.
@@ -186,10 +185,11 @@ impl Session {
             false => account,
         };
         if t.0 > 0.0 && !account.meets_all() {
-            match self.on_the_way(&setting, t.0, control) {
-                Ok(between) => account.join(&between),
-                Err(end) => return (end, self.points(), self.account()),
+            let (between, end) = self.on_the_way(&setting, t.0, control);
+            if let Some(end) = end {
+                return (end, self.points(), between);
             }
+            account.join(&between);
         }
         let value = dimensions[0].value;
         let end = match ending {

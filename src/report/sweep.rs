@@ -71,7 +71,9 @@ fn write_ranges(
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,
         words if account.meets_all() => format!(" At all these figures {words}."),
-        words => format!(" At all these figures, and at {BETWEEN} on the way to each, {words}."),
+        words => {
+            format!(" At all these figures, and at up to {BETWEEN} on the way to each, {words}.")
+        }
     });
     let loose = match account.is_none_or(|account| account.held.is_empty()) {
         true => "",

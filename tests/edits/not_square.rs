@@ -131,11 +131,8 @@ angles = [["A","D","C",100]]
     assert!(!text.contains("Led to all dimensions but one"), "{text}");
 }
 
-/// A slider on the x axis at the end of two bars of 6 and 4, which reaches 10, and a distance from a point beside the axis that is right
-/// at 3 and at 10 and nowhere else.
-#[test]
-fn a_range_does_not_run_over_figures_that_miss_a_constraint() {
-    let slider = r#"name = "slider"
+/// A slider P on the x axis at the end of two bars of 6 and 4, so that it reaches 10; and a point Q beside the axis.
+const SLIDER: &str = r#"name = "slider"
 dimension = 2
 [points]
 O = [0, 0]
@@ -148,6 +145,10 @@ y = [["P", 0]]
 distances = [["O", "B", 6], ["B", "P", 4]]
 x = [["P", 3]]
 "#;
+
+/// With a distance from Q that is right at 3 and at 10 and nowhere else.
+#[test]
+fn a_range_does_not_run_over_figures_that_miss_a_constraint() {
     let problem = |text: &str| Problem::parse_loosely(text, "slider.toml").unwrap();
     let x_of = |problem: &Problem| {
         let mut dimensions = problem.dimensions();
@@ -155,13 +156,13 @@ x = [["P", 3]]
             .find(|&index| problem.dimension_name(index).starts_with("x:"))
             .unwrap()
     };
-    let alone = problem(slider);
+    let alone = problem(SLIDER);
     let range = Session::open(&alone)
         .unwrap()
         .range(x_of(&alone), &mut Default::default());
     assert!(matches!(range.high, End::Limit(value, _) if (value.mid() - 10.0).abs() < 1e-9));
     // √(3.5² + 1) to the last digit that counts.
-    let beside = slider.replace(
+    let beside = SLIDER.replace(
         "[\"B\", \"P\", 4]]",
         "[\"B\", \"P\", 4], [\"Q\", \"P\", 3.640054944640259]]",
     );
@@ -203,19 +204,8 @@ distances = [["O", "B", 5], ["B", "P", 5], ["Q", "P", 3.1622776601683795]]
 /// a sketch whose figures there are none of with those held.
 #[test]
 fn what_one_dimension_can_do_alone_is_said_of_that_alone() {
-    let just = r#"name = "just"
-dimension = 2
-[points]
-O = [0, 0]
-B = [3.5, 4.873397]
-P = [3, 0]
-[constraints]
-fixed = ["O"]
-y = [["P", 0]]
-x = [["P", 10]]
-distances = [["O", "B", 6], ["B", "P", 4]]
-"#;
-    let (text, _) = run("solve", just, &[]);
+    let just = SLIDER.replace("\"P\", 3", "\"P\", 10");
+    let (text, _) = run("solve", &just, &[]);
     assert!(!text.contains("Led to all"), "{text}");
     let (text, _) = run("solve", &just.replace("\"P\", 10", "\"P\", 12"), &[]);
     assert!(text.contains("x:P can grow to 10.0000"), "{text}");
