@@ -78,10 +78,7 @@ pub fn follow(
         figures: Some(&mut seen),
         ..Control::default()
     };
-    let outcome = match cut.problem.dimension {
-        2 => track::<2>(&bent, &options, &mut watched),
-        _ => track::<3>(&bent, &options, &mut watched),
-    };
+    let outcome = track(&bent, &options, &mut watched);
     let mut doubt = match outcome.status {
         Status::Stopped(stop) => Some(stop.text),
         Status::Closed | Status::Open(_) => None,

@@ -4,6 +4,7 @@
 //! The dense kernels are plain floating point; what they may have rounded away is bounded by the
 //! caller with [`crate::interval::rounding`], from the operation counts stated with each kernel.
 
+mod axes;
 mod inverse;
 mod large;
 mod least;
@@ -13,6 +14,7 @@ mod rank;
 pub mod rstructure;
 mod span;
 
+pub(crate) use axes::with_axes;
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
 pub use least::{damped, nearest_zero};

@@ -2,14 +2,14 @@
 
 use super::Evaluation;
 
-impl<const D: usize> Evaluation<D> {
+impl Evaluation {
     /// Derivatives of figure and removed constraints at `q` by forward differences of the given
     /// step, in place of [`Evaluation::differentiate`]. False if `q`, or a point a step from it,
     /// is outside the domain.
     ///
     /// For parameter k_j only the instructions from the one that uses it on are evaluated again, j
     /// going from d to 1 (RR 8705, section 7.2).
-    pub fn difference(&mut self, q: &[f64], step: f64, scratch: &mut Differences<D>) -> bool {
+    pub fn difference(&mut self, q: &[f64], step: f64, scratch: &mut Differences) -> bool {
         if !self.evaluate(q) {
             return false;
         }
@@ -32,13 +32,13 @@ impl<const D: usize> Evaluation<D> {
         self.evaluate(q) && inside
     }
 
-    fn store_differences(&mut self, lane: usize, first: usize, step: f64, base: &Differences<D>) {
+    fn store_differences(&mut self, lane: usize, first: usize, step: f64, base: &Differences) {
         let (chunk, at) = (lane / 4, lane % 4);
         for row in &self.rows[first..] {
-            let p = row.point;
-            for axis in 0..D {
-                self.sensitivity[p * self.chunks + chunk][axis].0[at] =
-                    (self.places[p][axis] - base.places[p][axis]) / step;
+            for axis in 0..self.dimension {
+                let p = row.point * self.dimension + axis;
+                let of_point = (row.point * self.chunks + chunk) * self.dimension;
+                self.sensitivity[of_point + axis].0[at] = (self.places[p] - base.places[p]) / step;
             }
         }
         for (k, (now, before)) in self.residual.iter().zip(&base.residual).enumerate() {
@@ -49,7 +49,7 @@ impl<const D: usize> Evaluation<D> {
 
 /// Room for the values that differences are taken from.
 #[derive(Debug, Clone, Default)]
-pub struct Differences<const D: usize> {
-    places: Vec<[f64; D]>,
+pub struct Differences {
+    places: Vec<f64>,
     residual: Vec<f64>,
 }

@@ -85,10 +85,13 @@ pub fn solve(
             SMALLEST_MAX_STEP * homotopy.unit
         )));
     }
-    let mut outcome = match problem.dimension {
-        2 => solve_in::<2>(&homotopy, options, control),
-        _ => solve_in::<3>(&homotopy, options, control),
-    }?;
+    let track = match (options.mode, options.space, options.preset) {
+        (Mode::Certified, ..) => certified::track,
+        (Mode::Float, Space::Full, Preset::Default) => full::float::track,
+        (Mode::Float, Space::Full, Preset::Paper) => full::float::track_paper,
+        (Mode::Float, Space::Reduced, _) => reduced::float::track,
+    };
+    let mut outcome = track(&homotopy, options, control);
     // A run that ends at the sketch has seen that only.
     if outcome.t_range.0 > outcome.t_range.1 {
         outcome.t_range = (0.0, 0.0);
@@ -134,22 +137,3 @@ pub(crate) const LARGEST_SQUARE: usize = 6000;
 /// Bounds on the step below this, in units of the problem's typical length, are refused: no path
 /// would end.
 const SMALLEST_MAX_STEP: f64 = 1e-8;
-
-fn solve_in<const D: usize>(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Result<Outcome, StartError> {
-    match (options.mode, options.space, options.preset) {
-        (Mode::Certified, ..) => Ok(certified::track::<D>(homotopy, options, control)),
-        (Mode::Float, Space::Full, Preset::Default) => {
-            Ok(full::float::track::<D>(homotopy, options, control))
-        }
-        (Mode::Float, Space::Full, Preset::Paper) => {
-            Ok(full::float::track_paper::<D>(homotopy, options, control))
-        }
-        (Mode::Float, Space::Reduced, _) => {
-            Ok(reduced::float::track::<D>(homotopy, options, control))
-        }
-    }
-}

@@ -118,18 +118,7 @@ pub fn prove_figure(
     near: &[f64],
     at_start: bool,
 ) -> Result<FigureBox, String> {
-    match homotopy.dimension {
-        2 => prove_in::<2>(homotopy, near, at_start),
-        _ => prove_in::<3>(homotopy, near, at_start),
-    }
-}
-
-fn prove_in<const D: usize>(
-    homotopy: &Homotopy,
-    near: &[f64],
-    at_start: bool,
-) -> Result<FigureBox, String> {
-    let equations = Equations::<D>::new(homotopy);
+    let equations = Equations::new(homotopy);
     let mut inverter: InverseMaker = equations.inverter();
     let mut prover = match at_start {
         true => SolutionProver::at_start(homotopy, &equations),

@@ -39,7 +39,7 @@ const LARGEST_STEP: f64 = 10.0;
 
 /// Work space for proving folds.
 #[derive(Debug)]
-pub struct FoldProver<const D: usize> {
+pub struct FoldProver {
     /// Of the Jacobian: columns of X, of t, of v; rows of F, of J v, of c·v − 1.
     pattern: Sparse,
     inverter: Inverter,
@@ -48,8 +48,8 @@ pub struct FoldProver<const D: usize> {
     /// Values of J, and of J(v), in the equations' pattern.
     j: Vec<f64>,
     jv: Vec<f64>,
-    d: Differences<D>,
-    dv: Differences<D>,
+    d: Differences,
+    dv: Differences,
     lengths: Lengths,
     /// X, t and a spare entry; v likewise.
     x: Vector,
@@ -63,9 +63,9 @@ pub struct FoldProver<const D: usize> {
     contraction: (f64, f64),
 }
 
-impl<const D: usize> FoldProver<D> {
+impl FoldProver {
     /// For one problem.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         let m = equations.m;
         let plain = equations.pattern();
         let columns: Vec<Vec<usize>> = (0..2 * m + 1)
@@ -109,7 +109,7 @@ impl<const D: usize> FoldProver<D> {
     /// `None`: no such proof.
     pub fn prove(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         homotopy: &Homotopy,
         (x, v): (&[f64], &[f64]),
         normal: &[f64],
@@ -162,7 +162,7 @@ impl<const D: usize> FoldProver<D> {
     }
 
     /// The Jacobian at (X, t, v).
-    fn look(&mut self, equations: &Equations<D>, c: &[f64]) {
+    fn look(&mut self, equations: &Equations, c: &[f64]) {
         let m = equations.m;
         equations.differences(&self.x, &mut self.d);
         equations.directions(&self.v, &mut self.dv);
@@ -198,7 +198,7 @@ impl<const D: usize> FoldProver<D> {
     }
 
     /// Φ in floats.
-    fn residual(&mut self, equations: &Equations<D>, c: &[f64]) {
+    fn residual(&mut self, equations: &Equations, c: &[f64]) {
         let m = equations.m;
         equations.residual(&self.d, &self.lengths, &mut self.room);
         self.f[..m].copy_from_slice(&self.room[..m]);
@@ -210,12 +210,7 @@ impl<const D: usize> FoldProver<D> {
     }
 
     /// The test at the point reached, with the norm max |w_i|: |I − Y Φ'(x + w)| ≤ q₀ + κ |w|.
-    fn conclude(
-        &mut self,
-        equations: &Equations<D>,
-        homotopy: &Homotopy,
-        c: &[f64],
-    ) -> Option<Fold> {
+    fn conclude(&mut self, equations: &Equations, homotopy: &Homotopy, c: &[f64]) -> Option<Fold> {
         let m = equations.m;
         let n = 2 * m + 1;
         // |I − Y Φ'| as computed; the rounding of that product and of the Jacobian's entries, which are
@@ -230,7 +225,7 @@ impl<const D: usize> FoldProver<D> {
         let mut width = Vector::zeros(n);
         for e in 0..m {
             let (mut size, mut size_v, mut change) = (0.0, 0.0, 0.0);
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let free = equations.ends[axis][e].map(|end| is_free(end as usize));
                 let free = free[0] + free[1];
                 size += self.d[axis][e].abs() * free;
@@ -240,7 +235,7 @@ impl<const D: usize> FoldProver<D> {
             for (half, forms) in equations.tail.products(e) {
                 let free = forms.map(|form| equations.tail.ends(form).map(is_free));
                 let [left, right] = free.map(|ends| ends[0] + ends[1]);
-                let of = |d: &Differences<D>| {
+                let of = |d: &Differences| {
                     let [l, r] = forms.map(|form| d.forms[form].abs());
                     half.abs() * (l * right + r * left)
                 };
@@ -312,12 +307,12 @@ impl<const D: usize> FoldProver<D> {
     }
 
     /// |Φ| at the point reached, with all that is not known of it, into `f`.
-    fn bound_residual(&mut self, equations: &Equations<D>, homotopy: &Homotopy, c: &[f64]) {
+    fn bound_residual(&mut self, equations: &Equations, homotopy: &Homotopy, c: &[f64]) {
         let m = equations.m;
         let t = point(self.x[m]);
         for e in 0..m {
             let (mut squared, mut moved) = (point(0.0), point(0.0));
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let [i, j] = equations.ends[axis][e].map(|end| end as usize);
                 let d = point(self.x[i]) - point(self.x[j]);
                 squared += d.sqr();
@@ -354,7 +349,7 @@ fn around(x: f64, radius: f64) -> Interval {
 }
 
 /// The point (X, t) of a fold as a box.
-pub fn ball_of<const D: usize>(fold: &Fold, equations: &Equations<D>) -> Ball {
+pub fn ball_of(fold: &Fold, equations: &Equations) -> Ball {
     let m = equations.m;
     let mut ball = Ball::new(equations);
     ball.centre[..m].copy_from_slice(&fold.figure.centre);
@@ -366,9 +361,9 @@ pub fn ball_of<const D: usize>(fold: &Fold, equations: &Equations<D>) -> Ball {
 
 /// Proves that between two parameters of a tube, in whose cross-sections it was sought, the fold is the
 /// only point with t' = 0 of the path, if it is there at all.
-pub fn is_alone<const D: usize, const N: usize, Y: Frame<D>>(
+pub fn is_alone<const N: usize, Y: Frame>(
     fold: &Fold,
-    tube: &Tube<D, N, Y>,
+    tube: &Tube<N, Y>,
     (a, b): (f64, f64),
 ) -> bool {
     let m = tube.weights.len() - 2;

@@ -7,7 +7,7 @@ use crate::track::events::TimeAlong;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
 
 /// What a preconditioner knows of the box in which a tube was proved.
-pub trait Frame<const D: usize>: Preconditioner<D> {
+pub trait Frame: Preconditioner {
     /// By how much the box around ẑ(s), whose size is 1, must be scaled to hold a point, rounded up: `entry`
     /// tells, for each index once and in their order, how far it is from ẑ(s), and the error of that;
     /// `known` tells the same of any index at any time. `weights` are the tube's.
@@ -24,7 +24,7 @@ pub trait Frame<const D: usize>: Preconditioner<D> {
 }
 
 /// In the full space the box is |w|_u ≤ 1.
-impl<const D: usize> Frame<D> for Matrix {
+impl Frame for Matrix {
     #[inline(always)]
     fn extent(
         &self,
@@ -51,9 +51,9 @@ impl<const D: usize> Frame<D> for Matrix {
 /// A proved tube: for every |s| ≤ h exactly one point of the path in the cross-section through
 /// ẑ(s), in the box around it that is the frame's scaled by r.
 #[derive(Debug, Clone)]
-pub struct Tube<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
+pub struct Tube<const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// The polynomial ẑ with its normal and preconditioner.
-    pub local: Local<D, N, Y>,
+    pub local: Local<N, Y>,
     /// The weights u of the norm in which distances are stated. The box is in |w|_u ≤ r.
     pub weights: Vector,
     /// What is proved.
@@ -87,7 +87,7 @@ pub struct Ball {
 
 impl Ball {
     /// Room for a box of the problem's points.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Ball {
             centre: equations.vector(),
             low: equations.vector(),
@@ -113,9 +113,9 @@ const fn evaluation(coefficients: usize) -> usize {
     4 * coefficients
 }
 
-impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
+impl<const N: usize, Y: Frame> Tube<N, Y> {
     /// Room for a tube.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Tube {
             local: Local::new(equations),
             weights: equations.vector(),
@@ -272,8 +272,8 @@ impl<const D: usize, const N: usize, Y: Frame<D>> Tube<D, N, Y> {
 ///
 /// Both are seen from z₀: what is subtracted is small, and so is its rounding.
 #[inline(always)]
-pub fn offsets<const D: usize, const N: usize, Y: Preconditioner<D>>(
-    local: &Local<D, N, Y>,
+pub fn offsets<const N: usize, Y: Preconditioner>(
+    local: &Local<N, Y>,
     lane: usize,
     s: f64,
     ball: &Ball,
@@ -303,8 +303,8 @@ pub fn offsets<const D: usize, const N: usize, Y: Preconditioner<D>>(
 /// middle, with the normal c; how far that may be off for any of them; and the extent of all of them. The
 /// latter two are rounded up.
 #[inline(always)]
-pub fn from_middle<const D: usize, const N: usize, Y: Frame<D>>(
-    local: &Local<D, N, Y>,
+pub fn from_middle<const N: usize, Y: Frame>(
+    local: &Local<N, Y>,
     weights: &[f64],
     s: f64,
     ball: &Ball,

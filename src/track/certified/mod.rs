@@ -54,7 +54,7 @@ pub trait FollowArcs: std::fmt::Debug + Send {
     fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String>;
 }
 
-impl<const D: usize, const N: usize, T: tracker::Test<D, N>> FollowArcs for tracker::Arcs<D, N, T>
+impl<const N: usize, T: tracker::Test<N>> FollowArcs for tracker::Arcs<N, T>
 where
     Self: Send,
 {
@@ -81,35 +81,22 @@ where
 
 /// What follows arcs of a homotopy's equations in the space that `options` say.
 pub fn arcs(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
-    match homotopy.dimension {
-        2 => arcs_in::<2>(homotopy, options),
-        _ => arcs_in::<3>(homotopy, options),
-    }
-}
-
-fn arcs_in<const D: usize>(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
     match options.space {
-        Space::Full => Box::new(tracker::Arcs::<D, { ORDER + 1 }, KrawczykTest<D>>::new(
+        Space::Full => Box::new(tracker::Arcs::<{ ORDER + 1 }, KrawczykTest>::new(
             homotopy, options,
         )),
-        Space::Reduced => Box::new(tracker::Arcs::<D, { COEFFICIENTS }, ReducedTest<D>>::new(
+        Space::Reduced => Box::new(tracker::Arcs::<{ COEFFICIENTS }, ReducedTest>::new(
             homotopy, options,
         )),
     }
 }
 
 /// Follows the path and proves every step.
-pub fn track<const D: usize>(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Outcome {
+pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
     match options.space {
-        Space::Full => {
-            tracker::track::<D, { ORDER + 1 }, KrawczykTest<D>>(homotopy, options, control)
-        }
+        Space::Full => tracker::track::<{ ORDER + 1 }, KrawczykTest>(homotopy, options, control),
         Space::Reduced => {
-            tracker::track::<D, { COEFFICIENTS }, ReducedTest<D>>(homotopy, options, control)
+            tracker::track::<{ COEFFICIENTS }, ReducedTest>(homotopy, options, control)
         }
     }
 }

@@ -108,11 +108,7 @@ impl Orientations {
     }
 
     /// Follows the signs along a tube, between two parameters.
-    pub fn follow<const D: usize, const N: usize, Y: Frame<D>>(
-        &mut self,
-        tube: &Tube<D, N, Y>,
-        (from, to): (f64, f64),
-    ) {
+    pub fn follow<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, (from, to): (f64, f64)) {
         let known = std::mem::take(&mut self.known);
         let unbroken = std::mem::take(&mut self.unbroken);
         let mut keep = |mut known: Vec<u32>, depth: usize| {
@@ -128,9 +124,9 @@ impl Orientations {
     }
 
     /// Leaves those that are lost between two parameters, and notes where.
-    fn split<const D: usize, const N: usize, Y: Frame<D>>(
+    fn split<const N: usize, Y: Frame>(
         &mut self,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         (a, b): (f64, f64),
         depth: usize,
         doubtful: &mut Vec<u32>,
@@ -173,12 +169,7 @@ impl Orientations {
 
     /// Encloses the path between two parameters of a tube: with c in the middle and r the largest parameter in size, the tube's
     /// polynomial p(s) differs from p(c) + p'(c)(s − c) by at most the sum of k(k − 1)/2 |p_k| rᵏ⁻² times (s − c)².
-    fn look<const D: usize, const N: usize, Y: Frame<D>>(
-        &mut self,
-        tube: &Tube<D, N, Y>,
-        a: f64,
-        b: f64,
-    ) {
+    fn look<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, a: f64, b: f64) {
         let n = tube.weights.len() - 1;
         let (z, proof) = (&tube.local.z, &tube.proof);
         let middle = 0.5 * (a + b);

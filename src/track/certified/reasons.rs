@@ -85,10 +85,10 @@ pub fn precision(is_extended: bool) -> &'static str {
 }
 
 /// Why no point was found, with the corrections that did not shrink.
-pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
+pub fn unrefined<const N: usize, Y: Preconditioner>(
     error: RefineError,
-    equations: &Equations<D>,
-    local: &mut Local<D, N, Y>,
+    equations: &Equations,
+    local: &mut Local<N, Y>,
     tolerance: f64,
     unit: f64,
 ) -> String {
@@ -125,9 +125,9 @@ pub fn unrefined<const D: usize, const N: usize, Y: Preconditioner<D>>(
 }
 
 /// Why no tube is proved, or where none of the conditions fails, why one that is has no use.
-pub fn unproved<const D: usize, const N: usize, Y>(
+pub fn unproved<const N: usize, Y>(
     shortfall: Option<Shortfall>,
-    tube: &Tube<D, N, Y>,
+    tube: &Tube<N, Y>,
     unit: f64,
 ) -> String {
     let why = match shortfall {
@@ -145,11 +145,11 @@ pub fn unproved<const D: usize, const N: usize, Y>(
 
 /// Why the point in `ball`, `what`, is not known to be the path's in a tube, or the path not to go on
 /// there in the tube's direction, known up to `direction`.
-pub fn unlinked<const D: usize, const N: usize, Y: Frame<D>>(
+pub fn unlinked<const N: usize, Y: Frame>(
     what: &str,
     ball: &Ball,
     direction: f64,
-    tube: &Tube<D, N, Y>,
+    tube: &Tube<N, Y>,
     unit: f64,
 ) -> String {
     const UNLINKED: &str = "the tube could not be linked to what comes before it";
@@ -272,9 +272,9 @@ mod tests {
     #[test]
     fn what_cannot_be_refined_has_a_number() {
         let homotopy = Homotopy::new(&problem()).unwrap();
-        let equations = Equations::<3>::new(&homotopy);
+        let equations = Equations::new(&homotopy);
         let mut inverter = equations.inverter();
-        let mut local = Local::<3>::new(&equations);
+        let mut local = <Local>::new(&equations);
         let mut reason = |size: f64, normal: f64| {
             for i in 0..equations.m {
                 local.z[0][i] = size * (i as f64 + 0.3).sin();
@@ -298,7 +298,7 @@ mod tests {
     #[test]
     fn figures_with_a_singular_jacobian_have_a_number() {
         let homotopy = Homotopy::new(&problem()).unwrap();
-        let equations = Equations::<3>::new(&homotopy);
+        let equations = Equations::new(&homotopy);
         let mut inverter = equations.inverter();
         let mut prover = SolutionProver::new(&homotopy, &equations);
         let guess = equations.vector();

@@ -38,8 +38,8 @@ pub enum Same {
 
 /// Work space for proving boxes.
 #[derive(Debug)]
-pub struct SolutionProver<const D: usize> {
-    local: Local<D>,
+pub struct SolutionProver {
+    local: Local,
     jacobian: Vec<f64>,
     ones: Vec<f64>,
     rounding: Vector,
@@ -54,9 +54,9 @@ pub struct SolutionProver<const D: usize> {
     found: SolutionBox,
 }
 
-impl<const D: usize> SolutionProver<D> {
+impl SolutionProver {
     /// Work space for proving boxes around solutions of one problem, at t = 1.
-    pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+    pub fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
         let n = equations.n();
         SolutionProver {
             local: Local::new(equations),
@@ -81,7 +81,7 @@ impl<const D: usize> SolutionProver<D> {
 
     /// Work space for proving boxes around figures of one problem with t = 0, the equations being F(X, a(0)) = 0.
     /// Not in extended precision.
-    pub fn at_start(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+    pub fn at_start(homotopy: &Homotopy, equations: &Equations) -> Self {
         let zero = point(0.0);
         SolutionProver {
             t: 0.0,
@@ -107,7 +107,7 @@ impl<const D: usize> SolutionProver<D> {
     /// taken in extended precision; everything else bears relative errors of 2⁻⁵³.
     pub fn prove(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut InverseMaker,
         guess: &[f64],
         (rising, extended): (bool, bool),
@@ -170,7 +170,7 @@ impl<const D: usize> SolutionProver<D> {
     }
 
     /// q₀ and κ at the point of `local`.
-    fn contraction(&mut self, equations: &Equations<D>) -> (f64, f64) {
+    fn contraction(&mut self, equations: &Equations) -> (f64, f64) {
         let (m, n) = (equations.m, equations.n());
         let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
@@ -180,7 +180,7 @@ impl<const D: usize> SolutionProver<D> {
         for e in 0..m {
             let slope = local.lengths.terms[1][e].abs();
             let (mut size, mut change) = (slope, 0.0);
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let free = equations.ends[axis][e].map(|end| is_free(end as usize));
                 let free = free[0] + free[1];
                 size += local.d[0][axis][e].abs() * free;
@@ -226,7 +226,7 @@ impl<const D: usize> SolutionProver<D> {
     }
 
     /// |F| at the point of `local`, with all that is not known of it, into `f`.
-    fn bound_residual(&mut self, equations: &Equations<D>, extended: bool) {
+    fn bound_residual(&mut self, equations: &Equations, extended: bool) {
         let (m, local) = (equations.m, &self.local);
         // The residual in intervals or in extended precision: its width is what limits the box.
         if extended {
@@ -238,8 +238,9 @@ impl<const D: usize> SolutionProver<D> {
             }
         } else {
             for e in 0..m {
-                let squared = (0..D).fold(point(0.0), |sum, axis| {
-                    let [i, j] = equations.ends[axis][e].map(|end| point(local.z[0][end as usize]));
+                let ends = equations.ends.iter();
+                let squared = ends.fold(point(0.0), |sum, ends| {
+                    let [i, j] = ends[e].map(|end| point(local.z[0][end as usize]));
                     sum + (i - j).sqr()
                 });
                 let form = |form: usize| match form {
@@ -399,7 +400,7 @@ mod tests {
     fn boxes_that_are_apart_are_printed_apart() {
         let path = format!("{}/problems/octahedron.toml", env!("CARGO_MANIFEST_DIR"));
         let homotopy = Homotopy::new(&Problem::read(path).unwrap()).unwrap();
-        let equations = Equations::<3>::new(&homotopy);
+        let equations = Equations::new(&homotopy);
         let mut one = SolutionProver::new(&homotopy, &equations).found;
         let m = equations.m;
         one.centre[..m].fill(1.0);

@@ -130,9 +130,9 @@ impl Trace {
 
     /// A tube joined the chain: the path goes through it between the parameters of `stretch`, whose third
     /// number is the length of the path before it.
-    pub(super) fn add<const D: usize, const N: usize, Y: Frame<D>>(
+    pub(super) fn add<const N: usize, Y: Frame>(
         &mut self,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         stretch: (f64, f64, f64),
     ) {
         if let Some(back) = &mut self.back {
@@ -171,7 +171,7 @@ impl Trace {
     }
 
     /// How far the path may be from the middle of a tube, in any coordinate.
-    fn within<const D: usize, const N: usize, Y: Frame<D>>(&self, tube: &Tube<D, N, Y>) -> f64 {
+    fn within<const N: usize, Y: Frame>(&self, tube: &Tube<N, Y>) -> f64 {
         let (distance, unit) = (point(tube.proof.distance), point(self.unit));
         let weights = tube.weights[..self.width - 1].iter();
         let weights = weights.zip(&tube.local.low[..self.width - 1]);
@@ -215,11 +215,7 @@ impl Trace {
     }
 
     /// The path between two parameters of a tube belongs to what is open.
-    fn widen<const D: usize, const N: usize, Y: Frame<D>>(
-        &mut self,
-        tube: &Tube<D, N, Y>,
-        (a, b): (f64, f64),
-    ) {
+    fn widen<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, (a, b): (f64, f64)) {
         let (local, s) = (&tube.local, hull(a, b));
         let mut scratch = tube.weights.clone();
         let turn = turning(tube, (a, b));
@@ -421,10 +417,7 @@ fn all_points<T: Copy>(gauge: &Gauge, free: impl Fn(usize) -> T, zero: T) -> Vec
 }
 
 /// Where t turns on the tube's polynomial, between two parameters.
-fn turning<const D: usize, const N: usize, Y: Frame<D>>(
-    tube: &Tube<D, N, Y>,
-    (a, b): (f64, f64),
-) -> Option<f64> {
+fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (a, b): (f64, f64)) -> Option<f64> {
     const PIECES: usize = 16;
     let t = tube.weights.len() - 2;
     let slope = |s: f64| {

@@ -50,13 +50,13 @@ const EXIT: f64 = 0.97;
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
 /// Follows the path and proves every step by a test.
-pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
+pub fn track<const N: usize, T: Test<N>>(
     homotopy: &Homotopy,
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
     let clock = Instant::now();
-    let mut tracker = Tracker::<D, N, T>::new(Cow::Borrowed(homotopy), options);
+    let mut tracker = Tracker::<N, T>::new(Cow::Borrowed(homotopy), options);
     tracker.crossing = Crossing::new(homotopy);
     if let Some(witness) = &mut control.witness {
         witness.begin(homotopy.unit);
@@ -134,15 +134,15 @@ pub fn track<const D: usize, const N: usize, T: Test<D, N>>(
 }
 
 #[derive(Debug)]
-struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
+struct Tracker<'a, const N: usize, T: Test<N>> {
     homotopy: Cow<'a, Homotopy>,
-    equations: Equations<D>,
+    equations: Equations,
     /// For the direction at the sketch and for boxes around solutions.
     inverter: InverseMaker,
     test: T,
-    ledger: Ledger<D>,
-    now: Tube<D, N, T::Frame>,
-    next: Tube<D, N, T::Frame>,
+    ledger: Ledger,
+    now: Tube<N, T::Frame>,
+    next: Tube<N, T::Frame>,
     /// The point of the tube before, if there is one.
     previous: Vector,
     has_previous: bool,
@@ -154,7 +154,7 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     shortened: usize,
     extension: Extension,
     /// What a run keeps whose end is t = 1; those whose end is the sketch again have none.
-    arc: Option<Arc<D>>,
+    arc: Option<Arc>,
     /// What it keeps if it may meet flat figures at t = 1.
     crossing: Option<Crossing>,
     /// Where it ends if it is a piece of another run.
@@ -176,7 +176,7 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     /// How many tubes it takes to get twice as far.
     pace: Pace,
     /// Proves figures with t = 0, once somebody wants them.
-    at_start: Option<Box<SolutionProver<D>>>,
+    at_start: Option<Box<SolutionProver>>,
     /// How many of the solutions were found the other way from the sketch: the first ones.
     behind: usize,
     /// The run that goes the other way at the same time, if there is one.
@@ -190,9 +190,9 @@ struct Tracker<'a, const D: usize, const N: usize, T: Test<D, N>> {
     typical: f64,
 }
 
-impl<'a, const D: usize, const N: usize, T: Test<D, N>> Tracker<'a, D, N, T> {
+impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
     fn new(homotopy: Cow<'a, Homotopy>, options: &Options) -> Self {
-        let equations = Equations::<D>::new(&homotopy);
+        let equations = Equations::new(&homotopy);
         let vector = || equations.vector();
         let mut sketch = Ball::new(&equations);
         for (i, x) in homotopy.sketch_of_unknowns().enumerate() {

@@ -37,11 +37,11 @@ impl Extended {
     }
 
     /// Differences p_i − p_j rounded to floats, each with a relative error below 2⁻⁵².
-    pub fn differences<const D: usize>(
+    pub fn differences(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         (z, low): (&[f64], &[f64]),
-        out: &mut Differences<D>,
+        out: &mut Differences,
     ) {
         for (axis, out) in out.iter_mut().enumerate() {
             for (e, out) in out[..equations.m].iter_mut().enumerate() {
@@ -54,9 +54,9 @@ impl Extended {
     }
 
     /// F(z) rounded to floats, and if wanted how far the exact value may be from that.
-    pub fn residual<const D: usize>(
+    pub fn residual(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         (z, low): (&[f64], &[f64]),
         out: &mut Vector,
         mut error: Option<&mut Vector>,
@@ -86,9 +86,9 @@ impl Extended {
 
     /// F(z) with the target lengths, those of t = 1, whatever z has for t, rounded to floats, and if wanted how
     /// far the exact value may be from that.
-    pub fn residual_at_target<const D: usize>(
+    pub fn residual_at_target(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         (z, low): (&[f64], &[f64]),
         out: &mut Vector,
         mut error: Option<&mut Vector>,
@@ -139,11 +139,7 @@ fn difference((z, low): (&[f64], &[f64]), ends: [usize; 2]) -> DoubleDouble {
     i - j
 }
 
-fn form_value<const D: usize>(
-    equations: &Equations<D>,
-    z: (&[f64], &[f64]),
-    form: usize,
-) -> DoubleDouble {
+fn form_value(equations: &Equations, z: (&[f64], &[f64]), form: usize) -> DoubleDouble {
     match form {
         Tail::ONE => DoubleDouble::from(1.0),
         _ => difference(z, equations.tail.ends(form)),
@@ -152,16 +148,17 @@ fn form_value<const D: usize>(
 
 /// q_e(z) − E, as a float, and how far the exact value may be away: E has been computed
 /// from terms of that `size` in sum, whose coefficients are known up to what adds up to `radius`.
-fn equation<const D: usize>(
-    equations: &Equations<D>,
+fn equation(
+    equations: &Equations,
     z: (&[f64], &[f64]),
     e: usize,
     length: DoubleDouble,
     size: f64,
     radius: f64,
 ) -> (f64, f64) {
-    let squared = (0..D).fold(DoubleDouble::default(), |sum, axis| {
-        let d = difference(z, equations.ends[axis][e].map(|end| end as usize));
+    let ends = equations.ends.iter();
+    let squared = ends.fold(DoubleDouble::default(), |sum, ends| {
+        let d = difference(z, ends[e].map(|end| end as usize));
         sum + d * d
     });
     let half = squared.half();
@@ -174,8 +171,8 @@ fn equation<const D: usize>(
 }
 
 /// Adds what the tail has to the left-hand side of an equation, and tells the size of that.
-fn add_tail<const D: usize>(
-    equations: &Equations<D>,
+fn add_tail(
+    equations: &Equations,
     z: (&[f64], &[f64]),
     e: usize,
     mut sum: DoubleDouble,
@@ -198,12 +195,12 @@ pub fn shift(z: &mut [f64], low: &mut [f64], change: impl Fn(usize) -> f64) {
     }
 }
 
-impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
+impl<const N: usize, Y: Preconditioner> Local<N, Y> {
     /// [`Local::refine`] in extended precision, as far as that goes; the preconditioner is made anew at
     /// the refined point.
     pub fn refine_extended(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         maker: &mut Y::Maker,
     ) -> Result<(), RefineError> {
         self.is_extended = true;
@@ -216,7 +213,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// Corrections of `z[0]` and `low` until they stop shrinking.
-    fn chord_extended(&mut self, equations: &Equations<D>) -> Result<(), RefineError> {
+    fn chord_extended(&mut self, equations: &Equations) -> Result<(), RefineError> {
         /// A first correction that shrank by so much is as good as rounding lets it be.
         const SHRUNK: f64 = 1e-6;
         /// Corrections below this need not shrink any more: the proof tells what they are worth.
@@ -240,7 +237,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// Computes the next correction of `z[0]` and `low`, without making it. Returns its size.
-    pub fn find_correction(&mut self, equations: &Equations<D>) -> f64 {
+    pub fn find_correction(&mut self, equations: &Equations) -> f64 {
         let z = (&self.z[0][..], &self.low[..]);
         let extended = equations.in_extended();
         extended.residual(equations, z, &mut self.f, None);
@@ -248,7 +245,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// The correction for what F is, and the size of its first `entries`.
-    fn solve_for_correction(&mut self, equations: &Equations<D>, entries: usize) -> f64 {
+    fn solve_for_correction(&mut self, equations: &Equations, entries: usize) -> f64 {
         self.y
             .solve(equations, &self.f[..equations.m], &mut self.delta);
         let sizes = self.delta[..entries].iter();
@@ -264,11 +261,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// [`Local::refine_at`] t = 1 in extended precision, by Newton's method.
-    pub fn refine_at_target(
-        &mut self,
-        equations: &Equations<D>,
-        maker: &mut Y::Maker,
-    ) -> Option<()> {
+    pub fn refine_at_target(&mut self, equations: &Equations, maker: &mut Y::Maker) -> Option<()> {
         let m = equations.m;
         self.normal.fill(0.0);
         self.normal[m] = 1.0;

@@ -17,7 +17,7 @@ const POWERS: usize = MAX_DEGREE * MAX_ORDER + 1;
 /// Y ≈ [J; c]⁻¹, and the polynomial ẑ(s) = z₀ + s z₁ + … with c·ẑ(s) = c·z₀ + s that follows the path.
 /// It has N coefficients.
 #[derive(Debug, Clone)]
-pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
+pub struct Local<const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// Coefficients z₀ … of ẑ.
     pub z: [Vector; N],
     /// The low words of z₀ in extended precision (it is `z[0]` + `low`); otherwise zero.
@@ -25,7 +25,7 @@ pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     /// Whether F(z₀) is taken in extended precision (`extended.rs`).
     pub is_extended: bool,
     /// Their differences p_i − p_j, and the factors of the tail's products.
-    pub d: [Differences<D>; N],
+    pub d: [Differences; N],
     /// Taylor coefficients of the lengths at t₀.
     pub lengths: Lengths,
     /// The normal c.
@@ -45,14 +45,14 @@ pub struct Local<const D: usize, const N: usize = { ORDER + 1 }, Y = Matrix> {
     pub(super) delta: Vector,
 }
 
-impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
+impl<const N: usize, Y: Preconditioner> Local<N, Y> {
     /// The degree of ẑ.
     pub const ORDER: usize = N - 1;
     /// The largest power of s in F(ẑ(s)).
     pub const DEGREE: usize = MAX_DEGREE * Self::ORDER;
 
     /// Room for one point.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         const { assert!(N > 1 && N - 1 <= MAX_ORDER, "room for the powers of t(s)") };
         let vector = || equations.vector();
         Local {
@@ -74,7 +74,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// Brings differences and lengths up to date with `z[0]`.
     #[inline(always)]
-    pub(super) fn look(&mut self, equations: &Equations<D>) {
+    pub(super) fn look(&mut self, equations: &Equations) {
         if self.is_extended {
             let z = (&self.z[0][..], &self.low[..]);
             equations
@@ -88,7 +88,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// Computes the coefficients z₁ … by differentiating F(ẑ(s)) = 0: each solves the
     /// same linear system, with what the earlier ones leave as its right-hand side.
-    pub fn expand(&mut self, equations: &Equations<D>) {
+    pub fn expand(&mut self, equations: &Equations) {
         let (m, n) = (equations.m, equations.n());
         for k in 1..=Self::ORDER {
             // The terms of order k without z_k; the last row asks c·z₁ = 1, c·z_k = 0.
@@ -124,17 +124,13 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// `f −= J z_k` in the first m rows.
     #[inline(always)]
-    fn subtract_jacobian_times(&self, equations: &Equations<D>, k: usize, f: &mut Vector) {
+    fn subtract_jacobian_times(&self, equations: &Equations, k: usize, f: &mut Vector) {
         let t = self.z[k][equations.m];
         let slope = self.lengths.terms[1].lanes();
-        let (d0, dk) = (
-            self.d[0].each_ref().map(|d| d.lanes()),
-            self.d[k].each_ref().map(|d| d.lanes()),
-        );
         for (l, f) in f.lanes_mut().iter_mut().enumerate().take(slope.len()) {
+            let product = self.d[0].lane_of_products(&self.d[k], l);
             for i in 0..LANE {
-                let product: f64 = (0..D).map(|axis| d0[axis][l][i] * dk[axis][l][i]).sum();
-                f[i] -= product - slope[l][i] * t;
+                f[i] -= product[i] - slope[l][i] * t;
             }
         }
         if !equations.tail.is_empty() {
@@ -162,7 +158,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// The coefficients of sᵏ in F(ẑ(s)), for all distances, from products of z_a with a ≥ `least`:
     /// 0 for all of them, 1 for those without J z_k.
     #[inline(always)]
-    pub fn coefficient(&self, equations: &Equations<D>, k: usize, least: usize, out: &mut Vector) {
+    pub fn coefficient(&self, equations: &Equations, k: usize, least: usize, out: &mut Vector) {
         let least = least.max(k.saturating_sub(Self::ORDER));
         let e2 = equations.e[2].lanes();
         let (square, linear) = (
@@ -181,9 +177,9 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
                 continue;
             }
             let factor = if a == b { 0.5 } else { 1.0 };
-            for axis in 0..D {
-                let (x, y) = (self.d[a][axis].lanes(), self.d[b][axis].lanes());
-                for ((out, x), y) in out_lanes.iter_mut().zip(x).zip(y) {
+            for (x, y) in self.d[a].iter().zip(&self.d[b].axes) {
+                let of_axis = x.lanes().iter().zip(y.lanes());
+                for (out, (x, y)) in out_lanes.iter_mut().zip(of_axis) {
                     for i in 0..LANE {
                         out[i] = (factor * x[i]).mul_add(y[i], out[i]);
                     }
@@ -211,7 +207,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// What E(t(s)) of the `bend`-th equation of degree 4 in t has at sᵏ beyond E' t_k and
     /// e₂ (t(s) − t₀)².
-    pub fn bend_excess(&self, equations: &Equations<D>, bend: usize, k: usize) -> f64 {
+    pub fn bend_excess(&self, equations: &Equations, bend: usize, k: usize) -> f64 {
         let c = &self.lengths.bends[bend];
         (c[2] - equations.bends[bend].e[2]) * self.powers[1][k]
             + c[3] * self.powers[2][k]
@@ -309,13 +305,9 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 }
 
 /// A float estimate of the condition of [J; c] at a point, |·|_∞ of both factors.
-pub fn condition<const D: usize>(
-    equations: &Equations<D>,
-    point: &[f64],
-    normal: &[f64],
-) -> Option<f64> {
+pub fn condition(equations: &Equations, point: &[f64], normal: &[f64]) -> Option<f64> {
     let n = equations.n();
-    let mut local = Local::<D>::new(equations);
+    let mut local = <Local>::new(equations);
     local.z[0].copy_from_slice(point);
     local.normal.copy_from_slice(normal);
     local

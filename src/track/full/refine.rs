@@ -20,11 +20,11 @@ pub enum RefineError {
 /// far away.
 pub(super) const SHRINKS: f64 = 0.25;
 
-impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
+impl<const N: usize, Y: Preconditioner> Local<N, Y> {
     /// Makes the preconditioner at `z[0]`.
     pub fn precondition(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         maker: &mut Y::Maker,
     ) -> Result<(), RefineError> {
         self.look(equations);
@@ -39,7 +39,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// the cross-section normal to `normal` (both to be set by the caller).
     pub fn refine(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         maker: &mut Y::Maker,
         tolerance: f64,
         max_iterations: usize,
@@ -66,7 +66,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
     /// Corrects `z[0]` once with the preconditioner as it is. Tells the size of the correction.
     #[inline(always)]
-    pub fn correct(&mut self, equations: &Equations<D>) -> f64 {
+    pub fn correct(&mut self, equations: &Equations) -> f64 {
         let (m, n) = (equations.m, equations.n());
         equations.residual(&self.d[0], &self.lengths, &mut self.f);
         self.y.solve(equations, &self.f[..m], &mut self.delta);
@@ -80,12 +80,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// Corrects `z[0]` in X at a fixed t, as far as floats go.
-    pub fn refine_at(
-        &mut self,
-        equations: &Equations<D>,
-        maker: &mut Y::Maker,
-        t: f64,
-    ) -> Option<()> {
+    pub fn refine_at(&mut self, equations: &Equations, maker: &mut Y::Maker, t: f64) -> Option<()> {
         let m = equations.m;
         self.normal.fill(0.0);
         self.normal[m] = 1.0;
@@ -110,10 +105,10 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     /// cross-section alternate with Newton steps in s. `None`: no convergence.
     pub fn crossing(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         mut s: f64,
         target: f64,
-        room: &mut CrossingRoom<D>,
+        room: &mut CrossingRoom,
         z: &mut Vector,
     ) -> Option<()> {
         let m = equations.m;
@@ -149,17 +144,17 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
 
 /// Work space of [`Local::crossing`].
 #[derive(Debug)]
-pub struct CrossingRoom<const D: usize> {
-    d: Differences<D>,
+pub struct CrossingRoom {
+    d: Differences,
     lengths: Lengths,
     f: Vector,
     delta: Vector,
     slope: Vector,
 }
 
-impl<const D: usize> CrossingRoom<D> {
+impl CrossingRoom {
     /// For one problem.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         CrossingRoom {
             d: equations.room(),
             lengths: Lengths::new(equations),

@@ -208,7 +208,7 @@ impl Counts {
     }
 }
 
-impl<const D: usize> Equations<D> {
+impl Equations {
     /// How many roundings numbers go through, see there.
     pub fn roundings(&self) -> Counts {
         Counts {

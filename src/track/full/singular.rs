@@ -4,9 +4,9 @@ use super::{Equations, Local, Preconditioner};
 use crate::interval::rounding::largest;
 use crate::linalg::extreme_pivots;
 
-impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
+impl<const N: usize, Y: Preconditioner> Local<N, Y> {
     /// The smallest pivot of [J; c] at `z[0]` over the largest, as far as floats tell.
-    pub fn pivot_ratio(&mut self, equations: &Equations<D>) -> f64 {
+    pub fn pivot_ratio(&mut self, equations: &Equations) -> f64 {
         self.look(equations);
         let pattern = equations.bordered_pattern();
         let mut values = vec![0.0; pattern.entries()];
@@ -16,7 +16,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// The smallest pivot of J itself as a part of its largest: zero where the path is singular.
-    pub fn pivot_ratio_of_jacobian(&mut self, equations: &Equations<D>) -> f64 {
+    pub fn pivot_ratio_of_jacobian(&mut self, equations: &Equations) -> f64 {
         self.look(equations);
         let pattern = equations.pattern();
         let mut values = vec![0.0; pattern.entries()];
@@ -27,7 +27,7 @@ impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
     }
 
     /// The largest entry of the residual from which the last correction was computed.
-    pub fn largest_residual(&self, equations: &Equations<D>) -> f64 {
+    pub fn largest_residual(&self, equations: &Equations) -> f64 {
         let sizes = self.f[..equations.m].iter();
         sizes.fold(0.0, |size, x| largest(size, x.abs()))
     }

@@ -27,7 +27,7 @@ impl Singularities {
     }
 }
 
-impl<const D: usize, const N: usize, Y: Preconditioner<D>> Local<D, N, Y> {
+impl<const N: usize, Y: Preconditioner> Local<N, Y> {
     /// The nearest singularities, in least squares from the last coefficients.
     ///
     /// Near a square root's branch point at distance ρ the coefficients are like k^(−3/2) ρ^(−k), times the
@@ -97,8 +97,8 @@ mod tests {
     /// What the coefficients k^(−3/2) Re(a xᵏ) tell, the amplitudes a differing from entry to entry.
     fn seen(poles: [Complex<f64>; 2]) -> Singularities {
         let problem = Problem::read(Path::new("problems/octahedron.toml")).unwrap();
-        let equations = Equations::<3>::new(&Homotopy::new(&problem).unwrap());
-        let mut local = Local::<3, 9>::new(&equations);
+        let equations = Equations::new(&Homotopy::new(&problem).unwrap());
+        let mut local = Local::<9>::new(&equations);
         for k in 1..9 {
             for i in 0..equations.n() {
                 let (a, b) = ((i as f64).sin(), (i as f64).cos());

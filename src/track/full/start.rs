@@ -11,10 +11,10 @@ pub const LARGEST_TANGENT: f64 = 1e12;
 ///
 /// The tangent is the solution of [J; e_k] x = e_n, first with t for the k-th entry, and where
 /// that is singular, as at a fold of t, with each of the coordinates.
-pub fn first_normal<const D: usize, Y: Preconditioner<D>>(
-    equations: &Equations<D>,
+pub fn first_normal<Y: Preconditioner>(
+    equations: &Equations,
     inverter: &mut Y::Maker,
-    local: &mut Local<D, { ORDER + 1 }, Y>,
+    local: &mut Local<{ ORDER + 1 }, Y>,
     reverse: bool,
 ) -> Result<(), Singular> {
     let (m, n) = (equations.m, equations.n());
@@ -54,8 +54,8 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 /// The length of ẑ between two parameters, the coordinates counted in units of `unit`.
-pub fn path_length<const D: usize, const N: usize, Y: Preconditioner<D>>(
-    local: &Local<D, N, Y>,
+pub fn path_length<const N: usize, Y: Preconditioner>(
+    local: &Local<N, Y>,
     from: f64,
     to: f64,
     unit: f64,

@@ -7,7 +7,7 @@ use crate::system::Homotopy;
 use crate::track::certified::solution::{Same, SolutionBox};
 use crate::track::{Solution, Stop, StopKind};
 
-impl<const D: usize> Ledger<D> {
+impl Ledger {
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
     pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (Stop, Vec<Solution>)> {
         let mut reason = None;

@@ -4,12 +4,12 @@ use super::Ledger;
 use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::reasons::Doubt;
 
-impl<const D: usize> Ledger<D> {
+impl Ledger {
     /// Proves that the auxiliary unknowns which are lengths or radii are positive on a stretch of a tube, and that no
     /// vector vanishes there that must not. Otherwise names the first for which that could not be proved.
-    pub(super) fn is_defined<const N: usize, Y: Frame<D>>(
+    pub(super) fn is_defined<const N: usize, Y: Frame>(
         &self,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         (from, to): (f64, f64),
     ) -> Result<(), Doubt> {
         let fails = |&&entry: &&usize| {
@@ -33,8 +33,8 @@ impl<const D: usize> Ledger<D> {
 
 /// Proves that a vector, of which each coordinate is the difference of two unknowns (from `zero` on: of none), does not
 /// vanish on a stretch of a tube: on each piece one coordinate has one sign.
-fn is_nonzero<const D: usize, const N: usize, Y: Frame<D>>(
-    tube: &Tube<D, N, Y>,
+fn is_nonzero<const N: usize, Y: Frame>(
+    tube: &Tube<N, Y>,
     vector: &[[usize; 2]],
     zero: usize,
     (from, to): (f64, f64),

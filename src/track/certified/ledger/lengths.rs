@@ -5,7 +5,7 @@ use crate::interval::{Interval, hull, point};
 use crate::system::Homotopy;
 use crate::track::{Stop, StopKind};
 
-impl<const D: usize> Ledger<D> {
+impl Ledger {
     /// What remains to be proved of a closed loop.
     pub fn check_closed(&self, homotopy: &Homotopy) -> Result<(), Stop> {
         // Not needed for the proof: a loop crosses t = 1 as often upwards as downwards.

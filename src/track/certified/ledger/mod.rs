@@ -19,14 +19,14 @@ pub use classes::{Congruence, is_congruent};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
-pub struct Ledger<const D: usize> {
+pub struct Ledger {
     /// The homotopy's.
     unit: f64,
     /// The auxiliary unknowns that must stay positive.
     positive: Vec<usize>,
     /// The vectors that must not vanish: see [`Homotopy::nonzero_vectors`].
     nonzero: Vec<Vec<[usize; 2]>>,
-    prover: SolutionProver<D>,
+    prover: SolutionProver,
     found: Vec<SolutionBox>,
     /// Where on the path each of them is.
     places: Vec<Place>,
@@ -54,9 +54,9 @@ pub struct Mark {
     t_range: (f64, f64),
 }
 
-impl<const D: usize> Ledger<D> {
+impl Ledger {
     /// An empty account.
-    pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+    pub fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
         Ledger {
             unit: homotopy.unit,
             positive: homotopy.positive_unknowns(),
@@ -88,7 +88,7 @@ impl<const D: usize> Ledger<D> {
     /// Proves a box around the solution near a point, beside the account; in extended precision if asked for.
     pub fn prove_at_end(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut InverseMaker,
         near: &[f64],
         extended: bool,
@@ -163,9 +163,9 @@ impl<const D: usize> Ledger<D> {
     }
 
     /// Enters a linked tube between two parameters, where there is no solution.
-    pub fn pass<const N: usize, Y: Frame<D>>(
+    pub fn pass<const N: usize, Y: Frame>(
         &mut self,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         (from, to): (f64, f64),
     ) -> Result<(), Doubt> {
         self.is_defined(tube, (from, to))?;
@@ -190,11 +190,11 @@ impl<const D: usize> Ledger<D> {
     /// Finds all solutions in a linked tube, from its entry to the parameter `to`, the path being followed to
     /// the parameter `until`; `extended` is whether their boxes are proved in extended precision. If it fails
     /// nothing is changed.
-    pub fn enter<const N: usize, Y: Frame<D>>(
+    pub fn enter<const N: usize, Y: Frame>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut InverseMaker,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         (to, until): (f64, f64),
         extended: bool,
     ) -> Result<(), Doubt> {
@@ -239,11 +239,11 @@ impl<const D: usize> Ledger<D> {
 
     /// Enters a linked tube in which the path meets t = 1 exactly once, rising, between two parameters. If it fails
     /// nothing is changed.
-    pub fn enter_crossing<const N: usize, Y: Frame<D>>(
+    pub fn enter_crossing<const N: usize, Y: Frame>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut InverseMaker,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         between: (f64, f64),
         extended: bool,
     ) -> Result<(), Doubt> {
@@ -261,11 +261,11 @@ impl<const D: usize> Ledger<D> {
 
     /// Proves the box of one crossing, sought near a parameter: exactly one solution in it, which
     /// lies in this tube, and in this stretch of it.
-    fn prove_crossing<const N: usize, Y: Frame<D>>(
+    fn prove_crossing<const N: usize, Y: Frame>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut InverseMaker,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         (crossing, near): (Crossing, f64),
         extended: bool,
     ) -> Result<(), Doubt> {
@@ -311,9 +311,9 @@ impl<const D: usize> Ledger<D> {
 
     /// Counts the folds in a tube, `slopes` bounding dt/ds in it, and places the solutions in it that were not
     /// `known` before.
-    fn place<const N: usize, Y: Frame<D>>(
+    fn place<const N: usize, Y: Frame>(
         &mut self,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         time: &TimeAlong<N>,
         (from, to): (f64, f64),
         slopes: (f64, f64),

@@ -4,7 +4,7 @@ use super::Ledger;
 use crate::track::Place;
 use crate::track::certified::solution::{Same, SolutionBox};
 
-impl<const D: usize> Ledger<D> {
+impl Ledger {
     /// Takes the account of the way from the sketch in the other direction to that of this way: solutions are
     /// in the order of the path, from the end of the other way to that of this one. Fails where it cannot be told
     /// whether a solution was found on both.

@@ -19,9 +19,9 @@ use std::borrow::Cow;
 pub(super) const LONGEST: f64 = 4.0;
 /// What a run to t = 1 keeps beside what every run does.
 #[derive(Debug)]
-pub(super) struct Arc<const D: usize> {
+pub(super) struct Arc {
     orientations: Orientations,
-    prover: FoldProver<D>,
+    prover: FoldProver,
     /// Whether the equations are those of the real and imaginary parts of complex ones.
     is_complex: bool,
     /// How it ended, once it has.
@@ -29,17 +29,17 @@ pub(super) struct Arc<const D: usize> {
 }
 
 /// A linked tube as it joins the chain.
-pub(super) struct Joining<'t, const D: usize, const N: usize, Y> {
-    pub equations: &'t Equations<D>,
+pub(super) struct Joining<'t, const N: usize, Y> {
+    pub equations: &'t Equations,
     pub homotopy: &'t Homotopy,
-    pub tube: &'t Tube<D, N, Y>,
+    pub tube: &'t Tube<N, Y>,
     /// Whether it is the one around the figure at t = 0.
     pub is_first: bool,
     pub extended: bool,
 }
 
-impl<const D: usize> Arc<D> {
-    fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+impl Arc {
+    fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
         Arc {
             orientations: Orientations::new(homotopy, &equations.vector()),
             prover: FoldProver::new(equations),
@@ -56,11 +56,11 @@ impl<const D: usize> Arc<D> {
 
     /// Takes a linked tube into account: t rises from its entry to its exit, or to t = 1, or to a fold. Tells
     /// whether the arc ends in it. If it fails nothing is changed.
-    pub fn enter<const N: usize, Y: Frame<D>>(
+    pub fn enter<const N: usize, Y: Frame>(
         &mut self,
-        joining: &Joining<D, N, Y>,
+        joining: &Joining<N, Y>,
         inverter: &mut InverseMaker,
-        ledger: &mut Ledger<D>,
+        ledger: &mut Ledger,
     ) -> Result<bool, Rejection> {
         if self.is_complex {
             return self.enter_complex(joining, inverter, ledger);
@@ -109,11 +109,11 @@ impl<const D: usize> Arc<D> {
     /// For if G_Z were singular at a point of a tube's path, the real Jacobian F_X would have a rank of at most
     /// 2n − 2, and [F_X F_t] one of at most 2n − 1. But that of a tube has the rank 2n, as it is invertible with the
     /// normal added. So F_X is invertible, and dt/ds, which is zero only where it is not, has no zero.
-    fn enter_complex<const N: usize, Y: Frame<D>>(
+    fn enter_complex<const N: usize, Y: Frame>(
         &mut self,
-        joining: &Joining<D, N, Y>,
+        joining: &Joining<N, Y>,
         inverter: &mut InverseMaker,
-        ledger: &mut Ledger<D>,
+        ledger: &mut Ledger,
     ) -> Result<bool, Rejection> {
         let Joining {
             equations,
@@ -150,10 +150,10 @@ impl<const D: usize> Arc<D> {
     }
 
     /// The arc's end at a fold in a tube in which dt/ds > 0 from its entry, `from`, to `until`.
-    fn turn<const N: usize, Y: Frame<D>>(
+    fn turn<const N: usize, Y: Frame>(
         &mut self,
-        joining: &Joining<D, N, Y>,
-        ledger: &mut Ledger<D>,
+        joining: &Joining<N, Y>,
+        ledger: &mut Ledger,
         (from, until): (f64, f64),
     ) -> Result<bool, Rejection> {
         let Joining {
@@ -207,12 +207,12 @@ fn figure_of(found: &SolutionBox) -> Figure {
 
 /// Follows arcs of one problem's equations, one after the other, setting nothing up twice.
 #[derive(Debug)]
-pub struct Arcs<const D: usize, const N: usize, T: Test<D, N>> {
-    tracker: Tracker<'static, D, N, T>,
+pub struct Arcs<const N: usize, T: Test<N>> {
+    tracker: Tracker<'static, N, T>,
     options: Options,
 }
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Arcs<D, N, T> {
+impl<const N: usize, T: Test<N>> Arcs<N, T> {
     /// For the equations of a homotopy.
     pub fn new(homotopy: Homotopy, options: &Options) -> Self {
         let mut tracker = Tracker::new(Cow::Owned(homotopy), options);

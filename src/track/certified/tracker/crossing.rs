@@ -57,11 +57,7 @@ pub(super) struct Beyond {
 
 impl Beyond {
     /// Whether the path is there at a parameter of a tube.
-    pub fn is_reached<const D: usize, const N: usize, Y: Frame<D>>(
-        &self,
-        tube: &Tube<D, N, Y>,
-        s: f64,
-    ) -> bool {
+    pub fn is_reached<const N: usize, Y: Frame>(&self, tube: &Tube<N, Y>, s: f64) -> bool {
         let (low, high) = tube.time().range(s, s);
         match self.rising {
             true => low >= self.t,
@@ -128,10 +124,7 @@ fn fill(ball: &mut Ball, box_: &[Interval]) {
 }
 
 /// The sign of dt/ds between two parameters of a tube, if it is certain: whether t rises.
-fn direction<const D: usize, const N: usize, Y: Frame<D>>(
-    tube: &Tube<D, N, Y>,
-    (from, to): (f64, f64),
-) -> Option<bool> {
+fn direction<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (from, to): (f64, f64)) -> Option<bool> {
     let (_, (low, high)) = tube.time().bounds(from, to);
     match (low > 0.0, high < 0.0) {
         (true, _) => Some(true),
@@ -140,7 +133,7 @@ fn direction<const D: usize, const N: usize, Y: Frame<D>>(
     }
 }
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Whether a crossing is to be tried at the last tube's exit: in floats.
     pub(super) fn is_at_crossing(&mut self) -> bool {
         let Some(crossing) = &mut self.crossing else {
@@ -220,7 +213,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             max_steps: MOST_TUBES,
             ..options.clone()
         };
-        let mut piece = Tracker::<D, N, T>::new(Cow::Borrowed(&heights.homotopy), &options);
+        let mut piece = Tracker::<N, T>::new(Cow::Borrowed(&heights.homotopy), &options);
         fill(&mut piece.sketch, &there);
         let mut distance = left;
         let beyond = |distance: f64| {
@@ -289,7 +282,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
     /// solutions are known before that tube. If it cannot be proved all is as it was.
     fn come_back(
         &mut self,
-        piece: &mut Tracker<D, N, T>,
+        piece: &mut Tracker<N, T>,
         heights: &Heights,
         rising: bool,
         max_h: f64,
@@ -308,7 +301,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
         }
         let mut ball = Ball::new(&self.equations);
         fill(&mut ball, &here);
-        let mut at_ball = Local::<D>::new(&self.equations);
+        let mut at_ball = <Local>::new(&self.equations);
         at_ball.z[0].copy_from_slice(&ball.centre);
         first_normal(&self.equations, &mut self.inverter, &mut at_ball, !rising)
             .map_err(|_| "the equations are still dependent behind it")?;
@@ -377,7 +370,7 @@ mod tests {
         let homotopy = Homotopy::new(&Problem::read(path).unwrap()).unwrap();
         let options = Options::certified();
         let mut tracker =
-            Tracker::<3, { ORDER + 1 }, KrawczykTest<3>>::new(Cow::Borrowed(&homotopy), &options);
+            Tracker::<{ ORDER + 1 }, KrawczykTest>::new(Cow::Borrowed(&homotopy), &options);
         tracker.crossing = Crossing::new(&homotopy);
         let crossing = tracker.crossing.as_mut().expect("flat figures in curves");
         change(&mut crossing.heights.homotopy);

@@ -67,10 +67,10 @@ impl Extension {
     /// Whether the point of the tube before may guide the prediction at `advance` from this one: points
     /// are as accurate as the tubes where they were found are wide, so that those of 53 bits would lead
     /// those in extended precision astray, and near ones would bring their rounding only.
-    pub fn trusts<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    pub fn trusts<const N: usize, Y: Preconditioner>(
         &self,
         before: &[f64],
-        now: &Local<D, N, Y>,
+        now: &Local<N, Y>,
         advance: f64,
     ) -> bool {
         match (self.on, now.is_extended) {
@@ -108,7 +108,7 @@ impl Extension {
     }
 }
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Switches extended precision on where that may help: where 53 bits stop at the smallest step, and
     /// nothing but rounding keeps the test from proving a tube; or a tube is proved, but it is rounding
     /// that hides whether it meets t = 1, or how it joins the one before, as tubes so short have no

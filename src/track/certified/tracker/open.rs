@@ -11,7 +11,7 @@ use crate::track::ends::{
 };
 use crate::track::{Control, Options, Status, Stop, StopKind};
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// The point that goes away, if one is far from the others, moves away at the last point that is proved, and t
     /// settles. Distances alone cannot let a figure grow beyond bounds while t does not.
     ///
@@ -36,7 +36,8 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             hull(low, high)
         };
         let (mut square, mut outward) = (point(0.0), point(0.0));
-        for i in (0..D).filter_map(|axis| homotopy.coordinate(p, axis)) {
+        let axes = 0..homotopy.dimension;
+        for i in axes.filter_map(|axis| homotopy.coordinate(p, axis)) {
             square += exit(i).sqr();
             outward += exit(i) * slope(i);
         }
@@ -218,7 +219,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             reverse: !options.reverse,
             ..options.clone()
         };
-        let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &options);
+        let mut back = Tracker::<N, T>::new(self.homotopy.clone(), &options);
         back.crossing = Crossing::new(&self.homotopy);
         if let Some(witness) = &mut control.witness {
             witness.turn();

@@ -5,11 +5,11 @@ use crate::track::certified::reasons::{Rejection, no_direction};
 use crate::track::full::{Local, first_normal};
 use crate::track::{Options, Stop, StopKind};
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Proves the tube around the sketch. Tells whether the path ends in it.
     pub(super) fn start(&mut self, options: &Options, max_h: f64) -> Result<bool, Stop> {
         let equations = &self.equations;
-        let mut at_sketch = Local::<D>::new(equations);
+        let mut at_sketch = <Local>::new(equations);
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
         let reverse = options.reverse;
         if first_normal(equations, &mut self.inverter, &mut at_sketch, reverse).is_err() {

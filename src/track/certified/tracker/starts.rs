@@ -8,7 +8,7 @@ use crate::track::certified::solution::{Same, SolutionProver};
 /// Pieces of a tube's stretch on which t is looked at.
 const PIECES: usize = 16;
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Hands over the figures with t = 0 in the tube that joined the chain last: each is proved to exist, to be
     /// alone in its box, and to be on the path, as the box lies in the tube. That all are found is not claimed.
     pub(super) fn note_starts(&mut self, control: &mut Control) {

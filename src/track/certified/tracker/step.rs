@@ -6,7 +6,7 @@ use crate::track::certified::ledger::Ledger;
 use crate::track::certified::link::Tube;
 use crate::track::certified::reasons::{Doubt, Rejection};
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Adds the tube that is `advance` further on. Tells whether the path ends in it.
     pub(super) fn step(&mut self, advance: f64, limit: f64) -> Result<bool, Rejection> {
         // Far away floats are no nearer to each other. (How large t is has no part in that: what is exact in it stays so.)
@@ -80,7 +80,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
 
     /// Whether the sketch lies ahead of the entry in a tube, travelled in the same direction as
     /// at the start: where, if so.
-    fn closes(&self, tube: &Tube<D, N, T::Frame>) -> Result<Option<(f64, f64)>, Rejection> {
+    fn closes(&self, tube: &Tube<N, T::Frame>) -> Result<Option<(f64, f64)>, Rejection> {
         let m = self.equations.m;
         let (h, z) = (tube.proof.h, &tube.local.z[0]);
         // Most tubes are nowhere near: |z − z₀| ≤ 2 h is generous for a tube that holds z. (Where this
@@ -128,7 +128,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             (at.1.max(tube.exit_at), at.1)
         });
         let (equations, inverter) = (&self.equations, &mut self.inverter);
-        let mut account = |ledger: &mut Ledger<D>, between| {
+        let mut account = |ledger: &mut Ledger, between| {
             let entered = ledger.enter(equations, inverter, tube, between, extended);
             entered.map_err(Rejection::Undecided)
         };

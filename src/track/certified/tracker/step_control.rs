@@ -32,7 +32,7 @@ pub(super) struct StepControl {
 }
 
 impl StepControl {
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         StepControl {
             trust: 1.0,
             shorter: f64::INFINITY,
@@ -47,11 +47,7 @@ impl StepControl {
     /// Polynomials converge as far as the nearest singularity lets them, and h is a fraction of that. The
     /// square root: by the time another singularity may be the nearest, and in logarithms half of the change is
     /// the best guess (least squares over 4000 tubes along the icosahedron's path).
-    pub fn reach<const D: usize, const N: usize, Y: Frame<D>>(
-        &mut self,
-        tube: &Tube<D, N, Y>,
-        limit: f64,
-    ) -> f64 {
+    pub fn reach<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, limit: f64) -> f64 {
         let (h, local) = (tube.proof.h, &tube.local);
         let singularities = local.singularities();
         // Behind a narrow place it is mostly the old singularity that is left further and further behind.
@@ -77,11 +73,11 @@ impl StepControl {
     }
 
     /// The tube that would have reached back over `reach` was rejected.
-    pub fn reject<const D: usize, const N: usize, Y: Frame<D>>(
+    pub fn reject<const N: usize, Y: Frame>(
         &mut self,
         rejection: Rejection,
-        tube: &Tube<D, N, Y>,
-        next: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
+        next: &Tube<N, Y>,
         reach: f64,
     ) {
         let is_first = self.is_first();

@@ -83,9 +83,9 @@ impl Way {
 
     /// Makes the end of a tube known that is now the last of this chain, and tells where the other chain ends in it, if that is
     /// proved, and that t rises there or falls: a fold in what both hold would be counted twice.
-    pub(super) fn meets<const D: usize, const N: usize, Y: Frame<D>>(
+    pub(super) fn meets<const N: usize, Y: Frame>(
         &self,
-        tube: &Tube<D, N, Y>,
+        tube: &Tube<N, Y>,
         (mark, steps): (Mark, usize),
     ) -> Option<Meeting> {
         let mut state = self.ways.lock();
@@ -143,7 +143,7 @@ pub(super) fn is_wanted(homotopy: &Homotopy, options: &Options, control: &Contro
         && control.figures.is_none()
 }
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Follows the path both ways until they meet, the other way on another thread.
     pub(super) fn run_both_ways(
         &mut self,
@@ -164,7 +164,7 @@ impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
             reverse: !here.reverse,
             ..here.clone()
         };
-        let mut back = Tracker::<D, N, T>::new(self.homotopy.clone(), &there);
+        let mut back = Tracker::<N, T>::new(self.homotopy.clone(), &there);
         (self.way, back.way) = (way(0), way(1));
         let ahead = std::thread::scope(|scope| {
             let other = || back.run(&there, &mut Control::default());

@@ -11,7 +11,7 @@ use crate::track::flexible;
 use crate::track::full::condition;
 use crate::track::{Stop, StopKind};
 
-impl<const D: usize, const N: usize, T: Test<D, N>> Tracker<'_, D, N, T> {
+impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     pub(super) fn place(&self) -> String {
         let t = self.now.local.z[0][self.equations.m];
         format!(

@@ -3,7 +3,7 @@
 use super::*;
 
 /// The sketch, with t = 0.
-pub fn sketch<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> Vector {
+pub fn sketch(homotopy: &Homotopy, equations: &Equations) -> Vector {
     let mut z = equations.vector();
     for (z, exact) in z.iter_mut().zip(homotopy.sketch_of_unknowns()) {
         *z = exact.mid();
@@ -12,11 +12,11 @@ pub fn sketch<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> 
 }
 
 /// That point, its normal in the direction in which t rises. `None`: it is singular.
-pub fn at_sketch<const D: usize>(
+pub fn at_sketch(
     homotopy: &Homotopy,
-    equations: &Equations<D>,
+    equations: &Equations,
     inverter: &mut InverseMaker,
-) -> Option<Local<D>> {
+) -> Option<Local> {
     let mut local = Local::new(equations);
     local.z[0].copy_from_slice(&sketch(homotopy, equations));
     first_normal(equations, inverter, &mut local, false).ok()?;
@@ -24,7 +24,7 @@ pub fn at_sketch<const D: usize>(
 }
 
 /// ẑ(s), in intervals.
-pub fn middle<const D: usize, const N: usize, Y>(tube: &Tube<D, N, Y>, s: f64) -> Vec<Interval> {
+pub fn middle<const N: usize, Y>(tube: &Tube<N, Y>, s: f64) -> Vec<Interval> {
     let term = |k: usize, i: usize| point(tube.local.z[k][i]);
     (0..tube.weights.len() - 1)
         .map(|i| {
@@ -36,7 +36,7 @@ pub fn middle<const D: usize, const N: usize, Y>(tube: &Tube<D, N, Y>, s: f64) -
 }
 
 /// ẑ'(s).
-pub fn slope<const D: usize, const N: usize, Y>(tube: &Tube<D, N, Y>, s: f64) -> Vec<Interval> {
+pub fn slope<const N: usize, Y>(tube: &Tube<N, Y>, s: f64) -> Vec<Interval> {
     let term = |k: usize, i: usize| point(k as f64) * point(tube.local.z[k][i]);
     (0..tube.weights.len() - 1)
         .map(|i| {
@@ -49,8 +49,8 @@ pub fn slope<const D: usize, const N: usize, Y>(tube: &Tube<D, N, Y>, s: f64) ->
 
 /// A point of the path, the exit of the tube before, and the path's direction there: it is in this tube
 /// where its entry says, and this tube is followed the same way.
-pub fn check_entry<const D: usize, const N: usize, Y>(
-    tube: &Tube<D, N, Y>,
+pub fn check_entry<const N: usize, Y>(
+    tube: &Tube<N, Y>,
     (z, direction): (&[Interval], &[Interval]),
 ) {
     let normal = &tube.local.normal;
@@ -76,13 +76,13 @@ pub fn check_entry<const D: usize, const N: usize, Y>(
 
 /// If two tubes are linked, then the first one's exit is in the second where it is said to be,
 /// and both run the same way there.
-pub fn link_is_true<const D: usize, const N: usize, Y>(
+pub fn link_is_true<const N: usize, Y>(
     exact: &Exact,
-    from: &Tube<D, N, Y>,
-    to: &Tube<D, N, Y>,
+    from: &Tube<N, Y>,
+    to: &Tube<N, Y>,
     entry: (f64, f64),
 ) -> bool {
-    let at = |tube: &Tube<D, N, Y>, s: f64| {
+    let at = |tube: &Tube<N, Y>, s: f64| {
         let through = middle(tube, s);
         let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
         exact

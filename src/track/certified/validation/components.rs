@@ -48,14 +48,14 @@ fn started_at(homotopy: &Homotopy, z: &[Interval]) -> Homotopy {
     other
 }
 
-fn compare<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut Tally) {
+fn compare(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let homotopy = Homotopy::new(problem).unwrap();
     let options = Options {
         max_steps: 4000,
         ..Options::certified()
     };
     let mut near = NearZero(Vec::new());
-    let first = track::<D>(
+    let first = track(
         &homotopy,
         &options,
         &mut Control {
@@ -85,7 +85,7 @@ fn compare<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut T
             continue;
         };
         let other = started_at(&homotopy, &z);
-        let second = track::<D>(&other, &options, &mut Control::default());
+        let second = track(&other, &options, &mut Control::default());
         if second.status != Status::Closed {
             tally.open += 1;
             continue;
@@ -116,10 +116,7 @@ fn starting_points_share_all_solutions_or_none() {
         let points = dimension + 2 + random.below(4);
         let change = [0.1, 0.3][random.below(2)];
         let problem = random_problem(&mut random, dimension, points, change);
-        match dimension {
-            2 => compare::<2>(&problem, &mut random, &mut tally),
-            _ => compare::<3>(&problem, &mut random, &mut tally),
-        }
+        compare(&problem, &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(tally.same > 40 && tally.different > 10, "{tally:?}");

@@ -214,10 +214,7 @@ fn run_in(space: Space, homotopy: &Homotopy, reverse: bool) -> Outcome {
         space,
         ..Options::certified()
     };
-    match homotopy.dimension {
-        2 => track::<2>(homotopy, &options, &mut Control::default()),
-        _ => track::<3>(homotopy, &options, &mut Control::default()),
-    }
+    track(homotopy, &options, &mut Control::default())
 }
 
 /// Whether the solutions of two runs lie in boxes that meet, one by one and in their order.

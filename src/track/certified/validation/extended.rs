@@ -106,12 +106,7 @@ impl<'a> Rational<'a> {
     }
 
     /// The path's derivative by s at a point z of it, by chord iteration; less ẑ'(s).
-    fn slope_off<const D: usize>(
-        &self,
-        local: &Local<D>,
-        s: f64,
-        z: &[BigRational],
-    ) -> Vec<BigRational> {
+    fn slope_off(&self, local: &Local, s: f64, z: &[BigRational]) -> Vec<BigRational> {
         let n = z.len();
         let s = exact(s);
         let slope: Vec<BigRational> = (0..n)
@@ -140,11 +135,7 @@ impl<'a> Rational<'a> {
     }
 
     /// The zero of F in the cross-section of ẑ(s), by chord iteration from ẑ(s); and ẑ(s).
-    fn path<const D: usize>(
-        &self,
-        local: &Local<D>,
-        s: f64,
-    ) -> Option<(Vec<BigRational>, Vec<BigRational>)> {
+    fn path(&self, local: &Local, s: f64) -> Option<(Vec<BigRational>, Vec<BigRational>)> {
         let n = self.homotopy.equations + 1;
         let s = exact(s);
         let through: Vec<BigRational> = (0..n)
@@ -198,10 +189,7 @@ fn scaled(problem: &Problem, exponent: i32) -> Option<Problem> {
 }
 
 /// A refined point of the path at the sketch with its expansion, in extended precision.
-fn around_sketch<const D: usize>(
-    homotopy: &Homotopy,
-    workshop: &mut Workshop<D>,
-) -> Option<Tube<D>> {
+fn around_sketch(homotopy: &Homotopy, workshop: &mut Workshop) -> Option<Tube> {
     workshop.equations.extend(homotopy);
     let mut tube = Tube::new(&workshop.equations);
     let (equations, inverter) = (&workshop.equations, &mut workshop.inverter);
@@ -215,12 +203,12 @@ fn sum_of(z: f64, low: f64) -> BigRational {
     exact(z) + exact(low)
 }
 
-fn residuals<const D: usize>(problem: &Problem, random: &mut Random, cancelled: &mut usize) {
+fn residuals(problem: &Problem, random: &mut Random, cancelled: &mut usize) {
     let Ok(homotopy) = Homotopy::new(problem) else {
         return;
     };
     let rational = Rational::new(problem, &homotopy);
-    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let Some(tube) = around_sketch(&homotopy, &mut workshop) else {
         return;
     };
@@ -255,7 +243,7 @@ fn residuals<const D: usize>(problem: &Problem, random: &mut Random, cancelled: 
             *cancelled += usize::from(f[e].abs() < 1e-20 * size);
         }
         extended.differences(equations, (&z, &low), &mut differences);
-        for axis in 0..D {
+        for axis in 0..equations.dimension() {
             for e in 0..m {
                 let [i, j] = equations.ends[axis][e].map(|end| end as usize);
                 let d = sum_of(z[i], low[i]) - sum_of(z[j], low[j]);
@@ -279,10 +267,7 @@ fn residuals_are_enclosed_at_all_scales() {
         let problem = random_problem(&mut random, dimension, points, 0.3);
         for exponent in [-8, 0, 8] {
             let problem = scaled(&problem, exponent).unwrap();
-            match dimension {
-                2 => residuals::<2>(&problem, &mut random, &mut cancelled),
-                _ => residuals::<3>(&problem, &mut random, &mut cancelled),
-            }
+            residuals(&problem, &mut random, &mut cancelled)
         }
     }
     println!("{cancelled} residuals below 1e-20");
@@ -298,10 +283,10 @@ struct Tally {
 }
 
 /// Whatever the low words are, what is proved of the tube around them is true.
-fn tubes<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut Tally) {
+fn tubes(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let homotopy = Homotopy::new(problem).unwrap();
     let rational = Rational::new(problem, &homotopy);
-    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let Some(good) = around_sketch(&homotopy, &mut workshop) else {
         return;
     };
@@ -392,10 +377,7 @@ fn tubes_are_true_whatever_the_low_words() {
     for round in 0..effort(4) {
         let (dimension, points) = (2 + round % 2, 4 + random.below(2));
         let problem = random_problem(&mut random, dimension, points, 0.3);
-        match dimension {
-            2 => tubes::<2>(&problem, &mut random, &mut tally),
-            _ => tubes::<3>(&problem, &mut random, &mut tally),
-        }
+        tubes(&problem, &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(
@@ -408,7 +390,7 @@ fn tubes_are_true_whatever_the_low_words() {
 fn boxes_of_solutions_hold_them() {
     for problem in shipped().iter().filter(|p| p.dimension == 3).take(2) {
         let homotopy = Homotopy::new(problem).unwrap();
-        let mut equations = Equations::<3>::new(&homotopy);
+        let mut equations = Equations::new(&homotopy);
         equations.extend(&homotopy);
         let mut inverter = equations.inverter();
         let mut prover = SolutionProver::new(&homotopy, &equations);
@@ -449,9 +431,9 @@ fn boxes_of_solutions_hold_them() {
 fn low_words_do_not_outlive_their_tubes() {
     for problem in shipped().iter().filter(|p| p.dimension == 3) {
         let homotopy = Homotopy::new(problem).unwrap();
-        let mut workshop = Workshop::<3>::new(&homotopy, f64::INFINITY);
+        let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
         let mut tube = around_sketch(&homotopy, &mut workshop).unwrap();
-        let prove = |workshop: &mut Workshop<3>, tube: &mut Tube<3>| {
+        let prove = |workshop: &mut Workshop, tube: &mut Tube| {
             let (equations, test) = (&workshop.equations, &mut workshop.test);
             Test::refine(test, equations, &mut tube.local, 1e-9).unwrap();
             tube.local.expand(equations);
@@ -486,7 +468,7 @@ fn low_words_do_not_outlive_their_tubes() {
 }
 
 /// What a tube claims at a few parameters, against rationals: how near the claimed distance comes.
-fn compare<const D: usize>(rational: &Rational, tube: &Tube<D>) -> (f64, f64) {
+fn compare(rational: &Rational, tube: &Tube) -> (f64, f64) {
     let (n, proof) = (tube.weights.len() - 1, &tube.proof);
     let (mut used, mut turned) = (0.0f64, 0.0f64);
     for s in [-proof.h, -0.5 * proof.h, 0.0, 0.5 * proof.h, proof.h] {
@@ -505,11 +487,7 @@ fn compare<const D: usize>(rational: &Rational, tube: &Tube<D>) -> (f64, f64) {
 }
 
 /// Proves a tube around `local` as it is, at most `max_h` long.
-fn prove_as_it_is<const D: usize>(
-    workshop: &mut Workshop<D>,
-    tube: &mut Tube<D>,
-    max_h: f64,
-) -> bool {
+fn prove_as_it_is(workshop: &mut Workshop, tube: &mut Tube, max_h: f64) -> bool {
     let mut weights = workshop.weights.clone();
     workshop.test.precision.extended = true;
     let (test, equations) = (&mut workshop.test, &workshop.equations);
@@ -522,10 +500,10 @@ fn prove_as_it_is<const D: usize>(
 }
 
 /// Lengths known less well than they are: the middle is then off by as much as order 0 of F may be.
-fn blurred<const D: usize>(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
+fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     let homotopy = Homotopy::new(problem).unwrap();
     let rational = Rational::new(problem, &homotopy);
-    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     workshop.equations.extend(&homotopy);
     let size = 10f64.powf(random.between(-22.0, -12.0));
     let extended = workshop.equations.in_extended_mut();
@@ -551,15 +529,16 @@ fn blurred<const D: usize>(problem: &Problem, random: &mut Random) -> Option<(f6
 
 /// Differences and slopes rounded as badly as the bounds allow for: orders k ≥ 1 of F vanish as computed,
 /// and do not.
-fn rough<const D: usize>(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
+fn rough(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     let homotopy = Homotopy::new(problem).unwrap();
     let rational = Rational::new(problem, &homotopy);
-    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let mut tube = around_sketch(&homotopy, &mut workshop)?;
     let m = workshop.equations.m;
     let mut rounded = |x: &mut f64| *x *= 1.0 + 40.0 * f64::EPSILON * random.between(-1.0, 1.0);
     for e in 0..m {
-        (0..D).for_each(|axis| rounded(&mut tube.local.d[0][axis][e]));
+        let axes = tube.local.d[0].iter_mut();
+        axes.for_each(|d| rounded(&mut d[e]));
         rounded(&mut tube.local.lengths.terms[1][e]);
     }
     tube.local.expand(&workshop.equations);
@@ -580,11 +559,9 @@ fn low_orders_hold_what_is_not_known_of_them() {
         let (dimension, points) = (2 + round % 2, 4 + random.below(2));
         let problem = random_problem(&mut random, dimension, points, 0.3);
         for kind in 0..2 {
-            let used = match (dimension, kind) {
-                (2, 0) => blurred::<2>(&problem, &mut random),
-                (2, _) => rough::<2>(&problem, &mut random),
-                (_, 0) => blurred::<3>(&problem, &mut random),
-                _ => rough::<3>(&problem, &mut random),
+            let used = match kind {
+                0 => blurred(&problem, &mut random),
+                _ => rough(&problem, &mut random),
             };
             if let Some(used) = used {
                 proved[kind] += 1;

@@ -27,12 +27,12 @@ thread_local! {
 
 /// The hook in the tracker: does nothing but in the tests below. Tells whether the point was moved to
 /// another place of the path, or of another.
-pub fn inject<const D: usize, const N: usize, Y: Preconditioner<D>>(
-    equations: &Equations<D>,
+pub fn inject<const N: usize, Y: Preconditioner>(
+    equations: &Equations,
     inverter: &mut InverseMaker,
-    now: &Local<D, N, Y>,
+    now: &Local<N, Y>,
     advance: f64,
-    next: &mut Local<D, N, Y>,
+    next: &mut Local<N, Y>,
 ) -> bool {
     FAULTS.with_borrow_mut(|faults| {
         let Some(faults) = faults else { return false };
@@ -56,13 +56,13 @@ pub fn inject<const D: usize, const N: usize, Y: Preconditioner<D>>(
 }
 
 impl Faults {
-    fn inject<const D: usize, const N: usize, Y: Preconditioner<D>>(
+    fn inject<const N: usize, Y: Preconditioner>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut InverseMaker,
-        now: &Local<D, N, Y>,
+        now: &Local<N, Y>,
         advance: f64,
-        next: &mut Local<D>,
+        next: &mut Local,
     ) -> bool {
         let (m, n) = (equations.m, equations.n());
         let (random, finest) = (&mut self.random, self.finest);

@@ -37,8 +37,8 @@ use crate::track::{Control, Options, Space, Status, solve};
 use nalgebra::DMatrix;
 
 /// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
-fn evaluation_error<const D: usize, const N: usize, Y: Preconditioner<D>>(
-    local: &Local<D, N, Y>,
+fn evaluation_error<const N: usize, Y: Preconditioner>(
+    local: &Local<N, Y>,
     i: usize,
     s: f64,
 ) -> f64 {
@@ -123,7 +123,7 @@ pub fn rounded(x: f64, digits: i32) -> f64 {
 }
 
 /// The edges of a graph that is rigid for generic lengths, made by Henneberg's steps: a point
-/// joined to D others, or put on an edge and joined to D − 1 more.
+/// joined to as many others as there are axes, or put on an edge and joined to one less.
 pub fn random_edges(random: &mut Random, dimension: usize, points: usize) -> Vec<[usize; 2]> {
     let mut edges: Vec<[usize; 2]> = (0..dimension)
         .flat_map(|b| (0..b).map(move |a| [a, b]))
@@ -368,12 +368,12 @@ impl<'a> Exact<'a> {
 
 /// A proved tube, and its A.
 #[derive(Clone)]
-pub struct Sample<const D: usize> {
-    pub tube: Tube<D>,
+pub struct Sample {
+    pub tube: Tube,
     pub a: Matrix,
 }
 
-impl<const D: usize> Sample<D> {
+impl Sample {
     /// A lower bound of |v|_u.
     pub fn norm(&self, v: &[Interval]) -> f64 {
         v.iter()
@@ -388,17 +388,17 @@ impl<const D: usize> Sample<D> {
 }
 
 /// What is needed to make tubes by hand.
-pub struct Workshop<const D: usize> {
-    pub equations: Equations<D>,
+pub struct Workshop {
+    pub equations: Equations,
     pub inverter: InverseMaker,
-    pub test: KrawczykTest<D>,
+    pub test: KrawczykTest,
     pub weights: Vector,
     pub max_h: f64,
 }
 
-impl<const D: usize> Workshop<D> {
+impl Workshop {
     pub fn new(homotopy: &Homotopy, max_h: f64) -> Self {
-        let equations = Equations::<D>::new(homotopy);
+        let equations = Equations::new(homotopy);
         let n = equations.n();
         let mut weights = equations.vector();
         weights[..n].fill(1.0);
@@ -412,7 +412,7 @@ impl<const D: usize> Workshop<D> {
     }
 
     /// A proved tube at the point and with the normal given, after a number of rounds for the weights.
-    pub fn tube(&mut self, z: &[f64], normal: &[f64], rounds: usize) -> Option<Sample<D>> {
+    pub fn tube(&mut self, z: &[f64], normal: &[f64], rounds: usize) -> Option<Sample> {
         let n = self.equations.n();
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
@@ -441,7 +441,7 @@ impl<const D: usize> Workshop<D> {
     }
 
     /// Linked tubes from the sketch on, at most `count`.
-    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample<D>> {
+    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample> {
         let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
             .and_then(|local| self.tube(&local.z[0], &local.normal, 4));
         let Some(first) = first else {

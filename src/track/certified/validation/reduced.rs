@@ -10,8 +10,8 @@ use crate::linalg::LANE;
 use crate::track::reduced::certified::{COEFFICIENTS, ReducedTest};
 use crate::track::{Options, Space};
 
-pub type ReducedFrame<const D: usize> = <ReducedTest<D> as Test<D, COEFFICIENTS>>::Frame;
-pub type ReducedTube<const D: usize> = Tube<D, COEFFICIENTS, ReducedFrame<D>>;
+pub type ReducedFrame = <ReducedTest as Test<COEFFICIENTS>>::Frame;
+pub type ReducedTube = Tube<COEFFICIENTS, ReducedFrame>;
 
 /// The bounds that a proof was made of.
 #[derive(Debug, Clone, Copy)]
@@ -24,8 +24,8 @@ pub struct Stated {
     h: f64,
 }
 
-pub struct Proved<const D: usize> {
-    pub tube: ReducedTube<D>,
+pub struct Proved {
+    pub tube: ReducedTube,
     stated: Stated,
 }
 
@@ -54,7 +54,7 @@ fn raise(max: &mut f64, x: f64) {
     *max = max.max(x);
 }
 
-impl<const D: usize> Proved<D> {
+impl Proved {
     fn n(&self) -> usize {
         self.tube.weights.len() - 1
     }
@@ -233,16 +233,16 @@ pub fn right_hand_sides(random: &mut Random, rows: usize) -> Vec<[f64; LANE]> {
     (0..rows).map(row).collect()
 }
 
-pub struct Shop<const D: usize> {
-    pub equations: Equations<D>,
+pub struct Shop {
+    pub equations: Equations,
     inverter: InverseMaker,
-    pub test: ReducedTest<D>,
+    pub test: ReducedTest,
     max_h: f64,
 }
 
-impl<const D: usize> Shop<D> {
+impl Shop {
     pub fn new(homotopy: &Homotopy, alpha: f64, max_h: f64) -> Self {
-        let equations = Equations::<D>::new(homotopy);
+        let equations = Equations::new(homotopy);
         let options = Options {
             space: Space::Reduced,
             alpha,
@@ -256,7 +256,7 @@ impl<const D: usize> Shop<D> {
         }
     }
 
-    pub fn tube(&mut self, z: &[f64], normal: &[f64], first: bool) -> Option<Proved<D>> {
+    pub fn tube(&mut self, z: &[f64], normal: &[f64], first: bool) -> Option<Proved> {
         let n = self.equations.n();
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
@@ -286,7 +286,7 @@ impl<const D: usize> Shop<D> {
     }
 
     /// Linked tubes from the sketch on, at most `count`.
-    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved<D>> {
+    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved> {
         let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
             .and_then(|local| self.tube(&local.z[0], &local.normal, true));
         let Some(first) = first else {
@@ -318,12 +318,7 @@ impl<const D: usize> Shop<D> {
     }
 }
 
-fn check_tube<const D: usize>(
-    exact: &Exact,
-    sample: &Proved<D>,
-    random: &mut Random,
-    tally: &mut Tally,
-) {
+fn check_tube(exact: &Exact, sample: &Proved, random: &mut Random, tally: &mut Tally) {
     let n = exact.n;
     let (tube, stated) = (&sample.tube, &sample.stated);
     let (proof, y) = (&tube.proof, &tube.local.y);
@@ -488,16 +483,16 @@ fn check_tube<const D: usize>(
     }
 }
 
-fn exact_equations<const D: usize>(exact: &Exact) -> Equations<D> {
+fn exact_equations(exact: &Exact) -> Equations {
     Equations::new(exact.homotopy)
 }
 
 /// The exit's box holds the path's point, before and after it is tightened; the next tube's entry.
-fn check_link<const D: usize>(
-    shop: &mut Shop<D>,
+fn check_link(
+    shop: &mut Shop,
     exact: &Exact,
-    sample: &Proved<D>,
-    next: Option<&Proved<D>>,
+    sample: &Proved,
+    next: Option<&Proved>,
     tally: &mut Tally,
 ) {
     let (n, c) = (exact.n, &sample.tube.local.normal[..exact.n]);
@@ -548,7 +543,7 @@ fn check_link<const D: usize>(
     }
 }
 
-fn check_problem<const D: usize>(
+fn check_problem(
     homotopy: &Homotopy,
     (alpha, max_h): (f64, f64),
     (tubes, rounds): (usize, usize),
@@ -556,7 +551,7 @@ fn check_problem<const D: usize>(
     tally: &mut Tally,
 ) {
     let exact = Exact::new(homotopy);
-    let mut shop = Shop::<D>::new(homotopy, alpha, max_h);
+    let mut shop = Shop::new(homotopy, alpha, max_h);
     let chain = shop.chain(homotopy, 600);
     let stride = (chain.len() / tubes).max(1);
     for k in (0..chain.len()).step_by(stride) {
@@ -574,10 +569,7 @@ fn reduced_proofs_hold_along_the_shipped_problems() {
     for problem in shipped() {
         let homotopy = Homotopy::new(&problem).expect("a gauge");
         for how in [(0.1, f64::INFINITY), (0.4, f64::INFINITY), (0.1, 1e-3)] {
-            match problem.dimension {
-                2 => check_problem::<2>(&homotopy, how, (10, 6), &mut random, &mut tally),
-                _ => check_problem::<3>(&homotopy, how, (10, 6), &mut random, &mut tally),
-            }
+            check_problem(&homotopy, how, (10, 6), &mut random, &mut tally)
         }
     }
     println!("{tally:?}");
@@ -604,10 +596,7 @@ fn reduced_proofs_hold_along_random_problems() {
             Disguised::new(&problem, 0.7, &mut random).homotopy()
         };
         let Some(homotopy) = homotopy else { continue };
-        match dimension {
-            2 => check_problem::<2>(&homotopy, how, (8, 4), &mut random, &mut tally),
-            _ => check_problem::<3>(&homotopy, how, (8, 4), &mut random, &mut tally),
-        }
+        check_problem(&homotopy, how, (8, 4), &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(
@@ -625,10 +614,7 @@ fn reduced_proofs_hold_along_problems_of_mixed_kinds() {
         let homotopy = Homotopy::new(&mixed_problem(&mut random, dimension)).unwrap();
         let alpha = [0.05, 0.1, 0.2, 0.4][random.below(4)];
         let how = (alpha, [f64::INFINITY, 1e-2][random.below(2)]);
-        match dimension {
-            2 => check_problem::<2>(&homotopy, how, (8, 4), &mut random, &mut tally),
-            _ => check_problem::<3>(&homotopy, how, (8, 4), &mut random, &mut tally),
-        }
+        check_problem(&homotopy, how, (8, 4), &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(
@@ -639,10 +625,10 @@ fn reduced_proofs_hold_along_problems_of_mixed_kinds() {
 
 #[test]
 fn false_links_are_refused_in_the_reduced_space() {
-    fn sabotage<const D: usize>(problem: &Problem, random: &mut Random, tally: &mut [usize; 4]) {
+    fn sabotage(problem: &Problem, random: &mut Random, tally: &mut [usize; 4]) {
         let homotopy = Homotopy::new(problem).unwrap();
         let exact = Exact::new(&homotopy);
-        let mut shop = Shop::<D>::new(&homotopy, 0.1, f64::INFINITY);
+        let mut shop = Shop::new(&homotopy, 0.1, f64::INFINITY);
         let chain = shop.chain(&homotopy, 400);
         let (n, m) = (exact.n, exact.m);
         let stride = (chain.len() / 20).max(1);
@@ -655,7 +641,9 @@ fn false_links_are_refused_in_the_reduced_space() {
                 next.tube.entry
             ));
             let (z, normal) = (&next.tube.local.z[0], &next.tube.local.normal);
-            let last_axis = |i: usize| i < m && homotopy.gauge.place[i] % D == D - 1;
+            let last_axis = |i: usize| {
+                i < m && (homotopy.gauge.place[i] + 1).is_multiple_of(homotopy.dimension)
+            };
             let flip = |v: &[f64]| -> Vec<f64> {
                 (0..n)
                     .map(|i| if last_axis(i) { -v[i] } else { v[i] })
@@ -697,10 +685,7 @@ fn false_links_are_refused_in_the_reduced_space() {
     }
     let (mut tally, mut random) = ([0; 4], Random::new(23));
     for problem in shipped() {
-        match problem.dimension {
-            2 => sabotage::<2>(&problem, &mut random, &mut tally),
-            _ => sabotage::<3>(&problem, &mut random, &mut tally),
-        }
+        sabotage(&problem, &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(tally.iter().all(|&count| count > 30), "{tally:?}");

@@ -21,7 +21,7 @@ struct Tally {
 }
 
 /// M(s, w) = I − (I − s A) Y [J(ẑ(s) + w); c] in intervals; a lower bound of |M|_u.
-fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f64]) -> f64 {
+fn contraction(exact: &Exact, sample: &Sample, s: f64, w: &[f64]) -> f64 {
     let n = exact.n;
     let z: Vec<Interval> = middle(&sample.tube, s)
         .iter()
@@ -59,9 +59,9 @@ fn contraction<const D: usize>(exact: &Exact, sample: &Sample<D>, s: f64, w: &[f
         .fold(0.0, f64::max)
 }
 
-fn check_tube<const D: usize>(
+fn check_tube(
     exact: &Exact,
-    sample: &Sample<D>,
+    sample: &Sample,
     random: &mut Random,
     rounds: usize,
     tally: &mut Tally,
@@ -162,11 +162,11 @@ fn check_tube<const D: usize>(
 
 /// (c) The exit's box holds the path's point there, and that point is in the next tube where its
 /// entry says.
-fn check_link<const D: usize>(
-    workshop: &mut Workshop<D>,
+fn check_link(
+    workshop: &mut Workshop,
     exact: &Exact,
-    sample: &Sample<D>,
-    next: Option<&Sample<D>>,
+    sample: &Sample,
+    next: Option<&Sample>,
     tally: &mut Tally,
 ) {
     let n = exact.n;
@@ -213,7 +213,7 @@ fn check_link<const D: usize>(
     }
 }
 
-fn check_problem<const D: usize>(
+fn check_problem(
     homotopy: &Homotopy,
     max_h: f64,
     (tubes, rounds): (usize, usize),
@@ -221,7 +221,7 @@ fn check_problem<const D: usize>(
     tally: &mut Tally,
 ) {
     let exact = Exact::new(homotopy);
-    let mut workshop = Workshop::<D>::new(homotopy, max_h);
+    let mut workshop = Workshop::new(homotopy, max_h);
     let chain = workshop.chain(homotopy, 1000);
     let stride = (chain.len() / tubes).max(1);
     for k in (0..chain.len()).step_by(stride) {
@@ -260,10 +260,7 @@ fn proofs_hold_along_the_shipped_problems() {
     for problem in shipped() {
         for max_h in [f64::INFINITY, 1e-2, 1e-5] {
             let homotopy = Homotopy::new(&problem).expect("a gauge");
-            match problem.dimension {
-                2 => check_problem::<2>(&homotopy, max_h, (12, 4), &mut random, &mut tally),
-                _ => check_problem::<3>(&homotopy, max_h, (12, 4), &mut random, &mut tally),
-            }
+            check_problem(&homotopy, max_h, (12, 4), &mut random, &mut tally)
         }
     }
     println!("{tally:?}");
@@ -295,10 +292,7 @@ fn proofs_hold_along_random_problems() {
             Disguised::new(&problem, 0.7, &mut random).homotopy()
         };
         let Some(homotopy) = homotopy else { continue };
-        match dimension {
-            2 => check_problem::<2>(&homotopy, max_h, (8, 4), &mut random, &mut tally),
-            _ => check_problem::<3>(&homotopy, max_h, (8, 4), &mut random, &mut tally),
-        }
+        check_problem(&homotopy, max_h, (8, 4), &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(
@@ -320,10 +314,7 @@ fn proofs_hold_along_problems_of_mixed_kinds() {
         let dimension = 2 + round % 2;
         let homotopy = Homotopy::new(&mixed_problem(&mut random, dimension)).unwrap();
         let max_h = [f64::INFINITY, 1e-3][random.below(2)];
-        match dimension {
-            2 => check_problem::<2>(&homotopy, max_h, (8, 4), &mut random, &mut tally),
-            _ => check_problem::<3>(&homotopy, max_h, (8, 4), &mut random, &mut tally),
-        }
+        check_problem(&homotopy, max_h, (8, 4), &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(

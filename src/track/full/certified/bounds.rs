@@ -22,7 +22,7 @@ pub(super) struct Bounds {
 
 impl Bounds {
     /// Room for them.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         let vector = || equations.vector();
         Bounds {
             rounding: vector(),
@@ -34,19 +34,19 @@ impl Bounds {
     }
 }
 
-impl<const D: usize> KrawczykTest<D> {
+impl KrawczykTest {
     /// Makes the bounds. Order ORDER + 1 of F, with its sign, into `f`.
     pub(super) fn bound_equations(
         &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
+        equations: &Equations,
+        local: &Local,
         hs: &[f64; DEGREE + 1],
         per_entry: f64,
     ) {
         let (m, n) = (equations.m, equations.n());
         let u = &self.u;
         equations.sums(u, &mut self.sums);
-        for axis in 0..D {
+        for axis in 0..equations.dimension() {
             let d = std::array::from_fn::<_, { ORDER + 1 }, _>(|k| local.d[k][axis].lanes());
             let (near, far) = (self.near[axis].lanes_mut(), self.far[axis].lanes_mut());
             for l in 0..near.len() {
@@ -75,8 +75,8 @@ impl<const D: usize> KrawczykTest<D> {
         for l in 0..e0.len() {
             let (mut j_near, mut j_far) = ([0.0; LANE], [0.0; LANE]);
             let (mut j_width, mut size) = ([0.0; LANE], [0.0; LANE]);
-            for axis in 0..D {
-                let of = |vectors: &Differences<D>| vectors[axis].lanes()[l];
+            for axis in 0..equations.dimension() {
+                let of = |vectors: &Differences| vectors[axis].lanes()[l];
                 let (sum, near, far) = (of(&self.sums), of(&self.near), of(&self.far));
                 for i in 0..LANE {
                     j_near[i] += near[i] * sum[i];
@@ -155,8 +155,8 @@ impl<const D: usize> KrawczykTest<D> {
     /// Adds to the bounds what the tail's products bring: as for distances, whose two factors are alike.
     fn bound_tail(
         &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
+        equations: &Equations,
+        local: &Local,
         hs: &[f64; DEGREE + 1],
         per_entry: f64,
     ) {
@@ -197,8 +197,8 @@ impl<const D: usize> KrawczykTest<D> {
     fn bound_bend(
         &mut self,
         b: usize,
-        local: &Local<D>,
-        equations: &Equations<D>,
+        local: &Local,
+        equations: &Equations,
         (t, ut): (f64, f64),
         hs: &[f64; DEGREE + 1],
         per_entry: f64,

@@ -23,10 +23,10 @@ fn until(goal: f64) -> Until {
     }
 }
 
-impl<const D: usize> KrawczykTest<D> {
+impl KrawczykTest {
     /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
     /// last, whose A this test still has, as tightly as most links need.
-    pub fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+    pub fn enclose_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
         self.enclose(equations, tube, ENOUGH)?;
         tube.exit_is_tight = false;
         Some(())
@@ -34,7 +34,7 @@ impl<const D: usize> KrawczykTest<D> {
 
     /// Encloses the path's point, and its tangent there, in the cross-section at `exit_at` of a tube proved
     /// earlier, as tightly as floats allow: needed where the next tube is much narrower.
-    pub fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+    pub fn tighten_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
         self.make_moving_matrix(equations, &tube.local);
         self.enclose(equations, tube, 0.0)?;
         tube.exit_slope_radius = self.enclose_tangent(equations, tube);
@@ -47,7 +47,7 @@ impl<const D: usize> KrawczykTest<D> {
     ///
     /// T solves [J(P); c] T = e_n. As |I − Ỹ [J(P); c]|_u ≤ q for the path's point P, which is in the
     /// tube, the solution is at most |Ỹ([J(P); c] v − e_n)|_u / (1 − q) from any v.
-    fn enclose_tangent(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> f64 {
+    fn enclose_tangent(&mut self, equations: &Equations, tube: &mut Tube) -> f64 {
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let (exit, v) = (&tube.exit, &mut tube.exit_slope);
@@ -98,7 +98,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// [J; c] v − e_n in floats, into `f`, J being that of the differences `near` and the lengths at hand.
-    fn tangent_defect(&mut self, equations: &Equations<D>, v: &Vector, c: &[f64]) {
+    fn tangent_defect(&mut self, equations: &Equations, v: &Vector, c: &[f64]) {
         let (m, n) = (equations.m, equations.n());
         equations.directions(v, &mut self.far);
         equations.jacobian_times(&self.near, &self.lengths, &self.far, v[m], &mut self.f);
@@ -108,7 +108,7 @@ impl<const D: usize> KrawczykTest<D> {
     /// A bound on |Ỹ(s) g|_u / (1 − q) for any g within `hidden` of `f`, entry by entry.
     pub(in crate::track) fn radius_from_defect(
         &mut self,
-        local: &Local<D>,
+        local: &Local,
         proof: &Proof,
         u: &Vector,
         s: f64,
@@ -131,12 +131,7 @@ impl<const D: usize> KrawczykTest<D> {
     /// A few steps w ← w − Ỹ(s) G_s(w), until they are below `accuracy` times r or do not shrink
     /// any more. As that map is a contraction by q, the zero is at most |Ỹ(s) G_s(w)|_u / (1 − q)
     /// from any w in the box.
-    fn enclose(
-        &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tube<D>,
-        accuracy: f64,
-    ) -> Option<()> {
+    fn enclose(&mut self, equations: &Equations, tube: &mut Tube, accuracy: f64) -> Option<()> {
         let extended = self.precision.extended || tube.local.is_extended;
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
@@ -184,13 +179,7 @@ impl<const D: usize> KrawczykTest<D> {
 
     /// F at the middle of a box, into `f`, and if wanted how far the exact value may be, into `hidden`.
     #[inline(always)]
-    fn residual_at(
-        &mut self,
-        equations: &Equations<D>,
-        at: &Ball,
-        extended: bool,
-        with_error: bool,
-    ) {
+    fn residual_at(&mut self, equations: &Equations, at: &Ball, extended: bool, with_error: bool) {
         equations.residual_at(
             (&at.centre, extended.then_some(&at.low[..])),
             (&mut self.near, &mut self.lengths),
@@ -200,7 +189,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// Encloses the path's point at the exit, F at the middle of whose box, `f`, is known up to `hidden`.
-    fn conclude(&mut self, tube: &mut Tube<D>) -> Option<()> {
+    fn conclude(&mut self, tube: &mut Tube) -> Option<()> {
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let n = u.len() - 1;
         let (along, error, extent) = from_middle(local, &u[..n], s, &tube.exit, |_| 0.0);

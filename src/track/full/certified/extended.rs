@@ -12,13 +12,13 @@ use crate::linalg::Vector;
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{DEGREE, Equations, Local, ORDER};
 
-impl<const D: usize> KrawczykTest<D> {
+impl KrawczykTest {
     /// The bounds as they are in the precision of the point. `None`: out of range.
     #[inline(always)]
     pub(in crate::track) fn in_precision(
         &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
+        equations: &Equations,
+        local: &Local,
         norms: Norms,
     ) -> Option<Norms> {
         let norms = if local.is_extended {
@@ -37,12 +37,7 @@ impl<const D: usize> KrawczykTest<D> {
     ///
     /// The other orders are computed from differences and lengths at the middle that carry four roundings
     /// more than in 53 bits: those of double-doubles to floats.
-    fn split_low_orders(
-        &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
-        h: f64,
-    ) -> LowOrders {
+    fn split_low_orders(&mut self, equations: &Equations, local: &Local, h: f64) -> LowOrders {
         let (m, n) = (equations.m, equations.n());
         let hs: [f64; DEGREE + 1] = powers_of(h);
         let z = (&local.z[0][..], &local.low[..]);
@@ -61,7 +56,7 @@ impl<const D: usize> KrawczykTest<D> {
             // Of Σ_k f_k sᵏ in absolute values throughout, Σ_k k f_k sᵏ is the derivative times s; that of
             // ½ (Σ |d_k| sᵏ)² for the differences, of E(Σ |t_k| sᵏ) for the lengths.
             let mut rate = 0.0;
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let d_of = |k: usize| local.d[k][axis][e].abs() * hs[k];
                 let size: f64 = (0..=ORDER).map(d_of).sum();
                 rate += size * (1..=ORDER).map(|k| k as f64 * d_of(k)).sum::<f64>();

@@ -52,7 +52,7 @@ const STALE: f64 = 0.1;
 
 /// Work space of the test.
 #[derive(Debug, Clone)]
-pub struct KrawczykTest<const D: usize> {
+pub struct KrawczykTest {
     /// Tubes are cut short where the path may be further than this from their middle.
     pub radius: f64,
     pub(in crate::track) a: Matrix,
@@ -65,9 +65,9 @@ pub struct KrawczykTest<const D: usize> {
     pub(super) hidden: Vector,
     pub(super) rest: Vector,
     /// Per distance: Σ |d_k| sᵏ for k ≤ 2 and for k ≥ 3, weight sums, a coefficient.
-    pub(in crate::track) near: Differences<D>,
-    pub(in crate::track) far: Differences<D>,
-    pub(in crate::track) sums: Differences<D>,
+    pub(in crate::track) near: Differences,
+    pub(in crate::track) far: Differences,
+    pub(in crate::track) sums: Differences,
     /// For the tail: Σ |d_k| sᵏ for all k.
     pub(super) tail_sizes: Forms,
     pub(in crate::track) coefficient: Vector,
@@ -87,9 +87,9 @@ pub struct KrawczykTest<const D: usize> {
     pub(in crate::track) precision: Precision,
 }
 
-impl<const D: usize> KrawczykTest<D> {
+impl KrawczykTest {
     /// Room for the tubes of a problem. Large ones are proved on so many threads.
-    pub fn new(equations: &Equations<D>, threads: usize) -> Self {
+    pub fn new(equations: &Equations, threads: usize) -> Self {
         let n = equations.n();
         let entries = equations.pattern().entries();
         let mut ones = equations.vector();
@@ -128,8 +128,8 @@ impl<const D: usize> KrawczykTest<D> {
     /// `None`: nothing can be proved here, however short.
     pub fn prove(
         &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
+        equations: &Equations,
+        local: &Local,
         weights: &mut Vector,
         max_h: f64,
     ) -> Option<Proof> {
@@ -162,8 +162,8 @@ impl<const D: usize> KrawczykTest<D> {
     /// The bounds that do not depend on the final h, and the others at the largest h worth trying.
     pub(in crate::track) fn norms(
         &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
+        equations: &Equations,
+        local: &Local,
         weights: &Vector,
         max_h: f64,
     ) -> Option<Norms> {
@@ -196,8 +196,8 @@ impl<const D: usize> KrawczykTest<D> {
     /// The same with the largest h given.
     fn norms_within(
         &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
+        equations: &Equations,
+        local: &Local,
         [a, a2, square, r0]: [f64; 4],
         h: f64,
     ) -> Norms {
@@ -255,11 +255,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// Makes A ≈ Y J₁.
-    pub(in crate::track) fn make_moving_matrix(
-        &mut self,
-        equations: &Equations<D>,
-        local: &Local<D>,
-    ) {
+    pub(in crate::track) fn make_moving_matrix(&mut self, equations: &Equations, local: &Local) {
         self.derivative(equations, local, 1);
         local
             .y
@@ -268,7 +264,7 @@ impl<const D: usize> KrawczykTest<D> {
 
     /// The values of the sparse matrix J_k, k = 1 or 2. The entry of t is minus E'(t(s)) at sᵏ:
     /// 2 e₂ t_k but for the bend.
-    fn derivative(&mut self, equations: &Equations<D>, local: &Local<D>, k: usize) {
+    fn derivative(&mut self, equations: &Equations, local: &Local, k: usize) {
         let m = equations.m;
         let slope = 2.0 * local.z[k][m];
         for (time, e2) in self.f[..m].iter_mut().zip(equations.e[2].iter()) {
@@ -282,7 +278,7 @@ impl<const D: usize> KrawczykTest<D> {
     }
 
     /// A ≈ Y J₁, kept; and |A|_u, |A₂|_u with A₂ ≈ Y J₂, |A² − A₂|_u, |I − Y [J₀; c]|_u, as computed.
-    fn products(&mut self, equations: &Equations<D>, local: &Local<D>) -> [f64; 4] {
+    fn products(&mut self, equations: &Equations, local: &Local) -> [f64; 4] {
         let n = equations.n();
         self.make_moving_matrix(equations, local);
         self.derivative(equations, local, 2);
@@ -318,7 +314,7 @@ pub(in crate::track) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
 }
 
 #[cfg(test)]
-impl<const D: usize> KrawczykTest<D> {
+impl KrawczykTest {
     /// The weights of the last proof.
     pub(in crate::track) fn weights(&self) -> &Vector {
         &self.u
@@ -330,12 +326,12 @@ impl<const D: usize> KrawczykTest<D> {
     }
 }
 
-impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
+impl Test<{ ORDER + 1 }> for KrawczykTest {
     type Frame = Matrix;
     const SPACE: Space = Space::Full;
     const FORESEES: bool = false;
 
-    fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
+    fn new(homotopy: &Homotopy, equations: &Equations, options: &Options) -> Self {
         KrawczykTest {
             radius: options.radius(homotopy.unit),
             ..KrawczykTest::new(equations, options.threads)
@@ -344,8 +340,8 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
 
     fn refine(
         &mut self,
-        equations: &Equations<D>,
-        local: &mut Local<D>,
+        equations: &Equations,
+        local: &mut Local,
         tolerance: f64,
     ) -> Result<(), RefineError> {
         if self.precision.extended {
@@ -354,16 +350,12 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         local.refine(equations, &mut self.maker, tolerance, 8)
     }
 
-    fn expand(
-        &mut self,
-        equations: &Equations<D>,
-        local: &mut Local<D>,
-    ) -> Result<(), RefineError> {
+    fn expand(&mut self, equations: &Equations, local: &mut Local) -> Result<(), RefineError> {
         local.expand(equations);
         Ok(())
     }
 
-    fn prepare(&mut self, equations: &Equations<D>, tube: &mut Tube<D>, max_h: f64) {
+    fn prepare(&mut self, equations: &Equations, tube: &mut Tube, max_h: f64) {
         // The first rounds find the weights.
         let mut weights = std::mem::take(&mut self.next_weights);
         for _ in 0..3 {
@@ -372,7 +364,7 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         self.next_weights = weights;
     }
 
-    fn prove(&mut self, equations: &Equations<D>, tube: &mut Tube<D>, max_h: f64) -> bool {
+    fn prove(&mut self, equations: &Equations, tube: &mut Tube, max_h: f64) -> bool {
         self.kept_weights.copy_from_slice(&self.next_weights);
         let mut weights = std::mem::take(&mut self.next_weights);
         let mut proof = KrawczykTest::prove(self, equations, &tube.local, &mut weights, max_h);
@@ -391,12 +383,7 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         true
     }
 
-    fn shortfall(
-        &mut self,
-        equations: &Equations<D>,
-        _: &mut Tube<D>,
-        _: f64,
-    ) -> Option<Shortfall> {
+    fn shortfall(&mut self, equations: &Equations, _: &mut Tube, _: f64) -> Option<Shortfall> {
         // The weights are still those of the last proof.
         let u = self.u[..equations.n()].iter();
         let top = u.fold(0.0, |a: f64, &u| a.max(u));
@@ -404,17 +391,17 @@ impl<const D: usize> Test<D, { ORDER + 1 }> for KrawczykTest<D> {
         Some(shortfall.scaled(top))
     }
 
-    fn accept(&mut self, _: &Tube<D>) {}
+    fn accept(&mut self, _: &Tube) {}
 
     fn reject(&mut self) {
         self.next_weights.copy_from_slice(&self.kept_weights);
     }
 
-    fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+    fn enclose_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
         KrawczykTest::enclose_exit(self, equations, tube)
     }
 
-    fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tube<D>) -> Option<()> {
+    fn tighten_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
         KrawczykTest::tighten_exit(self, equations, tube)
     }
 

@@ -4,23 +4,22 @@ use super::{Bend, Differences, Equations};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::{LANE, Vector};
 
-impl<const D: usize> Equations<D> {
+impl Equations {
     /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
     /// radii of the coefficients.
-    pub fn residual_error(&self, d: &Differences<D>, t: f64, out: &mut Vector) {
+    pub fn residual_error(&self, d: &Differences, t: f64, out: &mut Vector) {
         let t = t.abs();
         let count = self.roundings();
         let (per_term, roundings) = (gamma(count.of_residual()), count.of_residual_bound());
-        let axes = d.each_ref().map(|d| d.lanes());
         let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
         let [r0, r1, r2] = self.e_radius.each_ref().map(|r| r.lanes());
         let lanes = out.lanes_mut().iter_mut().take(e0.len());
         for (l, out) in lanes.enumerate() {
+            let squared = d.lane_of_products(d, l);
             for k in 0..LANE {
-                let squared: f64 = (0..D).map(|axis| axes[axis][l][k] * axes[axis][l][k]).sum();
                 let size = e0[l][k].abs() + t * (e1[l][k].abs() + t * e2[l][k].abs());
                 let radius = r0[l][k] + t * (r1[l][k] + t * r2[l][k]);
-                out[k] = round_up(per_term * (0.5 * squared + size) + radius, roundings);
+                out[k] = round_up(per_term * (0.5 * squared[k] + size) + radius, roundings);
             }
         }
         let cube = t * t * t;
@@ -41,9 +40,9 @@ impl<const D: usize> Equations<D> {
     /// within the given radii (as differences' sums, and of t) of the point.
     pub fn jacobian_times_error(
         &self,
-        (d, t): (&Differences<D>, f64),
-        (spread, t_radius): (&Differences<D>, f64),
-        (dv, vt): (&Differences<D>, f64),
+        (d, t): (&Differences, f64),
+        (spread, t_radius): (&Differences, f64),
+        (dv, vt): (&Differences, f64),
         out: &mut [f64],
     ) {
         let (t, vt) = (t.abs() + t_radius, vt.abs());
@@ -51,7 +50,7 @@ impl<const D: usize> Equations<D> {
         let per_term = gamma(count.of_jacobian_times());
         for (e, out) in out[..self.m].iter_mut().enumerate() {
             let (mut size, mut moved) = (0.0, 0.0);
-            for axis in 0..D {
+            for axis in 0..self.dimension() {
                 size += (d[axis][e] * dv[axis][e]).abs();
                 moved += spread[axis][e] * dv[axis][e].abs();
             }

@@ -3,10 +3,10 @@
 use super::{Differences, Equations, Lengths};
 use crate::linalg::{LANE, Vector};
 
-impl<const D: usize> Equations<D> {
+impl Equations {
     /// p_i − p_j for the point `z`, per axis and distance, and the tail's forms.
     #[inline(always)]
-    pub fn differences(&self, z: &[f64], out: &mut Differences<D>) {
+    pub fn differences(&self, z: &[f64], out: &mut Differences) {
         self.head_differences(z, out);
         if !self.tail.is_empty() {
             self.tail.differences(z, 1.0, &mut out.forms);
@@ -16,7 +16,7 @@ impl<const D: usize> Equations<D> {
     /// v_i − v_j for a direction `v`, per axis and distance, and the tail's forms: the one that is the number 1 at
     /// every point is zero, as it does not change along `v`.
     #[inline(always)]
-    pub fn directions(&self, v: &[f64], out: &mut Differences<D>) {
+    pub fn directions(&self, v: &[f64], out: &mut Differences) {
         self.head_differences(v, out);
         if !self.tail.is_empty() {
             self.tail.differences(v, 0.0, &mut out.forms);
@@ -24,7 +24,7 @@ impl<const D: usize> Equations<D> {
     }
 
     #[inline(always)]
-    fn head_differences(&self, v: &[f64], out: &mut Differences<D>) {
+    fn head_differences(&self, v: &[f64], out: &mut Differences) {
         for (ends, out) in self.ends.iter().zip(&mut out.axes) {
             for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
                 *d = v[i as usize] - v[j as usize];
@@ -33,7 +33,7 @@ impl<const D: usize> Equations<D> {
     }
 
     /// z_i + z_j likewise, for sizes of directions.
-    pub fn sums(&self, z: &[f64], out: &mut Differences<D>) {
+    pub fn sums(&self, z: &[f64], out: &mut Differences) {
         for (ends, out) in self.ends.iter().zip(&mut out.axes) {
             for (&[i, j], d) in ends.iter().zip(out.iter_mut()) {
                 *d = z[i as usize] + z[j as usize];
@@ -76,14 +76,13 @@ impl<const D: usize> Equations<D> {
 
     /// F from differences and lengths.
     #[inline(always)]
-    pub fn residual(&self, differences: &Differences<D>, lengths: &Lengths, out: &mut Vector) {
-        let d = differences.each_ref().map(|d| d.lanes());
+    pub fn residual(&self, differences: &Differences, lengths: &Lengths, out: &mut Vector) {
         let t0 = lengths.terms[0].lanes();
         let lanes = out.lanes_mut();
         for l in 0..t0.len() {
+            let squared = differences.lane_of_products(differences, l);
             for k in 0..LANE {
-                let squared: f64 = (0..D).map(|axis| d[axis][l][k] * d[axis][l][k]).sum();
-                lanes[l][k] = 0.5f64.mul_add(squared, -t0[l][k]);
+                lanes[l][k] = 0.5f64.mul_add(squared[k], -t0[l][k]);
             }
         }
         if !self.tail.is_empty() {
@@ -97,7 +96,7 @@ impl<const D: usize> Equations<D> {
     pub fn residual_at(
         &self,
         (z, low): (&[f64], Option<&[f64]>),
-        (d, lengths): (&mut Differences<D>, &mut Lengths),
+        (d, lengths): (&mut Differences, &mut Lengths),
         f: &mut Vector,
         error: Option<&mut Vector>,
     ) {
@@ -115,14 +114,14 @@ impl<const D: usize> Equations<D> {
     /// J v at the given differences and lengths, `dv` being the differences of v and `vt` its t.
     pub fn jacobian_times(
         &self,
-        d: &Differences<D>,
+        d: &Differences,
         lengths: &Lengths,
-        dv: &Differences<D>,
+        dv: &Differences,
         vt: f64,
         out: &mut [f64],
     ) {
         for (e, out) in out[..self.m].iter_mut().enumerate() {
-            let product: f64 = (0..D).map(|axis| d[axis][e] * dv[axis][e]).sum();
+            let product: f64 = d.iter().zip(&dv.axes).map(|(d, dv)| d[e] * dv[e]).sum();
             *out = product - lengths.terms[1][e] * vt;
         }
         if !self.tail.is_empty() {

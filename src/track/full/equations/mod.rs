@@ -30,16 +30,16 @@ pub struct Bend {
     pub e_radius: [f64; 5],
 }
 
-/// The m equations in n = m + 1 unknowns, t last, of a problem in D dimensions.
+/// The m equations in n = m + 1 unknowns, t last, of a problem in the plane or in space.
 ///
 /// A vector of unknowns has a spare entry n more, always zero, from which fixed coordinates are read.
 #[derive(Debug, Clone)]
-pub struct Equations<const D: usize> {
+pub struct Equations {
     /// The number m of equations.
     pub m: usize,
     /// The entries of z for either point's coordinates, per axis and distance; for other equations the spare
     /// one.
-    pub ends: [Vec<[u32; 2]>; D],
+    pub ends: Vec<Vec<[u32; 2]>>,
     /// The equations that are no distances.
     pub tail: Tail,
     /// The coefficients of E up to t², per equation (those of degree 4 too), and their radii.
@@ -55,7 +55,7 @@ pub struct Equations<const D: usize> {
     /// The pattern of the Jacobian with the normal for its last row.
     bordered: Sparse,
     /// For each axis, which entries of these its differences are.
-    sources: [Vec<Source>; D],
+    sources: Vec<Vec<Source>>,
 }
 
 /// An entry that is a difference, or minus one.
@@ -68,25 +68,18 @@ struct Source {
     sign: f64,
 }
 
-impl<const D: usize> Equations<D> {
+impl Equations {
     /// Lays out a homotopy.
     pub fn new(homotopy: &Homotopy) -> Self {
-        assert_eq!(homotopy.dimension, D);
-        let m = homotopy.equations;
-        let entry = |point: usize, axis: usize| match homotopy.gauge.variable[point * D + axis] {
-            fixed if fixed == m => m + 1,
-            free => free,
+        let (dimension, m) = (homotopy.dimension, homotopy.equations);
+        let entry = |point: usize, axis: usize| homotopy.coordinate(point, axis).unwrap_or(m + 1);
+        let of_axis = |axis: usize| {
+            let head = homotopy.half_squares();
+            let ends = head.map(|edge| edge.points.map(|p| entry(p, axis) as u32));
+            let of_tail = std::iter::repeat([m as u32 + 1; 2]);
+            ends.chain(of_tail).take(m).collect()
         };
-        let ends: [Vec<[u32; 2]>; D] = std::array::from_fn(|axis| {
-            homotopy
-                .half_squares()
-                .map(|edge| edge.points.map(|p| entry(p, axis) as u32))
-                .collect()
-        });
-        let ends = ends.map(|mut ends| {
-            ends.resize(m, [m as u32 + 1; 2]);
-            ends
-        });
+        let ends: Vec<Vec<[u32; 2]>> = (0..dimension).map(of_axis).collect();
         let rights = &homotopy.rights;
         let coefficient = |pick: &dyn Fn(usize) -> f64| {
             let mut out = Vector::zeros(m);
@@ -96,8 +89,8 @@ impl<const D: usize> Equations<D> {
         let mut tail = Tail::new(homotopy);
         // The edges of each column's entries, with axes and signs.
         let mut columns = vec![Vec::new(); m];
-        for axis in 0..D {
-            for (edge, &end) in ends[axis].iter().enumerate() {
+        for (axis, ends) in ends.iter().enumerate() {
+            for (edge, &end) in ends.iter().enumerate() {
                 for (end, sign) in end.into_iter().zip([1.0, -1.0]) {
                     if (end as usize) < m {
                         columns[end as usize].push((edge, axis, sign));
@@ -105,7 +98,7 @@ impl<const D: usize> Equations<D> {
                 }
             }
         }
-        let mut sources: [Vec<Source>; D] = std::array::from_fn(|_| Vec::new());
+        let mut sources = vec![Vec::new(); dimension];
         let mut plain = 0;
         for (column, entries) in columns.iter().enumerate() {
             for &(edge, axis, sign) in entries {
@@ -188,6 +181,11 @@ impl<const D: usize> Equations<D> {
         self.m + 1
     }
 
+    /// The number of axes.
+    pub fn dimension(&self) -> usize {
+        self.ends.len()
+    }
+
     /// A vector of n unknowns and the spare entry.
     pub fn vector(&self) -> Vector {
         Vector::zeros(self.m + 2)
@@ -198,10 +196,15 @@ impl<const D: usize> Equations<D> {
         Vector::zeros(self.m)
     }
 
+    /// For each axis a vector of one entry per distance.
+    pub fn per_axis(&self) -> Vec<Vector> {
+        vec![self.per_edge(); self.dimension()]
+    }
+
     /// Room for the differences of a vector of unknowns.
-    pub fn room(&self) -> Differences<D> {
+    pub fn room(&self) -> Differences {
         Differences {
-            axes: std::array::from_fn(|_| self.per_edge()),
+            axes: self.per_axis(),
             forms: Forms::new(&self.tail),
         }
     }

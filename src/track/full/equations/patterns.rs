@@ -4,7 +4,7 @@ use super::{Differences, Equations, Lengths};
 use crate::linalg::{Inverter, Sparse};
 use crate::track::full::preconditioner::InverseMaker;
 
-impl<const D: usize> Equations<D> {
+impl Equations {
     /// An inverter for the Jacobian with its last row, and room for that matrix's values.
     pub fn inverter(&self) -> InverseMaker {
         (
@@ -25,7 +25,7 @@ impl<const D: usize> Equations<D> {
 
     /// Values for [`Equations::pattern`]: the differences, and minus `time` in the column of t.
     #[inline(always)]
-    pub fn pattern_values(&self, d: &Differences<D>, time: &[f64], out: &mut [f64]) {
+    pub fn pattern_values(&self, d: &Differences, time: &[f64], out: &mut [f64]) {
         for (sources, d) in self.sources.iter().zip(&d.axes) {
             for source in sources {
                 out[source.plain as usize] = source.sign * d[source.edge as usize];
@@ -43,7 +43,7 @@ impl<const D: usize> Equations<D> {
     /// Values for [`Equations::bordered_pattern`].
     pub fn bordered_values(
         &self,
-        d: &Differences<D>,
+        d: &Differences,
         lengths: &Lengths,
         normal: &[f64],
         out: &mut [f64],

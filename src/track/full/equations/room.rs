@@ -1,29 +1,44 @@
 //! What is computed of vectors of unknowns and of t, and the room for it.
 
 use super::Equations;
-use crate::linalg::Vector;
+use crate::linalg::{LANE, Vector};
 use crate::track::full::tail::Forms;
 use std::ops::{Deref, DerefMut};
 
 /// Differences of a vector of unknowns.
 #[derive(Debug, Clone)]
-pub struct Differences<const D: usize> {
+pub struct Differences {
     /// p_i − p_j, per axis and distance.
-    pub axes: [Vector; D],
+    pub axes: Vec<Vector>,
     /// The factors of the tail's products.
     pub forms: Forms,
 }
 
-impl<const D: usize> Deref for Differences<D> {
-    type Target = [Vector; D];
+impl Differences {
+    /// For the equations of one lane the products with other differences, added up over the axes.
+    #[inline(always)]
+    pub fn lane_of_products(&self, other: &Self, lane: usize) -> [f64; LANE] {
+        let mut sum = [-0.0; LANE];
+        for (x, y) in self.axes.iter().zip(&other.axes) {
+            let (x, y) = (&x.lanes()[lane], &y.lanes()[lane]);
+            for i in 0..LANE {
+                sum[i] += x[i] * y[i];
+            }
+        }
+        sum
+    }
+}
 
-    fn deref(&self) -> &[Vector; D] {
+impl Deref for Differences {
+    type Target = [Vector];
+
+    fn deref(&self) -> &[Vector] {
         &self.axes
     }
 }
 
-impl<const D: usize> DerefMut for Differences<D> {
-    fn deref_mut(&mut self) -> &mut [Vector; D] {
+impl DerefMut for Differences {
+    fn deref_mut(&mut self) -> &mut [Vector] {
         &mut self.axes
     }
 }
@@ -39,7 +54,7 @@ pub struct Lengths {
 
 impl Lengths {
     /// Room for the right-hand sides of a problem.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Lengths {
             terms: [equations.per_edge(), equations.per_edge()],
             bends: vec![[0.0; 5]; equations.bends.len()],

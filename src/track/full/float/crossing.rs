@@ -22,11 +22,11 @@ const VANISHING: f64 = 0.1;
 const OFF: f64 = 0.02;
 
 /// What steps over flat figures need.
-pub struct Crossing<const D: usize> {
+pub struct Crossing {
     heights: Heights,
-    equations: Equations<D>,
+    equations: Equations,
     inverter: InverseMaker,
-    local: Local<D>,
+    local: Local,
     /// How far from t = 1 the last trial was that failed on this approach.
     failed: Option<f64>,
 }
@@ -39,16 +39,16 @@ pub struct Crossed {
     pub advance: f64,
 }
 
-type Path<const D: usize, Y> = Local<D, { ORDER + 1 }, Y>;
+type Path<Y> = Local<{ ORDER + 1 }, Y>;
 
-impl<const D: usize> Crossing<D> {
+impl Crossing {
     /// For a problem in which flat figures can come in continua.
     pub fn new(homotopy: &Homotopy) -> Option<Self> {
         if homotopy.tail.is_empty() {
             return None;
         }
         let heights = homotopy.over_heights().ok()?;
-        let equations = Equations::<D>::new(&heights.homotopy);
+        let equations = Equations::new(&heights.homotopy);
         Some(Crossing {
             inverter: equations.inverter(),
             local: Local::new(&equations),
@@ -59,7 +59,7 @@ impl<const D: usize> Crossing<D> {
     }
 
     /// Whether the path runs into a flat figure, and a step over it is to be tried at this point.
-    fn is_due<Y>(&mut self, homotopy: &Homotopy, now: &Path<D, Y>) -> bool {
+    fn is_due<Y>(&mut self, homotopy: &Homotopy, now: &Path<Y>) -> bool {
         let t = homotopy.equations;
         let (left, slope) = (1.0 - now.z[0][t], now.z[1][t]);
         if left.abs() > NEAR || left * slope <= 0.0 {
@@ -82,12 +82,12 @@ impl<const D: usize> Crossing<D> {
 
     /// If the path runs into a flat figure from `now`, finds that and the point behind it, `next`, with its
     /// expansion.
-    pub fn cross<Y: Preconditioner<D>>(
+    pub fn cross<Y: Preconditioner>(
         &mut self,
         homotopy: &Homotopy,
-        (equations, inverter): (&Equations<D>, &mut Y::Maker),
-        now: &Path<D, Y>,
-        next: &mut Path<D, Y>,
+        (equations, inverter): (&Equations, &mut Y::Maker),
+        now: &Path<Y>,
+        next: &mut Path<Y>,
         tolerance: f64,
     ) -> Option<Crossed> {
         if !self.is_due(homotopy, now) {
@@ -101,12 +101,12 @@ impl<const D: usize> Crossing<D> {
         crossed
     }
 
-    fn step<Y: Preconditioner<D>>(
+    fn step<Y: Preconditioner>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut Y::Maker,
-        now: &Path<D, Y>,
-        next: &mut Path<D, Y>,
+        now: &Path<Y>,
+        next: &mut Path<Y>,
         tolerance: f64,
     ) -> Option<Crossed> {
         let m = equations.m;
@@ -151,7 +151,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Where an expansion has this t, if it goes straight there.
-fn parameter_at<const D: usize, Y>(local: &Path<D, Y>, m: usize, t: f64) -> Option<f64> {
+fn parameter_at<Y>(local: &Path<Y>, m: usize, t: f64) -> Option<f64> {
     let mut s = (t - local.z[0][m]) / local.z[1][m];
     for _ in 0..20 {
         let (mut value, mut slope) = (0.0, 0.0);

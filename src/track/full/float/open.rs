@@ -25,13 +25,13 @@ impl From<Stop> for Halt {
 }
 
 /// Follows the path, and where it comes to an end the other way from the sketch as well.
-pub fn follow_both_ways<const D: usize, Y: Preconditioner<D>>(
+pub fn follow_both_ways<Y: Preconditioner>(
     homotopy: &Homotopy,
-    (equations, maker): (&Equations<D>, &mut Y::Maker),
+    (equations, maker): (&Equations, &mut Y::Maker),
     options: &Options,
     control: &mut Control,
-) -> (Status, Record<D, Y>) {
-    let mut record = Record::<D, Y>::new(equations);
+) -> (Status, Record<Y>) {
+    let mut record = Record::<Y>::new(equations);
     let ahead = follow(
         homotopy,
         (equations, &mut *maker),
@@ -48,7 +48,7 @@ pub fn follow_both_ways<const D: usize, Y: Preconditioner<D>>(
         reverse: !options.reverse,
         ..options.clone()
     };
-    let mut back = Record::<D, Y>::new(equations);
+    let mut back = Record::<Y>::new(equations);
     let result = follow(homotopy, (equations, maker), &reversed, control, &mut back);
     let Err(halt) = result else {
         // It came back to the sketch after all.
@@ -171,12 +171,7 @@ impl<'h> Ends<'h> {
 
     /// What a run has come to that cannot go on at this point of the path, with this normal: the end of the path if
     /// something has nearly vanished there, or if the equations have become dependent.
-    pub fn stuck<const D: usize>(
-        &self,
-        equations: &Equations<D>,
-        (z, normal): (&[f64], &[f64]),
-        stop: Stop,
-    ) -> Halt {
+    pub fn stuck(&self, equations: &Equations, (z, normal): (&[f64], &[f64]), stop: Stop) -> Halt {
         let (homotopy, m) = (self.homotopy, self.homotopy.equations);
         let first = homotopy.gauge.place.len();
         let leg = homotopy.remark_on_lengths(z[m]);

@@ -21,14 +21,10 @@ const DIFFERENCE: f64 = 1.5e-8;
 /// differences, and steps that are doubled and halved.
 ///
 /// `homotopy` should have the unit 1, as the paper's steps are in the problem's lengths.
-pub fn track<const D: usize>(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Outcome {
+pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
     let clock = Instant::now();
-    let equations = Equations::<D>::new(homotopy);
-    let mut record = Record::<D>::new(&equations);
+    let equations = Equations::new(homotopy);
+    let mut record = Record::new(&equations);
     let status = match Paper::new(homotopy, &equations).run(options, control, &mut record) {
         Ok(()) => Status::Closed,
         Err(reason) => Status::Stopped(reason),
@@ -36,9 +32,9 @@ pub fn track<const D: usize>(
     record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
 }
 
-struct Paper<'a, const D: usize> {
+struct Paper<'a> {
     homotopy: &'a Homotopy,
-    equations: &'a Equations<D>,
+    equations: &'a Equations,
     inverter: InverseMaker,
     inverse: Matrix,
     values: Vec<f64>,
@@ -50,8 +46,8 @@ struct Paper<'a, const D: usize> {
     next_tangent: Vector,
 }
 
-impl<'a, const D: usize> Paper<'a, D> {
-    fn new(homotopy: &'a Homotopy, equations: &'a Equations<D>) -> Self {
+impl<'a> Paper<'a> {
+    fn new(homotopy: &'a Homotopy, equations: &'a Equations) -> Self {
         let vector = || equations.vector();
         let n = equations.n();
         Paper {
@@ -70,14 +66,13 @@ impl<'a, const D: usize> Paper<'a, D> {
     }
 
     /// c_i = |p_j − p_k| − a_i(t), equation (1) of the paper.
-    fn residual(homotopy: &Homotopy, equations: &Equations<D>, z: &[f64], out: &mut [f64]) {
+    fn residual(homotopy: &Homotopy, equations: &Equations, z: &[f64], out: &mut [f64]) {
         let t = z[equations.m];
         for (e, (length, f)) in homotopy.lengths.iter().zip(out).enumerate() {
-            let difference = |axis: usize| {
-                let [i, j] = equations.ends[axis][e];
-                z[i as usize] - z[j as usize]
-            };
-            let squared: f64 = (0..D).map(|axis| difference(axis).powi(2)).sum();
+            let ends = equations.ends.iter().map(|ends| ends[e]);
+            let squared: f64 = ends
+                .map(|[i, j]| (z[i as usize] - z[j as usize]).powi(2))
+                .sum();
             *f = squared.sqrt() - length.value(t);
         }
     }
@@ -110,7 +105,7 @@ impl<'a, const D: usize> Paper<'a, D> {
         &mut self,
         options: &Options,
         control: &mut Control,
-        record: &mut Record<D>,
+        record: &mut Record,
     ) -> Result<(), Stop> {
         let (m, n) = (self.equations.m, self.equations.n());
         for (x, &place) in self.z.iter_mut().zip(&self.homotopy.gauge.place) {
@@ -223,7 +218,7 @@ impl<'a, const D: usize> Paper<'a, D> {
     }
 
     /// A change of sign of t − 1 between two points is a solution.
-    fn look_for_solution(&mut self, record: &mut Record<D>) {
+    fn look_for_solution(&mut self, record: &mut Record) {
         let m = self.equations.m;
         let (a, b) = (self.z[m] - 1.0, self.next[m] - 1.0);
         if (a < 0.0) == (b < 0.0) {

@@ -14,11 +14,11 @@ const SAME_LENGTH: f64 = 1e-9;
 
 /// Solutions and counters of a run with some preconditioner.
 #[derive(Debug)]
-pub struct Record<const D: usize, Y = Matrix> {
+pub struct Record<Y = Matrix> {
     found: Vec<Vector>,
     /// Those of them that are flat figures at which the equations are dependent.
     flat: Vec<Vector>,
-    corrector: Local<D, { ORDER + 1 }, Y>,
+    corrector: Local<{ ORDER + 1 }, Y>,
     /// Accepted and rejected steps.
     pub steps: usize,
     /// See `steps`.
@@ -29,9 +29,9 @@ pub struct Record<const D: usize, Y = Matrix> {
     pub t_range: (f64, f64),
 }
 
-impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
+impl<Y: Preconditioner> Record<Y> {
     /// Nothing seen yet.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Record {
             found: Vec::new(),
             flat: Vec::new(),
@@ -52,7 +52,7 @@ impl<const D: usize, Y: Preconditioner<D>> Record<D, Y> {
     /// `None`: the method does not converge.
     pub fn solution(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut Y::Maker,
         guess: &[f64],
     ) -> Option<()> {

@@ -33,32 +33,28 @@ const FIRST_STEP: f64 = 0.01;
 const SMALLEST_STEP: f64 = 1e-10;
 
 /// Follows the path in the full space in floating point.
-pub fn track<const D: usize>(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Outcome {
+pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
     let clock = Instant::now();
-    let equations = Equations::<D>::new(homotopy);
+    let equations = Equations::new(homotopy);
     let mut maker = equations.inverter();
     let system = (&equations, &mut maker);
-    let (status, record) = follow_both_ways::<D, Matrix>(homotopy, system, options, control);
+    let (status, record) = follow_both_ways::<Matrix>(homotopy, system, options, control);
     record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
 }
 
 /// Follows the path one way with any preconditioner. The error: where and why it ended before it was back.
-pub fn follow<const D: usize, Y: Preconditioner<D>>(
+pub fn follow<Y: Preconditioner>(
     homotopy: &Homotopy,
-    (equations, inverter): (&Equations<D>, &mut Y::Maker),
+    (equations, inverter): (&Equations, &mut Y::Maker),
     options: &Options,
     control: &mut Control,
-    record: &mut Record<D, Y>,
+    record: &mut Record<Y>,
 ) -> Result<(), Halt> {
     let (m, n) = (equations.m, equations.n());
     let tolerance = options
         .tolerance_in(homotopy.unit)
         .unwrap_or(POINT_TOLERANCE);
-    let (mut now, mut next) = (Path::<D, Y>::new(equations), Path::<D, Y>::new(equations));
+    let (mut now, mut next) = (Path::<Y>::new(equations), Path::<Y>::new(equations));
     let mut sketch = equations.vector();
     for (x, exact) in sketch.iter_mut().zip(homotopy.sketch_of_unknowns()) {
         *x = exact.mid();
@@ -86,7 +82,7 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
     let mut step = FIRST_STEP.min(longest);
     let mut failure = "";
     loop {
-        let place = |record: &Record<D, Y>, now: &Path<D, Y>| {
+        let place = |record: &Record<Y>, now: &Path<Y>| {
             format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
         };
         if step < SMALLEST_STEP {
@@ -203,19 +199,19 @@ pub fn follow<const D: usize, Y: Preconditioner<D>>(
 }
 
 /// A point of the path with its expansion.
-type Path<const D: usize, Y> = Local<D, { ORDER + 1 }, Y>;
+type Path<Y> = Local<{ ORDER + 1 }, Y>;
 
 /// Finds what happens between two points of the path.
-struct Events<const D: usize> {
+struct Events {
     tolerance: f64,
     crossings: Vec<Crossing>,
-    room: CrossingRoom<D>,
+    room: CrossingRoom,
     scratch: Vector,
     other: Vector,
 }
 
-impl<const D: usize> Events<D> {
-    fn new(equations: &Equations<D>, tolerance: f64) -> Self {
+impl Events {
+    fn new(equations: &Equations, tolerance: f64) -> Self {
         Events {
             tolerance,
             crossings: Vec::new(),
@@ -228,14 +224,14 @@ impl<const D: usize> Events<D> {
     /// Records the solutions between two points: the first half of the way is read off the
     /// expansion at one, the second off the other. The error is the reason, for people: these do not
     /// meet in the middle, or the solutions could not be separated.
-    fn between<Y: Preconditioner<D>>(
+    fn between<Y: Preconditioner>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         inverter: &mut Y::Maker,
-        now: &Path<D, Y>,
-        next: &Path<D, Y>,
+        now: &Path<Y>,
+        next: &Path<Y>,
         step: f64,
-        record: &mut Record<D, Y>,
+        record: &mut Record<Y>,
     ) -> Result<(), &'static str> {
         const UNDECIDED: &str = "it cannot be told whether the path meets t = 1";
         // The expansions are off by 2^-(ORDER + 1) of the prediction's error at half the way, and
@@ -275,21 +271,16 @@ impl<const D: usize> Events<D> {
 
     /// The parameter at `next` of the point where the expansion at `now` is left for its own: the
     /// two have different normals, so it is not just the rest of the step.
-    fn middle<Y: Preconditioner<D>>(
-        &mut self,
-        now: &Path<D, Y>,
-        next: &Path<D, Y>,
-        half: f64,
-    ) -> f64 {
+    fn middle<Y: Preconditioner>(&mut self, now: &Path<Y>, next: &Path<Y>, half: f64) -> f64 {
         now.at(half, &mut self.scratch);
         next.parameter_of(&self.scratch)
     }
 
     /// The path's length from `now` to the parameter `at` of `next`.
-    fn length<Y: Preconditioner<D>>(
+    fn length<Y: Preconditioner>(
         &mut self,
-        now: &Path<D, Y>,
-        next: &Path<D, Y>,
+        now: &Path<Y>,
+        next: &Path<Y>,
         step: f64,
         at: f64,
         unit: f64,
@@ -301,12 +292,12 @@ impl<const D: usize> Events<D> {
 
     /// Whether the path, followed in `direction`, passed the sketch between two points: at which
     /// parameter of `next`, if so.
-    fn passes<Y: Preconditioner<D>>(
+    fn passes<Y: Preconditioner>(
         &mut self,
         sketch: &[f64],
         direction: &[f64],
-        now: &Path<D, Y>,
-        next: &Path<D, Y>,
+        now: &Path<Y>,
+        next: &Path<Y>,
         step: f64,
     ) -> Option<f64> {
         let n = sketch.len() - 1;
@@ -335,7 +326,7 @@ impl<const D: usize> Events<D> {
 }
 
 /// The value of t where its slope vanishes, by bisection.
-fn extreme<const D: usize, Y>(local: &Path<D, Y>, from: f64, to: f64, t: usize) -> f64 {
+fn extreme<Y>(local: &Path<Y>, from: f64, to: f64, t: usize) -> f64 {
     let slope = |s: f64| {
         (1..=ORDER)
             .rev()

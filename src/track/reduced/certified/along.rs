@@ -12,18 +12,18 @@ use crate::track::full::{Equations, MAX_DEGREE};
 
 /// Sizes over a tube of a length that was chosen last.
 #[derive(Debug)]
-pub struct Along<const D: usize> {
+pub struct Along {
     /// 1, h, h², …
     pub powers: [f64; DEGREE + 1],
     /// Σ_{k≥j} |d_k| hᵏ for j = 0, 1, 2, 3, 4, 5, by axis and distance.
-    pub all: [Vector; D],
-    from1: [Vector; D],
-    pub from2: [Vector; D],
-    pub from3: [Vector; D],
-    pub from4: [Vector; D],
-    pub from5: [Vector; D],
+    pub all: Vec<Vector>,
+    from1: Vec<Vector>,
+    pub from2: Vec<Vector>,
+    pub from3: Vec<Vector>,
+    pub from4: Vec<Vector>,
+    pub from5: Vec<Vector>,
     /// Σ k |d_k| hᵏ⁻¹.
-    pub slopes: [Vector; D],
+    pub slopes: Vec<Vector>,
     /// F(ẑ(s)) by distance, with rounding and the radii of lengths: what does not get smaller with s,
     /// and what does like s^COEFFICIENTS.
     pub low: Vector,
@@ -44,19 +44,18 @@ pub struct Along<const D: usize> {
     coefficient: Vector,
 }
 
-impl<const D: usize> Along<D> {
+impl Along {
     /// Room for them.
-    pub fn new(equations: &Equations<D>) -> Self {
-        let per_axis = || std::array::from_fn(|_| equations.per_edge());
+    pub fn new(equations: &Equations) -> Self {
         Along {
             powers: [1.0; DEGREE + 1],
-            all: per_axis(),
-            from1: per_axis(),
-            from2: per_axis(),
-            from3: per_axis(),
-            from4: per_axis(),
-            from5: per_axis(),
-            slopes: per_axis(),
+            all: equations.per_axis(),
+            from1: equations.per_axis(),
+            from2: equations.per_axis(),
+            from3: equations.per_axis(),
+            from4: equations.per_axis(),
+            from5: equations.per_axis(),
+            slopes: equations.per_axis(),
             low: equations.per_edge(),
             high: equations.per_edge(),
             low_slope: equations.per_edge(),
@@ -73,8 +72,8 @@ impl<const D: usize> Along<D> {
     /// Measures all but F, with the values of the tail's entries order by order.
     pub fn measure(
         &mut self,
-        equations: &Equations<D>,
-        local: &Locals<D>,
+        equations: &Equations,
+        local: &Locals,
         entries: &[Vec<f64>; COEFFICIENTS],
         h: f64,
     ) {
@@ -84,7 +83,7 @@ impl<const D: usize> Along<D> {
         if !equations.tail.is_empty() {
             self.tail.measure(equations, local, entries, hs);
         }
-        for axis in 0..D {
+        for axis in 0..equations.dimension() {
             let d: [&[Lane]; COEFFICIENTS] = std::array::from_fn(|k| local.d[k][axis].lanes());
             let lanes = d[0].len();
             let d = d.map(|d| &d[..lanes]);
@@ -118,7 +117,7 @@ impl<const D: usize> Along<D> {
     }
 
     /// Measures F(ẑ(s)), after [`Along::measure`].
-    pub fn measure_residual(&mut self, equations: &Equations<D>, local: &Locals<D>) {
+    pub fn measure_residual(&mut self, equations: &Equations, local: &Locals) {
         let hs = &self.powers;
         self.low.fill(0.0);
         self.high.fill(0.0);
@@ -164,29 +163,27 @@ impl<const D: usize> Along<D> {
         // ≥ 0: the derivative by s is bounded by that by h, and what they have without k = 0 by
         // Σ (all − |d₀|)(all + |d₀|) and (T − |t₀|) |E|'(T).
         let (t0, away) = (local.z[0][equations.m].abs(), self.time.away);
-        let [all, slopes] = [&self.all, &self.slopes].map(|v| v.each_ref().map(|v| v.lanes()));
-        let d0 = local.d[0].each_ref().map(|d| d.lanes());
         let (sizes, radii) = (self.slope_size.lanes(), self.slope_radius.lanes());
         let lows = self.low.lanes_mut().iter_mut();
         for (l, (low, slope)) in lows.zip(self.low_slope.lanes_mut()).enumerate() {
-            for i in 0..LANE {
-                let (mut at_0, mut beyond, mut turned) = (0.0, 0.0, 0.0);
-                for axis in 0..D {
-                    let (d, from1, all) = (
-                        d0[axis][l][i].abs(),
-                        self.from1[axis].lanes()[l][i],
-                        all[axis][l][i],
-                    );
-                    at_0 += 0.5 * (d * d);
-                    beyond += from1 * (all + d);
-                    turned += 2.0 * (all * slopes[axis][l][i]);
+            let (mut at_0, mut beyond, mut turned) = ([0.0; LANE], [0.0; LANE], [0.0; LANE]);
+            for axis in 0..equations.dimension() {
+                let of = |vectors: &[Vector]| vectors[axis].lanes()[l];
+                let (d, from1) = (of(&local.d[0]).map(f64::abs), of(&self.from1));
+                let (all, slopes) = (of(&self.all), of(&self.slopes));
+                for i in 0..LANE {
+                    at_0[i] += 0.5 * (d[i] * d[i]);
+                    beyond[i] += from1[i] * (all[i] + d[i]);
+                    turned[i] += 2.0 * (all[i] * slopes[i]);
                 }
-                at_0 += e0[l][i].abs() + t0 * (e1[l][i].abs() + t0 * e2[l][i].abs());
-                beyond += away * sizes[l][i];
-                turned += sizes[l][i] * self.time.speed;
+            }
+            for i in 0..LANE {
+                at_0[i] += e0[l][i].abs() + t0 * (e1[l][i].abs() + t0 * e2[l][i].abs());
+                beyond[i] += away * sizes[l][i];
+                turned[i] += sizes[l][i] * self.time.speed;
                 let radius = r0[l][i] + t * (r1[l][i] + t * r2[l][i]);
-                low[i] += at_point * at_0 + rounding * beyond + radius;
-                slope[i] += rounding * turned + radii[l][i] * self.time.speed;
+                low[i] += at_point * at_0[i] + rounding * beyond[i] + radius;
+                slope[i] += rounding * turned[i] + radii[l][i] * self.time.speed;
             }
         }
         if !equations.tail.is_empty() {
@@ -202,7 +199,7 @@ impl<const D: usize> Along<D> {
     }
 
     /// Measures t, E' and E''.
-    fn measure_time(&mut self, equations: &Equations<D>, local: &Locals<D>) {
+    fn measure_time(&mut self, equations: &Equations, local: &Locals) {
         let hs = &self.powers;
         self.time = Time::new(std::array::from_fn(|k| local.z[k][equations.m]), hs);
         let tail = self.time.tail;
@@ -237,7 +234,7 @@ impl<const D: usize> Along<D> {
     }
 
     /// A bound on |ẑ_i'|.
-    pub fn slope_of(&self, local: &Locals<D>, i: usize) -> f64 {
+    pub fn slope_of(&self, local: &Locals, i: usize) -> f64 {
         (1..=ORDER)
             .map(|k| k as f64 * local.z[k][i].abs() * self.powers[k - 1])
             .sum()

@@ -22,10 +22,10 @@ const SHORT: f64 = 1e-3;
 /// Accuracy of the point there before it is proved.
 const POINT_TOLERANCE: f64 = 1e-11;
 
-impl<const D: usize> ReducedTest<D> {
+impl ReducedTest {
     /// Encloses the path's point in the cross-section at `exit_at`: Newton's method in floats; then, as
     /// Φ contracts by q, the path's point is at most |𝒴 G(w)|_ρ / (1 − q) from any w in the box.
-    pub(super) fn enclose(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
+    pub(super) fn enclose(&mut self, equations: &Equations, tube: &mut Tubes) -> Option<()> {
         let (m, n) = (equations.m, equations.n());
         let (local, s) = (&tube.local, tube.exit_at);
         let out = &mut tube.exit;
@@ -80,7 +80,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// F at the middle of a box, into `f`, and if wanted how far the exact value may be, into `hidden`.
-    fn residual_at(&mut self, equations: &Equations<D>, at: &Ball, with_error: bool) {
+    fn residual_at(&mut self, equations: &Equations, at: &Ball, with_error: bool) {
         equations.residual_at(
             (&at.centre, None),
             (&mut self.d, &mut self.lengths),
@@ -94,9 +94,9 @@ impl<const D: usize> ReducedTest<D> {
     /// a point. Its zero is the path's if it is in the long tube's box.
     pub(super) fn enclose_by_short_tube(
         &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tubes<D>,
-        short: &mut Tubes<D>,
+        equations: &Equations,
+        tube: &mut Tubes,
+        short: &mut Tubes,
     ) -> Option<()> {
         let at = tube.exit_at - BEFORE * tube.proof.h;
         tube.local.at(at, &mut short.local.z[0]);
@@ -111,9 +111,9 @@ impl<const D: usize> ReducedTest<D> {
     /// short tube `short`, in which what is known of the path there is given: any numbers will do.
     pub(in crate::track) fn enclose_by(
         &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tubes<D>,
-        short: &mut Tubes<D>,
+        equations: &Equations,
+        tube: &mut Tubes,
+        short: &mut Tubes,
     ) -> Option<()> {
         let (n, last) = (equations.n(), tube.exit_at);
         if !self.prove(equations, short, SHORT * tube.proof.h) {
@@ -153,12 +153,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// A bound on |𝒴 g|_ρ / (1 − q) for any g within `hidden` of `f`, entry by entry.
-    fn radius_from_defect(
-        &mut self,
-        equations: &Equations<D>,
-        y: &Reduction<D>,
-        q: f64,
-    ) -> Option<f64> {
+    fn radius_from_defect(&mut self, equations: &Equations, y: &Reduction, q: f64) -> Option<f64> {
         let (m, layout) = (equations.m, &y.elimination.layout);
         let sides = &mut self.sides;
         for e in 0..=m {
@@ -186,14 +181,9 @@ impl<const D: usize> ReducedTest<D> {
 }
 
 #[cfg(test)]
-impl<const D: usize> ReducedTest<D> {
+impl ReducedTest {
     /// The bound on |𝒴 g|_ρ / (1 − q) for this `g`.
-    pub fn radius_for(
-        &mut self,
-        equations: &Equations<D>,
-        tube: &Tubes<D>,
-        g: &[f64],
-    ) -> Option<f64> {
+    pub fn radius_for(&mut self, equations: &Equations, tube: &Tubes, g: &[f64]) -> Option<f64> {
         self.f[..g.len()].copy_from_slice(g);
         self.hidden.fill(0.0);
         self.radius_from_defect(equations, &tube.local.y, tube.proof.q)

@@ -14,14 +14,14 @@ use crate::track::reduced::structure::elimination::{Elimination, Maker};
 pub const SERIES: usize = 2;
 
 /// A tube of this space, and its polynomial.
-pub type Tubes<const D: usize> = Tube<D, COEFFICIENTS, Reduction<D>>;
+pub type Tubes = Tube<COEFFICIENTS, Reduction>;
 /// See [`Tubes`].
-pub type Locals<const D: usize> = Local<D, COEFFICIENTS, Reduction<D>>;
+pub type Locals = Local<COEFFICIENTS, Reduction>;
 
 /// Everything that a tube keeps: see `test.rs` for what it means.
 #[derive(Debug, Clone)]
-pub struct Reduction<const D: usize> {
-    pub elimination: Elimination<D>,
+pub struct Reduction {
+    pub elimination: Elimination,
     /// K₁, K₂; K₀ is the elimination's. A row per unknown and one of zeros.
     pub k: [Vec<Lane>; SERIES],
     /// Z₀, Z₁, Z₂: a row per equation, the normal's last.
@@ -32,16 +32,16 @@ pub struct Reduction<const D: usize> {
     pub z_size: Vec<Lane>,
     /// The box |v| ≤ ρ, by unknown.
     pub rho: Vector,
-    pub resolvent: Resolvent<D>,
+    pub resolvent: Resolvent,
     /// How fast the extent of a fixed point changes with s.
     pub speed: f64,
 }
 
-impl<const D: usize> Preconditioner<D> for Reduction<D> {
-    type Maker = Maker<D>;
+impl Preconditioner for Reduction {
+    type Maker = Maker;
     const FRESH: bool = true;
 
-    fn new(equations: &Equations<D>) -> Self {
+    fn new(equations: &Equations) -> Self {
         Reduction {
             elimination: Elimination::new(equations),
             k: Default::default(),
@@ -57,9 +57,9 @@ impl<const D: usize> Preconditioner<D> for Reduction<D> {
 
     fn make(
         &mut self,
-        maker: &mut Maker<D>,
-        equations: &Equations<D>,
-        at: (&Differences<D>, &Lengths, &Vector),
+        maker: &mut Maker,
+        equations: &Equations,
+        at: (&Differences, &Lengths, &Vector),
     ) -> Result<bool, Singular> {
         self.elimination.make(maker, equations, at)?;
         Ok(false)
@@ -69,12 +69,12 @@ impl<const D: usize> Preconditioner<D> for Reduction<D> {
         self.elimination.obstacle()
     }
 
-    fn solve(&self, equations: &Equations<D>, f: &[f64], out: &mut Vector) {
+    fn solve(&self, equations: &Equations, f: &[f64], out: &mut Vector) {
         self.elimination.solve(equations, f, out);
     }
 }
 
-impl<const D: usize> Reduction<D> {
+impl Reduction {
     fn extent_of<const W: usize>(
         &self,
         n: usize,
@@ -148,7 +148,7 @@ impl<const D: usize> Reduction<D> {
 /// of degree SERIES; relative to the bound over the tube, see `Reduction::extent_of`.
 const ROUNDING: f64 = 200.0 * f64::EPSILON;
 
-impl<const D: usize> Frame<D> for Reduction<D> {
+impl Frame for Reduction {
     /// v = T(s)⁻¹ w: the key unknowns' parts as they are, those of A's unknowns less K(s) times them.
     fn extent(
         &self,

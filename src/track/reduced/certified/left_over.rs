@@ -14,11 +14,11 @@ pub type Parts<const W: usize> = [Row<W>; 2];
 
 /// |Z J_A| ρ_A.
 #[inline(never)]
-pub fn of_z<const D: usize, const W: usize>(
-    equations: &Equations<D>,
-    y: &Reduction<D>,
-    series: &Series<D>,
-    along: &Along<D>,
+pub fn of_z<const W: usize>(
+    equations: &Equations,
+    y: &Reduction,
+    series: &Series,
+    along: &Along,
     rho_a: &[f64],
 ) -> Parts<W> {
     let hs = &along.powers;
@@ -41,7 +41,7 @@ pub fn of_z<const D: usize, const W: usize>(
     let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
     for e in 0..equations.tail.first() {
         let mut tails = [0.0; SERIES + 1];
-        for axis in 0..D {
+        for axis in 0..equations.dimension() {
             let [i, j] = equations.ends[axis][e];
             let both = rho_a[i as usize] + rho_a[j as usize];
             tails[0] += along.from4[axis][e] * both;
@@ -66,10 +66,10 @@ pub fn of_z<const D: usize, const W: usize>(
 
 /// |P S − V E − I| times the key unknowns' weights, but for what V E has at low orders by rounding.
 #[inline(never)]
-pub fn of_s<const D: usize, const W: usize>(
-    y: &Reduction<D>,
-    series: &Series<D>,
-    along: &Along<D>,
+pub fn of_s<const W: usize>(
+    y: &Reduction,
+    series: &Series,
+    along: &Along,
     kappa: &Row<W>,
 ) -> Parts<W> {
     let layout = &y.elimination.layout;

@@ -42,9 +42,9 @@ mod second {
 }
 
 /// Where bounds are taken.
-struct Place<'a, const D: usize, const W: usize> {
-    equations: &'a Equations<D>,
-    local: &'a Locals<D>,
+struct Place<'a, const W: usize> {
+    equations: &'a Equations,
+    local: &'a Locals,
     layout: &'a Layout,
     /// The key unknowns' weights, and what these are multiplied with for the box.
     kappa: Row<W>,
@@ -55,7 +55,7 @@ struct Place<'a, const D: usize, const W: usize> {
     roundings: usize,
 }
 
-impl<const D: usize, const W: usize> Place<'_, D, W> {
+impl<const W: usize> Place<'_, W> {
     fn up(&self, x: f64) -> f64 {
         round_up(x, self.roundings)
     }
@@ -71,13 +71,13 @@ impl<const D: usize, const W: usize> Place<'_, D, W> {
     }
 }
 
-impl<const D: usize> ReducedTest<D> {
+impl ReducedTest {
     /// Bounds for |s| ≤ `h` in a box that suits that length, which is put into the tube's frame. `None`:
     /// the bound on A(s)⁻¹ does not exist, or nothing is left to contract.
     pub(super) fn bounds<const W: usize>(
         &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tubes<D>,
+        equations: &Equations,
+        tube: &mut Tubes,
         h: f64,
     ) -> Option<Bounds> {
         let per_entry = gamma(equations.roundings().of_reduced_entry(MAX_KEYS));
@@ -112,7 +112,7 @@ impl<const D: usize> ReducedTest<D> {
         self.second_round(&place);
         self.add_second(&place, left, &mut bounds);
         let slope_of = |i: usize| self.along.slope_of(place.local, i);
-        let speed = place.up(speed::<D, W>(
+        let speed = place.up(speed::<W>(
             &place.local.y,
             &self.shape.rho,
             &bounds,
@@ -132,10 +132,7 @@ impl<const D: usize> ReducedTest<D> {
     /// of F what does not get smaller with s, of J T what gets smaller like s³, its change over the
     /// box, and of F what gets smaller. Chooses the scale of the box, and returns what the key
     /// unknowns' rows leave over.
-    fn first_round<const W: usize>(
-        &mut self,
-        place: &mut Place<D, W>,
-    ) -> Option<left_over::Parts<W>> {
+    fn first_round<const W: usize>(&mut self, place: &mut Place<W>) -> Option<left_over::Parts<W>> {
         let (equations, layout, y) = (place.equations, place.layout, &place.local.y);
         let (along, sides) = (&mut self.along, &mut self.sides);
         let t = equations.m;
@@ -148,7 +145,7 @@ impl<const D: usize> ReducedTest<D> {
         let along = &*along;
         for e in 0..equations.m {
             let (mut cubic, mut width) = (along.slope_tails[e] * omega[t], 0.0);
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let ends = equations.ends[axis][e];
                 cubic += along.from5[axis][e] * both(moved0, ends)
                     + along.from4[axis][e] * both(moved1, ends)
@@ -202,13 +199,13 @@ impl<const D: usize> ReducedTest<D> {
     /// in what the key unknowns' rows leave over.
     fn add_first<const W: usize>(
         &mut self,
-        place: &Place<D, W>,
+        place: &Place<W>,
         left: left_over::Parts<W>,
         bounds: &mut Bounds,
     ) -> Row<W> {
         let (layout, scale, rho) = (place.layout, place.scale, &self.shape.rho);
         let [s_constant, _] = left;
-        let [z_constant, z_cubic] = left_over::of_z::<D, W>(
+        let [z_constant, z_cubic] = left_over::of_z::<W>(
             place.equations,
             &place.local.y,
             &self.series,
@@ -240,7 +237,7 @@ impl<const D: usize> ReducedTest<D> {
     /// What depends on the whole box: of J T what does not get smaller with s, its change over the
     /// box, what the box adds to the right-hand side of the path's derivative, and of F' what does not
     /// get smaller.
-    fn second_round<const W: usize>(&mut self, place: &Place<D, W>) {
+    fn second_round<const W: usize>(&mut self, place: &Place<W>) {
         let (equations, layout, local) = (place.equations, place.layout, place.local);
         let (along, sides) = (&mut self.along, &mut self.sides);
         let (m, n) = (equations.m, equations.n());
@@ -253,7 +250,7 @@ impl<const D: usize> ReducedTest<D> {
         let along = &*along;
         for e in 0..m {
             let (mut rounding, mut width, mut turn) = (0.0, 0.0, 0.0);
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let both = both(omega, equations.ends[axis][e]);
                 rounding += along.all[axis][e] * both;
                 width += both * both;
@@ -296,7 +293,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// The second round's shares.
-    fn add_second<const W: usize>(&self, place: &Place<D, W>, left: Row<W>, bounds: &mut Bounds) {
+    fn add_second<const W: usize>(&self, place: &Place<W>, left: Row<W>, bounds: &mut Bounds) {
         let n = place.equations.n();
         let (rho, omega) = (&self.shape.rho, &self.shape.omega);
         let mut add = |[constant, width, turn, slope]: [f64; LANE], left: f64, rho: f64| {
@@ -324,10 +321,10 @@ impl<const D: usize> ReducedTest<D> {
 }
 
 /// |A(s)⁻¹| for |s| ≤ h, into the frame, with the values of the tail's entries at orders 0 and 1. False: no bound was found.
-fn bound_inverse<const D: usize>(
-    equations: &Equations<D>,
-    local: &mut Locals<D>,
-    (along, entries): (&Along<D>, [&[f64]; 2]),
+fn bound_inverse(
+    equations: &Equations,
+    local: &mut Locals,
+    (along, entries): (&Along, [&[f64]; 2]),
     per_entry: f64,
     h: f64,
 ) -> bool {
@@ -347,7 +344,7 @@ fn bound_inverse<const D: usize>(
             *spread = from2 + per_entry * all;
         }
     }
-    let values = ([&local.d[0].axes, &local.d[1].axes], entries);
+    let values = ([&local.d[0][..], &local.d[1]], entries);
     let layout = &elimination.layout;
     resolvent.make(equations, layout, &elimination.inverses, values, h)
 }

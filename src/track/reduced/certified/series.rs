@@ -6,7 +6,7 @@ use super::frame::{Locals, SERIES};
 use crate::linalg::rstructure::{Lane, Row, add};
 use crate::linalg::{LANE, Vector};
 use crate::track::full::Equations;
-use crate::track::reduced::structure::passes::{Derivative, slices};
+use crate::track::reduced::structure::passes::Derivative;
 
 /// Orders of J K that are looked at with their signs: two more than the series have.
 pub const SIGNED: usize = SERIES + 2;
@@ -15,7 +15,7 @@ pub const SIGNED_LEFT: usize = SERIES + 1;
 
 /// What is left over, order by order, and work space.
 #[derive(Debug, Default)]
-pub struct Series<const D: usize> {
+pub struct Series {
     /// J K at s⁰ … s⁴: a row per distance, and one for the normal. The ignored ones are S.
     pub jk: [Vec<Lane>; SIGNED + 1],
     /// Zᵀ J at s⁰ … s³: a row per unknown, of which A's count.
@@ -27,9 +27,9 @@ pub struct Series<const D: usize> {
     t: Vec<Lane>,
 }
 
-impl<const D: usize> Series<D> {
+impl Series {
     /// Room for one.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Series {
             slopes: std::array::from_fn(|_| equations.per_edge()),
             entries: std::array::from_fn(|_| vec![0.0; equations.tail.entries()]),
@@ -38,7 +38,7 @@ impl<const D: usize> Series<D> {
     }
 
     /// Computes the series at a point where the elimination was made.
-    pub fn make<const W: usize>(&mut self, equations: &Equations<D>, local: &mut Locals<D>) {
+    pub fn make<const W: usize>(&mut self, equations: &Equations, local: &mut Locals) {
         let (m, n) = (equations.m, equations.n());
         self.set_slopes(equations, local);
         for (entries, d) in self.entries.iter_mut().zip(&local.d) {
@@ -46,9 +46,9 @@ impl<const D: usize> Series<D> {
         }
         let (d, y) = (&local.d, &mut local.y);
         let normal = &local.normal[..n];
-        let jacobians: [Derivative<D>; SIGNED + 1] = std::array::from_fn(|q| Derivative {
+        let jacobians: [Derivative; SIGNED + 1] = std::array::from_fn(|q| Derivative {
             ends: &equations.ends,
-            d: slices(&d[q]),
+            d: &d[q],
             slope: &self.slopes[q],
             t: m,
             tail: &equations.tail,
@@ -152,7 +152,7 @@ impl<const D: usize> Series<D> {
         }
     }
 
-    fn set_slopes(&mut self, equations: &Equations<D>, local: &Locals<D>) {
+    fn set_slopes(&mut self, equations: &Equations, local: &Locals) {
         self.slopes[0].copy_from_slice(&local.lengths.terms[1]);
         for q in 1..=SIGNED {
             let twice = 2.0 * local.z[q][equations.m];

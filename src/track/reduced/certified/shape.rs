@@ -37,7 +37,7 @@ pub struct Shape {
 
 impl Shape {
     /// Room for one.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         let mut weights = equations.vector();
         weights[..equations.n()].fill(1.0);
         Shape {
@@ -71,12 +71,7 @@ impl Shape {
 
     /// What key unknowns of the given weights take along for |s| ≤ h; and bounds on |K(s)|, |K'(s)| and
     /// |Z(s)| there, into the frame.
-    pub fn measure<const D: usize, const W: usize>(
-        &mut self,
-        y: &mut Reduction<D>,
-        kappa: &Row<W>,
-        h: f64,
-    ) {
+    pub fn measure<const W: usize>(&mut self, y: &mut Reduction, kappa: &Row<W>, h: f64) {
         let n = self.weights.len() - 1;
         let h2 = h * h;
         let resize = |rows: &mut Vec<Lane>, count: usize| rows.resize(count * W, [0.0; LANE]);

@@ -35,12 +35,12 @@ impl Sides {
     }
 
     /// More roundings than there are in a bound, the normal's row included.
-    pub fn roundings<const D: usize>(y: &Reduction<D>, m: usize) -> usize {
+    pub fn roundings(y: &Reduction, m: usize) -> usize {
         y.resolvent.roundings() + m + 10
     }
 
     /// Takes A's rows over from g.
-    pub fn gather<const D: usize>(&mut self, y: &Reduction<D>) {
+    pub fn gather(&mut self, y: &Reduction) {
         for block in &y.elimination.layout.blocks {
             for r in 0..block.size {
                 self.g_a[block.start + r] = self.g[block.rows[r] as usize];
@@ -50,7 +50,7 @@ impl Sides {
 
     /// Bounds on 𝒴 g over the tube whose frame is given, with `g` in the ignored equations and in |V| g_A,
     /// and `g_a` in |A⁻¹| g_A.
-    pub fn bound<const D: usize>(&mut self, equations: &Equations<D>, y: &Reduction<D>) {
+    pub fn bound(&mut self, equations: &Equations, y: &Reduction) {
         let layout = &y.elimination.layout;
         y.resolvent
             .bound(equations, layout, &self.g_a, &mut self.y_a, &mut self.a);

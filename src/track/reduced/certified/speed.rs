@@ -12,8 +12,8 @@ use crate::linalg::rstructure::{MAX_KEYS, Row};
 ///
 /// v_K' = −ẑ_K'. As A (K ẑ_K' − ẑ_A') = E ẑ_K' − F_A(ẑ)', v_A' = A⁻¹ (E ẑ_K' − F_A(ẑ)') − K' v_K; and
 /// |A⁻¹ E| ρ_K and |A⁻¹ F_A(ẑ)'| are among the things that the bounds bound.
-pub fn speed<const D: usize, const W: usize>(
-    y: &Reduction<D>,
+pub fn speed<const W: usize>(
+    y: &Reduction,
     rho: &[f64],
     bounds: &Bounds,
     slope_of: impl Fn(usize) -> f64,

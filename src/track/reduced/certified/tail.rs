@@ -27,7 +27,7 @@ pub struct TailSizes {
 
 impl TailSizes {
     /// Room for them.
-    pub fn new<const D: usize>(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         let tail = &equations.tail;
         let forms = || Forms::new(tail);
         TailSizes {
@@ -43,10 +43,10 @@ impl TailSizes {
     }
 
     /// Measures what does not depend on ω, from the tube's forms and the `values` of entries order by order.
-    pub fn measure<const D: usize>(
+    pub fn measure(
         &mut self,
-        equations: &Equations<D>,
-        local: &Locals<D>,
+        equations: &Equations,
+        local: &Locals,
         values: &[Vec<f64>; COEFFICIENTS],
         hs: &[f64; DEGREE + 1],
     ) {
@@ -96,13 +96,7 @@ impl TailSizes {
     }
 
     /// Σ |entry| u over the row of an equation.
-    pub fn times<const D: usize>(
-        &self,
-        equations: &Equations<D>,
-        e: usize,
-        entries: &[f64],
-        u: &[f64],
-    ) -> f64 {
+    pub fn times(&self, equations: &Equations, e: usize, entries: &[f64], u: &[f64]) -> f64 {
         let row = equations.tail.row_with(e, entries);
         row.fold(0.0, |sum: f64, (unknown, entry)| {
             entry.mul_add(u[unknown], sum)
@@ -110,7 +104,7 @@ impl TailSizes {
     }
 
     /// Measures what depends on the sizes ω of unknowns.
-    pub fn measure_in_box<const D: usize>(&mut self, equations: &Equations<D>, omega: &[f64]) {
+    pub fn measure_in_box(&mut self, equations: &Equations, omega: &[f64]) {
         let tail = &equations.tail;
         tail.sums(omega, &mut self.sums);
         self.width.fill(0.0);
@@ -122,9 +116,9 @@ impl TailSizes {
     /// Adds bounds on the products along ẑ, the terms without regard to signs: `at_point` times those at s = 0 and
     /// `rounding` times what higher orders add to `low`, and `rounding` times their derivative by s to `slope`.
     /// They are twice as much, as in `along.rs`.
-    pub fn add_terms<const D: usize>(
+    pub fn add_terms(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         (at_point, rounding): (f64, f64),
         (low, slope): (&mut Vector, &mut Vector),
     ) {

@@ -65,10 +65,10 @@ const NEAR: f64 = 0.7;
 
 /// Work space of the test.
 #[derive(Debug)]
-pub struct ReducedTest<const D: usize> {
-    maker: Maker<D>,
-    pub(super) series: Series<D>,
-    pub(super) along: Along<D>,
+pub struct ReducedTest {
+    maker: Maker,
+    pub(super) series: Series,
+    pub(super) along: Along,
     pub(super) shape: Shape,
     pub(super) sides: Sides,
     /// What bounds Φ(0), row by row, and all bounds, of the last attempt.
@@ -80,14 +80,14 @@ pub struct ReducedTest<const D: usize> {
     /// No coordinate of the path may be further than this from the tube's middle.
     pub(super) radius: f64,
     /// Work space for correcting points.
-    pub(super) there: Elimination<D>,
-    pub(super) d: Differences<D>,
+    pub(super) there: Elimination,
+    pub(super) d: Differences,
     pub(super) lengths: Lengths,
     pub(super) f: Vector,
     pub(super) hidden: Vector,
     pub(super) step: Vector,
     /// A very short tube, see `exit.rs`.
-    short: Option<Box<Tubes<D>>>,
+    short: Option<Box<Tubes>>,
     last_layout: Option<Arc<Layout>>,
     plan_changes: usize,
     tubes: usize,
@@ -95,12 +95,12 @@ pub struct ReducedTest<const D: usize> {
     most_driving: usize,
 }
 
-impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
-    type Frame = Reduction<D>;
+impl Test<COEFFICIENTS> for ReducedTest {
+    type Frame = Reduction;
     const SPACE: Space = Space::Reduced;
     const FORESEES: bool = true;
 
-    fn new(homotopy: &Homotopy, equations: &Equations<D>, options: &Options) -> Self {
+    fn new(homotopy: &Homotopy, equations: &Equations, options: &Options) -> Self {
         let m = equations.m;
         ReducedTest {
             maker: Maker::new(Order::new(homotopy, equations), options.alpha),
@@ -130,18 +130,14 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
 
     fn refine(
         &mut self,
-        equations: &Equations<D>,
-        local: &mut Locals<D>,
+        equations: &Equations,
+        local: &mut Locals,
         tolerance: f64,
     ) -> Result<(), RefineError> {
         local.refine(equations, &mut self.maker, tolerance, 8)
     }
 
-    fn expand(
-        &mut self,
-        equations: &Equations<D>,
-        local: &mut Locals<D>,
-    ) -> Result<(), RefineError> {
+    fn expand(&mut self, equations: &Equations, local: &mut Locals) -> Result<(), RefineError> {
         // The layout that was chosen at the prediction.
         self.maker.chooses = false;
         let made = local.precondition(equations, &mut self.maker);
@@ -158,7 +154,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         Ok(())
     }
 
-    fn prepare(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>, max_h: f64) {
+    fn prepare(&mut self, equations: &Equations, tube: &mut Tubes, max_h: f64) {
         // The first rounds find the weights, and how long tubes are.
         self.reach = reach(&tube.local);
         for _ in 0..12 {
@@ -174,7 +170,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         }
     }
 
-    fn prove(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>, max_h: f64) -> bool {
+    fn prove(&mut self, equations: &Equations, tube: &mut Tubes, max_h: f64) -> bool {
         let n = equations.n();
         self.shape.keep();
         let mut h = self.first_length(tube, max_h);
@@ -201,8 +197,8 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
 
     fn shortfall(
         &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tubes<D>,
+        equations: &Equations,
+        tube: &mut Tubes,
         max_h: f64,
     ) -> Option<Shortfall> {
         let longest = self.first_length(tube, max_h);
@@ -218,7 +214,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         }))
     }
 
-    fn accept(&mut self, tube: &Tubes<D>) {
+    fn accept(&mut self, tube: &Tubes) {
         self.expected = tube.proof.h;
         self.reach = reach(&tube.local);
         let layout = &tube.local.y.elimination.layout;
@@ -238,13 +234,13 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
         self.shape.restore();
     }
 
-    fn enclose_exit(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
+    fn enclose_exit(&mut self, equations: &Equations, tube: &mut Tubes) -> Option<()> {
         self.enclose(equations, tube)?;
         tube.exit_is_tight = false;
         Some(())
     }
 
-    fn tighten_exit(&mut self, equations: &Equations<D>, tube: &mut Tubes<D>) -> Option<()> {
+    fn tighten_exit(&mut self, equations: &Equations, tube: &mut Tubes) -> Option<()> {
         let mut short = self
             .short
             .take()
@@ -266,7 +262,7 @@ impl<const D: usize> Test<D, COEFFICIENTS> for ReducedTest<D> {
 }
 
 #[cfg(test)]
-impl<const D: usize> ReducedTest<D> {
+impl ReducedTest {
     /// The bounds of the last proof: constant, cubic, width, low, high, and the length they hold for.
     pub fn stated(&self) -> [f64; 6] {
         let b = &self.last;
@@ -274,12 +270,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// The bounds for |s| ≤ `h`, whether or not they prove anything, the series being made anew.
-    pub fn bounds_at(
-        &mut self,
-        equations: &Equations<D>,
-        tube: &mut Tubes<D>,
-        h: f64,
-    ) -> Option<Bounds> {
+    pub fn bounds_at(&mut self, equations: &Equations, tube: &mut Tubes, h: f64) -> Option<Bounds> {
         let (width, series) = (tube.local.y.elimination.reduced.width, &mut self.series);
         with_width!(width, series.make(equations, &mut tube.local));
         let bounds = with_width!(width, self.bounds(equations, tube, h))?;
@@ -299,7 +290,7 @@ impl<const D: usize> ReducedTest<D> {
     }
 
     /// How fast extents change in a box so many times as large as that of the last bounds.
-    pub fn speed_in(&self, tube: &Tubes<D>, factor: f64) -> f64 {
+    pub fn speed_in(&self, tube: &Tubes, factor: f64) -> f64 {
         let (y, b) = (&tube.local.y, &self.last);
         let rho: Vec<f64> = y.rho.iter().map(|rho| factor * rho).collect();
         let bounds = Bounds {
@@ -309,20 +300,20 @@ impl<const D: usize> ReducedTest<D> {
         };
         let slope_of = |i: usize| self.along.slope_of(&tube.local, i);
         let speed = match y.elimination.reduced.width {
-            1 => speed::<D, 1>(y, &rho, &bounds, slope_of),
-            2 => speed::<D, 2>(y, &rho, &bounds, slope_of),
-            3 => speed::<D, 3>(y, &rho, &bounds, slope_of),
-            4 => speed::<D, 4>(y, &rho, &bounds, slope_of),
-            6 => speed::<D, 6>(y, &rho, &bounds, slope_of),
-            _ => speed::<D, 8>(y, &rho, &bounds, slope_of),
+            1 => speed::<1>(y, &rho, &bounds, slope_of),
+            2 => speed::<2>(y, &rho, &bounds, slope_of),
+            3 => speed::<3>(y, &rho, &bounds, slope_of),
+            4 => speed::<4>(y, &rho, &bounds, slope_of),
+            6 => speed::<6>(y, &rho, &bounds, slope_of),
+            _ => speed::<8>(y, &rho, &bounds, slope_of),
         };
         round_up(speed, y.resolvent.roundings() + 1000)
     }
 }
 
-impl<const D: usize> ReducedTest<D> {
+impl ReducedTest {
     /// The length for which bounds are taken first.
-    fn first_length(&self, tube: &Tubes<D>, max_h: f64) -> f64 {
+    fn first_length(&self, tube: &Tubes, max_h: f64) -> f64 {
         let reach = reach(&tube.local) / self.reach;
         (GROWTH * self.expected * reach.clamp(1.0 / CHANGE, CHANGE))
             .min(max_h)
@@ -332,7 +323,7 @@ impl<const D: usize> ReducedTest<D> {
 
 /// How far a polynomial is of use: where its last coefficients become as large as its first, in floats.
 /// The lengths of tubes are nearly in proportion.
-fn reach<const D: usize>(local: &Locals<D>) -> f64 {
+fn reach(local: &Locals) -> f64 {
     let size = |k: usize| local.z[k].iter().fold(0.0f64, |max, x| max.max(x.abs()));
     let first = size(1);
     let of = |k: usize| (first / size(k)).powf(1.0 / (k as f64 - 1.0));

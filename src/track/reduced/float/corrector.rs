@@ -70,9 +70,9 @@ impl Corrector {
     /// Takes over a plan at the point `z` of the path: parameters, derivatives, and the tangent,
     /// which is written to `tangent`. It keeps the direction that `tangent` has. (RR 8705, section
     /// 7.1, translates the last tangent with ϕ'; here it is at hand in the full space.)
-    pub fn settle<const D: usize>(
+    pub fn settle(
         &mut self,
-        evaluation: &mut Evaluation<D>,
+        evaluation: &mut Evaluation,
         z: &[f64],
         tangent: &mut [f64],
         fresh: &mut [f64],
@@ -98,19 +98,19 @@ impl Corrector {
     }
 
     /// Derivatives and factorization at the last evaluation.
-    fn differentiate<const D: usize>(&mut self, evaluation: &mut Evaluation<D>) -> bool {
+    fn differentiate(&mut self, evaluation: &mut Evaluation) -> bool {
         evaluation.differentiate();
         evaluation.column_sizes(&mut self.sizes);
         self.factorize(evaluation)
     }
 
-    fn factorize<const D: usize>(&mut self, evaluation: &Evaluation<D>) -> bool {
+    fn factorize(&mut self, evaluation: &Evaluation) -> bool {
         self.there
             .factorize(evaluation.driving(), evaluation.jacobian(), &self.sizes)
     }
 
     /// q −= step, and the figure that goes with it to first order.
-    fn move_by_step<const D: usize>(&mut self, evaluation: &Evaluation<D>, z: &mut [f64]) -> f64 {
+    fn move_by_step(&mut self, evaluation: &Evaluation, z: &mut [f64]) -> f64 {
         for (j, q) in self.q.iter_mut().enumerate() {
             *q -= lane(&self.step, j);
         }
@@ -130,12 +130,7 @@ impl Corrector {
     ///
     /// A correction that finds the derivatives changed since they were computed computes them
     /// anew; otherwise matrix and tangent are those of the first point.
-    pub fn correct<const D: usize>(
-        &mut self,
-        evaluation: &mut Evaluation<D>,
-        h: f64,
-        next: &mut PathPoint,
-    ) -> bool {
+    pub fn correct(&mut self, evaluation: &mut Evaluation, h: f64, next: &mut PathPoint) -> bool {
         let PathPoint { z, tangent } = next;
         if !self.differentiate(evaluation) {
             return false;
@@ -195,16 +190,16 @@ impl Corrector {
     /// A step as in RR 8705, section 7.1, of length `delta` in the driving parameters and t, from the
     /// point `z`. Derivatives are finite differences. Returns the distance of the figure found from
     /// the one on the tangent, or none where Newton's method does not converge.
-    pub fn predict_and_correct<const D: usize>(
+    pub fn predict_and_correct(
         &mut self,
-        evaluation: &mut Evaluation<D>,
+        evaluation: &mut Evaluation,
         z: &[f64],
         delta: f64,
         next: &mut PathPoint,
-        differences: &mut Differences<D>,
+        differences: &mut Differences,
     ) -> Option<f64> {
         evaluation.parameters(&z[..self.places], z[self.places], &mut self.q);
-        let mut tangent = |this: &mut Self, evaluation: &mut Evaluation<D>| {
+        let mut tangent = |this: &mut Self, evaluation: &mut Evaluation| {
             let inside = evaluation.difference(&this.q, DIFFERENCE, differences);
             evaluation.column_sizes(&mut this.sizes);
             (inside && this.factorize(evaluation)).then_some(())
@@ -259,9 +254,9 @@ impl Corrector {
     /// Newton's method to the end of precision, from the guess `z`, with one parameter fixed: t
     /// where `at` is none, and otherwise the one that moves most along the path, which takes the
     /// value it has at the point `at`. Writes the point found over `z`.
-    pub fn refine<const D: usize>(
+    pub fn refine(
         &mut self,
-        evaluation: &mut Evaluation<D>,
+        evaluation: &mut Evaluation,
         at: Option<&[f64]>,
         z: &mut [f64],
     ) -> bool {
@@ -316,8 +311,8 @@ impl Corrector {
 
 /// Lifts a vector of the null space to the full space and makes it a unit vector there, pointing
 /// this way (1) or the other (-1).
-fn lift_unit<const D: usize>(
-    evaluation: &Evaluation<D>,
+fn lift_unit(
+    evaluation: &Evaluation,
     direction: &[Lanes],
     places: usize,
     way: f64,

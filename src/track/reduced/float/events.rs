@@ -17,7 +17,7 @@ pub(super) enum Events {
     Unclear,
 }
 
-impl<const D: usize> Tracker<'_, D> {
+impl Tracker<'_> {
     /// Looks at the piece from the current point to the next, `h` long. `error` is about how
     /// far it may be from the cubic.
     pub(super) fn look_between(&mut self, h: f64, error: f64) -> Events {

@@ -37,30 +37,25 @@ const UNCLEAR: &str = "a solution or the sketch cannot be isolated, as if it wer
 /// Figures are taken for congruent if their distances agree to this, relative to their size.
 const CONGRUENT: f64 = 1e-8;
 
-/// Follows the path through the sketch in the reduced space; `D` is the homotopy's dimension.
+/// Follows the path through the sketch in the reduced space.
 ///
 /// For [`Preset::Paper`] the homotopy should be in the problem's own unit
 /// ([`Homotopy::with_unit`] with 1). What comes out is an observation: nothing is proved. A run
 /// that cannot go on ends [`Status::Stopped`], with what it has found.
-pub fn track<const D: usize>(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Outcome {
-    assert_eq!(homotopy.dimension, D);
+pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
     if !homotopy.tail.is_empty() {
-        return structured::track::<D>(homotopy, options, control);
+        return structured::track(homotopy, options, control);
     }
-    Tracker::<D>::new(homotopy, options).run(control)
+    Tracker::new(homotopy, options).run(control)
 }
 
 /// What moves while the path is followed.
-struct Tracker<'a, const D: usize> {
+struct Tracker<'a> {
     homotopy: &'a Homotopy,
     options: &'a Options,
     started: Instant,
     plan: Plan,
-    evaluation: Evaluation<D>,
+    evaluation: Evaluation,
     corrector: Corrector,
     start: PathPoint,
     /// The point before the current one and the arc length from it, once there is one.
@@ -81,7 +76,7 @@ struct Tracker<'a, const D: usize> {
     solutions: Vec<Vec<f64>>,
 }
 
-impl<'a, const D: usize> Tracker<'a, D> {
+impl<'a> Tracker<'a> {
     fn new(homotopy: &'a Homotopy, options: &'a Options) -> Self {
         let started = Instant::now();
         let plan = Plan::derive(homotopy);
@@ -257,9 +252,9 @@ impl<'a, const D: usize> Tracker<'a, D> {
             .solutions
             .iter()
             .map(|figure| {
-                let points = figure.as_chunks::<D>().0.iter();
+                let points = figure.chunks_exact(self.homotopy.dimension);
                 points
-                    .map(|p| std::array::from_fn(|k| if k < D { p[k] * unit } else { 0.0 }))
+                    .map(|p| std::array::from_fn(|k| p.get(k).map_or(0.0, |x| x * unit)))
                     .collect()
             })
             .collect();

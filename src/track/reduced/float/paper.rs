@@ -9,7 +9,7 @@ use crate::track::{Control, Status, StopKind};
 /// δmax in the reduced space (RR 8705, section 7.3.1).
 pub const LONGEST_STEP: f64 = 0.05;
 
-impl<const D: usize> Tracker<'_, D> {
+impl Tracker<'_> {
     /// Algorithm 1 with the path tracking of section 7.1.
     pub(super) fn follow_as_in_the_paper(&mut self, control: &mut Control) -> Status {
         let longest = self
@@ -33,7 +33,7 @@ impl<const D: usize> Tracker<'_, D> {
         &mut self,
         delta: &mut f64,
         longest: f64,
-        differences: &mut Differences<D>,
+        differences: &mut Differences,
     ) -> Result<(), Status> {
         if self.steps >= self.options.max_steps {
             return Err(self.stopped(StopKind::Limit, "the limit on steps is reached"));

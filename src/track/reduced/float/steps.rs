@@ -52,7 +52,7 @@ enum Attempt {
     Failed,
 }
 
-impl<const D: usize> Tracker<'_, D> {
+impl Tracker<'_> {
     /// Algorithm 1 with adaptive steps.
     pub(super) fn follow(&mut self, control: &mut Control) -> Status {
         let longest = self

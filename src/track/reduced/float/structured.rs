@@ -13,13 +13,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Follows the path through the sketch.
-pub fn track<const D: usize>(
-    homotopy: &Homotopy,
-    options: &Options,
-    control: &mut Control,
-) -> Outcome {
+pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
     let clock = Instant::now();
-    let equations = Equations::<D>::new(homotopy);
+    let equations = Equations::new(homotopy);
     let mut plans = Plans {
         maker: Maker::new(Order::new(homotopy, &equations), options.alpha),
         last: None,
@@ -29,7 +25,7 @@ pub fn track<const D: usize>(
         most: 0,
     };
     let given = (&equations, &mut plans);
-    let (status, record) = follow_both_ways::<D, Structured<D>>(homotopy, given, options, control);
+    let (status, record) = follow_both_ways::<Structured>(homotopy, given, options, control);
     let outcome = record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64());
     Outcome {
         space: Space::Reduced,
@@ -44,8 +40,8 @@ pub fn track<const D: usize>(
 
 /// What makes eliminations, and how they were.
 #[derive(Debug)]
-struct Plans<const D: usize> {
-    maker: Maker<D>,
+struct Plans {
+    maker: Maker,
     last: Option<Arc<Layout>>,
     changes: usize,
     made: usize,
@@ -55,21 +51,21 @@ struct Plans<const D: usize> {
 }
 
 #[derive(Debug, Clone)]
-struct Structured<const D: usize>(Elimination<D>);
+struct Structured(Elimination);
 
-impl<const D: usize> Preconditioner<D> for Structured<D> {
-    type Maker = Plans<D>;
+impl Preconditioner for Structured {
+    type Maker = Plans;
     const FRESH: bool = false;
 
-    fn new(equations: &Equations<D>) -> Self {
+    fn new(equations: &Equations) -> Self {
         Structured(Elimination::new(equations))
     }
 
     fn make(
         &mut self,
-        plans: &mut Plans<D>,
-        equations: &Equations<D>,
-        at: (&Differences<D>, &Lengths, &Vector),
+        plans: &mut Plans,
+        equations: &Equations,
+        at: (&Differences, &Lengths, &Vector),
     ) -> Result<bool, Singular> {
         self.0.make(&mut plans.maker, equations, at)?;
         let layout = &self.0.layout;
@@ -87,7 +83,7 @@ impl<const D: usize> Preconditioner<D> for Structured<D> {
         self.0.obstacle()
     }
 
-    fn solve(&self, equations: &Equations<D>, f: &[f64], out: &mut Vector) {
+    fn solve(&self, equations: &Equations, f: &[f64], out: &mut Vector) {
         self.0.solve(equations, f, out);
     }
 }

@@ -23,10 +23,7 @@ fn run_with(problem: &Problem, options: &Options, control: &mut Control) -> Outc
         Preset::Default => Homotopy::new(problem).unwrap(),
         Preset::Paper => Homotopy::with_unit(problem, 1.0).unwrap(),
     };
-    match problem.dimension {
-        2 => track::<2>(&homotopy, options, control),
-        _ => track::<3>(&homotopy, options, control),
-    }
+    track(&homotopy, options, control)
 }
 
 fn run(problem: &Problem, options: &Options) -> Outcome {

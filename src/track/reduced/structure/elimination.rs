@@ -1,7 +1,7 @@
 //! Elimination through the R-structure at one point: what refines and expands the path.
 
 use super::layout::{Layout, Order};
-use super::passes::{Derivative, Inverses, slices};
+use super::passes::{Derivative, Inverses};
 use super::substitution::Substitution;
 use crate::linalg::rstructure::{
     Blocks, Elimination as Reduced, MAX_KEYS, Row, Solves, add, zeros,
@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 /// What is kept from one point to the next.
 #[derive(Debug, Clone)]
-pub struct Maker<const D: usize> {
-    order: Order<D>,
+pub struct Maker {
+    order: Order,
     layout: Arc<Layout>,
     /// Work space.
     candidate: Layout,
@@ -22,9 +22,9 @@ pub struct Maker<const D: usize> {
     pub chooses: bool,
 }
 
-impl<const D: usize> Maker<D> {
+impl Maker {
     /// Nothing is chosen until the first point.
-    pub fn new(order: Order<D>, alpha: f64) -> Self {
+    pub fn new(order: Order, alpha: f64) -> Self {
         let alpha = (SINES * alpha).min(0.5);
         Maker {
             order,
@@ -42,12 +42,12 @@ const SINES: f64 = 2.5;
 
 /// The factors at one point.
 #[derive(Debug, Clone)]
-pub struct Elimination<const D: usize> {
+pub struct Elimination {
     pub layout: Arc<Layout>,
     pub inverses: Inverses,
     /// K₀ = −A⁻¹H, a row per unknown and one of zeros, and S₀⁻¹ transposed, the normal's row last.
     pub reduced: Reduced,
-    d: [Vector; D],
+    d: Vec<Vector>,
     slope: Vector,
     normal: Vector,
     /// Values of the tail's entries.
@@ -56,14 +56,14 @@ pub struct Elimination<const D: usize> {
     substitution: Substitution,
 }
 
-impl<const D: usize> Elimination<D> {
+impl Elimination {
     /// Room for one.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Elimination {
             layout: Arc::new(Layout::default()),
             inverses: Inverses::default(),
             reduced: Reduced::default(),
-            d: std::array::from_fn(|_| equations.per_edge()),
+            d: equations.per_axis(),
             slope: equations.per_edge(),
             normal: equations.vector(),
             entries: vec![0.0; equations.tail.entries()],
@@ -75,9 +75,9 @@ impl<const D: usize> Elimination<D> {
     /// choose.
     pub fn make(
         &mut self,
-        maker: &mut Maker<D>,
-        equations: &Equations<D>,
-        at: (&Differences<D>, &Lengths, &Vector),
+        maker: &mut Maker,
+        equations: &Equations,
+        at: (&Differences, &Lengths, &Vector),
     ) -> Result<(), Singular> {
         if !maker.chooses {
             let layout = self.layout.clone();
@@ -96,8 +96,8 @@ impl<const D: usize> Elimination<D> {
     pub fn make_like(
         &mut self,
         layout: &Arc<Layout>,
-        equations: &Equations<D>,
-        (d, lengths, normal): (&Differences<D>, &Lengths, &Vector),
+        equations: &Equations,
+        (d, lengths, normal): (&Differences, &Lengths, &Vector),
     ) -> Result<(), Singular> {
         self.layout = layout.clone();
         for (kept, d) in self.d.iter_mut().zip(&d.axes) {
@@ -125,7 +125,7 @@ impl<const D: usize> Elimination<D> {
     }
 
     /// [J; c] at this point, its diagonal blocks inverted.
-    fn bordered<'a>(&'a self, equations: &'a Equations<D>) -> Bordered<'a, D> {
+    fn bordered<'a>(&'a self, equations: &'a Equations) -> Bordered<'a> {
         Bordered {
             jacobian: self.jacobian(equations),
             layout: &self.layout,
@@ -149,7 +149,7 @@ impl<const D: usize> Elimination<D> {
 
     /// Whether det [J; c] is negative, as floats see it: A's blocks times S₀, and the order of rows and
     /// columns.
-    pub fn is_negative(&self, equations: &Equations<D>) -> bool {
+    pub fn is_negative(&self, equations: &Equations) -> bool {
         let layout = &*self.layout;
         let mut negative = self.reduced.is_negative;
         for (at, block) in layout.blocks.iter().enumerate() {
@@ -165,10 +165,10 @@ impl<const D: usize> Elimination<D> {
     }
 
     /// The Jacobian at this point.
-    pub fn jacobian<'a>(&'a self, equations: &'a Equations<D>) -> Derivative<'a, D> {
+    pub fn jacobian<'a>(&'a self, equations: &'a Equations) -> Derivative<'a> {
         Derivative {
             ends: &equations.ends,
-            d: slices(&self.d),
+            d: &self.d,
             slope: &self.slope,
             t: equations.m,
             tail: &equations.tail,
@@ -177,14 +177,14 @@ impl<const D: usize> Elimination<D> {
     }
 
     /// `x = [J; c]⁻¹ f`; entries of `f` beyond its end are zero.
-    pub fn solve(&self, equations: &Equations<D>, f: &[f64], x: &mut Vector) {
+    pub fn solve(&self, equations: &Equations, f: &[f64], x: &mut Vector) {
         self.reduced.solve(&self.bordered(equations), f, x);
     }
 }
 
 /// [J; c] with its diagonal blocks inverted, as elimination reads it.
-struct Bordered<'a, const D: usize> {
-    jacobian: Derivative<'a, D>,
+struct Bordered<'a> {
+    jacobian: Derivative<'a>,
     layout: &'a Layout,
     inverses: &'a Inverses,
     substitution: &'a Substitution,
@@ -193,7 +193,7 @@ struct Bordered<'a, const D: usize> {
     equations: usize,
 }
 
-impl<const D: usize> Blocks<f64> for Bordered<'_, D> {
+impl Blocks<f64> for Bordered<'_> {
     fn keys(&self) -> usize {
         self.layout.keys()
     }
@@ -229,7 +229,7 @@ impl<const D: usize> Blocks<f64> for Bordered<'_, D> {
     }
 }
 
-impl<const D: usize> Solves<f64> for Bordered<'_, D> {
+impl Solves<f64> for Bordered<'_> {
     fn substitute_one(&self, f: &[f64], x: &mut [f64]) {
         if self.jacobian.tail.is_empty() {
             self.jacobian.solve(self.layout, self.inverses, f, x);

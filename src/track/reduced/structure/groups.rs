@@ -2,13 +2,11 @@
 //! does point by point, for any groups of unknowns.
 
 use super::layout::{Block, Kind, Layout, WIDEST};
+use super::pivots::{Candidate, dot, take_best};
 use super::sequence::Group;
 use crate::linalg::LANE;
 use crate::linalg::rstructure::width_for;
 use crate::track::full::{Differences, Equations};
-
-/// One number for each unknown of a group.
-type Wide = [f64; WIDEST];
 
 /// Groups in an order, each with the equations that have others only from groups before it.
 #[derive(Debug, Clone, Default)]
@@ -62,15 +60,9 @@ enum Entry {
     Tail(usize),
 }
 
-#[derive(Debug, Clone)]
-struct Candidate {
-    row: Wide,
-    taken: bool,
-}
-
 impl Groups {
     /// Each equation goes to the last group that it has unknowns of; also returns those without any.
-    pub fn new<const D: usize>(groups: &[Group], equations: &Equations<D>) -> (Self, Vec<u32>) {
+    pub fn new(groups: &[Group], equations: &Equations) -> (Self, Vec<u32>) {
         // By unknown: the group, from 1 on, and the place in it.
         let mut rank = vec![(0, 0); equations.n() + 1];
         for (k, group) in groups.iter().enumerate() {
@@ -117,10 +109,10 @@ impl Groups {
 
     /// Splits unknowns and equations at a point with the differences `d`: see `Order::choose`, which leaves the
     /// equations without unknowns in `layout` and puts t there.
-    pub fn choose<const D: usize>(
+    pub fn choose(
         &mut self,
-        equations: &Equations<D>,
-        d: &Differences<D>,
+        equations: &Equations,
+        d: &Differences,
         alpha: f64,
         layout: &mut Layout,
     ) {
@@ -131,7 +123,7 @@ impl Groups {
     }
 
     /// Finds the pivots of all groups, as long as their worth is at least the square of `alpha`.
-    fn find_pivots<const D: usize>(&mut self, d: &Differences<D>, alpha: f64) {
+    fn find_pivots(&mut self, d: &Differences, alpha: f64) {
         for (Placed { group, rows }, pivots) in self.list.iter().zip(&mut self.pivots) {
             pivots.clear();
             let mut least = f64::INFINITY;
@@ -148,43 +140,21 @@ impl Groups {
                     .for_each(|&(place, entry)| own[place] = value(entry));
                 let others: f64 = row.others.iter().map(|&entry| value(entry).powi(2)).sum();
                 let long = dot(&own, &own).max(others).sqrt();
-                Candidate {
-                    row: divided(own, long),
-                    taken: false,
-                }
+                Candidate::new(own, long)
             }));
             let mut open = [false; WIDEST];
             open[..size].fill(true);
             for _ in 0..size {
-                let (mut best, mut most) = (None, alpha * alpha);
-                for (r, candidate) in self.rows.iter().enumerate() {
-                    let (worth, place) = candidate.worth(&open, size);
-                    if worth >= most {
-                        (best, most) = (Some((r, place)), worth);
-                    }
-                }
-                let Some((row, place)) = best else {
+                let best = take_best(&mut self.rows, &mut open, size, alpha * alpha);
+                let Some((row, place, worth)) = best else {
                     break;
                 };
-                let direction = self.rows[row].row;
-                let direction = divided(direction, dot(&direction, &direction).sqrt());
-                self.rows[row].taken = true;
-                open[place] = false;
-                least = least.min(most);
+                least = least.min(worth);
                 pivots.push(Pivot {
                     worth: least,
                     row,
                     place,
                 });
-                for Candidate { row, taken } in self.rows.iter_mut() {
-                    if *taken {
-                        continue;
-                    }
-                    let along = dot(row, &direction);
-                    for k in 0..size {
-                        row[k] -= along * direction[k];
-                    }
-                }
             }
         }
     }
@@ -254,7 +224,7 @@ impl Groups {
 }
 
 /// The free unknowns of an equation's row of the Jacobian, with their entries, t left out.
-fn entries_of<const D: usize>(equations: &Equations<D>, e: usize) -> Vec<(usize, Entry)> {
+fn entries_of(equations: &Equations, e: usize) -> Vec<(usize, Entry)> {
     let tail = &equations.tail;
     if e >= tail.first() {
         let row = tail.row(e);
@@ -273,30 +243,4 @@ fn entries_of<const D: usize>(equations: &Equations<D>, e: usize) -> Vec<(usize,
     entries
         .filter(|&(unknown, _)| unknown < equations.m)
         .collect()
-}
-
-impl Candidate {
-    /// The square of what is left of it, and the place of the pivot, of which it has at most √size times as much: where
-    /// the pivot is small it counts. Negative if there is nothing to be had.
-    fn worth(&self, open: &[bool; WIDEST], size: usize) -> (f64, usize) {
-        let (mut pivot, mut at) = (-1.0, 0);
-        for place in 0..size {
-            if open[place] && self.row[place].abs() >= pivot {
-                (pivot, at) = (self.row[place].abs(), place);
-            }
-        }
-        if self.taken || pivot < 0.0 {
-            return (-1.0, at);
-        }
-        let worth = dot(&self.row, &self.row).min(size as f64 * pivot * pivot);
-        (worth, at)
-    }
-}
-
-fn dot(a: &Wide, b: &Wide) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn divided(row: Wide, by: f64) -> Wide {
-    if by > 0.0 { row.map(|x| x / by) } else { row }
 }

@@ -1,6 +1,7 @@
 //! Which unknowns are key and which equations ignored at a point of the path.
 
 use super::groups::Groups;
+use super::pivots::{Candidate, dot, take_best};
 use super::sequence::{Group, groups_in_order};
 use crate::linalg::rstructure::MAX_KEYS;
 use crate::plan::Plan;
@@ -10,21 +11,21 @@ use crate::track::full::{Differences, Equations};
 /// The points in the order of a construction plan, each with its coordinates and the distances to
 /// points before it.
 #[derive(Debug, Clone)]
-pub struct Order<const D: usize> {
-    points: Vec<Placed<D>>,
+pub struct Order {
+    points: Vec<Placed>,
     /// Equations without any unknown.
     left: Vec<u32>,
     t: u32,
     /// Work space.
-    rows: Vec<Candidate<D>>,
+    rows: Vec<Candidate>,
     /// Groups of unknowns in the place of points, where there are other equations than distances.
     groups: Groups,
 }
 
 #[derive(Debug, Clone)]
-struct Placed<const D: usize> {
+struct Placed {
     /// Its unknowns per axis; fixed coordinates are the spare entry.
-    unknowns: [u32; D],
+    unknowns: Vec<u32>,
     /// Distances to points before it, and on which end it is: 1 for the first, −1 for the second.
     distances: Vec<(u32, f64)>,
 }
@@ -71,9 +72,9 @@ pub struct Layout {
     pub ignored: Vec<u32>,
 }
 
-impl<const D: usize> Order<D> {
+impl Order {
     /// The order of the plan that is derived for a problem of distances, or one like it for others.
-    pub fn new(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+    pub fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
         if equations.tail.is_empty() {
             Self::of_plan(homotopy, equations)
         } else {
@@ -81,7 +82,7 @@ impl<const D: usize> Order<D> {
         }
     }
 
-    fn of_groups(groups: &[Group], equations: &Equations<D>) -> Self {
+    fn of_groups(groups: &[Group], equations: &Equations) -> Self {
         let (groups, left) = Groups::new(groups, equations);
         Order {
             points: Vec::new(),
@@ -92,7 +93,7 @@ impl<const D: usize> Order<D> {
         }
     }
 
-    fn of_plan(homotopy: &Homotopy, equations: &Equations<D>) -> Self {
+    fn of_plan(homotopy: &Homotopy, equations: &Equations) -> Self {
         let edges: Vec<Edge> = homotopy.half_squares().collect();
         let plan = Plan::derive_for(homotopy, &edges);
         let constructed: Vec<usize> = plan.instructions.iter().map(|i| i.point).collect();
@@ -111,11 +112,14 @@ impl<const D: usize> Order<D> {
             distances[later].push((edge as u32, sign));
         }
         let spare = equations.n() as u32;
+        let unknown = |point, axis| {
+            homotopy
+                .coordinate(point, axis)
+                .map_or(spare, |free| free as u32)
+        };
+        let axes = 0..homotopy.dimension;
         let placed = |&point: &usize| Placed {
-            unknowns: std::array::from_fn(|axis| match homotopy.gauge.variable[point * D + axis] {
-                fixed if fixed == equations.m => spare,
-                free => free as u32,
-            }),
+            unknowns: axes.clone().map(|axis| unknown(point, axis)).collect(),
             distances: std::mem::take(&mut distances[point]),
         };
         Order {
@@ -135,8 +139,8 @@ impl<const D: usize> Order<D> {
     /// less is asked where that saves lanes (`groups.rs`).
     pub fn choose(
         &mut self,
-        equations: &Equations<D>,
-        d: &Differences<D>,
+        equations: &Equations,
+        d: &Differences,
         alpha: f64,
         layout: &mut Layout,
     ) {
@@ -152,81 +156,42 @@ impl<const D: usize> Order<D> {
         }
         let rows = &mut self.rows;
         for point in &self.points {
-            let free = point.unknowns.map(|unknown| unknown <= self.t);
+            let mut open = [false; WIDEST];
+            for (open, &unknown) in open.iter_mut().zip(&point.unknowns) {
+                *open = unknown <= self.t;
+            }
             rows.clear();
             rows.extend(point.distances.iter().map(|&(edge, _)| {
-                let row = std::array::from_fn(|axis| match free[axis] {
-                    true => d[axis][edge as usize],
-                    false => 0.0,
-                });
-                Candidate {
-                    row: scaled(row),
-                    taken: false,
+                let mut row = [0.0; WIDEST];
+                for ((x, d), _) in row
+                    .iter_mut()
+                    .zip(&d.axes)
+                    .zip(open)
+                    .filter(|(_, open)| *open)
+                {
+                    *x = d[edge as usize];
                 }
+                Candidate::new(row, dot(&row, &row).sqrt())
             }));
-            let mut open = free;
             let mut block = Block::empty(layout.order);
-            while block.size < free.iter().filter(|free| **free).count() {
-                let (mut best, mut most) = (None, alpha * alpha);
-                for (r, candidate) in rows.iter().enumerate() {
-                    let (worth, axis) = candidate.worth(&open);
-                    if worth >= most {
-                        (best, most) = (Some((r, axis)), worth);
-                    }
-                }
-                let Some((best, axis)) = best else {
-                    break;
-                };
-                let direction = scaled(rows[best].row);
-                rows[best].taken = true;
-                open[axis] = false;
+            while let Some((best, axis, _)) =
+                take_best(rows, &mut open, point.unknowns.len(), alpha * alpha)
+            {
                 block.insert((axis as u8, point.unknowns[axis]), point.distances[best]);
-                for Candidate { row, .. } in rows.iter_mut() {
-                    let along = dot(row, &direction);
-                    for k in 0..D {
-                        row[k] -= along * direction[k];
-                    }
+            }
+            for (candidate, distance) in rows.iter().zip(&point.distances) {
+                if !candidate.is_taken() {
+                    layout.ignored.push(distance.0);
                 }
             }
-            for (index, candidate) in rows.iter().enumerate() {
-                if !candidate.taken {
-                    layout.ignored.push(point.distances[index].0);
-                }
-            }
-            for axis in (0..D).filter(|&axis| open[axis]) {
-                layout.keys.push(point.unknowns[axis]);
-            }
+            let left = point.unknowns.iter().zip(open).filter(|(_, open)| *open);
+            layout.keys.extend(left.map(|(unknown, _)| unknown));
             layout.order += block.size;
             if block.size > 0 {
                 layout.blocks.push(block);
             }
         }
         layout.keys.push(self.t);
-    }
-}
-
-/// What is left of a distance's direction, and whether the distance was taken.
-#[derive(Debug, Clone)]
-struct Candidate<const D: usize> {
-    row: [f64; D],
-    taken: bool,
-}
-
-impl<const D: usize> Candidate<D> {
-    /// The square of its length, and the axis of the pivot, of which a direction has at most √D times
-    /// as much: where the pivot is small it counts. Negative if there is nothing to be had.
-    fn worth(&self, open: &[bool; D]) -> (f64, usize) {
-        let (mut pivot, mut at) = (-1.0, 0);
-        for axis in 0..D {
-            if open[axis] && self.row[axis].abs() >= pivot {
-                (pivot, at) = (self.row[axis].abs(), axis);
-            }
-        }
-        if self.taken || pivot < 0.0 {
-            return (-1.0, at);
-        }
-        let worth = dot(&self.row, &self.row).min(D as f64 * pivot * pivot);
-        (worth, at)
     }
 }
 
@@ -278,18 +243,5 @@ impl Layout {
     /// between two fixed coordinates.
     pub fn is_square(&self) -> bool {
         self.ignored.len() + 1 == self.keys.len()
-    }
-}
-
-fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    (0..D).map(|k| a[k] * b[k]).sum()
-}
-
-fn scaled<const D: usize>(row: [f64; D]) -> [f64; D] {
-    let size = dot(&row, &row).sqrt();
-    if size > 0.0 {
-        row.map(|x| x / size)
-    } else {
-        row
     }
 }

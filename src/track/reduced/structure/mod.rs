@@ -6,5 +6,6 @@ pub mod elimination;
 pub mod groups;
 pub mod layout;
 pub mod passes;
+mod pivots;
 mod sequence;
 mod substitution;

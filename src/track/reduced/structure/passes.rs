@@ -8,16 +8,16 @@
 
 use super::layout::{Block, Kind, Layout, WIDEST};
 use crate::linalg::rstructure::{Row, add, invert_transposed, zeros};
-use crate::linalg::{LANE, Vector};
+use crate::linalg::{LANE, Vector, with_axes};
 use crate::track::full::Tail;
 
 /// A derivative of the Jacobian along the path: differences per axis, the slopes of the right-hand sides,
 /// and the entries of the tail's rows.
 #[derive(Debug, Clone, Copy)]
-pub struct Derivative<'a, const D: usize> {
+pub struct Derivative<'a> {
     /// The ends of the distances, see [`crate::track::full::Equations::ends`].
-    pub ends: &'a [Vec<[u32; 2]>; D],
-    pub d: [&'a [f64]; D],
+    pub ends: &'a [Vec<[u32; 2]>],
+    pub d: &'a [Vector],
     pub slope: &'a [f64],
     /// Which unknown t is.
     pub t: usize,
@@ -26,11 +26,19 @@ pub struct Derivative<'a, const D: usize> {
     pub entries: &'a [f64],
 }
 
-impl<const D: usize> Derivative<'_, D> {
-    /// Row e of J K, but for the tail's entries.
+/// What a derivative has of distances, for inner loops over the axes.
+#[derive(Clone, Copy)]
+struct Head<'a, const D: usize> {
+    ends: [&'a [[u32; 2]]; D],
+    d: [&'a [f64]; D],
+    slope: &'a [f64],
+    t: usize,
+}
+
+impl<const D: usize> Head<'_, D> {
+    /// Adds row e of J K to `sum`.
     #[inline(always)]
-    fn row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
-        let mut sum = [[0.0; LANE]; W];
+    fn row<const W: usize>(&self, e: usize, k: &[Row<W>], mut sum: Row<W>) -> Row<W> {
         for axis in 0..D {
             let [i, j] = self.ends[axis][e];
             let (a, b, d) = (&k[i as usize], &k[j as usize], self.d[axis][e]);
@@ -44,10 +52,106 @@ impl<const D: usize> Derivative<'_, D> {
         sum
     }
 
+    /// Row e of J x.
+    #[inline(always)]
+    fn row_of(&self, e: usize, x: &[f64]) -> f64 {
+        let mut sum = -self.slope[e] * x[self.t];
+        for axis in 0..D {
+            let [i, j] = self.ends[axis][e];
+            sum = self.d[axis][e].mul_add(x[i as usize] - x[j as usize], sum);
+        }
+        sum
+    }
+
+    /// Sets the rows of a point's unknowns so that its rows of J K + what is `known` vanish.
+    #[inline(always)]
+    fn substitute<const W: usize>(
+        &self,
+        block: &Block,
+        inverse: &Inverse,
+        k: &mut [Row<W>],
+        known: &impl Fn(usize, &mut Row<W>),
+    ) {
+        let mut sums = [zeros(); 3];
+        for r in 0..block.size {
+            let e = block.rows[r] as usize;
+            sums[r] = self.row(e, k, zeros());
+            known(e, &mut sums[r]);
+        }
+        for c in 0..block.size {
+            let row = &mut k[block.unknowns[c] as usize];
+            for r in 0..block.size {
+                add(row, -inverse[c][r], &sums[r]);
+            }
+        }
+    }
+
+    /// Adds row e of J, times a row, to the rows of its unknowns.
+    #[inline(always)]
+    fn add_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
+        for axis in 0..D {
+            let [i, j] = self.ends[axis][e].map(|end| end as usize);
+            add(&mut out[i], self.d[axis][e], z);
+            add(&mut out[j], -self.d[axis][e], z);
+        }
+    }
+
+    /// Sets the rows of a point's equations so that its columns in T + Zᵀ J vanish.
+    #[inline(always)]
+    fn substitute_left<const W: usize>(
+        &self,
+        block: &Block,
+        inverse: &Inverse,
+        t: &mut [Row<W>],
+        z: &mut [Row<W>],
+    ) {
+        for r in 0..block.size {
+            let mut sum = [[0.0; LANE]; W];
+            for c in 0..block.size {
+                add(&mut sum, -inverse[c][r], &t[block.unknowns[c] as usize]);
+            }
+            let e = block.rows[r] as usize;
+            z[e] = sum;
+            for axis in 0..D {
+                let [i, j] = self.ends[axis][e].map(|end| end as usize);
+                let other = if block.signs[r] > 0.0 { j } else { i };
+                add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
+            }
+        }
+    }
+
+    /// Sets A's unknowns in `x` so that the rows of A in `f − J x` vanish.
+    fn solve(&self, layout: &Layout, inverses: &Inverses, f: &[f64], x: &mut [f64]) {
+        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
+            let mut rest = [0.0; 3];
+            for r in 0..block.size {
+                let e = block.rows[r] as usize;
+                rest[r] = f[e] - self.row_of(e, x);
+            }
+            for c in 0..block.size {
+                x[block.unknowns[c] as usize] =
+                    (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
+            }
+        }
+    }
+}
+
+impl<'a> Derivative<'a> {
+    #[inline(always)]
+    fn head<const D: usize>(&self) -> Head<'a, D> {
+        let first = self.tail.first();
+        Head {
+            ends: std::array::from_fn(|axis| &self.ends[axis][..first]),
+            d: std::array::from_fn(|axis| &self.d[axis][..first]),
+            slope: &self.slope[..first],
+            t: self.t,
+        }
+    }
+
     /// Row e of J K for any equation.
     pub fn any_row<const W: usize>(&self, e: usize, k: &[Row<W>]) -> Row<W> {
         match e < self.tail.first() {
-            true => self.row(e, k),
+            true => with_axes!(self.d.len(), D => self.head::<D>().row(e, k, zeros())),
             false => self.tail_row(e, k, zeros()),
         }
     }
@@ -116,27 +220,14 @@ impl<const D: usize> Derivative<'_, D> {
 
     /// `out += J K`.
     pub fn times<const W: usize>(&self, k: &[Row<W>], out: &mut [Row<W>]) {
-        let (m, first) = (self.slope.len(), self.tail.first());
-        let (ends, d) = (
-            self.ends.each_ref().map(|ends| &ends[..first]),
-            self.d.map(|d| &d[..first]),
-        );
-        let last = k[self.t];
-        for ((e, out), slope) in out[..first].iter_mut().enumerate().zip(self.slope) {
-            let mut sum = *out;
-            for axis in 0..D {
-                let [i, j] = ends[axis][e];
-                let (a, b, d) = (&k[i as usize], &k[j as usize], d[axis][e]);
-                for w in 0..W {
-                    for l in 0..LANE {
-                        sum[w][l] = d.mul_add(a[w][l] - b[w][l], sum[w][l]);
-                    }
-                }
+        let first = self.tail.first();
+        with_axes!(self.d.len(), D => {
+            let head = self.head::<D>();
+            for (e, out) in out[..first].iter_mut().enumerate() {
+                *out = head.row(e, k, *out);
             }
-            add(&mut sum, -slope, &last);
-            *out = sum;
-        }
-        for e in first..m {
+        });
+        for e in first..self.slope.len() {
             out[e] = self.tail_row(e, k, out[e]);
         }
     }
@@ -144,8 +235,8 @@ impl<const D: usize> Derivative<'_, D> {
     /// `out += Zᵀ J`, without t: rows per equation times J, one row per unknown.
     pub fn times_left<const W: usize>(&self, z: &[Row<W>], out: &mut [Row<W>]) {
         let first = self.tail.first();
-        for axis in 0..D {
-            for ((ends, d), z) in self.ends[axis][..first].iter().zip(self.d[axis]).zip(z) {
+        for (ends, d) in self.ends.iter().zip(self.d) {
+            for ((ends, d), z) in ends[..first].iter().zip(&d[..]).zip(z) {
                 let [i, j] = ends.map(|end| end as usize);
                 add(&mut out[i], *d, z);
                 add(&mut out[j], -*d, z);
@@ -162,11 +253,7 @@ impl<const D: usize> Derivative<'_, D> {
         if e >= self.tail.first() {
             return self.add_tail_left(e, z, out);
         }
-        for axis in 0..D {
-            let [i, j] = self.ends[axis][e].map(|end| end as usize);
-            add(&mut out[i], self.d[axis][e], z);
-            add(&mut out[j], -self.d[axis][e], z);
-        }
+        with_axes!(self.d.len(), D => self.head::<D>().add_left(e, z, out));
     }
 
     /// Sets the rows of A's unknowns so that the rows of A in J K + G vanish. They must be zero
@@ -178,7 +265,8 @@ impl<const D: usize> Derivative<'_, D> {
         g: &[Row<W>],
         k: &mut [Row<W>],
     ) {
-        self.substitute_with(layout, inverses, k, |e, sum| add(sum, 1.0, &g[e]));
+        let known = |e: usize, sum: &mut Row<W>| add(sum, 1.0, &g[e]);
+        with_axes!(self.d.len(), D => self.substitute_with::<D, W>(layout, inverses, k, &known));
     }
 
     /// Sets the rows of A's unknowns so that the rows of A in J K vanish. They must be zero before; those of key
@@ -189,47 +277,26 @@ impl<const D: usize> Derivative<'_, D> {
         inverses: &Inverses,
         k: &mut [Row<W>],
     ) {
-        self.substitute_with(layout, inverses, k, |_, _| {});
+        let known = |_, _: &mut Row<W>| {};
+        with_axes!(self.d.len(), D => self.substitute_with::<D, W>(layout, inverses, k, &known));
     }
 
     #[inline(always)]
-    fn substitute_with<const W: usize>(
+    fn substitute_with<const D: usize, const W: usize>(
         &self,
         layout: &Layout,
         inverses: &Inverses,
         k: &mut [Row<W>],
-        known: impl Fn(usize, &mut Row<W>),
-    ) {
-        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
-            match block.kind {
-                Kind::Point => self.substitute_point(block, inverse, k, &known),
-                Kind::Listed => self.substitute_listed(block, inverse, k, &known),
-                Kind::Wide(at) => {
-                    self.substitute_listed(block, &inverses.wide[at as usize], k, &known)
-                }
-            }
-        }
-    }
-
-    /// Sets the rows of a point's unknowns so that its rows of J K + what is `known` vanish.
-    #[inline(always)]
-    fn substitute_point<const W: usize>(
-        &self,
-        block: &Block,
-        inverse: &Inverse,
-        k: &mut [Row<W>],
         known: &impl Fn(usize, &mut Row<W>),
     ) {
-        let mut sums = [[[0.0; LANE]; W]; 3];
-        for r in 0..block.size {
-            let e = block.rows[r] as usize;
-            sums[r] = self.row(e, k);
-            known(e, &mut sums[r]);
-        }
-        for c in 0..block.size {
-            let row = &mut k[block.unknowns[c] as usize];
-            for r in 0..block.size {
-                add(row, -inverse[c][r], &sums[r]);
+        let head = self.head::<D>();
+        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
+            match block.kind {
+                Kind::Point => head.substitute(block, inverse, k, known),
+                Kind::Listed => self.substitute_listed(block, inverse, k, known),
+                Kind::Wide(at) => {
+                    self.substitute_listed(block, &inverses.wide[at as usize], k, known)
+                }
             }
         }
     }
@@ -243,9 +310,21 @@ impl<const D: usize> Derivative<'_, D> {
         t: &mut [Row<W>],
         z: &mut [Row<W>],
     ) {
+        with_axes!(self.d.len(), D => self.substitute_left_with::<D, W>(layout, inverses, t, z));
+    }
+
+    #[inline(always)]
+    fn substitute_left_with<const D: usize, const W: usize>(
+        &self,
+        layout: &Layout,
+        inverses: &Inverses,
+        t: &mut [Row<W>],
+        z: &mut [Row<W>],
+    ) {
+        let head = self.head::<D>();
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points).rev() {
             match block.kind {
-                Kind::Point => self.substitute_left_point(block, inverse, t, z),
+                Kind::Point => head.substitute_left(block, inverse, t, z),
                 Kind::Listed => self.substitute_left_listed(block, inverse, t, z),
                 Kind::Wide(at) => {
                     self.substitute_left_listed(block, &inverses.wide[at as usize], t, z)
@@ -254,63 +333,18 @@ impl<const D: usize> Derivative<'_, D> {
         }
     }
 
-    /// Sets the rows of a point's equations so that its columns in T + Zᵀ J vanish.
-    #[inline(always)]
-    fn substitute_left_point<const W: usize>(
-        &self,
-        block: &Block,
-        inverse: &Inverse,
-        t: &mut [Row<W>],
-        z: &mut [Row<W>],
-    ) {
-        for r in 0..block.size {
-            let mut sum = [[0.0; LANE]; W];
-            for c in 0..block.size {
-                add(&mut sum, -inverse[c][r], &t[block.unknowns[c] as usize]);
-            }
-            let e = block.rows[r] as usize;
-            z[e] = sum;
-            for axis in 0..D {
-                let [i, j] = self.ends[axis][e].map(|end| end as usize);
-                let other = if block.signs[r] > 0.0 { j } else { i };
-                add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
-            }
-        }
-    }
-
     /// Where all rows are distances (see [`Substitution`](super::substitution::Substitution) for others), sets A's unknowns
     /// in `x` so that the rows of A in `f − J x` vanish. They must be zero before; key unknowns stay as they are.
     pub fn solve(&self, layout: &Layout, inverses: &Inverses, f: &[f64], x: &mut [f64]) {
         debug_assert!(self.tail.is_empty());
-        for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
-            let mut rest = [0.0; 3];
-            for r in 0..block.size {
-                let e = block.rows[r] as usize;
-                rest[r] = f[e] - self.row_of(e, x);
-            }
-            for c in 0..block.size {
-                x[block.unknowns[c] as usize] =
-                    (0..block.size).map(|r| inverse[c][r] * rest[r]).sum();
-            }
-        }
-    }
-
-    /// Row e of J x, but for the tail's entries.
-    #[inline(always)]
-    fn row_of(&self, e: usize, x: &[f64]) -> f64 {
-        let mut sum = -self.slope[e] * x[self.t];
-        for axis in 0..D {
-            let [i, j] = self.ends[axis][e];
-            sum = self.d[axis][e].mul_add(x[i as usize] - x[j as usize], sum);
-        }
-        sum
+        with_axes!(self.d.len(), D => self.head::<D>().solve(layout, inverses, f, x));
     }
 
     /// Row e of J x for any equation.
     #[inline(always)]
     pub fn any_row_of(&self, e: usize, x: &[f64]) -> f64 {
         if e < self.tail.first() {
-            self.row_of(e, x)
+            with_axes!(self.d.len(), D => self.head::<D>().row_of(e, x))
         } else {
             self.tail_row_of(e, x)
         }
@@ -342,7 +376,7 @@ pub struct Inverses {
 
 impl Inverses {
     /// Inverts all diagonal blocks where all rows are distances.
-    pub fn make<const D: usize>(&mut self, layout: &Layout, j: &Derivative<D>) {
+    pub fn make(&mut self, layout: &Layout, j: &Derivative) {
         debug_assert!(j.tail.is_empty());
         self.clear();
         for block in &layout.blocks {
@@ -493,7 +527,7 @@ pub fn by_adjugate(a: &[[f64; 3]; 3]) -> Inverse {
 }
 
 /// The entries of a diagonal block whose rows are distances: `entries[row][column]`.
-fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
+fn entries(block: &Block, j: &Derivative) -> Inverse {
     let mut out = [[0.0; 3]; 3];
     for r in 0..block.size {
         let e = block.rows[r] as usize;
@@ -506,7 +540,7 @@ fn entries<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
 }
 
 /// The inverse of a diagonal block by its adjugate; what it is worth is found out elsewhere.
-fn invert<const D: usize>(block: &Block, j: &Derivative<D>) -> Inverse {
+fn invert(block: &Block, j: &Derivative) -> Inverse {
     inverse_of_small(&entries(block, j), block.size)
 }
 
@@ -524,11 +558,6 @@ fn inverse_of_small(a: &[[f64; 3]; 3], size: usize) -> Inverse {
         _ => out = by_adjugate(a),
     }
     out
-}
-
-/// Views of d as slices.
-pub fn slices<const D: usize>(d: &[Vector; D]) -> [&[f64]; D] {
-    d.each_ref().map(|d| &d[..])
 }
 
 #[cfg(test)]

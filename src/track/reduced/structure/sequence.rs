@@ -22,10 +22,7 @@ pub struct Group {
 /// Groups of unknowns in an order in which few of them have fewer equations with groups before them than they
 /// have unknowns. A group is the free coordinates of a point, or an auxiliary vector, or another auxiliary
 /// unknown, or several of these that are found together but not one after the other.
-pub fn groups_in_order<const D: usize>(
-    homotopy: &Homotopy,
-    equations: &Equations<D>,
-) -> Vec<Group> {
+pub fn groups_in_order(homotopy: &Homotopy, equations: &Equations) -> Vec<Group> {
     let groups = groups(homotopy, equations);
     let mut group_of = vec![usize::MAX; equations.m];
     for (g, group) in groups.iter().enumerate() {
@@ -69,10 +66,10 @@ pub fn groups_in_order<const D: usize>(
 }
 
 /// The groups, in the order of their unknowns.
-fn groups<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> Vec<Group> {
+fn groups(homotopy: &Homotopy, equations: &Equations) -> Vec<Group> {
     let m = equations.m;
     let of_point = |point: usize| {
-        let free = (0..D).filter_map(|axis| {
+        let free = (0..homotopy.dimension).filter_map(|axis| {
             let unknown = homotopy.coordinate(point, axis)?;
             Some((unknown as u32, axis as u8))
         });
@@ -84,13 +81,13 @@ fn groups<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> Vec<
     let mut next = m - homotopy.tail.unknowns.len();
     while next < m {
         // A vector's entries change their signs with one axis each, or each with all others.
-        let is_vector = next + D <= m
+        let dimension = homotopy.dimension;
+        let is_vector = next + dimension <= m
             && [false, true].into_iter().any(|others| {
-                (0..D).all(|k| {
-                    (0..D).all(|axis| homotopy.flips(next + k, axis) == ((k == axis) != others))
-                })
+                let flips = |k, axis| homotopy.flips(next + k, axis) == ((k == axis) != others);
+                (0..dimension).all(|k| (0..dimension).all(|axis| flips(k, axis)))
             });
-        let size = if is_vector { D } else { 1 };
+        let size = if is_vector { dimension } else { 1 };
         groups.push(Group {
             unknowns: (next..next + size).map(|unknown| unknown as u32).collect(),
             axes: Vec::new(),
@@ -101,7 +98,7 @@ fn groups<const D: usize>(homotopy: &Homotopy, equations: &Equations<D>) -> Vec<
 }
 
 /// The groups in each equation, each once.
-fn rows<const D: usize>(equations: &Equations<D>, group_of: &[usize]) -> Vec<Vec<usize>> {
+fn rows(equations: &Equations, group_of: &[usize]) -> Vec<Vec<usize>> {
     let of_row = |e: usize| {
         let head = equations.ends.iter().flat_map(|ends| ends[e]);
         let tail = equations.tail.row(e);

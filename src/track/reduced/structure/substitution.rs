@@ -20,12 +20,7 @@ const LATER: u8 = BEFORE - 1;
 
 impl Substitution {
     /// Lists the entries of A's rows at a point, and inverts its diagonal blocks.
-    pub fn make<const D: usize>(
-        &mut self,
-        layout: &Layout,
-        j: &Derivative<D>,
-        inverses: &mut Inverses,
-    ) {
+    pub fn make(&mut self, layout: &Layout, j: &Derivative, inverses: &mut Inverses) {
         self.places.clear();
         self.places.resize(j.t + 2, LATER);
         self.ends.clear();
@@ -47,11 +42,7 @@ impl Substitution {
     }
 
     /// Lists the entries of a block's rows before it. Returns those in it, `entries[row][column]`.
-    fn list_block<const D: usize, const K: usize>(
-        &mut self,
-        block: &Block,
-        j: &Derivative<D>,
-    ) -> [[f64; K]; K] {
+    fn list_block<const K: usize>(&mut self, block: &Block, j: &Derivative) -> [[f64; K]; K] {
         let mut near = [[0.0; K]; K];
         for (near, &e) in near.iter_mut().zip(&block.rows[..block.size]) {
             each_entry(j, e as usize, |unknown, entry| match self.places[unknown] {
@@ -106,7 +97,7 @@ impl Substitution {
 
 /// Calls a function with the unknowns of an equation's row of the Jacobian and their entries, t left out.
 #[inline(always)]
-fn each_entry<const D: usize>(j: &Derivative<D>, e: usize, mut to: impl FnMut(usize, f64)) {
+fn each_entry(j: &Derivative, e: usize, mut to: impl FnMut(usize, f64)) {
     if e < j.tail.first() {
         for (ends, d) in j.ends.iter().zip(j.d) {
             let [plus, minus] = ends[e].map(|end| end as usize);

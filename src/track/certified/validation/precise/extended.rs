@@ -26,7 +26,7 @@ struct Tally {
     least: f64,
 }
 
-fn check_tubes<const D: usize>(
+fn check_tubes(
     problem: &Problem,
     (tubes, rounds): (usize, usize),
     random: &mut Random,
@@ -34,7 +34,7 @@ fn check_tubes<const D: usize>(
 ) {
     let homotopy = Homotopy::new(problem).expect("a gauge");
     let figure = Figure::new(problem, &homotopy);
-    let mut workshop = Workshop::<D>::new(&homotopy, f64::INFINITY);
+    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     workshop.equations.extend(&homotopy);
     workshop.test.precision.extended = true;
     let chain = workshop.chain(&homotopy, 400);
@@ -88,10 +88,7 @@ fn extended_tubes_dominate_exact_values_near_singular_places() {
     };
     for problem in problems(&NAMES) {
         let (counts, out) = ((effort(12), 2), (&mut ratios, &mut tally));
-        match problem.dimension {
-            2 => check_tubes::<2>(&problem, counts, &mut random, out),
-            _ => check_tubes::<3>(&problem, counts, &mut random, out),
-        }
+        check_tubes(&problem, counts, &mut random, out)
     }
     println!("{tally:?}");
     // Far below what 53 bits can tell.
@@ -102,10 +99,10 @@ fn extended_tubes_dominate_exact_values_near_singular_places() {
     ratios.come_near(&[("distance", 0.2), ("slope_distance", 0.2)]);
 }
 
-fn check_boxes<const D: usize>(problem: &Problem, ratios: &mut Ratios) {
+fn check_boxes(problem: &Problem, ratios: &mut Ratios) {
     let homotopy = Homotopy::new(problem).expect("a gauge");
     let figure = Figure::new(problem, &homotopy);
-    let mut equations = Equations::<D>::new(&homotopy);
+    let mut equations = Equations::new(&homotopy);
     equations.extend(&homotopy);
     let mut inverter = equations.inverter();
     let mut prover = SolutionProver::new(&homotopy, &equations);
@@ -117,7 +114,7 @@ fn check_boxes<const D: usize>(problem: &Problem, ratios: &mut Ratios) {
     for solution in &outcome.solutions {
         let mut guess = equations.vector();
         for (v, &place) in homotopy.gauge.place.iter().enumerate() {
-            let (point, axis) = (place / D, place % D);
+            let (point, axis) = (place / homotopy.dimension, place % homotopy.dimension);
             guess[v] = solution.points[point][axis].mid() / homotopy.unit;
         }
         guess[m] = 1.0;
@@ -140,10 +137,7 @@ fn check_boxes<const D: usize>(problem: &Problem, ratios: &mut Ratios) {
 fn extended_boxes_hold_exact_solutions_near_singular_places() {
     let mut ratios = Ratios::default();
     for problem in problems(&NAMES) {
-        match problem.dimension {
-            2 => check_boxes::<2>(&problem, &mut ratios),
-            _ => check_boxes::<3>(&problem, &mut ratios),
-        }
+        check_boxes(&problem, &mut ratios)
     }
     assert!(ratios.count("solution") > 100);
     ratios.come_near(&[("solution", 1e-3)]);

@@ -98,14 +98,14 @@ fn check_box(figure: &Figure, fold: &Fold, random: &mut Random, ratios: &mut Rat
 }
 
 /// |I − Y Φ'(x + w)| ≤ q₀ + κ |w| in the norm of the largest entry.
-fn check_contraction<const D: usize>(
+fn check_contraction(
     (figure, homotopy): (&Figure, &Homotopy),
     fold: &Fold,
     random: &mut Random,
     ratios: &mut Ratios,
 ) {
     let m = figure.m;
-    let mut equations = Equations::<D>::new(homotopy);
+    let mut equations = Equations::new(homotopy);
     equations.set_rights(homotopy);
     let mut prover = FoldProver::new(&equations);
     let (mut x, mut v) = (equations.vector(), equations.vector());
@@ -211,10 +211,7 @@ fn check(
         return (false, seen);
     };
     check_box(&figure, fold, random, ratios);
-    match homotopy.dimension {
-        2 => check_contraction::<2>((&figure, homotopy), fold, random, ratios),
-        _ => check_contraction::<3>((&figure, homotopy), fold, random, ratios),
-    }
+    check_contraction((&figure, homotopy), fold, random, ratios);
     (true, seen)
 }
 

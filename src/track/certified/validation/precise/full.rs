@@ -11,7 +11,7 @@ use crate::track::certified::link::Ball;
 use crate::track::full::certified::norms::Norms;
 
 /// Ỹ(s) of `tube.rs`, its matrices taken for exact.
-fn preconditioner<const D: usize>(sample: &Sample<D>, s: &Big) -> Rows {
+fn preconditioner(sample: &Sample, s: &Big) -> Rows {
     let n = sample.a.rows();
     let entries = |matrix: &Matrix| -> Rows {
         let row = |i| (0..n).map(|j| Big::of(matrix.get(i, j))).collect();
@@ -59,12 +59,7 @@ fn norm_of(u: &[f64], m: &Rows) -> Big {
 }
 
 /// M(s, w) = I − Ỹ(s) DG_s(w).
-fn contraction<const D: usize>(
-    figure: &Figure,
-    sample: &Sample<D>,
-    (y, s): (&Rows, &Big),
-    w: &[Big],
-) -> Rows {
+fn contraction(figure: &Figure, sample: &Sample, (y, s): (&Rows, &Big), w: &[Big]) -> Rows {
     let z: Vec<Big> = at(&sample.tube, s)
         .0
         .iter()
@@ -91,9 +86,9 @@ fn in_box(random: &mut Random, u: &[f64], size: f64) -> Vec<Big> {
 }
 
 /// What `Norms` states, at one s.
-fn check_norms<const D: usize>(
+fn check_norms(
     figure: &Figure,
-    (sample, norms): (&Sample<D>, &Norms),
+    (sample, norms): (&Sample, &Norms),
     random: &mut Random,
     ratios: &mut Ratios,
 ) {
@@ -128,9 +123,9 @@ fn check_norms<const D: usize>(
 }
 
 /// What a proof says of the path: its point, its direction, its t, where it is found.
-pub fn check_path<const D: usize>(
+pub fn check_path(
     figure: &Figure,
-    sample: &Sample<D>,
+    sample: &Sample,
     random: &mut Random,
     ratios: &mut Ratios,
 ) -> Option<()> {
@@ -181,10 +176,10 @@ pub fn check_path<const D: usize>(
 }
 
 /// The exit's box, also as tight as it gets, with the tangent; and the next tube's entry.
-pub fn check_exit<const D: usize>(
-    workshop: &mut Workshop<D>,
+pub fn check_exit(
+    workshop: &mut Workshop,
     figure: &Figure,
-    (sample, next): (&Sample<D>, Option<&Sample<D>>),
+    (sample, next): (&Sample, Option<&Sample>),
     ratios: &mut Ratios,
 ) -> Option<()> {
     let (n, c) = (figure.n, sample.normal());
@@ -210,12 +205,7 @@ pub fn check_exit<const D: usize>(
 }
 
 /// The numbers of a tube changed in some way: ẑ's coefficients, one of them, or Y's entries.
-fn changed<const D: usize>(
-    sample: &Sample<D>,
-    kind: usize,
-    equations: &Equations<D>,
-    random: &mut Random,
-) -> Sample<D> {
+fn changed(sample: &Sample, kind: usize, equations: &Equations, random: &mut Random) -> Sample {
     let (n, mut tube) = (sample.a.rows(), sample.tube.clone());
     let size = 10f64.powf(random.between(-9.0, -2.0));
     let local = &mut tube.local;
@@ -243,14 +233,14 @@ fn changed<const D: usize>(
     }
 }
 
-fn check_problem<const D: usize>(
+fn check_problem(
     (problem, homotopy): (&Problem, &Homotopy),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut [Ratios; 5],
 ) {
     let true_figure = Figure::new(problem, homotopy);
-    let mut workshop = Workshop::<D>::new(homotopy, f64::INFINITY);
+    let mut workshop = Workshop::new(homotopy, f64::INFINITY);
     let chain = workshop.chain(homotopy, 400);
     assert!(!chain.is_empty(), "{}", problem.name);
     let stride = (chain.len() / tubes).max(1);
@@ -310,10 +300,7 @@ fn check_homotopies(
     for (problem, homotopy) in list {
         let counts = (effort(counts.0), counts.1);
         let pair = (&problem, &homotopy);
-        match problem.dimension {
-            2 => check_problem::<2>(pair, counts, &mut random, &mut ratios),
-            _ => check_problem::<3>(pair, counts, &mut random, &mut ratios),
-        }
+        check_problem(pair, counts, &mut random, &mut ratios)
     }
     let kinds = ["as they are", "path", "one coefficient", "Y", "lengths"];
     for (kind, ratios) in kinds.iter().zip(&ratios) {
@@ -353,7 +340,7 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
     let (problem, mut ratios) = (triangle(), Ratios::default());
     let homotopy = Homotopy::new(&problem).expect("a gauge");
     let figure = Figure::new(&problem, &homotopy);
-    let mut workshop = Workshop::<2>::new(&homotopy, 1.0);
+    let mut workshop = Workshop::new(&homotopy, 1.0);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&workshop.equations);
     tube.local.z[0] = sketch(&homotopy, &workshop.equations);

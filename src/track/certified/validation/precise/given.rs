@@ -91,20 +91,12 @@ fn check((problem, homotopy): (&Problem, &Homotopy), random: &mut Random, ratios
     }
 
     // F and J in floats, at points and with directions of any size.
-    match problem.dimension {
-        2 => check_residual::<2>(homotopy, &figure, random, ratios),
-        _ => check_residual::<3>(homotopy, &figure, random, ratios),
-    }
+    check_residual(homotopy, &figure, random, ratios)
 }
 
 /// What floats may be off, `residual_error` and `jacobian_times_error`.
-fn check_residual<const D: usize>(
-    homotopy: &Homotopy,
-    figure: &Figure,
-    random: &mut Random,
-    ratios: &mut Ratios,
-) {
-    let equations = Equations::<D>::new(homotopy);
+fn check_residual(homotopy: &Homotopy, figure: &Figure, random: &mut Random, ratios: &mut Ratios) {
+    let equations = Equations::new(homotopy);
     let (n, m) = (figure.n, figure.m);
     let mut vector = |size: f64| {
         let mut out = equations.vector();

@@ -162,10 +162,7 @@ pub fn parameter(random: &mut Random, h: f64) -> f64 {
 }
 
 /// ẑ(s), its low words included, and ẑ'(s).
-pub fn at<const D: usize, const N: usize, Y>(
-    tube: &Tube<D, N, Y>,
-    s: &Big,
-) -> (Vec<Big>, Vec<Big>) {
+pub fn at<const N: usize, Y>(tube: &Tube<N, Y>, s: &Big) -> (Vec<Big>, Vec<Big>) {
     let of = |i: usize| std::array::from_fn::<f64, N, _>(|k| tube.local.z[k][i]);
     let all = 0..tube.weights.len() - 1;
     (
@@ -177,11 +174,7 @@ pub fn at<const D: usize, const N: usize, Y>(
 }
 
 /// Whether a point of the path is in a tube between these parameters.
-pub fn is_between<const D: usize, const N: usize, Y>(
-    tube: &Tube<D, N, Y>,
-    z: &[Big],
-    (lo, hi): (f64, f64),
-) -> bool {
+pub fn is_between<const N: usize, Y>(tube: &Tube<N, Y>, z: &[Big], (lo, hi): (f64, f64)) -> bool {
     let g = |s: f64| {
         let (there, _) = at(tube, &Big::of(s));
         let away: Vec<Big> = z.iter().zip(&there).map(|(z, x)| z - x).collect();
@@ -192,10 +185,7 @@ pub fn is_between<const D: usize, const N: usize, Y>(
 
 /// The exit of the tube before, and the path's direction there: it is in this tube where its entry
 /// says, and this tube is followed the same way.
-pub fn check_entry<const D: usize, const N: usize, Y>(
-    tube: &Tube<D, N, Y>,
-    (z, direction): (&[Big], &[Big]),
-) {
+pub fn check_entry<const N: usize, Y>(tube: &Tube<N, Y>, (z, direction): (&[Big], &[Big])) {
     assert!(
         is_between(tube, z, tube.entry),
         "the entry is not in {:?}",
@@ -208,11 +198,9 @@ pub fn check_entry<const D: usize, const N: usize, Y>(
 }
 
 /// Brings what follows from ẑ's coefficients up to date with them.
-pub fn settle<const D: usize, const N: usize, Y>(
-    equations: &Equations<D>,
-    local: &mut crate::track::full::Local<D, N, Y>,
-) where
-    Y: crate::track::full::Preconditioner<D>,
+pub fn settle<const N: usize, Y>(equations: &Equations, local: &mut crate::track::full::Local<N, Y>)
+where
+    Y: crate::track::full::Preconditioner,
 {
     let m = equations.m;
     equations.differences(&local.z[0], &mut local.d[0]);

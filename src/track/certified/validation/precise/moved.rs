@@ -38,12 +38,7 @@ const CHANGES: [Change; 8] = [
     Change::Lengths,
 ];
 
-fn change<const D: usize>(
-    what: Change,
-    equations: &Equations<D>,
-    tube: &mut ReducedTube<D>,
-    random: &mut Random,
-) {
+fn change(what: Change, equations: &Equations, tube: &mut ReducedTube, random: &mut Random) {
     let n = equations.n();
     let size = 10f64.powf(random.between(-9.0, -1.0));
     let mut scale = |x: &mut f64| *x *= 1.0 + size * random.between(-1.0, 1.0);
@@ -97,8 +92,8 @@ fn change<const D: usize>(
 }
 
 /// Makes the radii of the lengths' coefficients large; the coefficients at one end of them or inside.
-pub fn lengthen<const D: usize>(
-    equations: &mut Equations<D>,
+pub fn lengthen(
+    equations: &mut Equations,
     homotopy: &Homotopy,
     size: f64,
     random: &mut Random,
@@ -141,7 +136,7 @@ struct Seen {
     proved: [usize; CHANGES.len()],
 }
 
-fn check_problem<const D: usize>(
+fn check_problem(
     (problem, homotopy): (&Problem, &Homotopy),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
@@ -149,7 +144,7 @@ fn check_problem<const D: usize>(
     seen: &mut Seen,
 ) {
     let true_figure = Figure::new(problem, homotopy);
-    let mut shop = Shop::<D>::new(homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
+    let mut shop = Shop::new(homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
     let chain = shop.chain(homotopy, 40);
     let stride = (chain.len() / tubes).max(1);
     for sample in chain.iter().step_by(stride) {
@@ -232,10 +227,7 @@ fn check_all(list: impl Iterator<Item = (Problem, Homotopy)>, random: &mut Rando
     for (problem, homotopy) in list {
         let given = (&problem, &homotopy);
         let counts = (effort(4), 2 * CHANGES.len());
-        match problem.dimension {
-            2 => check_problem::<2>(given, counts, random, &mut ratios, &mut seen),
-            _ => check_problem::<3>(given, counts, random, &mut ratios, &mut seen),
-        }
+        check_problem(given, counts, random, &mut ratios, &mut seen)
     }
     println!("{seen:?}");
     for (what, ratios) in CHANGES.iter().zip(&ratios) {

@@ -12,8 +12,8 @@ use crate::track::certified::tracker::Test;
 use crate::track::reduced::certified::{Bounds, COEFFICIENTS};
 
 /// What `ReducedTest::bounds` states for |s| ≤ H, at one s.
-pub fn check_bounds<const D: usize>(
-    view: &View<D>,
+pub fn check_bounds(
+    view: &View,
     (bounds, defect): (&Bounds, &[f64]),
     random: &mut Random,
     ratios: &mut Ratios,
@@ -109,9 +109,9 @@ pub fn check_bounds<const D: usize>(
 }
 
 /// |A(s)⁻¹ g| row by row.
-pub fn check_resolvent<const D: usize>(
-    view: &View<D>,
-    equations: &Equations<D>,
+pub fn check_resolvent(
+    view: &View,
+    equations: &Equations,
     h: f64,
     random: &mut Random,
     ratios: &mut Ratios,
@@ -146,8 +146,8 @@ pub fn check_resolvent<const D: usize>(
 }
 
 /// How fast the extent of a point that stays changes, in a box so many times as large.
-pub fn check_speed<const D: usize>(
-    view: &View<D>,
+pub fn check_speed(
+    view: &View,
     (h, factor, speed): (f64, f64, f64),
     random: &mut Random,
     ratios: &mut Ratios,
@@ -171,11 +171,7 @@ pub fn check_speed<const D: usize>(
 }
 
 /// What a proof for |s| ≤ h says of the path: its point, its direction, its t, where it is found.
-pub fn check_path<const D: usize>(
-    view: &View<D>,
-    random: &mut Random,
-    ratios: &mut Ratios,
-) -> Option<()> {
+pub fn check_path(view: &View, random: &mut Random, ratios: &mut Ratios) -> Option<()> {
     let (n, tube) = (view.figure.n, view.tube);
     let (proof, y) = (&tube.proof, &tube.local.y);
     let c = &tube.local.normal[..n];
@@ -219,7 +215,7 @@ pub fn check_path<const D: usize>(
         let error = evaluation_error(&tube.local, i, at) + 2.0 * f64::EPSILON * away.abs();
         (away, error)
     };
-    let stated = Frame::<D>::extent(y, &tube.weights[..n], at, entry, entry);
+    let stated = Frame::extent(y, &tube.weights[..n], at, entry, entry);
     ratios.check("extent", &extent, stated);
     for (i, x) in through.iter().enumerate() {
         let error = (Big::of(tube.local.entry_at(i, at)) - x).abs();
@@ -281,11 +277,11 @@ pub fn within(name: &'static str, x: &Big, (lo, hi): (f64, f64), ratios: &mut Ra
 }
 
 /// The exit's box, before and after it is tightened, and the next tube's entry.
-pub fn check_exit<const D: usize>(
-    shop: &mut Shop<D>,
+pub fn check_exit(
+    shop: &mut Shop,
     figure: &Figure,
-    sample: &Proved<D>,
-    next: Option<&Proved<D>>,
+    sample: &Proved,
+    next: Option<&Proved>,
     ratios: &mut Ratios,
 ) -> Option<()> {
     let (n, tube) = (figure.n, &sample.tube);
@@ -315,10 +311,10 @@ pub fn check_exit<const D: usize>(
 }
 
 /// The exit of a tube that was tightened: its point, its parameter, its tangent.
-pub fn check_tied<const D: usize>(
+pub fn check_tied(
     figure: &Figure,
-    tube: &ReducedTube<D>,
-    tight: &ReducedTube<D>,
+    tube: &ReducedTube,
+    tight: &ReducedTube,
     ratios: &mut Ratios,
 ) -> Option<()> {
     let n = figure.n;
@@ -342,14 +338,14 @@ pub fn check_tied<const D: usize>(
     Some(())
 }
 
-fn check_problem<const D: usize>(
+fn check_problem(
     (problem, homotopy): (&Problem, &Homotopy),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut Ratios,
 ) {
     let figure = Figure::new(problem, homotopy);
-    let mut shop = Shop::<D>::new(homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(homotopy, 0.1, f64::INFINITY);
     let chain = shop.chain(homotopy, 600);
     assert!(!chain.is_empty(), "{}", problem.name);
     let stride = (chain.len() / tubes).max(1);
@@ -400,10 +396,7 @@ fn check_homotopies(
     for (problem, homotopy) in list {
         let given = (&problem, &homotopy);
         let counts = (effort(tubes), rounds);
-        match problem.dimension {
-            2 => check_problem::<2>(given, counts, &mut random, &mut ratios),
-            _ => check_problem::<3>(given, counts, &mut random, &mut ratios),
-        }
+        check_problem(given, counts, &mut random, &mut ratios)
     }
     ratios
 }

@@ -10,7 +10,7 @@ use crate::track::certified::link::Frame;
 use crate::track::certified::tracker::Test;
 
 /// |T v| from |v|, and |𝒴 g|_ρ / (1 − q) from g.
-fn check_problem<const D: usize>(
+fn check_problem(
     (problem, homotopy): (&Problem, &Homotopy),
     tubes: usize,
     random: &mut Random,
@@ -18,7 +18,7 @@ fn check_problem<const D: usize>(
 ) {
     let figure = Figure::new(problem, homotopy);
     let (n, m) = (figure.n, figure.m);
-    let mut shop = Shop::<D>::new(homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(homotopy, 0.1, f64::INFINITY);
     let chain = shop.chain(homotopy, 100);
     let stride = (chain.len() / tubes).max(1);
     for sample in chain.iter().step_by(stride) {
@@ -132,10 +132,7 @@ fn what_is_taken_along_and_radii_from_defects_are_bounded() {
     });
     for (problem, homotopy) in shipped.chain(tails(55, 6)) {
         let given = (&problem, &homotopy);
-        match problem.dimension {
-            2 => check_problem::<2>(given, effort(12), &mut random, &mut ratios),
-            _ => check_problem::<3>(given, effort(12), &mut random, &mut ratios),
-        }
+        check_problem(given, effort(12), &mut random, &mut ratios)
     }
     ratios.come_near(&[("radius from a defect", 0.5), ("T v", 0.99)]);
 }
@@ -147,7 +144,7 @@ fn the_bend_counts_to_its_last_order() {
     let problem = triangle();
     let homotopy = Homotopy::new(&problem).expect("a gauge");
     let figure = Figure::new(&problem, &homotopy);
-    let mut shop = Shop::<2>::new(&homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(&homotopy, 0.1, f64::INFINITY);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&shop.equations);
     tube.local.z[0] = sketch(&homotopy, &shop.equations);

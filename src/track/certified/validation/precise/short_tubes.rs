@@ -6,17 +6,17 @@ use super::reduced::check_tied;
 use super::*;
 use crate::track::certified::tracker::Test;
 
-fn chain_of(name: &str, count: usize) -> (Figure, Shop<3>, Vec<Proved<3>>) {
+fn chain_of(name: &str, count: usize) -> (Figure, Shop, Vec<Proved>) {
     let problem = &problems(&[name])[0];
     let homotopy = Homotopy::new(problem).expect("a gauge");
-    let mut shop = Shop::<3>::new(&homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(&homotopy, 0.1, f64::INFINITY);
     let chain = shop.chain(&homotopy, count);
     assert_eq!(chain.len(), count);
     (Figure::new(problem, &homotopy), shop, chain)
 }
 
 /// The exit of the one is that of the other, to the last bit.
-fn is_untouched(a: &Proved<3>, b: &super::super::reduced::ReducedTube<3>) -> bool {
+fn is_untouched(a: &Proved, b: &super::super::reduced::ReducedTube) -> bool {
     a.tube.exit.centre[..] == b.exit.centre[..]
         && a.tube.exit.radius[..] == b.exit.radius[..]
         && a.tube.exit_between == b.exit_between

@@ -7,17 +7,17 @@ use crate::linalg::LANE;
 use crate::track::reduced::certified::Block;
 
 /// A tube of the reduced space, its numbers taken for exact.
-pub struct View<'a, const D: usize> {
+pub struct View<'a> {
     pub figure: &'a Figure,
-    pub tube: &'a ReducedTube<D>,
+    pub tube: &'a ReducedTube,
     /// Key unknowns, A's unknowns, A's rows.
     pub keys: Vec<usize>,
     pub unknowns: Vec<usize>,
     pub rows: Vec<usize>,
 }
 
-impl<'a, const D: usize> View<'a, D> {
-    pub fn new(figure: &'a Figure, tube: &'a ReducedTube<D>) -> Self {
+impl<'a> View<'a> {
+    pub fn new(figure: &'a Figure, tube: &'a ReducedTube) -> Self {
         let layout = &tube.local.y.elimination.layout;
         let of = |list: fn(&Block) -> &[u32]| {
             let blocks = layout.blocks.iter();

@@ -34,16 +34,16 @@ impl Lists {
     }
 }
 
-impl<const D: usize> Resolvent<D> {
+impl Resolvent {
     /// X and N in a block, from the inverse of its diagonal block, the differences of order 0 and 1 and the values of the
     /// tail's entries. Returns what N + Â|X| and Â have in it.
     #[inline(never)]
     pub(super) fn make_listed<const K: usize>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         block: &Block,
         inverse: &[[f64; K]; K],
-        values: ([&[Vector; D]; 2], [&[f64]; 2]),
+        values: ([&[Vector]; 2], [&[f64]; 2]),
         h: f64,
     ) -> ([[f64; K]; K], [[f64; K]; K]) {
         let (start, size) = (block.start, block.size);
@@ -100,9 +100,9 @@ impl<const D: usize> Resolvent<D> {
     #[inline(always)]
     fn each_entry(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         e: usize,
-        (d, entries): ([&[Vector; D]; 2], [&[f64]; 2]),
+        (d, entries): ([&[Vector]; 2], [&[f64]; 2]),
         mut to: impl FnMut(u32, [f64; 2], f64),
     ) {
         let mut put = |unknown: usize, a: [f64; 2], size: f64| {
@@ -113,7 +113,7 @@ impl<const D: usize> Resolvent<D> {
             }
         };
         if e < equations.tail.first() {
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 let [i, j] = equations.ends[axis][e].map(|end| end as usize);
                 let (a, size) = (d.map(|d| d[axis][e]), self.spread[axis][e]);
                 put(i, a, size);

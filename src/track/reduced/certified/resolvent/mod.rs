@@ -17,7 +17,7 @@ mod listed;
 use super::diagonal::{bound_on_inverse, bound_on_wide_inverse};
 use crate::interval::rounding::round_up;
 use crate::linalg::rstructure::Lane;
-use crate::linalg::{LANE, Vector};
+use crate::linalg::{LANE, Vector, with_axes};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, Kind, Layout, WIDEST};
 use crate::track::reduced::structure::passes::Inverses;
@@ -41,14 +41,14 @@ impl<const K: usize> Default for Diagonal<K> {
 
 /// X ≈ A₀⁻¹, N = |A₀ X − I| + H |A₁ X| and Â of a tube, from which bounds on |A(s)⁻¹ g| follow for |s| ≤ H.
 #[derive(Debug, Clone)]
-pub struct Resolvent<const D: usize> {
+pub struct Resolvent {
     /// Which lanes the rows of X and N are, one per row of A: padded with zeros, they reach to the
     /// end of their block, and those of a block are next to each other.
     rows: Vec<(usize, usize)>,
     x: Vec<Lane>,
     n: Vec<Lane>,
     /// Â by axis and distance, and by entry of the tail's rows.
-    spread: [Vector; D],
+    spread: Vec<Vector>,
     spread_of_tail: Vec<f64>,
     /// What bounds the inverse of each diagonal block; nothing for those of more than three rows, which have theirs apart.
     diagonal: Vec<Diagonal<3>>,
@@ -60,14 +60,14 @@ pub struct Resolvent<const D: usize> {
     roundings: usize,
 }
 
-impl<const D: usize> Resolvent<D> {
+impl Resolvent {
     /// Room for one.
-    pub fn new(equations: &Equations<D>) -> Self {
+    pub fn new(equations: &Equations) -> Self {
         Resolvent {
             rows: Vec::new(),
             x: Vec::new(),
             n: Vec::new(),
-            spread: std::array::from_fn(|_| equations.per_edge()),
+            spread: equations.per_axis(),
             spread_of_tail: vec![0.0; equations.tail.entries()],
             diagonal: Vec::new(),
             wide: Vec::new(),
@@ -78,7 +78,7 @@ impl<const D: usize> Resolvent<D> {
     }
 
     /// Â, to be filled before [`Resolvent::make`].
-    pub fn spread_mut(&mut self) -> (&mut [Vector; D], &mut [f64]) {
+    pub fn spread_mut(&mut self) -> (&mut [Vector], &mut [f64]) {
         (&mut self.spread, &mut self.spread_of_tail)
     }
 
@@ -91,10 +91,10 @@ impl<const D: usize> Resolvent<D> {
     /// being given. False: the bound does not exist for such a long tube.
     pub fn make(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         layout: &Layout,
         inverses: &Inverses,
-        values: ([&[Vector; D]; 2], [&[f64]; 2]),
+        values: ([&[Vector]; 2], [&[f64]; 2]),
         h: f64,
     ) -> bool {
         self.lay_out(equations, layout);
@@ -103,7 +103,9 @@ impl<const D: usize> Resolvent<D> {
         self.lists.clear(layout.order);
         for (block, inverse) in layout.blocks.iter().zip(&inverses.points) {
             let (b, spread) = match block.kind {
-                Kind::Point => self.make_point(equations, block, inverse, values.0, h),
+                Kind::Point => with_axes!(self.spread.len(), D => {
+                    self.make_point::<D>(equations, block, inverse, values.0, h)
+                }),
                 Kind::Listed => self.make_listed(equations, block, inverse, values, h),
                 Kind::Wide(at) => {
                     let inverse = &inverses.wide[at as usize];
@@ -131,12 +133,12 @@ impl<const D: usize> Resolvent<D> {
     /// X and N in a block of distances, from the inverse of its diagonal block and the differences of order 0 and 1. Returns
     /// what N + Â|X| and Â have in it.
     #[inline(always)]
-    fn make_point(
+    fn make_point<const D: usize>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         block: &Block,
         inverse: &[[f64; 3]; 3],
-        d: [&[Vector; D]; 2],
+        d: [&[Vector]; 2],
         h: f64,
     ) -> ([[f64; 3]; 3], [[f64; 3]; 3]) {
         let (start, size) = (block.start, block.size);
@@ -173,7 +175,7 @@ impl<const D: usize> Resolvent<D> {
             }
         }
         for r in 0..size {
-            self.make_row(equations, block, r, d, h);
+            self.make_row::<D>(equations, block, r, d, h);
         }
         let spread = self.spreads(block);
         (self.in_block(block, &spread), spread)
@@ -200,12 +202,12 @@ impl<const D: usize> Resolvent<D> {
     }
 
     /// Row r of a block in N: |A₀ X − I| + H |A₁ X|.
-    fn make_row(
+    fn make_row<const D: usize>(
         &mut self,
-        equations: &Equations<D>,
+        equations: &Equations,
         block: &Block,
         r: usize,
-        d: [&[Vector; D]; 2],
+        d: [&[Vector]; 2],
         h: f64,
     ) {
         let (at, end) = self.rows[block.start + r];
@@ -330,7 +332,7 @@ impl<const D: usize> Resolvent<D> {
         &of[at..end].as_flattened()[..count]
     }
 
-    fn lay_out(&mut self, equations: &Equations<D>, layout: &Layout) {
+    fn lay_out(&mut self, equations: &Equations, layout: &Layout) {
         self.position.clear();
         self.position.resize(equations.n() + 1, u32::MAX);
         self.rows.clear();
@@ -350,7 +352,7 @@ impl<const D: usize> Resolvent<D> {
         let widest = layout
             .blocks
             .iter()
-            .fold(D, |max, block| max.max(block.size));
+            .fold(equations.dimension(), |max, block| max.max(block.size));
         let count = equations.roundings();
         self.roundings = count.of_inverse(layout.blocks.len(), layout.order, widest);
     }
@@ -359,7 +361,7 @@ impl<const D: usize> Resolvent<D> {
     /// `v` per column. To be rounded up by the caller, see [`Resolvent::roundings`].
     pub fn bound(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         layout: &Layout,
         g: &[Lane],
         y: &mut [Lane],
@@ -378,7 +380,7 @@ impl<const D: usize> Resolvent<D> {
     #[inline(always)]
     fn bound_point(
         &self,
-        equations: &Equations<D>,
+        equations: &Equations,
         block: &Block,
         diagonal: &Diagonal<3>,
         g: &[Lane],
@@ -388,7 +390,7 @@ impl<const D: usize> Resolvent<D> {
         let (mut rest, mut near) = self.before::<3>((start, size), g, y);
         for r in 0..size {
             let (e, sign) = (block.rows[r] as usize, block.signs[r]);
-            for axis in 0..D {
+            for axis in 0..equations.dimension() {
                 if let Some(from) = other(&self.position, equations, axis, e, sign) {
                     let spread = self.spread[axis][e];
                     for i in 0..LANE {
@@ -431,9 +433,9 @@ fn sum_row(n: &mut [Lane], terms: &[(&[Lane], [f64; 2])], one: usize, h: f64) {
 
 /// The row of X of the unknown at the other end of a distance, if it is one of A.
 #[inline(always)]
-fn other<const D: usize>(
+fn other(
     position: &[u32],
-    equations: &Equations<D>,
+    equations: &Equations,
     axis: usize,
     e: usize,
     sign: f64,
