@@ -163,13 +163,8 @@ impl Order {
             rows.clear();
             rows.extend(point.distances.iter().map(|&(edge, _)| {
                 let mut row = [0.0; WIDEST];
-                for ((x, d), _) in row
-                    .iter_mut()
-                    .zip(&d.axes)
-                    .zip(open)
-                    .filter(|(_, open)| *open)
-                {
-                    *x = d[edge as usize];
+                for (axis, d) in d.iter().enumerate().filter(|(axis, _)| open[*axis]) {
+                    row[axis] = d[edge as usize];
                 }
                 Candidate::new(row, dot(&row, &row).sqrt())
             }));
