@@ -1,19 +1,18 @@
-//! Products of large dense matrices, by faer.
+//! Products of large dense matrices, by nalgebra, which leaves them to the crate matrixmultiply.
 //!
 //! Up to [`LARGE`] rows the kernels beside this file are used, and nothing here. From there on most of a
 //! run's time in the full space is spent on one product of dense matrices per test, which needs blocking for
 //! the caches. (Inverses are made in an order that keeps them sparse for long, `inverse.rs`, which for structures whose
 //! distances join few points takes fewer operations than a dense factorization.)
 //!
-//! faer's products are the classical ones, of no recursive (Strassen's) kind: every entry is a sum of products of
+//! These products are the classical ones, of no recursive (Strassen's) kind: every entry is a sum of products of
 //! entries, in an order that depends on the processor, with fused operations where it has them. Bounds of the form
 //! γ_n Σ |x_i y_i| hold for every such order (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
 //! section 3.1; Rump, Acta Numerica 2010, section 10): the proofs need no others. What changes with the
 //! processor are last digits, and so the lengths of tubes.
 
 use super::matrix::{LANE, Matrix, Sparse, Vector};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use nalgebra::{DMatrixView, DMatrixViewMut};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -132,18 +131,14 @@ impl Part {
         let stride = a.lanes() * LANE;
         let factor = |columns: std::ops::Range<usize>| {
             let entries = &a.entries()[columns.start * stride..columns.end * stride];
-            MatRef::from_column_major_slice_with_stride(entries, n, columns.len(), stride)
+            DMatrixView::from_slice_with_strides(entries, n, columns.len(), 1, stride)
         };
         let out = self.columns.data_mut().as_flattened_mut();
-        let out = MatMut::from_column_major_slice_with_stride_mut(out, n, WIDTH, stride);
-        let out = out.subcols_mut(0, range.len());
-        matmul(
-            out,
-            Accum::Add,
-            factor(0..n),
-            factor(range.clone()),
+        DMatrixViewMut::from_slice_with_strides_mut(out, n, range.len(), 1, stride).gemm(
             1.0,
-            Par::Seq,
+            &factor(0..n),
+            &factor(range.clone()),
+            1.0,
         );
         sum_abs(&self.columns, &u[range], &mut self.square);
     }

@@ -7,9 +7,7 @@ use super::sparse::Sparse;
 use crate::certificate::format::{FoldClaim, TubeClaim};
 use crate::certificate::verdict::Fault;
 use crate::elimination;
-use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Accum, MatMut, MatRef, Par};
+use nalgebra::DMatrixView;
 
 /// More Newton's steps than any place needs.
 const STEPS: usize = 50;
@@ -42,10 +40,9 @@ impl Inverse {
         if let Some(sparse) = &self.sparse {
             return sparse.solve(b);
         }
-        let mut entries = vec![0.0; n * n];
-        let out = MatMut::from_column_major_slice_mut(&mut entries, n, n);
-        let [b, y] = [b, &self.y].map(|a| MatRef::from_column_major_slice(&a.entries, n, n));
-        matmul(out, Accum::Replace, b, y.transpose(), 1.0, Par::Seq);
+        let y = DMatrixView::from_slice(&self.y.entries, n, n).transpose();
+        let product = DMatrixView::from_slice(&b.entries, n, n) * y;
+        let entries = product.data.into();
         Matrix { n, entries }
     }
 
@@ -282,14 +279,6 @@ pub fn invert(columns: &Columns) -> Option<Matrix> {
     for (row, column) in matrix.chunks_mut(n).zip(columns) {
         column.iter().for_each(|&(e, x)| row[e] += x);
     }
-    if n < MANY {
-        let entries = elimination::invert(&mut matrix, n).then_some(matrix)?;
-        return Some(Matrix { n, entries });
-    }
-    let inverse = MatRef::from_column_major_slice(&matrix, n, n)
-        .partial_piv_lu()
-        .inverse();
-    let columns = (0..n).map(|j| inverse.col_as_slice(j));
-    let entries = columns.flatten().copied().collect();
+    let entries = elimination::invert(&mut matrix, n).then_some(matrix)?;
     Some(Matrix { n, entries })
 }
