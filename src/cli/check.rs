@@ -282,7 +282,7 @@ impl Loose {
     /// What is wrong, what was understood, what is free, and the blocks.
     fn in_words(&self) -> String {
         let taken = match self.standing.is_taken {
-            true => "; `krawl edit` takes it as it is",
+            true => "; `krawl solve` and `krawl edit` take it as it is",
             false => "",
         };
         let fault = self.decide(&self.fault);

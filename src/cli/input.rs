@@ -115,9 +115,14 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
     }
 }
 
-/// Whether `krawl all` searches figures of a part of a problem's constraints, and tests them against the others.
+/// Figures of more points are not looked at for an advice.
+const MOST_POINTS: usize = 250;
+
+/// Whether `krawl all` searches figures of a part of a problem's constraints, and tests them against the others; false as well
+/// where finding that out would take seconds.
 pub fn has_surplus(problem: &Problem) -> bool {
-    Surplus::of(problem, None).is_some() || has_equations_to_spare(problem)
+    problem.points.len() <= MOST_POINTS
+        && (Surplus::of(problem, None).is_some() || has_equations_to_spare(problem))
 }
 
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.

@@ -98,7 +98,12 @@ impl Surplus {
             }
             row
         };
-        let mut is_used: Vec<bool> = edges.iter().map(|edge| span.take([row(edge)])).collect();
+        let mut is_used = vec![false; edges.len()];
+        let mut count = 0;
+        for (edge, is_used) in edges.iter().zip(&mut is_used) {
+            *is_used = count < needed && span.take([row(edge)]);
+            count += usize::from(*is_used);
+        }
         for e in 0..edges.len() {
             if is_used.iter().filter(|used| **used).count() == needed {
                 break;

@@ -39,21 +39,21 @@ fn both_say(streams: &[String; 2], words: &str) {
     assert!(!text.contains("the input is in order"), "{text}");
 }
 
-const EDIT: &str = "`krawl edit` takes it as it is";
+const TAKEN: &str = "`krawl solve` and `krawl edit` take it as it is";
 
 #[test]
 fn contradictions_are_called_so() {
     let streams = check("place", &rectangle("x = [[\"a\", 5]]"));
     let words = "any of `x: a, 5`, `fixed: a` contradicts the others, remove one of them";
     both_say(&streams, words);
-    assert!(!streams[1].contains(EDIT), "{}", streams[1]);
+    assert!(!streams[1].contains(TAKEN), "{}", streams[1]);
     // Of a rectangle's sides of 4 and 3.
     let streams = check("equal", &rectangle("equal = [[\"l1\", \"l2\"]]"));
     both_say(
         &streams,
         "`equal: l1, l2` contradicts the others, remove one of them",
     );
-    assert!(!streams[1].contains(EDIT), "{}", streams[1]);
+    assert!(!streams[1].contains(TAKEN), "{}", streams[1]);
     // These need the figure.
     for (name, extra) in [
         ("parallel", "parallel = [[\"l1\", \"l2\"]]"),
@@ -67,7 +67,7 @@ fn contradictions_are_called_so() {
         for stream in &streams {
             assert!(!stream.contains("follows from"), "{stream}");
         }
-        assert!(!streams[1].contains(EDIT), "{}", streams[1]);
+        assert!(!streams[1].contains(TAKEN), "{}", streams[1]);
     }
     // Distances alone, by another count.
     let four = "name = \"four\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [0, 3]\n[constraints]\n\
@@ -86,7 +86,7 @@ fn what_follows_is_called_so() {
         &streams,
         "`parallel: l1, l3` follows from the others, remove one of them",
     );
-    assert!(streams[1].contains(EDIT), "{}", streams[1]);
+    assert!(streams[1].contains(TAKEN), "{}", streams[1]);
     // Bars of 3 and 4 at a right angle, and the third one: as far as floats tell.
     let streams = check(
         "seems",
@@ -115,7 +115,7 @@ fn what_was_understood_is_listed() {
         text.contains("  constraint          tangent: k, f ("),
         "{text}"
     );
-    assert!(text.contains(EDIT), "{text}");
+    assert!(text.contains(TAKEN), "{text}");
 }
 
 #[test]
