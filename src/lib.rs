@@ -70,6 +70,7 @@
 //! - `decimal`: exact numbers as they are written
 //! - `hexadecimal`: bytes as text
 //! - `random`: numbers that look random
+//! - `order`: sorting by places
 //! - `elimination`: row echelon forms and inverses over any field
 //! - `residues`: numbers modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
@@ -136,6 +137,7 @@ pub mod import;
 pub mod interval;
 #[doc(hidden)]
 pub mod linalg;
+mod order;
 #[doc(hidden)]
 pub mod plan;
 pub mod problem;

@@ -5,6 +5,7 @@
 //! determines standing still.
 
 use super::System;
+use crate::order::InOrder;
 
 /// A pivot below this part of its row's largest entry counts as zero. Sketches meet their constraints to some eight
 /// digits, and where one constraint follows from others a pivot is as small as that.
@@ -51,7 +52,7 @@ impl Choice {
             rows.push(entries);
         }
         let mut order: Vec<usize> = (0..rows.len()).collect();
-        order.sort_by_key(|&row| (first(row), row));
+        order.order_by_key(|&row| (first(row), row));
         let of_all = order.partition_point(|&row| first(row) < LAST);
         let after_all = order.split_off(of_all);
         // Rows already taken, each with the column that it is solved for.

@@ -3,6 +3,7 @@
 use super::local::Local;
 use super::number::Number;
 use crate::interval::{Interval, point};
+use crate::order::InOrder;
 use nalgebra::DMatrix;
 
 /// All solutions of a block.
@@ -51,7 +52,7 @@ pub fn solve(rows: &[Local], sense: Option<i8>) -> Solved {
         }
     }
     if sense.is_some() {
-        solutions.sort_by_key(|solution| sense_at(rows, solution) != sense);
+        solutions.order_by_key(|solution| sense_at(rows, solution) != sense);
     }
     Solved::All(solutions)
 }

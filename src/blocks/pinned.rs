@@ -1,6 +1,7 @@
 //! A figure up to motions, held in the frame of its sketch.
 
 use crate::constraint::KINDS;
+use crate::order::InOrder;
 use crate::problem::{Constraint, Decimal, Item, Problem};
 
 /// The problem with its reference held, so that its equations can be cut into blocks as those of a problem in its own frame
@@ -44,7 +45,7 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
         }
     }
     let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
-    out.constraints.sort_by_key(|c| order(&c.kind));
+    out.constraints.order_by_key(|c| order(&c.kind));
     out.labels.clear();
     out.homotopy.reference.clear();
     Some(out)

@@ -2,6 +2,7 @@
 
 use super::System;
 use super::cut::name;
+use crate::order::InOrder;
 use crate::problem::{Problem, list};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -153,7 +154,7 @@ fn flat(problem: &Problem, system: &System, rows: &[usize]) -> Vec<Vec<String>> 
             }
         }
     }
-    sets.sort_by_key(|set| std::cmp::Reverse(set.len()));
+    sets.order_by_key(|set| std::cmp::Reverse(set.len()));
     let names = |set: Vec<usize>| set.iter().map(|&p| places[p].1.to_owned()).collect();
     sets.into_iter().map(names).collect()
 }

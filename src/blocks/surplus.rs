@@ -14,6 +14,7 @@ use super::drawn::{Drawn, Floats, look};
 use super::follows::{Given, combination};
 use super::{Choice, FINE, LEAST_PART, System};
 use crate::interval::{enclose_rational, point};
+use crate::order::InOrder;
 use crate::problem::{Problem, Target, list};
 use crate::system::typical_length;
 use nalgebra::DVector;
@@ -123,7 +124,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         Drawn::Singular { off: None, .. } => return Ok(Census::default()),
     }
     let mut order: Vec<usize> = rows.collect();
-    order.sort_by_key(|&row| ranks[row]);
+    order.order_by_key(|&row| ranks[row]);
     let (independent, circuits) = dependent(&floats, &order, &at);
     // From where a singular drawing was moved off either of several figures continues it, and one says nothing of another.
     let is_looked_for = is_regular && !circuits.is_empty() && at.len() <= super::drawn::MANY;

@@ -5,6 +5,7 @@ use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
+use crate::order::InOrder;
 use clap::ValueEnum;
 use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
@@ -609,7 +610,7 @@ fn hints(problem: &Problem, outcome: &Outcome, file: &str) -> String {
                 Remark::Loose { .. } | Remark::FlatInSketch(_) | Remark::FlatPart { .. }
             )
         };
-        warnings.sort_by_key(|remark| !is_of_sketch(remark));
+        warnings.order_by_key(|remark| !is_of_sketch(remark));
     }
     let shown = warnings.iter().take(MOST);
     let mut text: String = shown

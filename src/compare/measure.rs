@@ -2,6 +2,7 @@
 
 use super::{Row, Setting, Verdict, Way, residual::residuals};
 use crate::interval::rounding::largest;
+use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::track::{Control, Limit, Options, Outcome, Progress, Status, Stop, StopKind, solve};
@@ -211,7 +212,7 @@ impl<'a> Session<'a> {
 /// The middle one, or the mean of the middle two.
 fn median(seconds: &[f64]) -> f64 {
     let mut sorted = seconds.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sorted.order_by(f64::total_cmp);
     let half = sorted.len() / 2;
     if sorted.len().is_multiple_of(2) {
         0.5 * (sorted[half - 1] + sorted[half])

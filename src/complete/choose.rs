@@ -7,6 +7,7 @@
 use super::pairs::Pairs;
 use super::plan::{Drive, HingeNumbers, Kind, Plan, Radius, Step, base_coordinates};
 use super::targets::Targets;
+use crate::order::InOrder;
 
 /// More driving parameters than this are hopeless.
 pub const MOST_PARAMETERS: usize = 4;
@@ -42,7 +43,7 @@ pub fn plans_within(targets: &Targets, pairs: &Pairs, most: usize) -> Result<Vec
         }
         if !draft.plans.is_empty() {
             let mut plans = draft.plans;
-            plans.sort_by(|a, b| a.0.total_cmp(&b.0));
+            plans.order_by(|a, b| a.0.total_cmp(&b.0));
             return Ok(plans.into_iter().map(|(_, plan)| plan).collect());
         }
     }
@@ -119,7 +120,7 @@ impl<'a> Draft<'a> {
             .copied()
             .filter(|&q| self.placed[q])
             .collect();
-        out.sort_by_key(|&q| (self.depth[q], q));
+        out.order_by_key(|&q| (self.depth[q], q));
         out
     }
 
@@ -291,7 +292,7 @@ impl<'a> Draft<'a> {
         let mut others: Vec<usize> = (0..self.targets.points)
             .filter(|&q| self.placed[q] && q != p && !standing.contains(&q))
             .collect();
-        others.sort_by_key(|&q| (self.depth[q], q));
+        others.order_by_key(|&q| (self.depth[q], q));
         let mut radii: Vec<Radius> = standing
             .iter()
             .map(|&q| Radius::Edge(self.targets.edge(p, q).expect("a neighbour")))

@@ -48,6 +48,7 @@ mod surplus;
 mod targets;
 mod visit;
 
+use crate::order::InOrder;
 pub use among::{Among, among};
 pub use coordinates::has_equations_to_spare;
 pub use outcome::{
@@ -275,7 +276,7 @@ fn best_of(searches: &[Search]) -> (Vec<usize>, usize) {
             .iter()
             .map(|&i| (searches[i].sample(ways), i))
             .collect();
-        sampled.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sampled.order_by(|a, b| a.0.total_cmp(&b.0));
         order = sampled.iter().map(|x| x.1).collect();
         if k == 1 {
             break;

@@ -11,6 +11,7 @@ use crate::certificate::cover::CoverVerdict;
 use crate::constraint::Symmetry;
 use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
+use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::track::Solution;
 use num_traits::ToPrimitive;
@@ -436,7 +437,7 @@ impl Complete {
                 }),
             }
         }
-        undecided.sort_by_key(|part| part.why);
+        undecided.order_by_key(|part| part.why);
         let mut kept = 0;
         for part in &mut undecided {
             if part.why == Why::Unfinished {

@@ -10,6 +10,7 @@ use super::outcome::{Method, are_apart};
 use super::surplus::Tested;
 use super::{Complete, Options, Part, Status, Unserved, Why, all, exact};
 use crate::blocks::{Combined, LeftOut, clusters};
+use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::track::Solution;
 use std::time::Instant;
@@ -112,7 +113,7 @@ fn put_together(
             None => undecided.push(part.clone()),
         }
     }
-    undecided.sort_by_key(|part| part.why);
+    undecided.order_by_key(|part| part.why);
     let worst = |status| parts.iter().any(|part| part.result.status == status);
     whole.status = match () {
         () if worst(Status::Flexible) => Status::Flexible,

@@ -3,6 +3,7 @@
 use super::setting::Setting;
 use super::{Edited, Ending, Session};
 use crate::interval::Interval;
+use crate::order::InOrder;
 use crate::problem::{Decimal, Item, Problem, Shape};
 use crate::track::{Control, Options};
 use std::slice;
@@ -85,7 +86,7 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
         let way = (dimension.to - dimension.from).mag();
         (dimension.to - dimension.value).mag() / way
     };
-    found.sort_by(|a, b| missed(a).total_cmp(&missed(b)));
+    found.order_by(|a, b| missed(a).total_cmp(&missed(b)));
     found
 }
 

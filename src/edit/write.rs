@@ -2,6 +2,7 @@
 
 use crate::constraint::{Arguments, LineName, is_opposite_nearer};
 use crate::interval::Real;
+use crate::order::InOrder;
 use crate::problem::{Constraint, Decimal, Problem, Target};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -142,7 +143,7 @@ pub fn rewrite(
 
     let mut out = text.to_owned();
     changes.extend(turned);
-    changes.sort_by_key(|change| std::cmp::Reverse(change.0.start));
+    changes.order_by_key(|change| std::cmp::Reverse(change.0.start));
     for (span, new) in changes {
         out.replace_range(span, &new);
     }

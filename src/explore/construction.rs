@@ -6,6 +6,7 @@
 //! constraint is not used by any step. All lengths are read off a figure; the two places where spheres and planes
 //! meet are the branches.
 
+use crate::order::InOrder;
 use crate::problem::{Item, Problem};
 use crate::random::Random;
 
@@ -51,7 +52,7 @@ impl Construction {
                 found.push(plan);
             }
         }
-        found.sort_by_key(|plan| plan.added);
+        found.order_by_key(|plan| plan.added);
         let least = found.first().map_or(0, |plan| plan.added);
         // One more added distance leaves one more constraint behind, and sketches farther from solutions.
         found.retain(|plan| plan.added <= least + 1);
@@ -196,7 +197,7 @@ impl<'a> Draft<'a> {
     fn choose(&mut self, loci: Vec<Locus>, order: &[usize]) -> (Vec<Locus>, usize) {
         let d = self.problem.dimension;
         let mut drawn: Vec<(f64, Locus)> = loci.into_iter().map(|l| (self.chance(), l)).collect();
-        drawn.sort_by(|a, b| a.0.total_cmp(&b.0));
+        drawn.order_by(|a, b| a.0.total_cmp(&b.0));
         let is_round = |l: &Locus| matches!(l, Locus::Round(_));
         let (round, planes): (Vec<Locus>, Vec<Locus>) =
             drawn.into_iter().map(|(_, l)| l).partition(is_round);
@@ -220,7 +221,7 @@ impl<'a> Draft<'a> {
                 chosen.push(Locus::Round(p));
             }
         }
-        chosen.sort_by_key(|l| !is_round(l));
+        chosen.order_by_key(|l| !is_round(l));
         (chosen, d - known)
     }
 }

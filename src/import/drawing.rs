@@ -1,6 +1,7 @@
 //! A sketch as it is read, in krawl's words.
 
 use crate::constraint::KINDS;
+use crate::order::InOrder;
 use crate::problem::{
     Constraint, Decimal, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape, Target,
 };
@@ -243,7 +244,7 @@ impl Drawing {
         }
         self.snap();
         let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
-        self.constraints.sort_by_key(|(c, _)| order(&c.kind));
+        self.constraints.order_by_key(|(c, _)| order(&c.kind));
         let coordinate = |x: f64| decimal(x).unwrap_or_else(|| Decimal::from(0));
         let points = self.places.iter().map(|(name, [x, y])| Point {
             name: name.clone(),

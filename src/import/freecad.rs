@@ -7,6 +7,7 @@
 
 use super::drawing::{Drawing, Finished};
 use super::{Figure, Imported, Listed, Places as AllPlaces, Tied};
+use crate::order::InOrder;
 use crate::problem::{Item, Problem, Shape};
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
@@ -781,7 +782,7 @@ pub fn rewrite(
         };
         changes.push((range, value));
     }
-    changes.sort_by_key(|change| std::cmp::Reverse(change.0.start));
+    changes.order_by_key(|change| std::cmp::Reverse(change.0.start));
     for (range, value) in changes {
         if text.get(range.clone()).is_none_or(str::is_empty) {
             return Err("a number is missing: this is another file".to_owned());

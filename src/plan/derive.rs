@@ -1,6 +1,7 @@
 //! Finding a plan with few driving parameters in the constraint graph.
 
 use super::Plan;
+use crate::order::InOrder;
 use crate::system::{Edge, Homotopy};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
@@ -142,7 +143,7 @@ impl Graph {
         'search: loop {
             let mut level = std::mem::take(&mut levels[cost]);
             level.retain(|partial| seen.insert(partial.placed.clone()));
-            level.sort_by_key(|partial| std::cmp::Reverse(partial.order.len()));
+            level.order_by_key(|partial| std::cmp::Reverse(partial.order.len()));
             level.truncate(beam);
             for partial in level {
                 if partial.order.len() == n {
@@ -231,7 +232,7 @@ impl Graph {
                     .filter(|&rank| rank != usize::MAX)
                     .collect();
                 if rank[q] == usize::MAX && known.len() >= self.dimension {
-                    known.sort_unstable_by_key(|&rank| Reverse(rank));
+                    known.order_by_key(|&rank| Reverse(rank));
                     // Entries from when there were fewer neighbours come later, and are skipped.
                     ready.push((known[self.dimension - 1], Reverse(q)));
                 }

@@ -4,6 +4,7 @@ use super::builder::{Number, ProblemBuilder, check_name, number};
 use super::error::{MAX_NAME, Place};
 use super::{AXES, Constraint, Decimal, DecimalError, Item, Object, Point, ProblemError, Shape};
 use crate::constraint::{self, KINDS};
+use crate::order::InOrder;
 use crate::statement::nearest;
 use std::collections::{HashMap, HashSet};
 
@@ -212,7 +213,7 @@ impl ProblemBuilder {
     ) -> Result<Vec<Object>, ProblemError> {
         // In the order of the tables of a file.
         let mut drafts: Vec<&DraftObject> = self.objects.iter().collect();
-        drafts.sort_by_key(|draft| draft.shape.order());
+        drafts.order_by_key(|draft| draft.shape.order());
         let drafts = drafts.into_iter().enumerate();
         drafts
             .map(|(index, draft)| {
@@ -352,7 +353,7 @@ impl ProblemBuilder {
             })?;
             drafts.push((order, draft));
         }
-        drafts.sort_by_key(|&(order, _)| order);
+        drafts.order_by_key(|&(order, _)| order);
         let drafts = drafts.into_iter().enumerate();
         drafts
             .map(|(index, (_, draft))| {

@@ -1,6 +1,7 @@
 //! Parts that can be mirrored without changing a distance.
 
 use super::{Remark, joined};
+use crate::order::InOrder;
 use crate::problem::Problem;
 
 /// Most sets of points that are tried for a hinge.
@@ -20,7 +21,7 @@ pub(super) fn parts(problem: &Problem) -> Vec<Remark> {
         if parts.len() < 2 {
             continue;
         }
-        parts.sort_by_key(Vec::len);
+        parts.order_by_key(Vec::len);
         // The largest stays; of two of the same size the one with the first points.
         parts.pop();
         for part in parts {

@@ -6,6 +6,7 @@
 //! where it is goes back each time.
 
 use crate::blocks::{Floats, System, straight};
+use crate::order::InOrder;
 use crate::problem::{Distance, Problem, Target, list};
 use crate::system::typical_length;
 use nalgebra::{DMatrix, DVector};
@@ -98,7 +99,7 @@ pub fn moves(problem: &Problem) -> Option<Moves> {
         of.map(|&u| (x[u] - first[u]).powi(2)).sum::<f64>().sqrt()
     };
     let mut points: Vec<usize> = (0..problem.points.len()).collect();
-    points.sort_by(|&a, &b| far(b).total_cmp(&far(a)));
+    points.order_by(|&a, &b| far(b).total_cmp(&far(a)));
     let by = far(points[0]);
     points.retain(|&p| far(p) > 0.3 * by);
     points.truncate(3);

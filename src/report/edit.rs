@@ -6,6 +6,7 @@ use super::drawing::{Drawing, names};
 use crate::blocks::{Account, Why};
 use crate::edit::{Alone, Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
 use crate::interval::Interval;
+use crate::order::InOrder;
 use crate::problem::{Problem, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -154,7 +155,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
 pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
     let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut moving: Vec<(usize, f64)> = limit.motion.iter().map(size).enumerate().collect();
-    moving.sort_by(|a, b| b.1.total_cmp(&a.1));
+    moving.order_by(|a, b| b.1.total_cmp(&a.1));
     let moving: Vec<usize> = moving
         .iter()
         .take(3)

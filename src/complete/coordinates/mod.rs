@@ -45,6 +45,7 @@ use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptine
 use crate::blocks::{Block as Cut, Blocks, LeftOut};
 use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
+use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::told::{self, Told};
 use crate::system::{GaugeError, Homotopy, typical_length};
@@ -224,7 +225,7 @@ fn searched(
         // But for roundings.
         part.share = part.share.min(1.0);
     }
-    result.undecided.sort_by_key(|part| part.why);
+    result.undecided.order_by_key(|part| part.why);
     if result.status == Status::Complete && result.solutions.is_empty() {
         result.reason = Some(
             "no figure meets the constraints: every part of the space of coordinates is excluded"

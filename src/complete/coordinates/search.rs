@@ -16,6 +16,7 @@ use super::system::{Row, System, relative_width, volume};
 use crate::complete::search::Run as Watched;
 use crate::complete::{Constructed, Part, Why};
 use crate::interval::Interval;
+use crate::order::InOrder;
 use num_rational::BigRational;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -441,7 +442,7 @@ impl Together {
     /// In an order that does not depend on who found them. Zeros that are neither the same nor apart stay, and are told apart, or
     /// not, as figures.
     fn in_order(mut self) -> (Vec<Zero>, Vec<Option<usize>>) {
-        self.zeros.sort_by(|(a, _), (b, _)| a.order(b));
+        self.zeros.order_by(|(a, _), (b, _)| a.order(b));
         self.zeros.into_iter().unzip()
     }
 }

@@ -10,6 +10,7 @@ use super::search::{About, Block, Found, Run, leave};
 use super::system::{Form, Product, Row};
 use crate::complete::Why;
 use crate::interval::Interval;
+use crate::order::InOrder;
 use crate::system::Homotopy;
 use crate::system::told::{self, Flat, Side, Told, View};
 use std::sync::Arc;
@@ -46,7 +47,7 @@ impl Sides<'_, '_> {
         self.each(self.whole, (told, &mut Vec::new()), (x, 1.0), &mut found);
         let zeros = found.zeros.into_iter().zip(found.pieces).zip(found.exact);
         let mut zeros: Vec<_> = zeros.collect();
-        zeros.sort_by(|((a, _), _), ((b, _), _)| a.order(b));
+        zeros.order_by(|((a, _), _), ((b, _), _)| a.order(b));
         let (zeros, exact): (Vec<_>, Vec<_>) = zeros.into_iter().unzip();
         let (zeros, pieces) = zeros.into_iter().unzip();
         Found {

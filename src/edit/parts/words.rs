@@ -6,6 +6,7 @@ use crate::blocks::{Account, Block, Verdict, account, name};
 use crate::constraint::KINDS;
 use crate::edit::session::Decomposition;
 use crate::interval::point;
+use crate::order::InOrder;
 use crate::problem::{Constraint, Item, Problem, Shape};
 use std::collections::BTreeSet;
 
@@ -109,7 +110,7 @@ impl Parts {
             constraints.push((held, None));
         }
         let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
-        constraints.sort_by_key(|(c, _)| order(&c.kind));
+        constraints.order_by_key(|(c, _)| order(&c.kind));
         let named = distances
             .iter()
             .map(|d| &d.1)

@@ -1,6 +1,7 @@
 //! What holds a molecule: as many constraints as it has free coordinates, those of bonds first.
 
 use crate::linalg::Span;
+use crate::order::InOrder;
 use crate::problem::rigidity;
 use std::collections::BTreeSet;
 
@@ -121,7 +122,7 @@ impl Candidates {
                 candidates.push((rank, apart(a, b), [a, b]));
             }
         }
-        candidates.sort_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
+        candidates.order_by(|x, y| x.0.cmp(&y.0).then(x.1.total_cmp(&y.1)));
         Candidates {
             near,
             pairs: candidates.into_iter().map(|c| (c.0, c.2)).collect(),

@@ -4,6 +4,7 @@ use super::outlines::Drawn;
 use super::projection::{Projection, colour, escaped};
 use super::still::begin;
 use super::{Page, Path, Sample};
+use crate::order::InOrder;
 use std::fmt::{self, Write};
 
 /// Pictures a turn, more or less.
@@ -55,7 +56,7 @@ impl Page {
                 moments.push((at, t, &figure.points, &figure.outlines, rests));
             }
         }
-        moments.sort_by(|a, b| a.0.total_cmp(&b.0));
+        moments.order_by(|a, b| a.0.total_cmp(&b.0));
         let mut frames = Vec::new();
         let (mut seconds, mut before) = (0.0, 0.0);
         for (at, t, points, outlines, rest) in moments {

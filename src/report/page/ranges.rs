@@ -2,6 +2,7 @@
 
 use super::reader::{Reader, ShowError, digits, middle, pair, text, wrong};
 use super::{Figure, Page, Text, Tone};
+use crate::order::InOrder;
 use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
@@ -19,7 +20,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let ranges = result["ranges"].as_object().ok_or(wrong("ranges"))?;
     let mut ranges: Vec<(&String, &Value)> = ranges.iter().collect();
     // In the order of the file.
-    ranges.sort_by_key(|(_, range)| range["constraint"].as_u64());
+    ranges.order_by_key(|(_, range)| range["constraint"].as_u64());
     let mut all = true;
     let mut words = Vec::new();
     for (name, range) in ranges {

@@ -3,6 +3,7 @@
 use super::outlines::Drawn;
 use super::projection::{Projection, colour, escaped};
 use super::{Figure, Page};
+use crate::order::InOrder;
 use std::fmt::{self, Write};
 
 /// More figures are not drawn: a picture with hundreds shows none.
@@ -89,7 +90,7 @@ impl Page {
         }
         let depth = |ends: [usize; 2]| places[ends[0]][2] + places[ends[1]][2];
         let mut bars: Vec<[usize; 2]> = self.bars.iter().map(|bar| bar.ends).collect();
-        bars.sort_by(|&a, &b| depth(a).total_cmp(&depth(b)));
+        bars.order_by(|&a, &b| depth(a).total_cmp(&depth(b)));
         let width = (140.0 / bars.len().max(1) as f64).clamp(0.7, 2.6);
         for ends in bars {
             let [a, b] = ends.map(|p| places[p]);

@@ -5,6 +5,7 @@ use super::style::{
     size_colour,
 };
 use crate::compare::RecordedPath;
+use crate::order::InOrder;
 use plotters::prelude::*;
 
 /// A point of the path: the length up to it, the free coordinates and t.
@@ -150,7 +151,7 @@ where
 /// Quantiles of the steps: every class has as many.
 fn bounds_of(steps: &[f64]) -> Vec<f64> {
     let mut sorted = steps.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sorted.order_by(f64::total_cmp);
     let mut bounds: Vec<f64> = (1..CLASSES)
         .filter_map(|k| sorted.get(k * sorted.len() / CLASSES).copied())
         .collect();
