@@ -1,22 +1,15 @@
 //! Elimination in dense matrices over any field.
 
-use std::ops::{Div, Mul, Sub};
+use crate::equations::Ring;
+use std::ops::Div;
 
 /// Numbers to eliminate with: floats, residues modulo a prime, complex numbers of such.
-pub trait Field:
-    Clone + PartialEq + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    /// A whole number.
-    fn whole(number: i32) -> Self;
+pub trait Field: Ring + PartialEq + Div<Output = Self> {
     /// About its absolute value: the entry for which this is greatest is the pivot.
     fn size(&self) -> f64;
 }
 
 impl Field for f64 {
-    fn whole(number: i32) -> Self {
-        number.into()
-    }
-
     fn size(&self) -> f64 {
         self.abs()
     }

@@ -71,6 +71,7 @@
 //! - `hexadecimal`: bytes as text
 //! - `random`: numbers that look random
 //! - `order`: sorting by places
+//! - [`equations`]: rows of products of differences
 //! - `elimination`: row echelon forms and inverses over any field
 //! - `residues`: numbers modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
@@ -129,6 +130,7 @@ mod decimal;
 pub mod edit;
 #[doc(hidden)]
 pub mod elimination;
+pub mod equations;
 #[cfg(feature = "explore")]
 pub mod explore;
 pub mod generate;

@@ -1,6 +1,7 @@
 //! Residues modulo a prime.
 
 use crate::elimination::Field;
+use crate::equations::Ring;
 use crate::random::Random;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -54,11 +55,13 @@ impl<const P: u64> Div for Residue<P> {
     }
 }
 
-impl<const P: u64> Field for Residue<P> {
+impl<const P: u64> Ring for Residue<P> {
     fn whole(number: i32) -> Self {
         Residue(i64::from(number).rem_euclid(P as i64) as u64)
     }
+}
 
+impl<const P: u64> Field for Residue<P> {
     fn size(&self) -> f64 {
         self.0 as f64
     }

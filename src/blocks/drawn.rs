@@ -6,7 +6,8 @@
 //! its dimensions from there, by proof as from any other. The constraints stay what they are.
 
 use super::{Choice, FINE, Row, System};
-use crate::constraint::{Entry, Equation, Form, Role};
+use crate::constraint::{Equation, Role};
+use crate::equations::Form;
 use crate::interval::{Real, point};
 use crate::linalg::nearest_zero;
 use crate::random::Random;
@@ -165,26 +166,14 @@ impl Row {
 
     /// The value of the left-hand side at a place, and its derivatives, one by one.
     pub(crate) fn evaluate(&self, at: &[f64], mut slope: impl FnMut(usize, f64)) -> f64 {
-        let value = |entry: Entry| match entry {
-            Entry::Unknown(u) => at[u],
-            _ => 0.0,
-        };
-        let form = |form: Form| match form {
-            Form::One => 1.0,
-            Form::Difference(a, b) => value(a) - value(b),
-        };
+        let value = |entry: Option<usize>| entry.map_or(0.0, |u| at[u]);
         let mut sum = 0.0;
         for p in &self.products {
             let half = 0.5 * f64::from(p.factor);
-            let (left, right) = (form(p.left), form(p.right));
-            sum += half * left * right;
-            for (this, other) in [(p.left, right), (p.right, left)] {
-                if let Form::Difference(a, b) = this {
-                    for (entry, sign) in [(a, 1.0), (b, -1.0)] {
-                        if let Entry::Unknown(u) = entry {
-                            slope(u, sign * half * other);
-                        }
-                    }
+            sum += half * p.value(value);
+            for (entry, sign, other) in p.derivatives(value) {
+                if let Some(u) = entry {
+                    slope(u, f64::from(sign) * half * other);
                 }
             }
         }
@@ -221,11 +210,8 @@ impl System {
             }
         }
         let values = &self.values;
-        let value = |entry: Entry| match entry {
-            Entry::Unknown(u) => values[u].clone(),
-            _ => Real::zero(),
-        };
-        let form = |form: Form| match form {
+        let value = |entry: Option<usize>| entry.map_or_else(Real::zero, |u| values[u].clone());
+        let form = |form: Form<Option<usize>>| match form {
             Form::One => Real::whole(1),
             Form::Difference(a, b) => &value(a) - &value(b),
         };

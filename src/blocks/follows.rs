@@ -11,8 +11,9 @@
 //! the rational numbers. What follows for another reason (of two lines parallel to a third, by cases) is not found.
 
 use super::Row;
-use crate::constraint::{Entry, Form, Product};
+use crate::equations::Form;
 use crate::interval::Real;
+use crate::system::Term;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -72,17 +73,11 @@ fn constant(right: &[Real]) -> Option<BigRational> {
 }
 
 /// ½ Σ factor · left · right, multiplied out.
-fn polynomial(products: &[Product]) -> Polynomial {
-    let form = |form: Form| -> Vec<(Option<usize>, i32)> {
+fn polynomial(products: &[Term]) -> Polynomial {
+    let form = |form: Form<Option<usize>>| -> Vec<(Option<usize>, i32)> {
         match form {
             Form::One => vec![(None, 1)],
-            Form::Difference(a, b) => [(a, 1), (b, -1)]
-                .into_iter()
-                .filter_map(|(entry, sign)| match entry {
-                    Entry::Unknown(u) => Some((Some(u), sign)),
-                    _ => None,
-                })
-                .collect(),
+            form => form.entries().filter(|(u, _)| u.is_some()).collect(),
         }
     };
     let mut out = Polynomial::new();
@@ -301,14 +296,10 @@ impl Given {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constraint::{difference, product};
 
-    fn row(products: Vec<Product>) -> Row {
+    fn row(products: Vec<Term>) -> Row {
         // Equations have ½ on the left.
-        let twice = |p: Product| Product {
-            factor: 2 * p.factor,
-            ..p
-        };
+        let twice = |p: Term| Term::new(2 * p.factor, p.left, p.right);
         Row {
             index: 0,
             products: products.into_iter().map(twice).collect(),
@@ -316,8 +307,8 @@ mod tests {
         }
     }
 
-    fn between(a: usize, b: usize) -> Form {
-        difference(Entry::Unknown(a), Entry::Unknown(b))
+    fn between(a: usize, b: usize) -> Form<Option<usize>> {
+        Form::Difference(Some(a), Some(b))
     }
 
     fn whole(x: i64) -> Vec<Real> {
@@ -326,9 +317,9 @@ mod tests {
 
     #[test]
     fn a_chain_of_differences_gives_the_last_one() {
-        let one = row(vec![product(1, between(0, 1), Form::One)]);
-        let two = row(vec![product(1, between(1, 2), Form::One)]);
-        let sum = row(vec![product(1, between(0, 2), Form::One)]);
+        let one = row(vec![Term::new(1, between(0, 1), Form::One)]);
+        let two = row(vec![Term::new(1, between(1, 2), Form::One)]);
+        let sum = row(vec![Term::new(1, between(0, 2), Form::One)]);
         let rights = [whole(3), whole(4)];
         let given = [Given::row(&one, &rights[0]), Given::row(&two, &rights[1])];
         let found = combination(&sum, &given).unwrap();
@@ -347,7 +338,7 @@ mod tests {
         let rights = [moving(3, 1), moving(4, 2)];
         assert!(found.holds(&moving(7, 3), of(rights.clone()), before));
         assert!(!found.holds(&moving(7, 2), of(rights), before));
-        let other = row(vec![product(1, between(0, 3), Form::One)]);
+        let other = row(vec![Term::new(1, between(0, 3), Form::One)]);
         assert_eq!(combination(&other, &given), None);
     }
 
@@ -355,8 +346,8 @@ mod tests {
     /// x0 − x1 = 5.
     #[test]
     fn a_square_follows_from_what_is_squared() {
-        let line = row(vec![product(1, between(0, 1), Form::One)]);
-        let square = row(vec![product(1, between(0, 1), between(0, 1))]);
+        let line = row(vec![Term::new(1, between(0, 1), Form::One)]);
+        let square = row(vec![Term::new(1, between(0, 1), between(0, 1))]);
         let given = [Given::row(&line, &whole(5))];
         let found = combination(&square, &given).unwrap();
         // L_r = (x0 − x1 − 5)(x0 − x1) + 5 (x0 − x1).
@@ -370,11 +361,8 @@ mod tests {
 
     #[test]
     fn equal_squares_add_up() {
-        let square = |a: usize, b: usize| product(1, between(a, b), between(a, b));
-        let minus = |p: Product| Product {
-            factor: -p.factor,
-            ..p
-        };
+        let square = |a: usize, b: usize| Term::new(1, between(a, b), between(a, b));
+        let minus = |p: Term| Term::new(-p.factor, p.left, p.right);
         let ab = row(vec![square(0, 1), minus(square(2, 3))]);
         let bc = row(vec![square(2, 3), minus(square(4, 5))]);
         let ac = row(vec![square(0, 1), minus(square(4, 5))]);

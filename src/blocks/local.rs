@@ -1,8 +1,8 @@
 //! The equations of one block, all other numbers being known.
 
+use super::Row;
 use super::number::Number;
-use super::{Row, unknowns_of};
-use crate::constraint::{Entry, Form};
+use crate::equations::Form;
 use crate::interval::{Interval, point};
 use std::collections::BTreeMap;
 
@@ -26,19 +26,16 @@ struct Side {
 impl Local {
     /// A row as an equation of some unknowns, with the values of all others, and what it is to be.
     pub fn new(row: &Row, own: &[usize], value: impl Fn(usize) -> Number, right: &Number) -> Self {
-        let side = |form: Form| -> Side {
+        let side = |form: Form<Option<usize>>| -> Side {
+            let one = if form == Form::One { 2 } else { 0 };
             let mut side = Side {
                 unknowns: Vec::new(),
-                constant: Number::halves(0),
+                constant: Number::halves(one),
             };
-            let Form::Difference(a, b) = form else {
-                side.constant = Number::halves(2);
-                return side;
-            };
-            for (entry, sign) in [(a, 1), (b, -1)] {
-                let Entry::Unknown(u) = entry else { continue };
+            for (entry, sign) in form.entries() {
+                let Some(u) = entry else { continue };
                 match own.iter().position(|&o| o == u) {
-                    Some(k) => side.unknowns.push((k, sign)),
+                    Some(k) => side.unknowns.push((k, sign.into())),
                     None if sign > 0 => side.constant = side.constant.plus(&value(u)),
                     None => side.constant = side.constant.minus(&value(u)),
                 }
@@ -127,7 +124,7 @@ pub fn is_square(row: &Row) -> bool {
 pub fn is_length(row: &Row, own: &[usize]) -> bool {
     let mut has_own = false;
     let fits = row.products.iter().all(|p| {
-        let is_own = unknowns_of(p).any(|u| own.contains(&u));
+        let is_own = p.entries().flatten().any(|u| own.contains(&u));
         has_own |= is_own;
         p.left == p.right && p.left != Form::One && (p.factor > 0 || !is_own)
     });

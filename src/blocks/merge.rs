@@ -1,8 +1,10 @@
 //! Unknowns that are one are made one.
 
-use crate::constraint::{Entry, Form, Lowered, Nonzero, Product, Role, Unknown, product};
+use crate::constraint::{Entry, Lowered, Nonzero, Role, Unknown};
+use crate::equations::Form;
 use crate::interval::{Real, enclose};
 use crate::problem::Problem;
+use crate::system::Term;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An equation in merged unknowns, `½ Σ factor · left · right = E(t)`.
@@ -10,8 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Row {
     /// Which of the problem's equations it is.
     pub index: usize,
-    /// The left-hand side; entries are `Unknown` or `Zero`.
-    pub products: Vec<Product>,
+    /// The left-hand side.
+    pub products: Vec<Term>,
     /// The unknowns in it.
     pub unknowns: Vec<usize>,
 }
@@ -112,19 +114,16 @@ impl System {
             }
         }
         let of = |x: usize| number[root(&parent, x)];
-        let entry = |e: Entry| raw(e).map_or(Entry::Zero, |x| Entry::Unknown(of(x)));
+        let entry = |e: Entry| raw(e).map(of);
         let (mut rows, mut implied) = (Vec::new(), Vec::new());
         for (index, equation) in lowered.tail.equations.iter().enumerate() {
-            let products = normalised(equation.products.iter().map(|p| Product {
-                factor: p.factor,
-                left: map(p.left, &entry),
-                right: map(p.right, &entry),
-            }));
+            let products = normalised(equation.products.iter().map(|p| p.map(entry)));
             if products.is_empty() {
                 implied.push(index);
                 continue;
             }
-            let unknowns: BTreeSet<usize> = products.iter().flat_map(super::unknowns_of).collect();
+            let unknowns = products.iter().flat_map(|p| p.entries()).flatten();
+            let unknowns: BTreeSet<usize> = unknowns.collect();
             rows.push(Row {
                 index,
                 products,
@@ -133,7 +132,7 @@ impl System {
         }
         let nonzero = lowered.tail.nonzero.iter().map(|vector| Nonzero {
             name: vector.name.clone(),
-            forms: vector.forms.map(|form| map(form, &entry)),
+            forms: vector.forms.map(|form| form.map(|e| entry(e).into())),
         });
         System {
             nonzero: nonzero.collect(),
@@ -148,21 +147,11 @@ impl System {
     }
 }
 
-fn map(form: Form, entry: &impl Fn(Entry) -> Entry) -> Form {
-    match form {
-        Form::One => Form::One,
-        Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
-    }
-}
-
 /// A sum of products in which equal ones are added up, without products that are zero or cancel.
-fn normalised(products: impl Iterator<Item = Product>) -> Vec<Product> {
-    let rank = |entry: Entry| match entry {
-        Entry::Unknown(u) => u,
-        _ => usize::MAX,
-    };
+fn normalised(products: impl Iterator<Item = Term>) -> Vec<Term> {
+    let rank = |entry: Option<usize>| entry.unwrap_or(usize::MAX);
     // A difference with the lower unknown first, and its sign; `None` where it is zero.
-    let ordered = |form: Form| -> Option<(Form, i32, (usize, usize))> {
+    let ordered = |form: Form<Option<usize>>| -> Option<(_, i32, (usize, usize))> {
         match form {
             Form::One => Some((form, 1, (usize::MAX, usize::MAX))),
             Form::Difference(a, b) => match rank(a).cmp(&rank(b)) {
@@ -174,7 +163,7 @@ fn normalised(products: impl Iterator<Item = Product>) -> Vec<Product> {
             },
         }
     };
-    let mut sum: BTreeMap<_, (i32, Form, Form)> = BTreeMap::new();
+    let mut sum: BTreeMap<_, (i32, _, _)> = BTreeMap::new();
     for p in products {
         let (Some(left), Some(right)) = (ordered(p.left), ordered(p.right)) else {
             continue;
@@ -190,6 +179,6 @@ fn normalised(products: impl Iterator<Item = Product>) -> Vec<Product> {
     }
     let terms = sum.into_values().filter(|term| term.0 != 0);
     terms
-        .map(|(factor, left, right)| product(factor, left, right))
+        .map(|(factor, left, right)| Term::new(factor, left, right))
         .collect()
 }

@@ -51,19 +51,3 @@ pub use merge::{Row, System};
 pub use pinned::pinned;
 pub use singular::Singular;
 pub use surplus::{Census, Finding, Surplus, surplus};
-
-use crate::constraint::{Entry, Form, Product};
-
-/// The unknowns of a product, each once or twice.
-pub(crate) fn unknowns_of(product: &Product) -> impl Iterator<Item = usize> + '_ {
-    [product.left, product.right]
-        .into_iter()
-        .flat_map(|form| match form {
-            Form::One => [None, None],
-            Form::Difference(a, b) => [a, b].map(|entry| match entry {
-                Entry::Unknown(u) => Some(u),
-                _ => None,
-            }),
-        })
-        .flatten()
-}

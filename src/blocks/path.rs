@@ -5,6 +5,7 @@ use super::local::is_length;
 use super::number::Number;
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, value};
 use crate::interval::{Interval, Real, hull, point};
+use crate::order::InOrder;
 use crate::system::{Homotopy, Part};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::{Relation, arcs, prove_figure, track};
@@ -97,7 +98,7 @@ pub fn follow(
             (folds != Some(0), found)
         })
         .collect();
-    found.sort_by_key(|(folded, _)| *folded);
+    found.order_by_key(|(folded, _)| *folded);
     let mut tubes = outcome.steps;
     if found.first().is_none_or(|(folded, _)| *folded)
         && let Ok(straight) = homotopy(cut, block, values, false)
@@ -177,14 +178,7 @@ fn homotopy(
     }
     let local: HashMap<usize, usize> = all.iter().enumerate().map(|(k, &u)| (u, k)).collect();
     let known = &all[block.unknowns.len()..];
-    let entry = |e: Entry| match e {
-        Entry::Unknown(u) => Entry::Unknown(local[&u]),
-        other => other,
-    };
-    let form = |f: Form| match f {
-        Form::One => Form::One,
-        Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
-    };
+    let entry = |unknown: Option<usize>| Entry::from(unknown.map(|u| local[&u]));
     let bends = rows
         .iter()
         .rposition(|&row| bent && is_length(&cut.system.rows[row], &block.unknowns));
@@ -197,15 +191,7 @@ fn homotopy(
         }
         equations.push(Equation {
             name: cut.name(row.index),
-            products: row
-                .products
-                .iter()
-                .map(|p| Product {
-                    factor: p.factor,
-                    left: form(p.left),
-                    right: form(p.right),
-                })
-                .collect(),
+            products: row.products.iter().map(|p| p.map(entry)).collect(),
             right,
             power: cut.powers[row.index],
         });
@@ -218,29 +204,18 @@ fn homotopy(
         let change = &there - &here;
         equations.push(Equation {
             name: unknown.name.clone(),
-            products: vec![Product {
-                factor: 2,
-                left: value(Entry::Unknown(local[&u])),
-                right: Form::One,
-            }],
+            products: vec![Product::new(2, value(entry(Some(u))), Form::One)],
             right: vec![here, change],
             power: unknown.power,
         });
     }
     let d = cut.problem.dimension;
-    let is_here = |f: Form| match f {
-        Form::One => true,
-        Form::Difference(a, b) => [a, b].iter().all(|e| match e {
-            Entry::Unknown(u) => local.contains_key(u),
-            _ => true,
-        }),
-    };
     let nonzero = cut.system.nonzero.iter();
-    let nonzero = nonzero.filter(|vector| vector.forms[..d].iter().all(|&f| is_here(f)));
+    let nonzero = nonzero.filter(|vector| vector.unknowns(d).all(|u| local.contains_key(&u)));
     let nonzero = nonzero.map(|vector| Nonzero {
         name: vector.name.clone(),
         forms: std::array::from_fn(|axis| match axis < d {
-            true => form(vector.forms[axis]),
+            true => vector.forms[axis].map(|e| entry(e.unknown())),
             false => Form::Difference(Entry::Zero, Entry::Zero),
         }),
     });
@@ -278,20 +253,10 @@ fn by(cut: &Cut, row: &super::Row, values: &[Option<Number>]) -> Result<Real, St
             .as_ref()
             .map_or(sketch(u), |x| x.enclosure().mid())
     };
-    let of = |form: Form, at: &dyn Fn(usize) -> f64| match form {
-        Form::One => 1.0,
-        Form::Difference(a, b) => [(a, 1.0), (b, -1.0)]
-            .iter()
-            .map(|(e, sign)| match e {
-                Entry::Unknown(u) => sign * at(*u),
-                _ => 0.0,
-            })
-            .sum(),
-    };
     let (mut squares, mut growth) = (0.0, 0.0);
     for p in &row.products {
-        let before = of(p.left, &sketch);
-        let change = of(p.left, &now) - before;
+        let before: f64 = p.left.value(|entry| entry.map_or(0.0, sketch));
+        let change = p.left.value(|entry| entry.map_or(0.0, now)) - before;
         if p.factor > 0 {
             squares += f64::from(p.factor) * before * before;
         } else {

@@ -55,13 +55,12 @@ fn of_constraints(homotopy: &Homotopy, solution: &Solution) -> Option<f64> {
     let z: Vec<Interval> = coordinates
         .chain(solution.auxiliary.iter().copied())
         .collect();
-    let at = |i: usize| if i < m { z[i] } else { point(0.0) };
-    let factor = |form: Option<[usize; 2]>| form.map_or(point(1.0), |[i, j]| at(i) - at(j));
+    let at = |entry: Option<usize>| entry.map_or(point(0.0), |i| z[i]);
     let equations = (head..m).map(|e| {
         let (mut sum, mut size) = (point(0.0), 0.0);
         for term in homotopy.terms(e) {
             let half = point(0.5 * f64::from(term.factor));
-            let product = half * factor(term.left) * factor(term.right);
+            let product = half * term.value(at);
             sum += product;
             size += product.mag();
         }

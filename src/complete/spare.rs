@@ -5,6 +5,7 @@
 use crate::constraint::{Entry, Equation, Form, Lowered, Product, Spare};
 use crate::interval::Interval;
 use crate::linalg::Span;
+use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::Gauge;
 
@@ -56,23 +57,14 @@ impl Equations<'_> {
     /// How far an equation is from holding, and its derivatives.
     fn row(&self, equation: &Equation, x: &[f64]) -> (f64, Vec<f64>) {
         let value = |entry: Entry| self.column(entry).map_or_else(|fixed| fixed, |c| x[c]);
-        let of = |form: Form| match form {
-            Form::One => 1.0,
-            Form::Difference(a, b) => value(a) - value(b),
-        };
         let right: f64 = equation.right.iter().map(|e| e.enclose().mid()).sum();
         let (mut off, mut row) = (-right / self.unit.powi(equation.power), vec![0.0; x.len()]);
         for product in &equation.products {
             let factor = 0.5 * f64::from(product.factor);
-            off += factor * of(product.left) * of(product.right);
-            for (this, other) in [(product.left, product.right), (product.right, product.left)] {
-                let Form::Difference(a, b) = this else {
-                    continue;
-                };
-                for (entry, sign) in [(a, factor), (b, -factor)] {
-                    if let Ok(column) = self.column(entry) {
-                        row[column] += sign * of(other);
-                    }
+            off += factor * product.value(value);
+            for (entry, sign, other) in product.derivatives(value) {
+                if let Ok(column) = self.column(entry) {
+                    row[column] += f64::from(sign) * factor * other;
                 }
             }
         }
@@ -178,7 +170,7 @@ pub(super) fn make_square(
     };
     let (x, width) = (equations.nearest(), equations.width());
     let mut order: Vec<usize> = (0..lowered.owners.len()).collect();
-    order.sort_by_key(|&e| rank(lowered.owners[e]));
+    order.order_by_key(|&e| rank(lowered.owners[e]));
     let mut is_used = vec![false; order.len()];
     let mut span = Span::default();
     for e in order {

@@ -23,6 +23,7 @@ use super::boxes::SolutionBox;
 use super::exact::Exact;
 use super::matrix::Matrix;
 use super::system::System;
+use crate::equations::Form;
 use crate::interval::complex::Complex;
 use crate::interval::rounding::{UNDERFLOW, in_range, largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
@@ -130,30 +131,20 @@ impl EndProver {
         }
     }
 
-    /// The linear forms of a term at a point; `None` for the number 1.
-    fn form(x: &[Z], ends: Option<[usize; 2]>) -> Option<Z> {
-        let entry = |i: usize| x.get(i).copied().unwrap_or_default();
-        ends.map(|[a, b]| entry(a) - entry(b))
-    }
-
     /// What stands in the Jacobian: row, column, value.
     ///
     /// A value passes through a difference and a product before it is added to an entry.
     fn slopes<'a>(&'a self, x: &'a [Z]) -> impl Iterator<Item = (usize, usize, Z)> + 'a {
-        let n = x.len();
+        let at = |entry: Option<usize>| entry.map(|i| x[i]).unwrap_or_default();
         let equations = self.system.equations.iter().enumerate();
         equations.flat_map(move |(e, equation)| {
             equation.terms.iter().flat_map(move |term| {
                 let factor = DoubleDouble::from(0.5 * f64::from(term.factor));
-                let forms = [term.left, term.right];
-                (0..2).flat_map(move |side| {
-                    let other = Self::form(x, forms[1 - side]).unwrap_or(Complex::real(1.0));
-                    let slope = other.times(factor);
-                    let ends = forms[side].map(|[a, b]| [(a, slope), (b, -slope)]);
-                    let unknowns = ends.into_iter().flatten();
-                    let unknowns = unknowns.filter(move |&(unknown, _)| unknown < n);
-                    unknowns.map(move |(unknown, slope)| (e, unknown, slope))
-                })
+                term.derivatives(at)
+                    .filter_map(move |(unknown, sign, other)| {
+                        let slope = other.times(factor);
+                        Some((e, unknown?, if sign > 0 { slope } else { -slope }))
+                    })
             })
         })
     }
@@ -258,11 +249,8 @@ impl EndProver {
 
     /// Bounds on |B_e(h, g)| for |h|, |g| ≤ 1.
     fn weights(&self) -> Vec<f64> {
-        let n = self.system.unknowns.len();
         // How many unknowns there are in a form.
-        let count = |form: Option<[usize; 2]>| {
-            form.map_or(0, |ends| ends.iter().filter(|&&i| i < n).count())
-        };
+        let count = |form: Form<Option<usize>>| form.entries().filter(|(i, _)| i.is_some()).count();
         let of = |equation: &super::system::Equation| {
             let terms = equation.terms.iter().map(|term| {
                 let product = count(term.left) * count(term.right);

@@ -1,6 +1,7 @@
 //! The polynomial system for other programs.
 
 use super::system::{Kind, System};
+use crate::equations::Form;
 use crate::interval::Real;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -138,16 +139,11 @@ fn names(system: &System) -> Vec<String> {
 
 /// Twice the left-hand side less the right one, or half that where all coefficients stay whole.
 fn polynomial(system: &System, equation: usize) -> Polynomial {
-    let n = system.unknowns.len();
     let mut sums: BTreeMap<Vec<usize>, BigRational> = BTreeMap::new();
-    let parts = |form: Option<[usize; 2]>| -> Vec<(Option<usize>, i64)> {
+    let parts = |form: Form<Option<usize>>| -> Vec<(Option<usize>, i32)> {
         match form {
-            None => vec![(None, 1)],
-            Some([a, b]) => {
-                let ends = [(a, 1), (b, -1)];
-                let real = ends.into_iter().filter(|(i, _)| *i < n);
-                real.map(|(i, sign)| (Some(i), sign)).collect()
-            }
+            Form::One => vec![(None, 1)],
+            form => form.entries().filter(|(i, _)| i.is_some()).collect(),
         }
     };
     for term in &system.equations[equation].terms {
@@ -155,7 +151,7 @@ fn polynomial(system: &System, equation: usize) -> Polynomial {
             for (right, other) in parts(term.right) {
                 let mut monomial: Vec<usize> = left.into_iter().chain(right).collect();
                 monomial.sort_unstable();
-                let factor = i64::from(term.factor) * one * other;
+                let factor = term.factor * one * other;
                 *sums.entry(monomial).or_insert_with(BigRational::zero) +=
                     BigRational::from_integer(BigInt::from(factor));
             }

@@ -12,6 +12,7 @@
 
 use super::matrix::Matrix;
 use super::system::System;
+use crate::equations::{Form, Product};
 use crate::interval::DoubleDouble;
 use crate::interval::complex::{Complex, Number};
 use crate::system::Right;
@@ -142,12 +143,8 @@ impl<'a> FloatFollower<'a> {
     }
 }
 
-/// One term of an equation: a factor times two linear forms, each the difference of two unknowns, or the number 1.
-#[derive(Debug, Clone, Copy)]
-struct Term {
-    factor: f64,
-    forms: [Option<[usize; 2]>; 2],
-}
+/// One term of an equation. Entry n is zero.
+type Term = Product<usize, f64>;
 
 /// Takes steps along paths in numbers of one kind.
 struct Stepper<N> {
@@ -174,9 +171,9 @@ impl<N: Number> Stepper<N> {
         let n = system.unknowns.len();
         let (mut terms, mut first) = (Vec::new(), vec![0]);
         for equation in &system.equations {
-            terms.extend(equation.terms.iter().map(|term| Term {
-                factor: 0.5 * f64::from(term.factor),
-                forms: [term.left, term.right].map(|form| form.map(|ends| ends.map(|i| i.min(n)))),
+            terms.extend(equation.terms.iter().map(|term| {
+                let [left, right] = term.forms().map(|form| form.map(|i| i.unwrap_or(n)));
+                Term::new(0.5 * f64::from(term.factor), left, right)
             }));
             first.push(terms.len());
         }
@@ -301,10 +298,10 @@ impl<N: Number> Stepper<N> {
                 }
             }
             for (forms, term) in self.forms.iter_mut().zip(&self.terms) {
-                for (form, ends) in forms.iter_mut().zip(term.forms) {
-                    form[order] = match ends {
-                        Some([a, b]) => self.x[a][order] - self.x[b][order],
-                        None => Complex::real(if order == 0 { 1.0 } else { 0.0 }),
+                for (form, of) in forms.iter_mut().zip(term.forms()) {
+                    form[order] = match of {
+                        Form::One if order > 0 => Complex::default(),
+                        of => of.value(|i| self.x[i][order]),
                     };
                 }
             }
@@ -388,8 +385,7 @@ impl<N: Number> Stepper<N> {
     fn residual(&self, e: usize, t: f64) -> Complex<N> {
         let mut value = -self.wanted(e, t);
         for term in &self.terms[self.first[e]..self.first[e + 1]] {
-            let [left, right] = term.forms.map(|form| self.form(form));
-            value = value + (left * right).times(term.factor.into());
+            value = value + term.value(|i| self.there[i]).times(term.factor.into());
         }
         value
     }
@@ -409,17 +405,9 @@ impl<N: Number> Stepper<N> {
             )
         };
         for term in &self.terms[self.first[e]..self.first[e + 1]] {
-            let [left, right] = term.forms.map(|ends| match ends {
-                None => Complex::real(1.0),
-                Some([a, b]) => number(a) - number(b),
-            });
-            sum = sum + (left * right).times(term.factor.into());
+            sum = sum + term.value(number).times(term.factor.into());
         }
         Complex::new(sum.re.hi.into(), sum.im.hi.into())
-    }
-
-    fn form(&self, ends: Option<[usize; 2]>) -> Complex<N> {
-        ends.map_or(Complex::real(1.0), |[a, b]| self.there[a] - self.there[b])
     }
 
     /// The Jacobian at the point arrived at.
@@ -428,16 +416,11 @@ impl<N: Number> Stepper<N> {
         self.matrix.clear();
         for e in 0..n {
             for term in &self.terms[self.first[e]..self.first[e + 1]] {
-                let values = term.forms.map(|form| self.form(form));
-                for side in 0..2 {
-                    let Some([plus, minus]) = term.forms[side] else {
-                        continue;
-                    };
-                    let slope = values[1 - side].times(term.factor.into());
-                    for (unknown, slope) in [(plus, slope), (minus, -slope)] {
-                        if unknown < n {
-                            self.matrix.add(e, unknown, slope);
-                        }
+                for (unknown, sign, other) in term.derivatives(|i| self.there[i]) {
+                    let slope = other.times(term.factor.into());
+                    if unknown < n {
+                        let slope = if sign > 0 { slope } else { -slope };
+                        self.matrix.add(e, unknown, slope);
                     }
                 }
             }

@@ -19,7 +19,9 @@ use super::lower::{half_square, in_unit};
 use super::system::{Equation, Kind, Start, System, Unknown};
 use super::vector::Z;
 use crate::constraint::is_opposite_nearer;
+use crate::equations::Form;
 use crate::interval::{DoubleDouble, Real};
+use crate::order::InOrder;
 use crate::problem::{Item, Problem, Shape, Target};
 use crate::system::Term;
 use num_rational::BigRational;
@@ -30,19 +32,8 @@ const FOOT: [usize; 2] = [1, 2];
 /// c₂, s₂, c₃, a, b.
 const DIRECTIONS: [usize; 5] = [3, 4, 5, 6, 7];
 
-/// The unknown that stands for zero.
-const ZERO: usize = usize::MAX;
-
-fn value(of: usize) -> Option<[usize; 2]> {
-    Some([of, ZERO])
-}
-
-fn times(factor: i32, left: Option<[usize; 2]>, right: Option<[usize; 2]>) -> Term {
-    Term {
-        factor,
-        left,
-        right,
-    }
+fn value(of: usize) -> Form<Option<usize>> {
+    Form::Difference(Some(of), None)
 }
 
 /// Which line stands where.
@@ -172,7 +163,7 @@ pub fn frames(problem: &Problem) -> Vec<Frame> {
         }
     }
     // Whichever angle is smaller counts; sorting is stable.
-    frames.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    frames.order_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
     frames.into_iter().map(|(.., frame)| frame).collect()
 }
 
@@ -234,8 +225,9 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
     for (index, distance) in problem.distances.iter().enumerate() {
         let [a, b] = distance.points;
         let square = |axis: usize| {
-            let form = Some([coordinate(a, axis), coordinate(b, axis)]);
-            times(1, form, form)
+            let [a, b] = [a, b].map(|p| Some(coordinate(p, axis)));
+            let form = Form::Difference(a, b);
+            Term::new(1, form, form)
         };
         equations.push(Equation {
             name: problem.distance_name(index),
@@ -251,16 +243,16 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         // The differences of the point from the line's place.
         let from = match which {
             0 => [value(x), value(y), value(z)],
-            1 => [value(x), value(y), Some([z, height])],
+            1 => [value(x), value(y), Form::Difference(Some(z), Some(height))],
             _ => {
                 let mut from = [value(x), value(y), value(z)];
                 for (&axis, foot) in in_plane.iter().zip(foot) {
-                    from[axis] = Some([[x, y, z][axis], foot]);
+                    from[axis] = Form::Difference(Some([x, y, z][axis]), Some(foot));
                 }
                 from
             }
         };
-        let square = |form: Option<[usize; 2]>| times(1, form, form);
+        let square = |form: Form<Option<usize>>| Term::new(1, form, form);
         let mut terms: Vec<Term> = match (which, are_orthogonal) {
             (0, _) => vec![square(from[1]), square(from[2])],
             (1, true) => vec![square(from[0]), square(from[2])],
@@ -276,14 +268,14 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
                 // As x does, which is multiplied by what does not change.
                 flips: [true, false, false],
             });
-            terms.push(times(-1, value(shadow), value(shadow)));
+            terms.push(Term::new(-1, value(shadow), value(shadow)));
             let [c2, s2, c3, a, b] = directions.map(value);
             let of = match which {
                 1 => vec![(c2, from[0]), (s2, from[1])],
                 _ => vec![(c3, from[0]), (a, from[1]), (b, from[2])],
             };
-            let mut defined = vec![times(2, value(shadow), None)];
-            defined.extend(of.into_iter().map(|(u, v)| times(-2, u, v)));
+            let mut defined = vec![Term::new(2, value(shadow), Form::One)];
+            defined.extend(of.into_iter().map(|(u, v)| Term::new(-2, u, v)));
             equations.push(Equation {
                 name: format!("{} along {}", problem.points[*point].name, name(which)),
                 terms: defined,
@@ -322,21 +314,29 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         let angle = |a: usize, b: usize| format!("angle of {} and {}", name(a), name(b));
         let parameter = |a, b| Kind::Parameter([wanted(a, b), Real::zero()]);
         let half = Exact::whole(1).over(&Exact::whole(2))?;
-        add(angle(0, 1), vec![times(2, c2, None)], parameter(0, 1));
-        add(angle(0, 2), vec![times(2, c3, None)], parameter(0, 2));
+        add(
+            angle(0, 1),
+            vec![Term::new(2, c2, Form::One)],
+            parameter(0, 1),
+        );
+        add(
+            angle(0, 2),
+            vec![Term::new(2, c3, Form::One)],
+            parameter(0, 2),
+        );
         add(
             angle(1, 2),
-            vec![times(2, c2, c3), times(2, s2, a)],
+            vec![Term::new(2, c2, c3), Term::new(2, s2, a)],
             parameter(1, 2),
         );
         add(
             format!("length of the direction of {}", name(1)),
-            vec![times(1, c2, c2), times(1, s2, s2)],
+            vec![Term::new(1, c2, c2), Term::new(1, s2, s2)],
             Kind::Fixed(half.clone()),
         );
         add(
             format!("length of the direction of {}", name(2)),
-            vec![times(1, c3, c3), times(1, a, a), times(1, b, b)],
+            vec![Term::new(1, c3, c3), Term::new(1, a, a), Term::new(1, b, b)],
             Kind::Fixed(half),
         );
     }

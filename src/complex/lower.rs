@@ -6,6 +6,7 @@ use super::infinity::Graph;
 use super::system::{Equation, Kind, Start, System, Unknown};
 use super::{lines, own_frame};
 use crate::constraint::MAX_DEGREE;
+use crate::equations::Form;
 use crate::interval::Real;
 use crate::problem::{Problem, Target, list};
 use crate::system::{GaugeError, Homotopy, Term};
@@ -286,11 +287,11 @@ fn place(
     let mut put = |e: usize, unknown: usize, value: Real| {
         let per_unit = BigRational::from_float(1.0 / homotopy.unit).expect("a power of two");
         let equation = &mut equations[e];
-        equation.terms = vec![Term {
-            factor: 2,
-            left: Some([unknown, homotopy.equations + 1]),
-            right: None,
-        }];
+        equation.terms = vec![Term::new(
+            2,
+            Form::Difference(Some(unknown), None),
+            Form::One,
+        )];
         equation.power = 1;
         equation.right = Kind::Parameter([&value * &Real::from(per_unit), Real::zero()]);
         equation.bows = false;

@@ -40,7 +40,10 @@ fn is_held_apart(homotopy: &Homotopy, vector: &[[usize; 2]]) -> bool {
         let mut places = equations.filter(|(_, equation)| is_place(equation));
         let is_its = |e: usize| {
             let terms = homotopy.terms(head + e);
-            terms[0].left.is_some_and(|ends| ends[0] == unknown)
+            let mut first = terms[0].left.entries();
+            first
+                .next()
+                .is_some_and(|(entry, _)| entry == Some(unknown))
         };
         let (_, equation) = places.find(|(e, _)| is_its(*e))?;
         super::lower::at_target(&equation.right)

@@ -4,6 +4,7 @@
 use super::exact::{Exact, Parameter, Random};
 use super::lines;
 use super::system::{Kind, Start, System};
+use crate::equations::Form;
 
 /// A figure and its parameters: exactly, or, where these would be long ratios, nearly.
 #[derive(Debug, Clone)]
@@ -100,21 +101,19 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
 }
 
 pub(super) fn unknowns_of(system: &System, equation: usize) -> impl Iterator<Item = usize> + '_ {
-    let n = system.unknowns.len();
     let terms = system.equations[equation].terms.iter();
-    let ends = terms.flat_map(|t| t.left.into_iter().chain(t.right).flatten());
-    ends.filter(move |&i| i < n)
+    terms.flat_map(|term| term.entries()).flatten()
 }
 
 /// Whether an unknown stands in an equation, times the number 1 only.
 fn is_linear(system: &System, equation: usize, unknown: usize) -> bool {
-    let stands = |form: Option<[usize; 2]>| form.is_some_and(|ends| ends.contains(&unknown));
+    let stands = |form: Form<Option<usize>>| form.entries().any(|e| e.0 == Some(unknown));
     let mut found = false;
     for term in &system.equations[equation].terms {
         match (stands(term.left), stands(term.right)) {
             (true, true) => return false,
-            (true, false) if term.right.is_none() => found = true,
-            (false, true) if term.left.is_none() => found = true,
+            (true, false) if term.right == Form::One => found = true,
+            (false, true) if term.left == Form::One => found = true,
             (false, false) => {}
             _ => return false,
         }
@@ -124,9 +123,9 @@ fn is_linear(system: &System, equation: usize, unknown: usize) -> bool {
 
 /// Whether an unknown stands in an equation, and never times itself.
 fn is_affine(system: &System, equation: usize, unknown: usize) -> bool {
-    let stands = |form: Option<[usize; 2]>| form.is_some_and(|ends| ends.contains(&unknown));
+    let stands = |form: Form<Option<usize>>| form.entries().any(|e| e.0 == Some(unknown));
     let terms = system.equations[equation].terms.iter();
-    let mut found = terms.map(|term| [stands(term.left), stands(term.right)]);
+    let mut found = terms.map(|term| term.forms().map(stands));
     found.clone().all(|both| both != [true, true]) && found.any(|both| both != [false, false])
 }
 

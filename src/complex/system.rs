@@ -1,7 +1,8 @@
 //! Complex quadratic equations with parameters, and the real ones that they stand for.
 
 use super::exact::{Exact, Parameter, zero};
-use crate::constraint::{self, Entry, Form, Role, Tail};
+use crate::constraint::{self, Entry, Role, Tail};
+use crate::equations::{Form, Product};
 use crate::hexadecimal::hexadecimal;
 use crate::interval::point;
 use crate::system::{Homotopy, Right, Term};
@@ -128,16 +129,21 @@ impl System {
     fn stands_alone(&self, equation: usize, unknown: usize) -> bool {
         let mut slope = 0;
         for term in &self.equations[equation].terms {
-            let mut forms = [term.left, term.right].into_iter().flatten();
-            let here = forms.clone().filter(|ends| ends.contains(&unknown)).count();
-            match (here, forms.next(), forms.next()) {
-                (0, ..) => {}
-                (1, Some([a, b]), None) if a != b => {
-                    slope += if a == unknown {
-                        term.factor
-                    } else {
-                        -term.factor
-                    };
+            let stands = |form: &Form<Option<usize>>| {
+                let mut entries = form.entries();
+                entries.find_map(|(entry, sign)| (entry == Some(unknown)).then_some(sign))
+            };
+            match (
+                stands(&term.left).or(stands(&term.right)),
+                term.left,
+                term.right,
+            ) {
+                (None, ..) => {}
+                (Some(sign), Form::Difference(a, b), Form::One)
+                | (Some(sign), Form::One, Form::Difference(a, b))
+                    if a != b =>
+                {
+                    slope += sign * term.factor;
                 }
                 _ => return false,
             }
@@ -164,14 +170,12 @@ impl System {
 
     /// Twice the left-hand side of an equation, less the first power of the unit, at a point.
     pub(super) fn evaluate(&self, equation: usize, at: &[Exact]) -> Exact {
-        let form = |form: Option<[usize; 2]>| match form {
-            None => Exact::whole(1),
-            Some([a, b]) => {
-                let entry = |i: usize| at.get(i).cloned().unwrap_or_else(Exact::zero);
-                entry(a).minus(&entry(b))
-            }
-        };
+        let at = |entry: Option<usize>| entry.map_or_else(Exact::zero, |i| at[i].clone());
         let terms = self.equations[equation].terms.iter();
+        let form = |form: Form<Option<usize>>| match form.map(at) {
+            Form::One => Exact::whole(1),
+            Form::Difference(a, b) => a.minus(&b),
+        };
         terms.fold(Exact::zero(), |sum, term| {
             let product = form(term.left).times(&form(term.right));
             sum.plus(&product.times(&Exact::whole(term.factor.into())))
@@ -193,7 +197,7 @@ impl System {
         });
         let mut equations = Vec::with_capacity(2 * n);
         for equation in &self.equations {
-            let [re, im] = parts(equation, n);
+            let [re, im] = parts(equation);
             for (part, products) in [("Re", re), ("Im", im)] {
                 equations.push(constraint::Equation {
                     name: format!("{part} {}", equation.name),
@@ -258,21 +262,13 @@ impl System {
         if self.is_absolute {
             text += &format!("in its own frame, {} changes of signs\n", self.group.len());
         }
-        let n = self.unknowns.len();
-        let end = |i: usize| {
-            if i < n {
-                format!("z{i}")
-            } else {
-                "0".to_owned()
-            }
-        };
+        let end = |entry: Option<usize>| entry.map_or("0".to_owned(), |i| format!("z{i}"));
         for equation in &self.equations {
             for term in &equation.terms {
-                let form = |form: Option<[usize; 2]>| match form {
-                    None => "1".to_owned(),
-                    Some([a, b]) => format!("({}-{})", end(a), end(b)),
-                };
-                let (left, right) = (form(term.left), form(term.right));
+                let [left, right] = term.forms().map(|form| match form {
+                    Form::One => "1".to_owned(),
+                    Form::Difference(a, b) => format!("({}-{})", end(a), end(b)),
+                });
                 text += &format!("{} {left} {right};", term.factor);
             }
             match &equation.right {
@@ -300,18 +296,16 @@ impl Equation {
 
 /// Whether a change of signs reverses the left-hand side (`Some(true)`), leaves it, or does neither.
 pub(super) fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
-    let n = changes.len();
-    let form = |form: Option<[usize; 2]>| match form {
-        None => Some(false),
-        Some([a, b]) if a < n && b < n => (changes[a] == changes[b]).then_some(changes[a]),
-        Some([a, b]) => Some([a, b].iter().any(|&i| i < n && changes[i])),
+    let form = |form: Form<Option<usize>>| match form.map(|entry| entry.map(|i| changes[i])) {
+        Form::Difference(Some(a), Some(b)) => (a == b).then_some(a),
+        Form::Difference(Some(a), None) | Form::Difference(None, Some(a)) => Some(a),
+        Form::Difference(None, None) | Form::One => Some(false),
     };
     let mut sign = None;
     // A difference of a number and itself, or of coordinates that are zero, is nothing, whatever multiplies it.
-    let is_nothing =
-        |form: Option<[usize; 2]>| form.is_some_and(|[a, b]| a == b || a >= n && b >= n);
+    let is_nothing = |form: Form<Option<usize>>| matches!(form, Form::Difference(a, b) if a == b);
     let terms = equation.terms.iter();
-    for term in terms.filter(|term| !is_nothing(term.left) && !is_nothing(term.right)) {
+    for term in terms.filter(|term| !term.forms().into_iter().any(is_nothing)) {
         let this = form(term.left)? ^ form(term.right)?;
         if sign.is_some_and(|sign| sign != this) {
             return None;
@@ -323,18 +317,15 @@ pub(super) fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
 
 /// The products of the real and the imaginary part of a complex equation in n unknowns:
 /// (a + ib)(c + id) = (ac − bd) + i(ad + bc).
-fn parts(equation: &Equation, n: usize) -> [Vec<constraint::Product>; 2] {
-    let entry = |i: usize, part: usize| match i < n {
-        true => Entry::Unknown(real_part(i) + part),
-        false => Entry::Zero,
-    };
-    let form = |form: Option<[usize; 2]>, part: usize| match (form, part) {
-        (None, 0) => Some(Form::One),
+fn parts(equation: &Equation) -> [Vec<constraint::Product>; 2] {
+    let form = |form: Form<Option<usize>>, part: usize| match (form, part) {
+        (Form::One, 0) => Some(Form::One),
         // The number 1 has no imaginary part, and zero has none.
-        (None, _) => None,
-        (Some([a, b]), part) => {
-            (a < n || b < n).then(|| Form::Difference(entry(a, part), entry(b, part)))
-        }
+        (Form::One, _) | (Form::Difference(None, None), _) => None,
+        (form, part) => Some(form.map(|entry| match entry {
+            Some(i) => Entry::Unknown(real_part(i) + part),
+            None => Entry::Zero,
+        })),
     };
     let (mut re, mut im) = (Vec::new(), Vec::new());
     for term in &equation.terms {
@@ -345,7 +336,7 @@ fn parts(equation: &Equation, n: usize) -> [Vec<constraint::Product>; 2] {
                 };
                 let sign = if left + right == 2 { -1 } else { 1 };
                 let part = if left + right == 1 { &mut im } else { &mut re };
-                part.push(constraint::product(sign * term.factor, l, r));
+                part.push(Product::new(sign * term.factor, l, r));
             }
         }
     }

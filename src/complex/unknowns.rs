@@ -103,10 +103,8 @@ fn fill(homotopy: &Homotopy, known: &mut [Option<Z>]) {
         let mut is_new = false;
         for e in 0..m {
             let terms = homotopy.terms(e);
-            let ends = terms
-                .iter()
-                .flat_map(|t| t.left.into_iter().chain(t.right).flatten());
-            let mut open: Vec<usize> = ends.filter(|&i| i < m && known[i].is_none()).collect();
+            let entries = terms.iter().flat_map(|term| term.entries()).flatten();
+            let mut open: Vec<usize> = entries.filter(|&i| known[i].is_none()).collect();
             open.sort_unstable();
             open.dedup();
             let &[unknown] = open.as_slice() else {
@@ -115,18 +113,13 @@ fn fill(homotopy: &Homotopy, known: &mut [Option<Z>]) {
             let right = homotopy.rights[e].double_at_target().0;
             // The left-hand side less the right-hand one, twice, where the unknown is 0, 1 and −1.
             let value = |x: f64| {
-                let at = |i: usize| match i {
-                    i if i == unknown => Z::real(x),
-                    i => known.get(i).copied().flatten().unwrap_or_default(),
-                };
-                let form = |ends: Option<[usize; 2]>| match ends {
-                    None => Z::real(1.0),
-                    Some([a, b]) => at(a) - at(b),
+                let at = |entry: Option<usize>| match entry {
+                    Some(i) if i == unknown => Z::real(x),
+                    entry => entry.and_then(|i| known[i]).unwrap_or_default(),
                 };
                 let twice = Z::new(right * DoubleDouble::from(-2.0), 0.0.into());
                 terms.iter().fold(twice, |sum, t| {
-                    let product = form(t.left) * form(t.right);
-                    sum + product.times(DoubleDouble::from(f64::from(t.factor)))
+                    sum + t.value(at).times(DoubleDouble::from(f64::from(t.factor)))
                 })
             };
             let (none, one, back) = (value(0.0), value(1.0), value(-1.0));

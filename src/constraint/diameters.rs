@@ -6,7 +6,7 @@
 //! squares of both. So s = 0 says in two linear equations what the two others say of figures: c is in the middle.
 
 use super::factors::{Equal, Name, entry, power};
-use super::quadratic::{Equation, Form, Product, Tail, difference, product};
+use super::quadratic::{Equation, Form, Product, Tail, difference};
 use crate::interval::Real;
 
 /// A difference from a point c, by what stands for its entries: the other point's coordinate, and that of c.
@@ -60,7 +60,7 @@ pub fn halve(
             let sum = [a, b].map(|[p, c]| difference(entry(p), entry(c)));
             let equation = &mut tail.equations[e];
             equation.power = power(&tail.unknowns, sum[0]);
-            equation.products = sum.map(|form| product(2, form, Form::One)).to_vec();
+            equation.products = sum.map(|form| Product::new(2, form, Form::One)).to_vec();
             equation.right = vec![Real::zero()];
             is_done[e] = true;
         }
@@ -151,7 +151,7 @@ fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Name; 3]; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::constraint::lower_for_sets;
-    use crate::constraint::quadratic::{Entry, Product, difference, product};
+    use crate::constraint::quadratic::{Entry, Product, difference};
     use crate::constraint::testing::read;
 
     /// The left-hand sides that sets have of a chord p-q of a circle about c, and others.
@@ -168,7 +168,7 @@ mod tests {
         let at = |point| Entry::Coordinate { point, axis };
         let middle = c.map_or(Entry::Zero, at);
         [0, 1]
-            .map(|end| product(2, difference(at(end), middle), super::Form::One))
+            .map(|end| Product::new(2, difference(at(end), middle), super::Form::One))
             .to_vec()
     }
 

@@ -9,7 +9,7 @@
 //! was left out of others is zero; and an equation that was divided is the quotient times its factor. At t = 1 alone.
 
 use super::diameters;
-use super::quadratic::{Entry, Form, Product, Role, Tail, product};
+use super::quadratic::{Entry, Form, Product, Role, Tail};
 use super::subtracted;
 use super::zeros::at_target;
 use crate::interval::{Interval, Real};
@@ -63,14 +63,6 @@ impl Equal {
             std::cmp::Ordering::Equal => None,
             std::cmp::Ordering::Less => Some(([a, b], -1)),
             std::cmp::Ordering::Greater => Some(([b, a], 1)),
-        }
-    }
-
-    /// The difference of what stands for its entries.
-    fn named(&self, form: Form) -> Form {
-        match self.ends(form) {
-            None => Form::One,
-            Some([a, b]) => Form::Difference(entry(a), entry(b)),
         }
     }
 
@@ -146,12 +138,10 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
     let mut rights = rights_at_target(tail, vanishing);
     subtracted::subtract(tail, &mut rights, &equal, &is_kept);
     for (equation, is_kept) in tail.equations.iter_mut().zip(is_kept) {
-        let left = equal.left(&equation.products).map(|p| Product {
-            factor: p.factor,
-            left: equal.named(p.left),
-            right: equal.named(p.right),
-        });
-        let left: Vec<Product> = left.collect();
+        let left = equal.left(&equation.products);
+        let left: Vec<Product> = left
+            .map(|p| p.map(|e| entry(equal.root(name(e)))))
+            .collect();
         // Of one that holds by others nothing would be left.
         if !is_kept && !left.is_empty() {
             equation.products = left;
@@ -233,7 +223,7 @@ fn divided(
             both.filter(|(_, other)| *other != Form::One)
                 .find_map(|(this, other)| {
                     let (own, turn) = equal.ordered(this)?;
-                    (own == ends).then(|| product(p.factor * sign * turn, other, Form::One))
+                    (own == ends).then(|| Product::new(p.factor * sign * turn, other, Form::One))
                 })
         });
         Some((by, rest.collect::<Option<Vec<_>>>()?))
@@ -272,11 +262,11 @@ mod tests {
     }
 
     fn dot([a, b]: [Form; 2], [c, d]: [Form; 2]) -> Equation {
-        equation(vec![product(2, a, c), product(2, b, d)], 0, 2)
+        equation(vec![Product::new(2, a, c), Product::new(2, b, d)], 0, 2)
     }
 
     fn equal(form: Form) -> Equation {
-        equation(vec![product(2, form, Form::One)], 0, 1)
+        equation(vec![Product::new(2, form, Form::One)], 0, 1)
     }
 
     fn taken_out(mut tail: Tail, apart: &[[usize; 2]]) -> Tail {
@@ -297,11 +287,11 @@ mod tests {
     #[test]
     fn a_radius_at_a_right_angle_to_a_vertical_line_is_horizontal() {
         let [_, y] = vector(2, 1);
-        let horizontal = vec![product(2, y, Form::One)];
+        let horizontal = vec![Product::new(2, y, Form::One)];
         // Only if the line has a direction, by what is said of it or by its length.
         let given = vertical();
         let left = taken_out(given.clone(), &[]);
-        let rest = vec![product(2, vector(0, 1)[1], y)];
+        let rest = vec![Product::new(2, vector(0, 1)[1], y)];
         assert_eq!(left.equations[0].products, rest);
         assert_eq!(left.equations[1], given.equations[1]);
         for apart in [[0, 1], [1, 0]] {
@@ -318,7 +308,7 @@ mod tests {
         // The vector is said the other way round.
         assert_eq!(taken_out(named, &[]).equations[0].products, horizontal);
         let mut squared = given;
-        let squares = vector(0, 1).map(|form| product(1, form, form));
+        let squares = vector(0, 1).map(|form| Product::new(1, form, form));
         squared.equations.push(equation(squares.to_vec(), 8, 2));
         let left = taken_out(squared, &[]);
         assert_eq!(left.equations[0].products, horizontal);
@@ -333,7 +323,7 @@ mod tests {
         let [x, _] = vector(3, 2);
         let apart = [[0, 1], [1, 2]];
         let left = taken_out(tail.clone(), &apart);
-        assert_eq!(left.equations[0].products, [product(2, x, Form::One)]);
+        assert_eq!(left.equations[0].products, [Product::new(2, x, Form::One)]);
         // Where that is said, too, nothing would be left of the first one, which stays as it is.
         tail.equations.push(equal(x));
         let left = taken_out(tail.clone(), &apart);
@@ -348,7 +338,10 @@ mod tests {
         let mut given = vertical();
         given.equations[0].right = vec![Real::whole(3)];
         let left = taken_out(given.clone(), &[[0, 1]]);
-        assert_eq!(left.equations[0].products, [product(2, line[1], radius[1])]);
+        assert_eq!(
+            left.equations[0].products,
+            [Product::new(2, line[1], radius[1])]
+        );
         let slanted = Tail {
             equations: vec![dot(line, radius)],
             ..Tail::default()
@@ -357,7 +350,7 @@ mod tests {
         given = vertical();
         given.equations[0]
             .products
-            .push(product(2, radius[0], radius[0]));
+            .push(Product::new(2, radius[0], radius[0]));
         let left = taken_out(given, &[[0, 1]]);
         assert_eq!(left.equations[0].products.len(), 2);
     }

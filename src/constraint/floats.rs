@@ -126,13 +126,8 @@ impl<'a> Floats<'a> {
         right.iter().rev().copied().fold(0.0, horner)
     }
 
-    fn form(&self, form: Form, x: &[f64]) -> f64 {
-        match form {
-            Form::One => 1.0,
-            Form::Difference(a, b) => {
-                self.place(a).map_or(0.0, |k| x[k]) - self.place(b).map_or(0.0, |k| x[k])
-            }
-        }
+    fn at(&self, x: &[f64]) -> impl Fn(Entry) -> f64 {
+        move |entry| self.place(entry).map_or(0.0, |k| x[k])
     }
 
     /// The left-hand side of an equation.
@@ -140,7 +135,7 @@ impl<'a> Floats<'a> {
         let products = self.products(equation);
         let terms = products
             .iter()
-            .map(|p| f64::from(p.factor) * self.form(p.left, x) * self.form(p.right, x));
+            .map(|p| f64::from(p.factor) * p.value(self.at(x)));
         0.5 * terms.sum::<f64>()
     }
 
@@ -148,15 +143,9 @@ impl<'a> Floats<'a> {
     pub fn row(&self, equation: usize, x: &[f64]) -> Vec<f64> {
         let mut row = vec![0.0; x.len()];
         for p in self.products(equation) {
-            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                let slope = 0.5 * f64::from(p.factor) * self.form(other, x);
-                if let Form::Difference(a, b) = this {
-                    if let Some(k) = self.place(a) {
-                        row[k] += slope;
-                    }
-                    if let Some(k) = self.place(b) {
-                        row[k] -= slope;
-                    }
+            for (entry, sign, other) in p.derivatives(self.at(x)) {
+                if let Some(k) = self.place(entry) {
+                    row[k] += 0.5 * f64::from(sign * p.factor) * other;
                 }
             }
         }

@@ -11,7 +11,7 @@
 
 use super::polynomial::Polynomial;
 use super::quadratic::{
-    Entry, Equation, Form, Nonzero, Product, Role, Tail, Unknown, difference, product, value,
+    Entry, Equation, Form, Nonzero, Product, Role, Tail, Unknown, difference, value,
 };
 use crate::interval::{Interval, Real, point};
 
@@ -191,7 +191,7 @@ impl<'a> Dividing<'a> {
         );
         let s = value(new.scale);
         let one = vec![Real::whole(1), Real::whole(-1)];
-        new.equate("1 − t", vec![product(2, s, Form::One)], one, 0);
+        new.equate("1 − t", vec![Product::new(2, s, Form::One)], one, 0);
         for (p, height) in heights.iter().enumerate() {
             let Some(height) = *height else { continue };
             let name = format!("the height of point {} over 1 − t", p + 1);
@@ -233,16 +233,10 @@ impl<'a> Dividing<'a> {
         let mut needed = vec![false; self.tail.unknowns.len()];
         let equations = self.tail.equations.iter().zip(odd);
         for (equation, _) in equations.filter(|(_, odd)| !**odd) {
-            for form in equation.products.iter().flat_map(|p| [p.left, p.right]) {
-                let Form::Difference(a, b) = form else {
-                    continue;
-                };
-                for entry in [a, b] {
-                    if let Entry::Unknown(u) = entry {
-                        needed[u] = true;
-                    }
-                }
-            }
+            let entries = equation.products.iter().flat_map(|p| p.entries());
+            entries
+                .filter_map(Entry::unknown)
+                .for_each(|u| needed[u] = true);
         }
         needed
     }
@@ -256,8 +250,8 @@ impl<'a> Dividing<'a> {
     /// u = s u'.
     fn is_scaled(&mut self, name: &str, u: Entry, over: Entry, power: i32) {
         let products = vec![
-            product(2, value(u), Form::One),
-            product(-2, value(self.scale), value(over)),
+            Product::new(2, value(u), Form::One),
+            Product::new(-2, value(self.scale), value(over)),
         ];
         self.equate(name, products, vec![Real::zero()], power);
     }
@@ -296,21 +290,10 @@ impl<'a> Dividing<'a> {
         }
     }
 
-    fn map(form: Form, entry: impl Fn(Entry) -> Entry) -> Form {
-        match form {
-            Form::One => Form::One,
-            Form::Difference(a, b) => difference(entry(a), entry(b)),
-        }
-    }
-
     /// An even equation.
     fn keep(&mut self, equation: &Equation) {
         let plain = |entry| self.plain(entry).expect("it is needed");
-        let products = equation.products.iter().map(|p| Product {
-            factor: p.factor,
-            left: Self::map(p.left, plain),
-            right: Self::map(p.right, plain),
-        });
+        let products = equation.products.iter().map(|p| p.map(plain));
         let products = products.collect();
         let right = equation.right.clone();
         self.equate(&equation.name, products, right, equation.power);
@@ -321,13 +304,8 @@ impl<'a> Dividing<'a> {
         let Some(right) = over_one_minus_t(&equation.right) else {
             return Err(format!("{} is not zero at t = 1", equation.name));
         };
-        let over = |entry| self.over(entry);
-        let products = equation.products.iter().map(|p| Product {
-            factor: p.factor,
-            left: Self::map(p.left, over),
-            right: Self::map(p.right, over),
-        });
-        let products = products.collect();
+        let products = equation.products.iter();
+        let products = products.map(|p| p.map(|entry| self.over(entry))).collect();
         self.equate(&equation.name, products, right, equation.power);
         Ok(())
     }
@@ -422,7 +400,7 @@ mod tests {
         let z = value(coordinate(3, 2));
         let tail = Tail {
             equations: vec![
-                vanishing("one", vec![product(2, z, Form::One)], &[1, -1]),
+                vanishing("one", vec![Product::new(2, z, Form::One)], &[1, -1]),
                 vanishing("other", products, right),
             ],
             ..Tail::default()
@@ -433,33 +411,33 @@ mod tests {
     #[test]
     fn refuses_what_keeps_figures_from_being_flat() {
         let (x, z) = (value(coordinate(3, 0)), value(coordinate(3, 2)));
-        let odd = || vec![product(2, z, x)];
+        let odd = || vec![Product::new(2, z, x)];
         assert!(two(odd(), &[4, -4]).is_ok());
         let refused = |result: Result<Divided, String>| result.map(|_| ()).unwrap_err();
         assert!(refused(two(odd(), &[4, -3])).contains("other is not zero at t = 1"));
-        let mixed = vec![product(2, z, x), product(2, x, Form::One)];
+        let mixed = vec![Product::new(2, z, x), Product::new(2, x, Form::One)];
         assert!(refused(two(mixed, &[4, -4])).contains("other is not symmetric"));
-        let form = vec![product(
+        let form = vec![Product::new(
             2,
             difference(coordinate(3, 0), coordinate(3, 2)),
             Form::One,
         )];
         assert!(refused(two(form, &[4, -4])).contains("other is not symmetric"));
         // Even: then there is one condition on one height.
-        assert!(refused(two(vec![product(2, z, z)], &[4])).contains("continua"));
+        assert!(refused(two(vec![Product::new(2, z, z)], &[4])).contains("continua"));
     }
 
     #[test]
     fn flat_figures_satisfy_the_undivided_equations_at_the_end() {
         let (x, z) = (value(coordinate(3, 0)), value(coordinate(3, 2)));
-        let divided = two(vec![product(2, z, x)], &[4, -4]).unwrap();
+        let divided = two(vec![Product::new(2, z, x)], &[4, -4]).unwrap();
         assert_eq!(divided.origins, [Origin::Scale, Origin::Height(3)]);
         // s, z = s w, and the two.
         let equations = &divided.tail.equations;
         assert_eq!(equations.len(), 4);
         let over = value(Entry::Unknown(1));
-        assert_eq!(equations[2].products, [product(2, over, Form::One)]);
-        assert_eq!(equations[3].products, [product(2, over, x)]);
+        assert_eq!(equations[2].products, [Product::new(2, over, Form::One)]);
+        assert_eq!(equations[3].products, [Product::new(2, over, x)]);
         assert_eq!(equations[3].right, whole(&[4]));
     }
 }

@@ -52,7 +52,7 @@ pub(crate) use kinds::is_opposite_nearer;
 pub use lowering::Spare;
 pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
-    difference, product, value,
+    difference, value,
 };
 pub(crate) use structure::check_structure;
 pub use structure::{size, size_in_edits};

@@ -7,7 +7,7 @@ use super::frame::{
 };
 use super::lowering::{Arrow, Fault, Lowering, Parity, Place};
 use super::polynomial::multiply;
-use super::quadratic::{Entry, Form, Product, Role, product, value};
+use super::quadratic::{Entry, Form, Product, Role, value};
 use crate::decimal::Decimal;
 use crate::interval::Real;
 use crate::statement::Shape;
@@ -58,7 +58,7 @@ impl Plane {
             }
             Level::Offset(level, _) => {
                 let mut products = low.dot(factor, &self.normal.forms, &of.entries.map(value));
-                products.push(product(-factor, value(*level), Form::One));
+                products.push(Product::new(-factor, value(*level), Form::One));
                 products
             }
         }
@@ -187,8 +187,8 @@ impl Lowering<'_> {
         let square = self.coefficient(&what, 0, Parity::Even, vec![square.into()]);
         for (entry, form) in entries.iter().zip(normal.forms) {
             let products = vec![
-                product(1, value(square), value(*entry)),
-                product(-1, value(level), form),
+                Product::new(1, value(square), value(*entry)),
+                Product::new(-1, value(level), form),
             ];
             self.equate(&name, products, vec![Real::zero()], 1);
         }
@@ -231,7 +231,7 @@ impl Lowering<'_> {
     pub fn on_round(&mut self, name: &str, place: &Place, round: &Round) {
         let across = self.between(&round.center, place);
         let mut products = self.dot(1, &across.forms, &across.forms);
-        products.push(product(-1, value(round.radius), value(round.radius)));
+        products.push(Product::new(-1, value(round.radius), value(round.radius)));
         let start = dot(&across.at, &across.at) - &round.squared;
         self.vanish(name, products, start.into(), 2);
     }
@@ -352,7 +352,7 @@ impl Lowering<'_> {
             let span = self.between(&origin, &self.place(points[k]));
             let (now, then) = (in_sketch.of(&at[k]), wanted.of(&local[k]));
             let mut products: Vec<Vec<Product>> = (0..self.dimension())
-                .map(|axis| vec![product(1, span.forms[axis], Form::One)])
+                .map(|axis| vec![Product::new(1, span.forms[axis], Form::One)])
                 .collect();
             // The directions that coordinates are along: in the plane the edge and the same turned by a
             // right angle, in space two edges and their cross product.
@@ -378,7 +378,7 @@ impl Lowering<'_> {
                 let what = format!("{what}, coordinate {}", index + 1);
                 let entry = self.coefficient(&what, power, parity, path);
                 for (axis, products) in products.iter_mut().enumerate() {
-                    products.push(product(-1, value(entry), forms[axis]));
+                    products.push(Product::new(-1, value(entry), forms[axis]));
                 }
             }
             for products in products {

@@ -6,6 +6,7 @@
 //! trackers keep distances apart, as their *head*, and all others in a list, the *tail*, so that
 //! problems of distances alone pay nothing for the rest.
 
+use crate::equations;
 use crate::interval::{Interval, Real};
 
 /// The highest degree of a right-hand side in t.
@@ -27,25 +28,27 @@ pub enum Entry {
     Zero,
 }
 
-/// A factor of a product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Form {
-    /// The first entry minus the second.
-    Difference(Entry, Entry),
-    /// The number 1, for terms that are linear.
-    One,
+impl Entry {
+    /// The auxiliary unknown that it is.
+    pub fn unknown(self) -> Option<usize> {
+        match self {
+            Entry::Unknown(u) => Some(u),
+            _ => None,
+        }
+    }
 }
 
-/// `factor · left · right`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Product {
-    /// A whole number from −1000 to 1000, not zero.
-    pub factor: i32,
-    /// The first of the two things multiplied.
-    pub left: Form,
-    /// The second of the two things multiplied.
-    pub right: Form,
+impl From<Option<usize>> for Entry {
+    fn from(unknown: Option<usize>) -> Self {
+        unknown.map_or(Entry::Zero, Entry::Unknown)
+    }
 }
+
+/// A difference of entries, or the number 1.
+pub type Form = equations::Form<Entry>;
+
+/// A product of differences of entries.
+pub type Product = equations::Product<Entry>;
 
 /// `½ Σ factor · left · right = E(t)`.
 ///
@@ -130,14 +133,10 @@ pub struct Nonzero {
 impl Nonzero {
     /// The unknowns in its coordinates, of which it has so many.
     pub fn unknowns(&self, dimension: usize) -> impl Iterator<Item = usize> + '_ {
-        let entries = self.forms[..dimension].iter().flat_map(|form| match *form {
-            Form::One => [Entry::Zero; 2],
-            Form::Difference(a, b) => [a, b],
-        });
-        entries.filter_map(|entry| match entry {
-            Entry::Unknown(u) => Some(u),
-            _ => None,
-        })
+        let entries = self.forms[..dimension]
+            .iter()
+            .flat_map(|form| form.entries());
+        entries.filter_map(|(entry, _)| entry.unknown())
     }
 }
 
@@ -196,13 +195,4 @@ pub fn difference(from: Entry, to: Entry) -> Form {
 /// An entry itself, as a factor of a product.
 pub fn value(of: Entry) -> Form {
     Form::Difference(of, Entry::Zero)
-}
-
-/// A product.
-pub fn product(factor: i32, left: Form, right: Form) -> Product {
-    Product {
-        factor,
-        left,
-        right,
-    }
 }

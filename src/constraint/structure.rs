@@ -9,7 +9,8 @@
 use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower, try_lower_editable};
-use crate::elimination::{Echelon, Field};
+use crate::elimination::Echelon;
+use crate::equations::Ring;
 use crate::residues::{Residue, Residues};
 use crate::statement::{DEPENDS, Problem, counted, list};
 

@@ -90,13 +90,9 @@ fn holds_in_the_sketch(problem: &Problem) {
             Entry::Unknown(u) => lowered.tail.unknowns[u].sketch,
         }
     };
-    let form = |form: Form| match form {
-        Form::One => point(1.0),
-        Form::Difference(a, b) => value(a) - value(b),
-    };
     for equation in &lowered.tail.equations {
         let left = equation.products.iter().fold(point(0.0), |sum, p| {
-            sum + point(0.5 * f64::from(p.factor)) * form(p.left) * form(p.right)
+            sum + point(0.5 * f64::from(p.factor)) * p.value(value)
         });
         let off = left - equation.right[0].enclose();
         assert!(off.contains(0.0), "{}: {off:?}", equation.name);

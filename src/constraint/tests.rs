@@ -1,7 +1,7 @@
 //! What constraints mean, kind by kind.
 
 use super::lower_for_sets;
-use super::quadratic::{Entry, difference, product};
+use super::quadratic::{Entry, Product, difference};
 use super::testing::{Figure, angle, cross, dot, examine, near, read, size};
 use crate::interval::point;
 use crate::problem::Problem;
@@ -550,7 +550,7 @@ fn sets_have_one_name_for_what_is_equal() {
     let tail = lower_for_sets(&problem);
     let left = |e: usize| tail.equations[e].products.clone();
     let at = |point, axis| Entry::Coordinate { point, axis };
-    let square = |a, b| product(1, difference(a, b), difference(a, b));
+    let square = |a, b| Product::new(1, difference(a, b), difference(a, b));
     // a is at the origin, so that b is on the x axis.
     let [ax, bx, cx, cy, dx] = [Entry::Zero, at(1, 0), at(3, 0), at(3, 1), at(4, 0)];
     let is_square = |e: usize, pairs: &[[Entry; 2]]| {

@@ -8,7 +8,8 @@
 //! ([`super::zeros`]) are none.
 
 use super::quadratic::{Entry, Form, Role, Tail};
-use crate::elimination::{Echelon, Field};
+use crate::elimination::Echelon;
+use crate::equations::Ring;
 use crate::residues::Residue;
 
 /// A basis of the changes, per change the unknowns concerned. `vanishing`: for each equation whether its right-hand

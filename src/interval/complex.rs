@@ -2,6 +2,7 @@
 
 use super::DoubleDouble;
 use crate::elimination::Field;
+use crate::equations::Ring;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What complex numbers are made of.
@@ -194,11 +195,13 @@ impl<N: Number> Div for Complex<N> {
     }
 }
 
-impl<N: Number> Field for Complex<N> {
+impl<N: Number> Ring for Complex<N> {
     fn whole(number: i32) -> Self {
-        Complex::real(number.into())
+        Complex::real(f64::from(number))
     }
+}
 
+impl<N: Number> Field for Complex<N> {
     fn size(&self) -> f64 {
         self.norm_sqr().sqrt()
     }

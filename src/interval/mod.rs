@@ -25,6 +25,14 @@ pub use inari::Interval;
 pub use portable::Interval;
 pub use real::{Ball, Real, root};
 
+use crate::equations::Ring;
+
+impl Ring for Interval {
+    fn whole(number: i32) -> Self {
+        point(number.into())
+    }
+}
+
 /// The interval that holds just `value`.
 ///
 /// # Panics

@@ -1,8 +1,9 @@
 //! H(X, t), as the trackers see it.
 
 use super::{ExactLength, Gauge, GaugeError, Length, Right, Segment};
-use crate::constraint::{self, Entry, Form, Role, Tail};
-use crate::interval::{Interval, enclose, enclose_rational, point};
+use crate::constraint::{self, Entry, Role, Tail};
+use crate::equations::{Form, Product};
+use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
 use crate::problem::{Distance, Problem, Shape, Target};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
@@ -12,18 +13,8 @@ pub struct Edge {
     pub points: [usize; 2],
 }
 
-/// `factor · left · right`, of differences of unknowns: a term of 2 q_e(X).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Term {
-    /// A small whole number.
-    pub factor: i32,
-    /// The first factor: the first of two unknowns minus the second, or the number 1. The index m + 1 stands for
-    /// zero.
-    pub left: Option<[usize; 2]>,
-    /// The second factor: the first of two unknowns minus the second, or the number 1. The index m + 1 stands for
-    /// zero.
-    pub right: Option<[usize; 2]>,
-}
+/// A term of 2 q_e(X): a product of differences of unknowns, by number; `None` is the number 0.
+pub type Term = Product<Option<usize>>;
 
 /// The homotopy H(X, t) = F(X, a(t)) = 0 of a problem (RR 8705, section 2.2): m equations
 /// q_e(X) − E_e(t) = 0 in m unknowns and t. The first equations are the distances, in the problem's
@@ -328,20 +319,12 @@ impl Homotopy {
 
     fn add_constraints(&mut self) {
         for equation in &self.tail.equations {
-            let form = |form: Form| match form {
-                Form::One => None,
-                Form::Difference(from, to) => Some([self.entry(from), self.entry(to)]),
-            };
             let terms = equation.products.iter().map(|product| {
                 assert!(
                     (1..=1000).contains(&product.factor.abs()),
                     "factors are small whole numbers"
                 );
-                Term {
-                    factor: product.factor,
-                    left: form(product.left),
-                    right: form(product.right),
-                }
+                product.map(|entry| self.entry(entry))
             });
             let terms: Vec<Term> = terms.collect();
             assert!(!terms.is_empty(), "an equation has a left-hand side");
@@ -357,16 +340,15 @@ impl Homotopy {
         }
     }
 
-    /// The unknown that an entry is, or m + 1 if it is zero.
-    pub(crate) fn entry(&self, entry: Entry) -> usize {
-        let zero = self.equations + 1;
+    /// The unknown that an entry is, or `None` if it is zero.
+    pub(crate) fn entry(&self, entry: Entry) -> Option<usize> {
         match entry {
-            Entry::Zero => zero,
+            Entry::Zero => None,
             Entry::Unknown(k) => {
                 assert!(k < self.tail.unknowns.len(), "an auxiliary unknown");
-                self.gauge.place.len() + k
+                Some(self.gauge.place.len() + k)
             }
-            Entry::Coordinate { point, axis } => self.coordinate(point, axis).unwrap_or(zero),
+            Entry::Coordinate { point, axis } => self.coordinate(point, axis),
         }
     }
 
@@ -379,8 +361,7 @@ impl Homotopy {
     /// The unknowns that are an object's own, in the order in which they are made; entries that are zero are left out.
     pub fn object_unknowns(&self, object: usize) -> impl Iterator<Item = usize> + '_ {
         let entries = self.tail.objects[object].iter();
-        let unknowns = entries.map(|&entry| self.entry(entry));
-        unknowns.filter(|&unknown| unknown < self.equations)
+        entries.filter_map(|&entry| self.entry(entry))
     }
 
     /// The unknown that a point's coordinate is, or `None` where it is zero.
@@ -406,15 +387,10 @@ impl Homotopy {
         if equation >= head {
             return self.terms[equation - head].clone();
         }
-        let zero = self.equations + 1;
         let of_axis = |axis: usize| {
-            let ends = self.edges[equation].points;
-            let ends = ends.map(|p| self.coordinate(p, axis).unwrap_or(zero));
-            Term {
-                factor: 1,
-                left: Some(ends),
-                right: Some(ends),
-            }
+            let [a, b] = self.edges[equation].points;
+            let form = Form::Difference(self.coordinate(a, axis), self.coordinate(b, axis));
+            Term::new(1, form, form)
         };
         (0..self.dimension).map(of_axis).collect()
     }
@@ -423,13 +399,11 @@ impl Homotopy {
     /// is certainly not zero anywhere in it.
     pub fn may_hold(&self, z: &[Interval]) -> bool {
         let m = self.equations;
-        let at = |i: usize| if i < m { z[i] } else { point(0.0) };
-        let factor = |form: Option<[usize; 2]>| form.map_or(point(1.0), |[i, j]| at(i) - at(j));
+        let at = |entry: Option<usize>| entry.map_or(ZERO, |i| z[i]);
         (0..m).all(|e| {
             let terms = self.terms(e).into_iter();
-            let sum = terms.fold(point(0.0), |sum, term| {
-                let size = point(0.5 * f64::from(term.factor));
-                sum + size * factor(term.left) * factor(term.right)
+            let sum = terms.fold(ZERO, |sum, term| {
+                sum + point(0.5 * f64::from(term.factor)) * term.value(at)
             });
             (sum - self.rights[e].enclose(z[m])).contains(0.0)
         })
@@ -458,9 +432,10 @@ impl Homotopy {
     /// The vectors that must not vanish along the path: per coordinate the unknowns of which it is the difference,
     /// where m + 1 stands for zero.
     pub fn nonzero_vectors(&self) -> Vec<Vec<[usize; 2]>> {
-        let form = |form: &Form| match *form {
+        let zero = self.equations + 1;
+        let form = |form: &constraint::Form| match form.map(|e| self.entry(e).unwrap_or(zero)) {
             Form::One => unreachable!("a coordinate of a vector is a difference"),
-            Form::Difference(from, to) => [self.entry(from), self.entry(to)],
+            Form::Difference(from, to) => [from, to],
         };
         let vectors = self.tail.nonzero.iter();
         vectors

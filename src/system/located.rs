@@ -68,10 +68,7 @@ impl Homotopy {
         unknown: impl Fn(usize) -> Interval,
     ) -> Vec<Located> {
         let unit = point(self.unit);
-        let value = |entry: Entry| match self.entry(entry) {
-            i if i < self.equations => unknown(i),
-            _ => point(0.0),
-        };
+        let value = |entry: Entry| self.entry(entry).map_or(point(0.0), &unknown);
         let three = |entries: &[Entry]| -> [Interval; 3] {
             std::array::from_fn(|k| entries.get(k).map_or(point(0.0), |&entry| value(entry)))
         };

@@ -13,7 +13,8 @@
 //! away*: what is zero at a zero may be subtracted, any number of times. Numbers that are no ratios (an irrational length, what a block before was found
 //! to be) are symbols in this, and ranges only where the result is used.
 
-use super::Homotopy;
+use super::{Homotopy, Term};
+use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose_rational};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -231,22 +232,22 @@ impl Told {
     }
 
     /// An entry of the equations.
-    fn entry(&self, homotopy: &Homotopy, i: usize) -> Quadratic {
-        match self.values.get(&i) {
-            Some(x) => Quadratic::constant(x.clone()),
-            None if i >= homotopy.equations => Quadratic::constant(BigRational::zero()),
-            None => Quadratic::symbol(i),
+    fn entry(&self, entry: Option<usize>) -> Quadratic {
+        match entry.map(|i| (i, self.values.get(&i))) {
+            None => Quadratic::constant(BigRational::zero()),
+            Some((_, Some(x))) => Quadratic::constant(x.clone()),
+            Some((i, None)) => Quadratic::symbol(i),
         }
     }
 
     /// A factor of a term.
-    fn form(&self, homotopy: &Homotopy, form: Option<[usize; 2]>) -> Quadratic {
+    fn form(&self, form: Form<Option<usize>>) -> Quadratic {
         match form {
-            None => Quadratic::constant(BigRational::one()),
-            Some([i, j]) if i == j => Quadratic::constant(BigRational::zero()),
-            Some([i, j]) => {
-                let mut out = self.entry(homotopy, i);
-                out.add(&-BigRational::one(), &self.entry(homotopy, j));
+            Form::One => Quadratic::constant(BigRational::one()),
+            Form::Difference(i, j) if i == j => Quadratic::constant(BigRational::zero()),
+            Form::Difference(i, j) => {
+                let mut out = self.entry(i);
+                out.add(&-BigRational::one(), &self.entry(j));
                 out
             }
         }
@@ -269,7 +270,7 @@ impl Told {
     /// The factors of an equation's terms: those whose product is not certainly zero.
     fn terms(&self, homotopy: &Homotopy, e: usize) -> Vec<(BigRational, [Quadratic; 2])> {
         let terms = homotopy.terms(e).into_iter().map(|term| {
-            let factors = [term.left, term.right].map(|form| self.form(homotopy, form));
+            let factors = term.forms().map(|form| self.form(form));
             (BigRational::from(BigInt::from(term.factor)), factors)
         });
         let nothing = Quadratic::constant(BigRational::zero());
@@ -319,9 +320,11 @@ impl Told {
             out.add(by, other);
             out
         };
-        let ends = homotopy.terms(e).into_iter();
-        let ends = ends.flat_map(|term| [term.left, term.right]).flatten();
-        let mut ends = ends.flatten();
+        let mut ends = homotopy
+            .terms(e)
+            .into_iter()
+            .flat_map(Term::entries)
+            .flatten();
         let is_whole = !ends.any(|i| self.values.contains_key(&i) && view.unknowns.contains(&i));
         let with = |sides: Vec<Quadratic>, root: Option<Interval>| {
             let sides = sides.into_iter().map(|side| {
@@ -445,7 +448,8 @@ impl Told {
     ) -> bool {
         let homotopy = view.homotopy;
         let told = |ends: [usize; 2]| {
-            let mut sum = self.form(homotopy, Some(ends));
+            let [a, b] = ends.map(|i| (i < homotopy.equations).then_some(i));
+            let mut sum = self.form(Form::Difference(a, b));
             for (row, pivot) in rows.clone() {
                 let pivot = pivot
                     .and_then(|pivot| Some((sum.linear.get(&pivot)?, row.linear.get(&pivot)?)));

@@ -109,17 +109,14 @@ impl Target {
 
     /// The left-hand side of an equation, and its derivatives one by one.
     pub fn evaluate(&self, e: usize, x: &[f64], mut slope: impl FnMut(usize, f64)) -> f64 {
-        let at = |i: usize| if i < self.m { x[i] } else { 0.0 };
-        let form = |ends: Option<[usize; 2]>| ends.map_or(1.0, |[i, j]| at(i) - at(j));
+        let at = |entry: Option<usize>| entry.map_or(0.0, |i| x[i]);
         let mut sum = 0.0;
         for term in &self.terms[e] {
             let half = 0.5 * f64::from(term.factor);
-            let (left, right) = (form(term.left), form(term.right));
-            sum += half * left * right;
-            for (ends, other) in [(term.left, right), (term.right, left)] {
-                let ends = ends.map_or([(self.m, 0.0); 2], |[i, j]| [(i, half), (j, -half)]);
-                for (i, factor) in ends.into_iter().filter(|end| end.0 < self.m) {
-                    slope(i, factor * other);
+            sum += half * term.value(at);
+            for (entry, sign, other) in term.derivatives(at) {
+                if let Some(i) = entry {
+                    slope(i, f64::from(sign) * half * other);
                 }
             }
         }

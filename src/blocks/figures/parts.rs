@@ -3,7 +3,8 @@
 use crate::blocks::Verdict;
 use crate::blocks::cut::Cut;
 use crate::blocks::number::Number;
-use crate::constraint::{Entry, Form};
+use crate::constraint::Entry;
+use crate::equations::Form;
 use crate::interval::Interval;
 use std::collections::HashMap;
 
@@ -89,24 +90,22 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
     parts.into_iter().map(|(_, part)| part).collect()
 }
 
-fn side(form: Form, values: &[Option<Number>]) -> Number {
-    let Form::Difference(a, b) = form else {
-        return Number::halves(2);
+fn side(form: Form<Option<usize>>, values: &[Option<Number>]) -> Number {
+    let value = |entry: Option<usize>| match entry {
+        Some(u) => values[u].clone().expect("all numbers are known"),
+        None => Number::halves(0),
     };
-    let value = |entry: Entry| match entry {
-        Entry::Unknown(u) => values[u].clone().expect("all numbers are known"),
-        _ => Number::halves(0),
-    };
-    match a == b {
-        true => Number::halves(0),
-        false => value(a).minus(&value(b)),
+    match form {
+        Form::One => Number::halves(2),
+        Form::Difference(a, b) if a == b => Number::halves(0),
+        Form::Difference(a, b) => value(a).minus(&value(b)),
     }
 }
 
 /// Whether a vector that must not vanish does so in a figure; `None` if that is not certain.
 pub(super) fn vanishes(cut: &Cut, vector: usize, values: &[Option<Number>]) -> Option<bool> {
     let forms = cut.system.nonzero[vector].forms[..cut.problem.dimension].iter();
-    let signs = forms.map(|&form| side(form, values).sign());
+    let signs = forms.map(|form| side(form.map(Entry::unknown), values).sign());
     let signs: Vec<Option<i8>> = signs.collect();
     if signs.iter().any(|sign| matches!(sign, Some(1 | -1))) {
         return Some(false);

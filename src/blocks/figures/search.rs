@@ -6,7 +6,9 @@ use crate::blocks::formula::{self, Solved};
 use crate::blocks::local::{Local, is_square};
 use crate::blocks::number::Number;
 use crate::blocks::{Row, path};
-use crate::constraint::{Entry, Form, Role, product};
+use crate::constraint::{Entry, Role};
+use crate::equations::Form;
+use crate::system::Term;
 use crate::track::{Control, Options};
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
@@ -237,26 +239,28 @@ fn divided(cut: &Cut, row: usize, values: &[Option<Number>]) -> Row {
     if !cut.at_target(row.index).is_zero() {
         return row;
     }
-    let is_zero = |form: Form| match form {
+    let is_zero = |form: Form<Option<usize>>| match form {
         Form::One => false,
         Form::Difference(a, b) => {
-            let known = |entry: Entry| match entry {
-                Entry::Unknown(u) => values[u].clone(),
-                _ => Some(Number::halves(0)),
+            let known = |entry: Option<usize>| {
+                entry.map_or_else(|| Some(Number::halves(0)), |u| values[u].clone())
             };
             let both = known(a).zip(known(b));
             a == b || both.is_some_and(|(a, b)| a.minus(&b).is_zero())
         }
     };
-    let is_same = |one: Form, other: Form| match (one, other) {
+    let is_same = |one: Form<Option<usize>>, other| match (one, other) {
         (Form::Difference(a, b), Form::Difference(c, d)) => (a, b) == (c, d) || (a, b) == (d, c),
         _ => false,
     };
     let d = cut.problem.dimension;
-    let cannot_vanish = |form: Form| {
+    let cannot_vanish = |form: Form<Option<usize>>| {
         let mut vectors = cut.system.nonzero.iter();
         vectors.any(|vector| {
-            let forms = &vector.forms[..d];
+            let forms = vector.forms[..d]
+                .iter()
+                .map(|form| form.map(Entry::unknown));
+            let forms: Vec<_> = forms.collect();
             forms.iter().any(|&f| is_same(f, form))
                 && forms.iter().all(|&f| is_same(f, form) || is_zero(f))
         })
@@ -269,6 +273,6 @@ fn divided(cut: &Cut, row: usize, values: &[Option<Number>]) -> Row {
     if left == Form::One {
         return row;
     }
-    let products = vec![product(2, left, Form::One)];
+    let products = vec![Term::new(2, left, Form::One)];
     Row { products, ..row }
 }

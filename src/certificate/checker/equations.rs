@@ -1,6 +1,7 @@
 //! The equations q_e(X) = E_e(t) in intervals: 2 q_e is a sum of products of differences, with whole
 //! factors, and E_e a polynomial in t. For a distance 2 q_e = |p_i − p_j|² and 2 E_e = a_e².
 
+use crate::equations::Form;
 use crate::interval::{DoubleDouble, Interval, point};
 use crate::system::Homotopy;
 use std::ops::Sub;
@@ -46,8 +47,11 @@ impl Equations {
             let mut all = Vec::new();
             for term in homotopy.terms(e) {
                 // The number 1 has an index of its own.
-                let mut form = |form: Option<[usize; 2]>| {
-                    forms.push(form.unwrap_or([m + 2, m + 1]));
+                let mut form = |form: Form<Option<usize>>| {
+                    forms.push(match form.map(|entry| entry.unwrap_or(m + 1)) {
+                        Form::Difference(a, b) => [a, b],
+                        Form::One => [m + 2, m + 1],
+                    });
                     forms.len() - 1
                 };
                 let (left, same) = (form(term.left), term.left == term.right);

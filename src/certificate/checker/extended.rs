@@ -141,6 +141,7 @@ impl Tube {
 mod tests {
     use super::*;
     use crate::certificate::checker::krawczyk::{Curve, ORDER};
+    use crate::equations::Form;
     use crate::interval::rounding::gamma;
     use crate::problem::Problem;
     use crate::system::Homotopy;
@@ -197,12 +198,12 @@ mod tests {
                     };
                     for e in 0..m {
                         let terms = eq.homotopy.terms(e);
-                        let form = |form: Option<[usize; 2]>, a: usize| match form {
-                            None => exact(if a == 0 { 1.0 } else { 0.0 }),
-                            Some(ends) => {
-                                let [x, y] =
-                                    ends.map(|i| if i < m { z[a][i].clone() } else { zero() });
-                                x - y
+                        let form = |form: Form<Option<usize>>, a: usize| match form {
+                            Form::One => exact(if a == 0 { 1.0 } else { 0.0 }),
+                            Form::Difference(x, y) => {
+                                let at =
+                                    |i: Option<usize>| i.map_or_else(zero, |i| z[a][i].clone());
+                                at(x) - at(y)
                             }
                         };
                         let coefficient = |wrong: i32| {

@@ -1,6 +1,7 @@
 //! The equations of distances between complex points, and proofs of figures that satisfy them.
 
 use super::zero::{Quadratic, Z, Zero};
+use crate::equations::Form;
 use crate::interval::complex::Complex;
 use crate::interval::{DoubleDouble, Interval, point};
 use crate::problem::{Problem, Target};
@@ -97,15 +98,11 @@ impl Equations {
                 problem.distances.len()
             ));
         }
-        let zero = unknowns + 1;
         let equation = |distance: &crate::problem::Distance| {
             let term = |axis: usize| {
-                let ends = distance.points.map(|p| places[p][axis].unwrap_or(zero));
-                Term {
-                    factor: 2,
-                    left: Some(ends),
-                    right: Some(ends),
-                }
+                let [a, b] = distance.points.map(|p| places[p][axis]);
+                let form = Form::Difference(a, b);
+                Term::new(2, form, form)
             };
             ((0..d).map(term).collect(), square(&distance.target))
         };

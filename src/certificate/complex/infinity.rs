@@ -16,6 +16,7 @@
 use super::ComplexFlaw;
 use super::figure::{number, square};
 use super::zero::{Quadratic, Z, Zero};
+use crate::equations::Form;
 use crate::interval::{Interval, Real, enclose_rational, point};
 use crate::problem::{Problem, Target};
 use crate::system::Term;
@@ -241,43 +242,35 @@ impl Chart {
 /// The equations at ε = 0, where these unknowns have these values.
 fn equations(problem: &Problem, parts: &[Part], values: Vec<(usize, BigRational)>) -> Quadratic {
     let count = 3 * problem.points.len();
-    let zero = count + 1;
-    let term = |left: [usize; 2], right: Option<[usize; 2]>| Term {
-        factor: 2,
-        left: Some(left),
-        right,
-    };
+    let term = |left, right| Term::new(2, left, right);
     let mut equations = Vec::with_capacity(count);
     for distance in &problem.distances {
         let [a, b] = distance.points;
-        let both = |which: usize| [unknown(a, which), unknown(b, which)];
+        let both =
+            |which: usize| Form::Difference(Some(unknown(a, which)), Some(unknown(b, which)));
         // The difference of what points of one part have, which stands for nothing at others.
         let only = |which: usize, part: Part| {
-            [a, b].map(|p| {
-                if parts[p] == part {
-                    unknown(p, which)
-                } else {
-                    zero
-                }
-            })
+            let entry = |p: usize| (parts[p] == part).then(|| unknown(p, which));
+            Form::Difference(entry(a), entry(b))
         };
         let product = match [parts[a], parts[b]] {
             [Part::Link, Part::Link] => continue,
             // Λ Δτ
             [Part::Goes, Part::Link] | [Part::Link, Part::Goes] => {
-                term(only(LAMBDA, Part::Goes), Some(both(SIGMA)))
+                term(only(LAMBDA, Part::Goes), both(SIGMA))
             }
             // Δλ (0 − σ)
             [Part::Link, Part::Stays] | [Part::Stays, Part::Link] => {
-                term(both(LAMBDA), Some(only(SIGMA, Part::Stays)))
+                term(both(LAMBDA), only(SIGMA, Part::Stays))
             }
-            _ => term(both(LAMBDA), Some(both(SIGMA))),
+            _ => term(both(LAMBDA), both(SIGMA)),
         };
-        let heights = term(both(NU), Some(both(NU)));
+        let heights = term(both(NU), both(NU));
         equations.push((vec![heights, product], square(&distance.target)));
     }
     let values = values.into_iter();
-    equations.extend(values.map(|(unknown, value)| (vec![term([unknown, zero], None)], value)));
+    let only = |unknown: usize| Form::Difference(Some(unknown), None);
+    equations.extend(values.map(|(u, value)| (vec![term(only(u), Form::One)], value)));
     Quadratic::new(count, equations)
 }
 
@@ -322,11 +315,7 @@ mod tests {
     fn is_regular(values: [[i64; 3]; 5]) -> bool {
         let whole = |value: i64| BigRational::from_integer(value.into());
         let equation = |(unknown, &value): (usize, &i64)| {
-            let term = Term {
-                factor: 2,
-                left: Some([unknown, 16]),
-                right: None,
-            };
+            let term = Term::new(2, Form::Difference(Some(unknown), None), Form::One);
             (vec![term], whole(value))
         };
         let system = values.iter().flatten().enumerate().map(equation);

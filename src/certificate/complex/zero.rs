@@ -18,6 +18,7 @@
 //! anything.
 
 use crate::elimination;
+use crate::equations::Form;
 use crate::interval::complex::{Complex, Number};
 use crate::interval::rounding::{UNDERFLOW, in_range, round_up};
 use crate::interval::{Ball, DoubleDouble, Interval, gamma_double, hull, point};
@@ -102,7 +103,7 @@ fn whole(x: DoubleDouble) -> BigInt {
 }
 
 impl Quadratic {
-    /// Of equations with these terms and right-hand sides. Unknowns beyond their number are zero.
+    /// Of equations with these terms and right-hand sides.
     pub fn new(unknowns: usize, equations: Vec<(Vec<Term>, BigRational)>) -> Self {
         let equations = equations.into_iter();
         let exact = equations.map(|(terms, right)| (terms, Ball::exactly(right)));
@@ -131,10 +132,13 @@ impl Quadratic {
             return None;
         }
         let c: Vec<[BigInt; 2]> = c.iter().map(|z| [whole(z.re), whole(z.im)]).collect();
-        let part = |i: usize, axis: usize| c.get(i).map_or(BigInt::ZERO, |z| z[axis].clone());
-        let form = |ends: Option<[usize; 2]>| match ends {
-            Some([a, b]) => [0, 1].map(|axis| part(a, axis) - part(b, axis)),
-            None => [BigInt::from(1) << BITS as u32, BigInt::ZERO],
+        let part = |entry: Option<usize>, axis: usize| match entry {
+            Some(i) => c[i][axis].clone(),
+            None => BigInt::ZERO,
+        };
+        let form = |form: Form<Option<usize>>| match form {
+            Form::Difference(a, b) => [0, 1].map(|axis| part(a, axis) - part(b, axis)),
+            Form::One => [BigInt::from(1) << BITS as u32, BigInt::ZERO],
         };
         let unit = 2.0.powi(-BITS);
         let of = |row: &Row| {
@@ -158,32 +162,24 @@ impl Quadratic {
     /// The Jacobian's rows: unknown, value, and the sum of the sizes of the slopes that it is the sum of; with the greatest number of
     /// slopes in a row.
     fn jacobian(&self, c: &[Z]) -> (Vec<Vec<(usize, Z, f64)>>, usize) {
-        let at = |i: usize| c.get(i).copied().unwrap_or_default();
-        let form = |ends: Option<[usize; 2]>| match ends {
-            Some([a, b]) => at(a) - at(b),
-            None => Complex::real(1.0),
-        };
+        let at = |entry: Option<usize>| entry.map(|i| c[i]).unwrap_or_default();
         let mut longest = 0;
         let rows = self.equations.iter().map(|Row { terms, .. }| {
             let mut row: Vec<(usize, Z, f64)> = Vec::new();
             let mut slopes = 0;
             for term in terms {
                 let half = DoubleDouble::from(0.5 * f64::from(term.factor));
-                for [of, other] in [[term.left, term.right], [term.right, term.left]] {
-                    let Some([a, b]) = of else { continue };
-                    let slope = form(other).times(half);
-                    for (unknown, slope) in [(a, slope), (b, -slope)] {
-                        if unknown >= self.unknowns {
-                            continue;
+                for (entry, sign, other) in term.derivatives(at) {
+                    let Some(unknown) = entry else { continue };
+                    let slope = other.times(half);
+                    let slope = if sign > 0 { slope } else { -slope };
+                    slopes += 1;
+                    match row.iter_mut().find(|entry| entry.0 == unknown) {
+                        Some(entry) => {
+                            entry.1 = entry.1 + slope;
+                            entry.2 += size(slope);
                         }
-                        slopes += 1;
-                        match row.iter_mut().find(|entry| entry.0 == unknown) {
-                            Some(entry) => {
-                                entry.1 = entry.1 + slope;
-                                entry.2 += size(slope);
-                            }
-                            None => row.push((unknown, slope, size(slope))),
-                        }
+                        None => row.push((unknown, slope, size(slope))),
                     }
                 }
             }
@@ -195,8 +191,8 @@ impl Quadratic {
 
     /// Bounds q_e(r) on the quadratic parts where the unknowns are off by these radii.
     fn curved(&self, r: &[f64]) -> Vec<f64> {
-        let at = |i: usize| r.get(i).copied().unwrap_or(0.0);
-        let form = |ends: Option<[usize; 2]>| ends.map_or(0.0, |[a, b]| at(a) + at(b));
+        let at = |(entry, _): (Option<usize>, i32)| entry.map_or(0.0, |i| r[i]);
+        let form = |form: Form<Option<usize>>| form.entries().map(at).sum::<f64>();
         let of =
             |term: &Term| 0.5 * f64::from(term.factor).abs() * form(term.left) * form(term.right);
         let equations = self.equations.iter();
@@ -406,13 +402,8 @@ mod tests {
 
     /// x² = square.
     fn root(square: BigRational) -> Quadratic {
-        let x = Some([0, 2]);
-        let term = Term {
-            factor: 2,
-            left: x,
-            right: x,
-        };
-        Quadratic::new(1, vec![(vec![term], square)])
+        let x = Form::Difference(Some(0), None);
+        Quadratic::new(1, vec![(vec![Term::new(2, x, x)], square)])
     }
 
     fn at(re: f64, im: f64) -> Vec<Z> {
@@ -462,21 +453,18 @@ mod tests {
                 f64::from(k) * 10f64.powi(k % 7 - 3),
                 -f64::from(41 - k) * 10f64.powi(k % 5 - 2),
             );
-            let term = |factor, left, right| Term {
-                factor,
-                left: Some([left, 3]),
-                right,
-            };
+            let value = |unknown| Form::Difference(Some(unknown), None);
+            let term = |factor, left, right| Term::new(factor, value(left), right);
             let (exact_x, exact_y) = (ratio(x), ratio(y));
             let product = &exact_x * &exact_y;
             let equations = vec![
-                (vec![term(2, 0, Some([1, 3]))], product.clone()),
+                (vec![term(2, 0, value(1))], product.clone()),
                 (
                     vec![
-                        term(2, 0, Some([0, 3])),
-                        term(1, 0, Some([1, 3])),
-                        term(1, 1, Some([0, 3])),
-                        term(-2, 1, None),
+                        term(2, 0, value(0)),
+                        term(1, 0, value(1)),
+                        term(1, 1, value(0)),
+                        term(-2, 1, Form::One),
                     ],
                     &exact_x * &exact_x + product - &exact_y,
                 ),

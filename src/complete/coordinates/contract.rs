@@ -130,7 +130,7 @@ fn revise(
             if this == Form::One {
                 continue;
             }
-            let by = other.value(x);
+            let by = other.value(|entry| x[entry]);
             if by.contains(0.0) {
                 if wanted.contains(0.0) {
                     continue;
@@ -194,7 +194,7 @@ fn narrow(
     let Form::Difference(a, b) = form else {
         return Ok(());
     };
-    let value = outside(form.value(x).intersection(within), least);
+    let value = outside(form.value(|entry| x[entry]).intersection(within), least);
     if value.is_empty() {
         return Err(Empty);
     }

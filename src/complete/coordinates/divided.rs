@@ -166,7 +166,7 @@ mod tests {
         let b = [0, 1].map(|k| a[k] + length * u[k]);
         let at: [f64; 10] = [a[0], a[1], b[0], b[1], c[0], c[1], u[0], u[1], length, 0.0];
         let squares = sum.iter().map(|&(f, [i, j])| f * (at[i] - at[j]).powi(2));
-        let value = |p: &Product| p.factor.mid() * p.left.nearly(&at) * p.right.nearly(&at);
+        let value = |p: &Product| p.factor.mid() * p.value(|entry| at[entry]);
         let quotient: f64 = products.iter().map(value).sum();
         assert!((squares.sum::<f64>() - length * quotient).abs() < 1e-12);
     }

@@ -2,6 +2,7 @@
 
 use super::newton::{KNOWN, Square};
 use super::system::{Form, Product, Row};
+use crate::equations::Ring;
 use crate::interval::{Interval, ZERO, point};
 use std::collections::BTreeMap;
 
@@ -36,8 +37,8 @@ impl Expanded {
             };
             for (entry, sign) in form.entries() {
                 match square.place[entry] {
-                    KNOWN => constant += point(sign) * x[entry],
-                    k => unknowns.push((k, sign as i64)),
+                    KNOWN => constant += Interval::whole(sign) * x[entry],
+                    k => unknowns.push((k, sign.into())),
                 }
             }
             (unknowns, constant)

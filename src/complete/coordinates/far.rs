@@ -7,6 +7,7 @@
 
 use super::contract::Empty;
 use super::system::{Form, Row};
+use crate::equations::Ring;
 use crate::interval::{Interval, ZERO, point};
 
 /// Σ factors · unbounded unknowns + constant = 0.
@@ -32,8 +33,8 @@ impl Linear {
             let mut rest = if form == Form::One { point(1.0) } else { ZERO };
             for (entry, sign) in form.entries() {
                 match place(entry) {
-                    Some(k) => own.push((k, point(sign))),
-                    None => rest += point(sign) * x[entry],
+                    Some(k) => own.push((k, Interval::whole(sign))),
+                    None => rest += Interval::whole(sign) * x[entry],
                 }
             }
             (own, rest)

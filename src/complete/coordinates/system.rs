@@ -1,27 +1,14 @@
 //! The equations of a problem with its dimensions, as the search over coordinates sees them.
 
+use crate::equations;
 use crate::interval::{Interval, ZERO, point};
 use crate::system::Homotopy;
 
-/// A factor of a product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// The number 1.
-    One,
-    /// The first of two entries minus the second.
-    Difference(usize, usize),
-}
+/// A difference of two entries, or the number 1.
+pub type Form = equations::Form<usize>;
 
-/// `factor · left · right`.
-#[derive(Debug, Clone, Copy)]
-pub struct Product {
-    /// A small whole number, or half of one: exact.
-    pub factor: Interval,
-    /// The first factor.
-    pub left: Form,
-    /// The second factor.
-    pub right: Form,
-}
+/// A product of two; the factor is a small whole number, or half of one: exact.
+pub type Product = equations::Product<usize, Interval>;
 
 /// `Σ products ∈ right`: an equation, of which `right` encloses the right-hand side, or what follows from the equations in figures.
 #[derive(Debug, Clone)]
@@ -49,42 +36,12 @@ pub struct System {
     pub nonzero: Vec<Vec<[usize; 2]>>,
 }
 
-impl Form {
-    /// Its value, where entries have these.
-    pub fn value(self, at: &[Interval]) -> Interval {
-        match self {
-            Form::One => point(1.0),
-            // An entry less itself is zero, whatever it is.
-            Form::Difference(a, b) if a == b => ZERO,
-            Form::Difference(a, b) => at[a] - at[b],
-        }
-    }
-
-    /// Its value in floats.
-    pub fn nearly(self, at: &[f64]) -> f64 {
-        match self {
-            Form::One => 1.0,
-            Form::Difference(a, b) => at[a] - at[b],
-        }
-    }
-
-    /// The entries in it, with their signs.
-    pub fn entries(self) -> impl Iterator<Item = (usize, f64)> {
-        let both = match self {
-            Form::One => [None, None],
-            Form::Difference(a, b) => [Some((a, 1.0)), Some((b, -1.0))],
-        };
-        both.into_iter().flatten()
-    }
-}
-
 impl Row {
     /// A row of some products. `zero`: the entry that is the number 0.
     pub fn new(products: Vec<Product>, right: Interval, zero: usize) -> Self {
         let mut entries: Vec<usize> = products
             .iter()
-            .flat_map(|p| p.left.entries().chain(p.right.entries()))
-            .map(|(entry, _)| entry)
+            .flat_map(|p| p.entries())
             .filter(|&entry| entry != zero)
             .collect();
         entries.sort_unstable();
@@ -107,7 +64,7 @@ impl Row {
     pub fn nearly(&self, at: &[f64]) -> f64 {
         let products = self.products.iter();
         let sum: f64 = products
-            .map(|p| p.factor.mid() * p.left.nearly(at) * p.right.nearly(at))
+            .map(|p| p.factor.mid() * p.value(|entry| at[entry]))
             .sum();
         sum - self.right.mid()
     }
@@ -115,11 +72,9 @@ impl Row {
     /// Its derivatives: told entry by entry, those of one entry to be added.
     pub fn derivatives(&self, at: &[Interval], mut tell: impl FnMut(usize, Interval)) {
         for p in &self.products {
-            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                let slope = p.factor * other.value(at);
-                for (entry, sign) in this.entries() {
-                    tell(entry, if sign > 0.0 { slope } else { -slope });
-                }
+            for (entry, sign, other) in p.derivatives(|entry| at[entry]) {
+                let slope = p.factor * other;
+                tell(entry, if sign > 0 { slope } else { -slope });
             }
         }
     }
@@ -127,10 +82,8 @@ impl Row {
     /// The same in floats.
     pub fn slopes(&self, at: &[f64], mut tell: impl FnMut(usize, f64)) {
         for p in &self.products {
-            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                let slope = p.factor.mid() * other.nearly(at);
-                this.entries()
-                    .for_each(|(entry, sign)| tell(entry, sign * slope));
+            for (entry, sign, other) in p.derivatives(|entry| at[entry]) {
+                tell(entry, f64::from(sign) * (p.factor.mid() * other));
             }
         }
     }
@@ -138,11 +91,10 @@ impl Row {
 
 /// left · right, a square where both are the same.
 pub fn product(p: &Product, at: &[Interval]) -> Interval {
-    let left = p.left.value(at);
     if p.left == p.right {
-        return left.sqr();
+        return p.left.value(|entry| at[entry]).sqr();
     }
-    let product = left * p.right.value(at);
+    let product = p.value(|entry| at[entry]);
     match Shared::of(p, at) {
         None => product,
         Some(shared) => product.intersection(shared.product(at)),
@@ -213,20 +165,11 @@ impl System {
     /// The equations of a homotopy with t = 1.
     pub fn new(homotopy: &Homotopy) -> Self {
         let m = homotopy.equations;
-        let form = |ends: Option<[usize; 2]>| match ends {
-            None => Form::One,
-            // The homotopy has the number 0 behind t.
-            Some(ends) => {
-                let [a, b] = ends.map(|end| end.min(m));
-                Form::Difference(a, b)
-            }
-        };
         let row = |e: usize| {
             let terms = homotopy.terms(e).into_iter();
-            let products = terms.map(|term| Product {
-                factor: point(0.5 * f64::from(term.factor)),
-                left: form(term.left),
-                right: form(term.right),
+            let products = terms.map(|term| {
+                let [left, right] = term.forms().map(|form| form.map(|i| i.unwrap_or(m)));
+                Product::new(point(0.5 * f64::from(term.factor)), left, right)
             });
             Row::new(products.collect(), homotopy.rights[e].at_target(), m)
         };
@@ -303,12 +246,9 @@ impl System {
         let mut out = Vec::new();
         for (i, &(k, v, u)) in found.iter().enumerate() {
             for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {
-                let product = |factor, left, right| Product {
-                    factor: point(factor),
-                    left,
-                    right,
-                };
-                let products = vec![product(1.0, v, x), product(-1.0, w, u)];
+                let products = [(1.0, v, x), (-1.0, w, u)];
+                let products = products.map(|(f, left, right)| Product::new(point(f), left, right));
+                let products = products.to_vec();
                 out.push(Row::new(products, ZERO, zero));
             }
         }
@@ -317,10 +257,9 @@ impl System {
 
     /// Adds bounds of the squared distance of two points, given by the entries of their coordinates.
     pub fn bound(&mut self, ends: &[[usize; 2]], square: Interval) {
-        let products = ends.iter().map(|&[a, b]| Product {
-            factor: point(1.0),
-            left: Form::Difference(a, b),
-            right: Form::Difference(a, b),
+        let products = ends.iter().map(|&[a, b]| {
+            let form = Form::Difference(a, b);
+            Product::new(point(1.0), form, form)
         });
         self.rows
             .push(Row::new(products.collect(), square, self.unknowns));

@@ -2,7 +2,7 @@
 
 use super::entry;
 use crate::blocks::{Account, LeftOut, Ruler, Verdict, owner_name};
-use crate::constraint::{Form, Spare};
+use crate::constraint::Spare;
 use crate::interval::{Interval, ZERO, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -46,25 +46,15 @@ impl Test<'_> {
 
     fn verdict(&self, spare: &Spare, figure: &FigureBox) -> Verdict {
         let Spare { equation, owner } = spare;
-        let m = self.homotopy.equations;
-        let at = |e| match self.homotopy.entry(e) {
-            i if i < m => entry(figure, i),
-            _ => ZERO,
-        };
-        let of = |form: Form| match form {
-            Form::One => point(1.0),
-            Form::Difference(a, b) if a == b => ZERO,
-            Form::Difference(a, b) => at(a) - at(b),
-        };
+        let unknown = |e| self.homotopy.entry(e);
+        let at = |e| unknown(e).map_or(ZERO, |i| entry(figure, i));
         let products = equation.products.iter();
         let left = products.fold(ZERO, |sum, product| {
             let half = point(0.5 * f64::from(product.factor));
-            let (a, b) = (of(product.left), of(product.right));
             // A square is not negative.
-            let both = if product.left == product.right {
-                a.sqr()
-            } else {
-                a * b
+            let both = match product.left == product.right {
+                true => product.left.value(at).sqr(),
+                false => product.value(at),
             };
             sum + half * both
         });

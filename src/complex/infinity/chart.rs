@@ -11,8 +11,10 @@ use crate::complex::ends::EndProver;
 use crate::complex::exact::Exact;
 use crate::complex::system::{Equation, Kind, Start, System, Unknown, segment};
 use crate::complex::vector::{Z, cross, dot, plus};
+use crate::equations::Form;
 use crate::interval::complex::{Complex, Number};
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
+use crate::order::InOrder;
 use crate::system::Term;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -60,7 +62,7 @@ fn far(last: &[[Z; 3]]) -> Option<Vec<bool>> {
     let of = |place: &[Z; 3]| place.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
     let sizes: Vec<f64> = last.iter().map(of).collect();
     let mut sorted: Vec<f64> = sizes.iter().map(|size| size.max(1.0)).collect();
-    sorted.sort_by(f64::total_cmp);
+    sorted.order_by(f64::total_cmp);
     let gaps = sorted.windows(2).map(|pair| (pair[1] / pair[0], pair[1]));
     let (gap, from) = gaps.max_by(|a, b| a.0.total_cmp(&b.0))?;
     (gap >= GAP).then(|| sizes.iter().map(|&size| size >= from).collect())
@@ -129,7 +131,6 @@ fn small_root(a: Z, b: Z, c: Z) -> Z {
 /// The equations at ε = 0, of whose terms half the sum is meant, hence their factors of 2. `None`: there are not as many as unknowns.
 fn system(graph: &Graph, split: &Split) -> Option<System> {
     let count = 3 * graph.points;
-    let zero = count + 1;
     let is_in = |part: &[usize], p: usize| part.contains(&p);
     let names =
         |p: usize| ["lambda", "nu", "sigma"].map(|which| format!("{which} of point {}", p + 1));
@@ -151,29 +152,21 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
             bows: false,
         });
     };
-    let product = |left: [usize; 2], right: Option<[usize; 2]>| Term {
-        factor: 2,
-        left: Some(left),
-        right,
-    };
+    let product = |left, right| Term::new(2, left, right);
     for Edge {
         points, squared, ..
     } in &graph.edges
     {
         let [a, b] = *points;
-        let both = |which: usize| [unknown(a, which), unknown(b, which)];
+        let both =
+            |which: usize| Form::Difference(Some(unknown(a, which)), Some(unknown(b, which)));
         if is_in(&split.link, a) && is_in(&split.link, b) {
             continue;
         }
         // λ stands for nothing in L beside S, σ for nothing in L beside O.
         let only = |which: usize, part: &[usize]| {
-            [a, b].map(|p| {
-                if is_in(part, p) {
-                    unknown(p, which)
-                } else {
-                    zero
-                }
-            })
+            let entry = |p: usize| is_in(part, p).then(|| unknown(p, which));
+            Form::Difference(entry(a), entry(b))
         };
         let at_link = is_in(&split.link, a) || is_in(&split.link, b);
         let goes = is_in(&split.inside, a) || is_in(&split.inside, b);
@@ -187,8 +180,8 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         } else {
             both(SIGMA)
         };
-        let heights = product(both(NU), Some(both(NU)));
-        push(vec![heights, product(lambda, Some(sigma))], squared.clone());
+        let heights = product(both(NU), both(NU));
+        push(vec![heights, product(lambda, sigma)], squared.clone());
     }
     let (origin, near, away) = (split.link[0], split.outside[0], split.inside[0]);
     let whole = |value: i64| BigRational::from_integer(value.into());
@@ -203,7 +196,10 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
     let heights = split.link.iter().zip(&split.heights);
     values.extend(heights.map(|(&p, height)| (unknown(p, NU), height.clone())));
     for (unknown, value) in values {
-        push(vec![product([unknown, zero], None)], value);
+        push(
+            vec![product(Form::Difference(Some(unknown), None), Form::One)],
+            value,
+        );
     }
     let system = System {
         dimension: 3,

@@ -27,7 +27,7 @@ impl Kind for Coincident {
             let apart = low.between(&low.place(points[0]), &low.place(other));
             for axis in 0..low.dimension() {
                 let start = low.frame.component(&apart.at, axis);
-                let products = vec![product(1, apart.forms[axis], Form::One)];
+                let products = vec![Product::new(1, apart.forms[axis], Form::One)];
                 low.vanish_linear(of.name, products, start, 1);
             }
         }

@@ -35,7 +35,7 @@ impl Kind for Coplanar {
             points.retain(|p| !reference.contains(p));
             for point in points {
                 let place = low.place(point);
-                let products = vec![product(1, value(place.entries[2]), Form::One)];
+                let products = vec![Product::new(1, value(place.entries[2]), Form::One)];
                 let start = low.frame.coordinate(&place.at, 2);
                 low.vanish(of.name, products, start, 1);
             }

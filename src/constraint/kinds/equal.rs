@@ -36,7 +36,7 @@ impl Kind for Equal {
             let first = low.round(*first);
             for &other in rest {
                 let other = low.round(other);
-                let products = vec![product(
+                let products = vec![Product::new(
                     1,
                     Form::Difference(first.radius, other.radius),
                     Form::One,

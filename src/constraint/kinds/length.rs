@@ -62,11 +62,17 @@ impl Kind for Lengths {
             let path = low.lead(&one / &other, then);
             let ratio = format!("{}, the value", of.name);
             let ratio = value(low.coefficient(&ratio, 0, Parity::Even, path));
-            let products = vec![product(1, long, Form::One), product(-1, ratio, short)];
+            let products = vec![
+                Product::new(1, long, Form::One),
+                Product::new(-1, ratio, short),
+            ];
             low.equate(of.name, products, vec![Real::zero()], 1);
         } else {
             let path = low.lead(&one - &other, then);
-            let products = vec![product(1, long, Form::One), product(-1, short, Form::One)];
+            let products = vec![
+                Product::new(1, long, Form::One),
+                Product::new(-1, short, Form::One),
+            ];
             low.equate(of.name, products, path, 1);
         }
         Ok(())

@@ -52,7 +52,7 @@ impl Kind for Level {
                 return Err("an axis lies as it does: name a line or two points".to_owned());
             }
         };
-        let products = vec![product(1, along.forms[self.axis], Form::One)];
+        let products = vec![Product::new(1, along.forms[self.axis], Form::One)];
         let start = Real::from(along.at[self.axis].clone());
         low.vanish_linear(of.name, products, start, along.power);
         Ok(())

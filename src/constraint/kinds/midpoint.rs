@@ -37,8 +37,8 @@ pub fn halfway(name: &str, low: &mut Lowering, middle: usize, ends: [usize; 2]) 
     let off = plus(&a.at, &b.at);
     for axis in 0..low.dimension() {
         let products = vec![
-            product(1, a.forms[axis], Form::One),
-            product(1, b.forms[axis], Form::One),
+            Product::new(1, a.forms[axis], Form::One),
+            Product::new(1, b.forms[axis], Form::One),
         ];
         let start = low.frame.component(&off, axis);
         low.vanish_linear(name, products, start, 1);

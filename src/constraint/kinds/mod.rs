@@ -64,7 +64,7 @@ mod prelude {
     pub use super::super::lowering::{Arrow, Fault, Lowering, Measured, Parity, Place};
     pub use super::super::objects::{Line, Plane, Round};
     pub use super::super::polynomial::multiply;
-    pub use super::super::quadratic::{Form, product, value};
+    pub use super::super::quadratic::{Form, Product, value};
     pub use crate::interval::Real;
     pub use crate::statement::{Item, Problem};
     pub use num_rational::BigRational;

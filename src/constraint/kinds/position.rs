@@ -86,7 +86,7 @@ impl Kind for Position {
         let then = Real::from(of.number().value().clone());
         of.items.end()?;
         let path = low.lead(now.into(), then);
-        low.equate(of.name, vec![product(1, form, Form::One)], path, 1);
+        low.equate(of.name, vec![Product::new(1, form, Form::One)], path, 1);
         Ok(())
     }
 }

@@ -41,7 +41,7 @@ impl Kind for Size {
         let factor = if self.diameter { 2 } else { 1 };
         let now = &Real::whole(factor) * &Real::from(round.squared).sqrt();
         let then = Real::from(of.number().value().clone());
-        let products = vec![product(factor as i32, value(round.radius), Form::One)];
+        let products = vec![Product::new(factor as i32, value(round.radius), Form::One)];
         let path = low.lead(now, then);
         low.equate(of.name, products, path, 1);
         Ok(())

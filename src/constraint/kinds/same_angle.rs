@@ -48,7 +48,7 @@ impl Kind for EqualAngles {
             let scale = low.lengths(&[&u, &v]);
             let cosine = low.scalar(what.clone(), 0, Parity::Even, at.clone());
             let mut products = low.dot(1, &u.forms, &v.forms);
-            products.push(product(-1, value(cosine), value(scale)));
+            products.push(Product::new(-1, value(cosine), value(scale)));
             low.equate(&what, products, vec![Real::zero()], u.power + v.power);
             cosines.push((cosine, at, now));
         }
@@ -59,8 +59,8 @@ impl Kind for EqualAngles {
         let opposite = !at_points && (sign * another).is_negative();
         let side = if opposite { 1 } else { -1 };
         let products = vec![
-            product(1, value(*one), Form::One),
-            product(side, value(*other), Form::One),
+            Product::new(1, value(*one), Form::One),
+            Product::new(side, value(*other), Form::One),
         ];
         let start = if opposite {
             first + second

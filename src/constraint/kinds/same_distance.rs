@@ -65,7 +65,7 @@ impl Kind for EqualDistances {
             let power = line.along.power + 1;
             let entry = low.scalar(what.clone(), power, Parity::Odd, at.clone().into());
             let mut products = products.clone();
-            products.push(product(1, value(entry), Form::One));
+            products.push(Product::new(1, value(entry), Form::One));
             low.equate(&what, products, vec![Real::zero()], power);
             unknowns.push((entry, low.length(&line.along)));
         }
@@ -75,8 +75,8 @@ impl Kind for EqualDistances {
             -1
         };
         let products = vec![
-            product(1, value(unknowns[0].0), value(unknowns[1].1)),
-            product(-side, value(unknowns[1].0), value(unknowns[0].1)),
+            Product::new(1, value(unknowns[0].0), value(unknowns[1].1)),
+            Product::new(-side, value(unknowns[1].0), value(unknowns[0].1)),
         ];
         let one = &Real::from(first.1.clone()) * &length(&second.0.along.at);
         let other = &Real::from(second.1.clone()) * &length(&first.0.along.at);

@@ -44,10 +44,11 @@ impl Kind for Symmetric {
             (Sort::Axis, _, 2) => {
                 let axis = of.items.axis()?;
                 of.items.end()?;
-                let products = vec![product(1, across.forms[axis], Form::One)];
+                let products = vec![Product::new(1, across.forms[axis], Form::One)];
                 low.vanish_linear(of.name, products, across.at[axis].clone().into(), 1);
                 let other = 1 - axis;
-                let products = [&p, &q].map(|at| product(1, value(at.entries[other]), Form::One));
+                let products =
+                    [&p, &q].map(|at| Product::new(1, value(at.entries[other]), Form::One));
                 let start = &p.at[other] + &q.at[other];
                 low.vanish_linear(of.name, products.to_vec(), start.into(), 1);
             }

@@ -60,7 +60,7 @@ impl Kind for Tangent {
                 if low.dimension() == 3 {
                     let (mut products, square) =
                         off_line(of.name, low, &round.center, &line).ok_or(CENTRE)?;
-                    products.push(product(-1, value(round.radius), value(round.radius)));
+                    products.push(Product::new(-1, value(round.radius), value(round.radius)));
                     let start = Real::from(square - &round.squared);
                     low.vanish(of.name, products, start, 2);
                     return Ok(());
@@ -153,7 +153,7 @@ fn touch(
         }
     };
     let scale = low.length(along);
-    products.push(product(-side, value(round.radius), value(scale)));
+    products.push(Product::new(-side, value(round.radius), value(scale)));
     let both = &Real::from(round.squared.clone()).sqrt() * &length(&along.at);
     let start = &Real::from(now) - &(&Real::whole(side.into()) * &both);
     low.vanish(name, products, start, along.power + 1);
@@ -170,9 +170,9 @@ fn both_round(name: &str, low: &mut Lowering, one: &Round, other: &Round) -> Res
     let side = if off.is_negative() { -1 } else { 1 };
     let (r, s) = (value(one.radius), value(other.radius));
     let mut products = low.dot(1, &apart.forms, &apart.forms);
-    products.push(product(-1, r, r));
-    products.push(product(-1, s, s));
-    products.push(product(-2 * side, r, s));
+    products.push(Product::new(-1, r, r));
+    products.push(Product::new(-1, s, s));
+    products.push(Product::new(-2 * side, r, s));
     let twice = &Real::whole((2 * side).into()) * &Real::from(&one.squared * &other.squared).sqrt();
     low.vanish(name, products, &Real::from(off) - &twice, 2);
     Ok(())

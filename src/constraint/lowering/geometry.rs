@@ -2,9 +2,7 @@
 
 use super::super::frame::{self, Vector, cross, length, minus, vector};
 use super::super::polynomial::{Polynomial, ramp};
-use super::super::quadratic::{
-    Entry, Form, Nonzero, Product, Role, coordinate, difference, product, value,
-};
+use super::super::quadratic::{Entry, Form, Nonzero, Product, Role, coordinate, difference, value};
 use super::{Fault, Lowering, Parity, Start};
 use crate::interval::Real;
 use crate::statement::{AXES, Target};
@@ -165,7 +163,7 @@ impl Lowering<'_> {
                     length(&of.at),
                 );
                 let mut products = self.dot(1, &of.forms, &of.forms);
-                products.push(product(-1, value(entry), value(entry)));
+                products.push(Product::new(-1, value(entry), value(entry)));
                 self.equate(&name, products, vec![Real::zero()], 2 * of.power);
                 entry
             }
@@ -198,9 +196,9 @@ impl Lowering<'_> {
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             let products = vec![
-                product(1, value(entries[k]), Form::One),
-                product(-1, a.forms[i], b.forms[j]),
-                product(1, a.forms[j], b.forms[i]),
+                Product::new(1, value(entries[k]), Form::One),
+                Product::new(-1, a.forms[i], b.forms[j]),
+                Product::new(1, a.forms[j], b.forms[i]),
             ];
             self.equate(&name, products, vec![Real::zero()], power);
         }
@@ -219,13 +217,16 @@ impl Lowering<'_> {
     /// The products of factor · (a · b).
     pub fn dot(&self, factor: i32, a: &[Form; 3], b: &[Form; 3]) -> Vec<Product> {
         (0..self.dimension())
-            .map(|k| product(factor, a[k], b[k]))
+            .map(|k| Product::new(factor, a[k], b[k]))
             .collect()
     }
 
     /// The products of factor · (a × b) in the plane.
     pub fn cross_in_plane(&self, factor: i32, a: &[Form; 3], b: &[Form; 3]) -> Vec<Product> {
-        vec![product(factor, a[0], b[1]), product(-factor, a[1], b[0])]
+        vec![
+            Product::new(factor, a[0], b[1]),
+            Product::new(-factor, a[1], b[0]),
+        ]
     }
 
     /// The length of a vector, or the product of those of two.
@@ -241,8 +242,8 @@ impl Lowering<'_> {
         let (zero, power) = (vec![Real::zero()], a.power + b.power);
         let entry = self.scalar(both.clone(), power, Parity::Even, at);
         let definition = vec![
-            product(1, value(entry), Form::One),
-            product(-1, entries[0], entries[1]),
+            Product::new(1, value(entry), Form::One),
+            Product::new(-1, entries[0], entries[1]),
         ];
         self.equate(&both, definition, zero, power);
         entry

@@ -8,7 +8,7 @@
 //! The sketch's numbers are those of the vectors, whatever their lengths: equations with headings mean something at t = 1
 //! alone.
 
-use super::super::quadratic::{Form, Role, product, value};
+use super::super::quadratic::{Form, Product, Role, value};
 use super::{Arrow, Lowering};
 use crate::constraint::frame::length;
 use crate::constraint::objects::{Line, Plane};
@@ -55,7 +55,10 @@ impl Lowering<'_> {
         let far = self.unknown(what.clone(), Role::Positive, of.power, [false; 3], size);
         let forms = entries.map(value);
         for (whole, part) in of.forms.into_iter().zip(forms).take(self.dimension()) {
-            let products = vec![product(1, whole, Form::One), product(-1, value(far), part)];
+            let products = vec![
+                Product::new(1, whole, Form::One),
+                Product::new(-1, value(far), part),
+            ];
             self.equate(&what, products, vec![Real::zero()], of.power);
         }
         let products = self.dot(1, &forms, &forms);

@@ -11,9 +11,7 @@ pub use relations::Measured;
 
 use super::frame::Frame;
 use super::polynomial::{Polynomial, ramp};
-use super::quadratic::{
-    Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, product, value,
-};
+use super::quadratic::{Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, value};
 use crate::interval::Real;
 use crate::statement::{Item, Problem, Target};
 use num_rational::BigRational;
@@ -382,7 +380,12 @@ impl<'a> Lowering<'a> {
     /// A new unknown that is the polynomial `of`: a coefficient that varies, or is no whole number.
     pub fn coefficient(&mut self, name: &str, power: i32, parity: Parity, of: Polynomial) -> Entry {
         let entry = self.scalar(name.to_owned(), power, parity, of[0].clone());
-        self.equate(name, vec![product(1, value(entry), Form::One)], of, power);
+        self.equate(
+            name,
+            vec![Product::new(1, value(entry), Form::One)],
+            of,
+            power,
+        );
         entry
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::frame::{cross_in_plane, dot, length, minus, times};
 use super::super::polynomial::{add, multiply};
-use super::super::quadratic::{Entry, Form, MAX_DEGREE, Product, product, value};
+use super::super::quadratic::{Entry, Form, MAX_DEGREE, Product, value};
 use super::{Arrow, Fault, Lowering, Parity};
 use crate::interval::Real;
 use num_rational::BigRational;
@@ -63,7 +63,7 @@ impl Lowering<'_> {
         let number = format!("{name}, the value");
         let factor = self.coefficient(&number, right_power, parity, right);
         let mut products = of.products;
-        products.push(product(-1, value(factor), value(scale)));
+        products.push(Product::new(-1, value(factor), value(scale)));
         self.equate(name, products, vec![Real::zero()], power);
     }
 
@@ -115,7 +115,7 @@ impl Lowering<'_> {
         );
         self.equate(
             name,
-            vec![product(1, value(entry), Form::One)],
+            vec![Product::new(1, value(entry), Form::One)],
             vec![at],
             power,
         );
@@ -124,7 +124,7 @@ impl Lowering<'_> {
     /// Says that a coordinate of a point stays where the sketch has it.
     pub fn hold(&mut self, name: &str, point: usize, axis: usize) {
         let place = self.place(point);
-        let products = vec![product(1, value(place.entries[axis]), Form::One)];
+        let products = vec![Product::new(1, value(place.entries[axis]), Form::One)];
         let at = Real::from(place.at[axis].clone());
         self.equate(name, products, vec![at], 1);
     }
@@ -155,8 +155,8 @@ impl Lowering<'_> {
         );
         for axis in 0..3 {
             let products = vec![
-                product(1, v.forms[axis], Form::One),
-                product(-1, value(factor), u.forms[axis]),
+                Product::new(1, v.forms[axis], Form::One),
+                Product::new(-1, value(factor), u.forms[axis]),
             ];
             let start = self.frame.component(&left, axis);
             self.vanish_linear(name, products, start, v.power);

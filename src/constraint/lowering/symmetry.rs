@@ -4,7 +4,8 @@ use super::super::quadratic::{Entry, Form};
 use super::super::twins::twins;
 use super::super::zeros::zeros;
 use super::Lowering;
-use crate::elimination::{Echelon, Field};
+use crate::elimination::Echelon;
+use crate::equations::Ring;
 use crate::residues::Residue;
 use crate::statement::Shape;
 

@@ -1,7 +1,8 @@
 //! Numbers that are known exactly all the way, as polynomials in t, and what can be said of them without any tube.
 
 use super::{Known, Parts, Used};
-use crate::constraint::{Entry, Form, Nonzero};
+use crate::constraint::{Entry, Nonzero};
+use crate::equations::Form;
 use crate::interval::{Interval, Real, hull, point};
 use crate::system::{Extent, Segment, orientation};
 use crate::track::arc::{Kept, Orientation};
@@ -39,16 +40,11 @@ impl Parts {
                     }
                 };
                 for p in &self.system.rows[row].products {
-                    match (p.left, p.right) {
-                        (Form::Difference(a, b), Form::One)
-                        | (Form::One, Form::Difference(a, b)) => {
-                            for (entry, by) in [(a, p.factor), (b, -p.factor)] {
-                                if let Entry::Unknown(v) = entry {
-                                    add(v, by);
-                                }
-                            }
+                    assert!(p.forms().contains(&Form::One), "an exact block is linear");
+                    for (entry, sign) in p.forms().into_iter().flat_map(Form::entries) {
+                        if let Some(v) = entry {
+                            add(v, sign * p.factor);
                         }
-                        _ => unreachable!("an exact block is linear"),
                     }
                 }
                 let per = &Real::whole(2) / &Real::whole(factor.into());
@@ -84,19 +80,9 @@ impl Parts {
 
     /// The coordinates of a vector, from enclosures of unknowns.
     fn coordinates_of(&self, vector: &Nonzero, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
-        let value = |entry: Entry| match entry {
-            Entry::Unknown(u) => at(u),
-            _ => point(0.0),
-        };
+        let value = |entry: Entry| entry.unknown().map_or(point(0.0), &at);
         let forms = vector.forms[..self.problem.dimension].iter();
-        forms
-            .map(|form| match *form {
-                Form::One => point(1.0),
-                // The same number twice: no difference, however widely it is enclosed.
-                Form::Difference(a, b) if a == b => point(0.0),
-                Form::Difference(a, b) => value(a) - value(b),
-            })
-            .collect()
+        forms.map(|form| form.value(value)).collect()
     }
 
     /// A vector that must not vanish and may do so in the figure.

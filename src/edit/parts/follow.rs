@@ -186,33 +186,20 @@ impl Parts {
     fn homotopy(&self, unknowns: &[usize], used: &[Used], rights: Vec<Vec<Real>>) -> Homotopy {
         let local: HashMap<usize, usize> =
             unknowns.iter().enumerate().map(|(k, &u)| (u, k)).collect();
-        let entry = |e: Entry| match e {
-            Entry::Unknown(u) => Entry::Unknown(local[&u]),
-            other => other,
-        };
-        let form = |f: Form| match f {
-            Form::One => Form::One,
-            Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
-        };
+        let entry = |unknown: Option<usize>| Entry::from(unknown.map(|u| local[&u]));
         let equations = used.iter().zip(rights).map(|(&used, right)| {
             let (name, products) = match used {
                 Used::Row(row) => {
                     let row = &self.system.rows[row];
-                    let products = row.products.iter().map(|p| Product {
-                        factor: p.factor,
-                        left: form(p.left),
-                        right: form(p.right),
-                    });
+                    let products = row.products.iter().map(|p| p.map(entry));
                     (self.name(row.index), products.collect())
                 }
                 Used::Held(u) => {
                     let name = format!("{} stays put", self.system.unknowns[u].name);
-                    let held = Product {
-                        factor: 2,
-                        left: value(Entry::Unknown(local[&u])),
-                        right: Form::One,
-                    };
-                    (name, vec![held])
+                    (
+                        name,
+                        vec![Product::new(2, value(entry(Some(u))), Form::One)],
+                    )
                 }
             };
             Equation {
@@ -246,7 +233,7 @@ impl Parts {
         let nonzero = nonzero.map(|vector| Nonzero {
             name: vector.name.clone(),
             forms: std::array::from_fn(|axis| match axis < d {
-                true => form(vector.forms[axis]),
+                true => vector.forms[axis].map(|e| entry(e.unknown())),
                 false => Form::Difference(Entry::Zero, Entry::Zero),
             }),
         });

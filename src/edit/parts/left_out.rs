@@ -2,7 +2,6 @@
 
 use super::{Known, Parts, Used, moves};
 use crate::blocks::{Given, Row, Ruler, Verdict, combination, rounded_down};
-use crate::constraint::{Entry, Form};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
 use crate::track::{Stop, StopKind};
@@ -95,21 +94,12 @@ impl Parts {
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> (Interval, Interval) {
-        let side = |form: Form| match form {
-            Form::One => point(1.0),
-            Form::Difference(a, b) => {
-                let [a, b] = [a, b].map(|entry| match entry {
-                    Entry::Unknown(u) => figure[u].enclosure(),
-                    _ => point(0.0),
-                });
-                a - b
-            }
-        };
+        let at = |entry: Option<usize>| entry.map_or(point(0.0), |u| figure[u].enclosure());
         let Row {
             index, products, ..
         } = &self.system.rows[row];
         let left = products.iter().fold(point(0.0), |sum, p| {
-            sum + point(0.5 * f64::from(p.factor)) * side(p.left) * side(p.right)
+            sum + point(0.5 * f64::from(p.factor)) * p.value(at)
         });
         let right = Right::polynomial(&rights[*index], self.scale(*index));
         let right = match time {

@@ -7,7 +7,9 @@
 //! *is* rigid, and a rank that is too small by bad luck has a probability below m / 2⁶⁰ for m
 //! rows (Schwartz, Zippel). One method serves the plane and space alike.
 
-use crate::elimination::{Echelon, Field};
+use crate::elimination::Echelon;
+use crate::equations::Ring;
+use crate::order::InOrder;
 use crate::residues::{Residue, Residues};
 
 /// What the graph of the distances fixes and what not.
@@ -139,7 +141,7 @@ impl<'a> Matrix<'a> {
             .map(|body| (0..points).filter(|&q| body[q]).collect())
             .filter(|body: &Vec<usize>| body.len() > d)
             .collect();
-        bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
+        bodies.order_by_key(|body| std::cmp::Reverse(body.len()));
         bodies
     }
 }

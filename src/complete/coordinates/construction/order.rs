@@ -305,7 +305,8 @@ impl Finder<'_> {
     fn quadratic(&self, row: usize, set: u64) -> Option<Quadratic> {
         let mut out = Quadratic::new();
         let own = |form: Form| -> Vec<(usize, f64)> {
-            let entries = form.entries().map(|(e, sign)| (self.square.place[e], sign));
+            let entries = form.entries();
+            let entries = entries.map(|(e, sign)| (self.square.place[e], sign.into()));
             entries
                 .filter(|&(k, _)| k != KNOWN && (set >> k) & 1 == 1)
                 .collect()

@@ -19,6 +19,7 @@ mod slices;
 use super::{Cut, Figures, Judged, MOST_FIGURES, State};
 use crate::certificate::cover::coordinates::{Case as ToldCase, Independent};
 use crate::complete::{Choice, Why};
+use crate::equations::Form;
 use crate::interval::{Interval, ZERO};
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -83,7 +84,7 @@ impl Parts {
         });
         let objects = problem.objects.iter().zip(&homotopy.tail.objects);
         let objects = objects.filter(|(_, entries)| {
-            let mut entries = entries.iter().map(|&entry| homotopy.entry(entry));
+            let mut entries = entries.iter().filter_map(|&entry| homotopy.entry(entry));
             entries.any(is_placed)
         });
         let points = points.map(|(_, point)| point.name.clone());
@@ -372,9 +373,13 @@ impl Figures<'_> {
     }
 }
 
-/// The entries of the differences in an equation.
+/// The ends of the differences in an equation; the number behind that of t is 0.
 fn forms(homotopy: &Homotopy, e: usize) -> Vec<[usize; 2]> {
-    let terms = homotopy.terms(e).into_iter();
-    let forms = terms.flat_map(|term| [term.left, term.right]);
-    forms.flatten().collect()
+    let zero = homotopy.equations + 1;
+    let forms = homotopy.terms(e).into_iter().flat_map(|term| term.forms());
+    let ends = forms.filter_map(|form| match form.map(|i| i.unwrap_or(zero)) {
+        Form::Difference(a, b) => Some([a, b]),
+        Form::One => None,
+    });
+    ends.collect()
 }

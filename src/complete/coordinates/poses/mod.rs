@@ -24,7 +24,9 @@ use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::Body;
 use crate::complete::Why;
 use crate::complete::model::Number;
+use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose, point};
+use crate::order::InOrder;
 use crate::problem::{Problem, Shape};
 use crate::system::{Homotopy, Term};
 use legs::{Leg, Legs, Look};
@@ -58,9 +60,11 @@ pub struct Poses {
 /// The ends of three differences, if an equation is about the sum of their squares.
 fn squares(terms: &[Term]) -> Option<[[usize; 2]; 3]> {
     let &[x, y, z] = terms else { return None };
-    let square = |term: Term| {
-        term.left
-            .filter(|_| term.factor == 1 && term.left == term.right)
+    let square = |term: Term| match term.left {
+        Form::Difference(Some(a), Some(b)) if term.factor == 1 && term.left == term.right => {
+            Some([a, b])
+        }
+        _ => None,
     };
     Some([square(x)?, square(y)?, square(z)?])
 }
@@ -202,7 +206,7 @@ impl Poses {
             whole.boxes += piece.boxes;
             whole.is_broken_off |= piece.is_broken_off;
         }
-        whole.zeros.sort_by(Zero::order);
+        whole.zeros.order_by(Zero::order);
         whole.pieces = vec![None; whole.zeros.len()];
         whole
     }

@@ -109,9 +109,9 @@ pub fn off_line(
     let what = format!("{name}, the projection");
     let projection = low.scalar(what.clone(), 1, Parity::Even, at);
     let mut products = low.dot(-1, &line.along.forms, &across.forms);
-    products.push(product(1, value(projection), value(unit)));
+    products.push(Product::new(1, value(projection), value(unit)));
     low.equate(&what, products, vec![Real::zero()], 1 + line.along.power);
     let mut products = low.dot(1, &across.forms, &across.forms);
-    products.push(product(-1, value(projection), value(projection)));
+    products.push(Product::new(-1, value(projection), value(projection)));
     Some((products, square))
 }

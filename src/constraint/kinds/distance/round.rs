@@ -60,7 +60,7 @@ pub fn from_flat(
             let (mut products, square) = off_line(name, low, &round.center, &line).ok_or(CENTRE)?;
             let at = Real::from(square).sqrt();
             let off = low.scalar(what.clone(), 1, Parity::Even, at.clone());
-            products.push(product(-1, value(off), value(off)));
+            products.push(Product::new(-1, value(off), value(off)));
             low.equate(&what, products, vec![Real::zero()], 2);
             Off(off, at)
         }
@@ -126,8 +126,8 @@ pub fn between(
         true => (&apart, [large, small]),
         false => (large, [small, &apart]),
     };
-    let mut products = vec![product(1, value(first.0), Form::One)];
-    products.extend(rest.map(|off| product(-1, value(off.0), Form::One)));
+    let mut products = vec![Product::new(1, value(first.0), Form::One)];
+    products.extend(rest.map(|off| Product::new(-1, value(off.0), Form::One)));
     let now = &(&first.1 - &rest[0].1) - &rest[1].1;
     let path = low.lead(now, then);
     low.equate(name, products, path, 1);
@@ -139,7 +139,11 @@ struct Off(Entry, Real);
 
 /// The first length is by so much longer than the second.
 fn differ(name: &str, low: &mut Lowering, [long, short]: [&Off; 2], then: Real) {
-    let products = vec![product(1, Form::Difference(long.0, short.0), Form::One)];
+    let products = vec![Product::new(
+        1,
+        Form::Difference(long.0, short.0),
+        Form::One,
+    )];
     let path = low.lead(&long.1 - &short.1, then);
     low.equate(name, products, path, 1);
 }
@@ -160,7 +164,7 @@ fn height(
     let at = &Real::from(now.abs()) / &length(&along.at);
     let scale = low.length(along);
     let off = low.scalar(what.to_owned(), 1, Parity::Even, at.clone());
-    products.push(product(-side, value(off), value(scale)));
+    products.push(Product::new(-side, value(off), value(scale)));
     low.equate(what, products, vec![Real::zero()], along.power + 1);
     Ok(Off(off, at))
 }

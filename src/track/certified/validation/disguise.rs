@@ -2,7 +2,7 @@
 
 use super::{Random, effort, random_problem};
 use crate::constraint::{
-    Entry, Equation, Form, Product, Role, Tail, Unknown, coordinate, difference, product, value,
+    Entry, Equation, Form, Product, Role, Tail, Unknown, coordinate, difference, value,
 };
 use crate::interval::{Interval, Real, point};
 use crate::problem::{Distance, Problem, Target};
@@ -87,7 +87,10 @@ impl Disguised {
             .map(|axis| difference(coordinate(i, axis), coordinate(j, axis)))
             .collect();
         let squares = |forms: &[Form]| -> Vec<Product> {
-            forms.iter().map(|&form| product(1, form, form)).collect()
+            forms
+                .iter()
+                .map(|&form| Product::new(1, form, form))
+                .collect()
         };
         let right = half_square(length);
         let mut push = |products: Vec<Product>, right: Vec<Real>, power: i32| {
@@ -123,7 +126,7 @@ impl Disguised {
                     .push(unknown("r", Role::Positive, 1, [false; 3], size.sqrt()));
                 let r = value(Entry::Unknown(k));
                 let mut products = squares(&forms);
-                products.push(product(-1, r, r));
+                products.push(Product::new(-1, r, r));
                 let add = |tail: &mut Tail, products, right, power| {
                     let name = "radius".to_owned();
                     tail.equations.push(Equation {
@@ -134,7 +137,12 @@ impl Disguised {
                     });
                 };
                 add(tail, products, vec![Real::zero()], 2);
-                add(tail, vec![product(2, r, Form::One)], length.to_vec(), 1);
+                add(
+                    tail,
+                    vec![Product::new(2, r, Form::One)],
+                    length.to_vec(),
+                    1,
+                );
             }
             // With a vector of its own: w = p_i − p_j, twisted so that products have different factors.
             3 => {
@@ -146,8 +154,8 @@ impl Disguised {
                     tail.unknowns.push(unknown("w", Role::Free, 1, flips, w));
                     let w = value(Entry::Unknown(first + axis));
                     let products = vec![
-                        product(2, w, Form::One),
-                        product(-2, forms[axis], Form::One),
+                        Product::new(2, w, Form::One),
+                        Product::new(-2, forms[axis], Form::One),
                     ];
                     let name = "w".to_owned();
                     tail.equations.push(Equation {
@@ -159,7 +167,7 @@ impl Disguised {
                 }
                 let w = |axis: usize| value(Entry::Unknown(first + axis));
                 let products = (0..d)
-                    .map(|axis| product(1, w(axis), forms[axis]))
+                    .map(|axis| Product::new(1, w(axis), forms[axis]))
                     .collect();
                 let name = "w w".to_owned();
                 tail.equations.push(Equation {
@@ -172,8 +180,8 @@ impl Disguised {
             // As (x − y)(x + y) would be: three times the first axis, less it twice.
             _ => {
                 let mut products = squares(&forms);
-                products.push(product(3, forms[0], forms[0]));
-                products.push(product(-3, forms[0], forms[0]));
+                products.push(Product::new(3, forms[0], forms[0]));
+                products.push(Product::new(-3, forms[0], forms[0]));
                 push(products, right.clone(), 2);
             }
         }

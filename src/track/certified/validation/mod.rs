@@ -23,6 +23,7 @@ mod tubes;
 
 pub use faults::inject as inject_fault;
 
+use crate::equations::Form;
 use along::{at_sketch, check_entry, link_is_true, middle, sketch, slope};
 
 use super::link::Tube;
@@ -228,9 +229,8 @@ impl<'a> Exact<'a> {
     }
 
     /// A factor of a term: a difference of unknowns, or 1.
-    fn factor(&self, z: &[Interval], ends: Option<[usize; 2]>) -> Interval {
-        let value = |i: usize| if i > self.m { point(0.0) } else { z[i] };
-        ends.map_or(point(1.0), |[i, j]| value(i) - value(j))
+    fn factor(&self, z: &[Interval], form: Form<Option<usize>>) -> Interval {
+        form.value(|entry| entry.map_or(point(0.0), |i| z[i]))
     }
 
     pub fn residual(&self, z: &[Interval]) -> Vec<Interval> {
@@ -255,19 +255,17 @@ impl<'a> Exact<'a> {
         let t = z[self.m];
         let mut rows: Rows = (0..self.m)
             .map(|e| {
-                // One entry more, for what is always zero.
-                let mut row = vec![point(0.0); self.n + 1];
+                let mut row = vec![point(0.0); self.n];
                 for term in self.homotopy.terms(e) {
                     let half = point(f64::from(term.factor)) * point(0.5);
                     for (of, other) in [(term.left, term.right), (term.right, term.left)] {
-                        if let Some([i, j]) = of {
-                            let d = half * self.factor(z, other);
-                            row[i] += d;
-                            row[j] -= d;
+                        let d = half * self.factor(z, other);
+                        if let Form::Difference(i, j) = of {
+                            i.into_iter().for_each(|i| row[i] += d);
+                            j.into_iter().for_each(|j| row[j] -= d);
                         }
                     }
                 }
-                row.truncate(self.n);
                 let e = self.homotopy.rights[e].enclosures();
                 let [two, three, four] = [2.0, 3.0, 4.0].map(point);
                 row[self.m] = -(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4])));

@@ -3,6 +3,7 @@
 mod products;
 mod rows;
 
+use crate::equations::Form;
 use crate::system::Homotopy;
 use products::Slots;
 use rows::Rows;
@@ -66,10 +67,12 @@ impl Tail {
         let (m, first) = (homotopy.equations, homotopy.half_squares().count());
         let zero = m as u32 + 1;
         let mut ends = vec![[zero; 2]];
-        let mut known = HashMap::from([(None, Self::ONE as u32)]);
-        let mut form = |form: Option<[usize; 2]>| {
+        let mut known = HashMap::from([(Form::One, Self::ONE as u32)]);
+        let mut form = |form: Form<Option<usize>>| {
             *known.entry(form).or_insert_with(|| {
-                ends.push(form.unwrap_or([m + 1; 2]).map(|end| end as u32));
+                if let Form::Difference(a, b) = form.map(|i| i.map_or(zero, |i| i as u32)) {
+                    ends.push([a, b]);
+                }
                 ends.len() as u32 - 1
             })
         };

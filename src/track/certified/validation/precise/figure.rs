@@ -1,6 +1,7 @@
 //! The homotopy in 256 bits, from the problem's decimals.
 
 use super::big::{Big, Rows, dot, exact, solve};
+use crate::equations::Form;
 use crate::problem::{Problem, Target};
 use crate::system::{Homotopy, Term};
 use num_rational::BigRational;
@@ -67,15 +68,12 @@ impl Figure {
     }
 
     /// A factor of a term: a difference of unknowns, or 1.
-    fn factor(&self, z: &[Big], ends: Option<[usize; 2]>) -> Big {
-        let value = |i: usize| {
-            if i > self.m {
-                Big::of(0.0)
-            } else {
-                z[i].clone()
-            }
-        };
-        ends.map_or(Big::of(1.0), |[i, j]| value(i) - value(j))
+    fn factor(&self, z: &[Big], form: Form<Option<usize>>) -> Big {
+        let value = |entry: Option<usize>| entry.map_or(Big::of(0.0), |i| z[i].clone());
+        match form {
+            Form::One => Big::of(1.0),
+            Form::Difference(i, j) => value(i) - value(j),
+        }
     }
 
     /// F.
@@ -98,19 +96,17 @@ impl Figure {
     pub fn jacobian(&self, z: &[Big]) -> Rows {
         let t = &z[self.m];
         let row = |e: usize| {
-            // One entry more, for what is always zero.
-            let mut row = vec![Big::of(0.0); self.n + 1];
+            let mut row = vec![Big::of(0.0); self.n];
             for term in &self.terms[e] {
                 let half = Big::of(0.5 * f64::from(term.factor));
                 for (of, other) in [(term.left, term.right), (term.right, term.left)] {
-                    if let Some([i, j]) = of {
-                        let d = &half * &self.factor(z, other);
-                        row[i] += d.clone();
-                        row[j] -= d;
+                    let d = &half * &self.factor(z, other);
+                    if let Form::Difference(i, j) = of {
+                        i.into_iter().for_each(|i| row[i] += d.clone());
+                        j.into_iter().for_each(|j| row[j] -= d.clone());
                     }
                 }
             }
-            row.truncate(self.n);
             let slope = (1..5).rev().fold(Big::of(0.0), |sum, k| {
                 &sum * t + Big::of(k as f64) * &self.e[e][k]
             });
@@ -122,24 +118,19 @@ impl Figure {
 
     /// How the columns of J that belong to X change as X moves in the direction v: the derivative of J v by X.
     pub fn change_of_jacobian(&self, v: &[Big]) -> Rows {
-        let value = |i: usize| match i < self.m {
-            true => v[i].clone(),
-            false => Big::of(0.0),
-        };
         let row = |e: usize| {
-            let mut row = vec![Big::of(0.0); self.n + 1];
+            let mut row = vec![Big::of(0.0); self.n];
             for term in &self.terms[e] {
                 let half = Big::of(0.5 * f64::from(term.factor));
                 for (of, other) in [(term.left, term.right), (term.right, term.left)] {
                     // The number 1 does not move.
-                    if let (Some([i, j]), Some([k, l])) = (of, other) {
-                        let d = &half * &(value(k) - value(l));
-                        row[i] += d.clone();
-                        row[j] -= d;
+                    if let (Form::Difference(i, j), Form::Difference(..)) = (of, other) {
+                        let d = &half * &self.factor(v, other);
+                        i.into_iter().for_each(|i| row[i] += d.clone());
+                        j.into_iter().for_each(|j| row[j] -= d.clone());
                     }
                 }
             }
-            row.truncate(self.n);
             row
         };
         (0..self.m).map(row).collect()

@@ -1,0 +1,146 @@
+//! Products of differences: the left-hand side of every equation is a sum of such, ½ Σ factor · left · right.
+//!
+//! They are written once, for entries of any kind (a coordinate of a point, the number of an unknown) and factors of any
+//! kind, and evaluated once, over any [`Ring`].
+
+use std::ops::{Add, Mul, Sub};
+
+/// Numbers that sums and products are made of: floats, intervals, residues modulo a prime, complex numbers.
+pub trait Ring: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// A whole number.
+    fn whole(number: i32) -> Self;
+}
+
+impl Ring for f64 {
+    fn whole(number: i32) -> Self {
+        number.into()
+    }
+}
+
+/// A factor of a product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Form<E> {
+    /// The first entry minus the second.
+    Difference(E, E),
+    /// The number 1, for terms that are linear.
+    One,
+}
+
+/// `factor · left · right`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Product<E, F = i32> {
+    /// A whole number from −1000 to 1000, not zero, where nothing else is said.
+    pub factor: F,
+    /// The first of the two things multiplied.
+    pub left: Form<E>,
+    /// The second of the two things multiplied.
+    pub right: Form<E>,
+}
+
+impl<E: Copy + PartialEq> Form<E> {
+    /// The same difference of what is put for the entries.
+    pub fn map<G>(self, entry: impl Fn(E) -> G) -> Form<G> {
+        match self {
+            Form::One => Form::One,
+            Form::Difference(a, b) => Form::Difference(entry(a), entry(b)),
+        }
+    }
+
+    /// The entries in it, with their signs.
+    pub fn entries(self) -> impl Iterator<Item = (E, i32)> + Clone {
+        let both = match self {
+            Form::One => [None, None],
+            Form::Difference(a, b) => [Some((a, 1)), Some((b, -1))],
+        };
+        both.into_iter().flatten()
+    }
+
+    /// Its value, where entries have these. An entry less itself is zero, whatever it is.
+    #[inline]
+    pub fn value<T: Ring>(self, at: impl Fn(E) -> T) -> T {
+        match self {
+            Form::One => T::whole(1),
+            Form::Difference(a, b) if a == b => T::whole(0),
+            Form::Difference(a, b) => at(a) - at(b),
+        }
+    }
+}
+
+impl<E: Copy + PartialEq, F: Copy> Product<E, F> {
+    /// The product of a form with itself, or with another one.
+    pub fn new(factor: F, left: Form<E>, right: Form<E>) -> Self {
+        Product {
+            factor,
+            left,
+            right,
+        }
+    }
+
+    /// The same product with something else put for the entries.
+    pub fn map<G>(self, entry: impl Fn(E) -> G) -> Product<G, F> {
+        Product {
+            factor: self.factor,
+            left: self.left.map(&entry),
+            right: self.right.map(entry),
+        }
+    }
+
+    /// The two things multiplied.
+    pub fn forms(self) -> [Form<E>; 2] {
+        [self.left, self.right]
+    }
+
+    /// The entries in it, each as often as it stands there.
+    pub fn entries(self) -> impl Iterator<Item = E> + Clone {
+        let both = self.forms().into_iter();
+        both.flat_map(|form| form.entries().map(|entry| entry.0))
+    }
+
+    /// left · right, where entries have these values.
+    #[inline]
+    pub fn value<T: Ring>(self, at: impl Fn(E) -> T) -> T {
+        self.left.value(&at) * self.right.value(at)
+    }
+
+    /// The derivatives of left · right, as entry, sign and the factor that it has: those of one entry are to be added.
+    pub fn derivatives<T: Ring>(self, at: impl Fn(E) -> T) -> impl Iterator<Item = (E, i32, T)> {
+        let [left, right] = self.forms();
+        [(left, right), (right, left)]
+            .into_iter()
+            .flat_map(move |(this, other)| {
+                let slope = other.value(&at);
+                this.entries()
+                    .map(move |(entry, sign)| (entry, sign, slope.clone()))
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (x − y)(y − 3) at x = 7, y = 5, and its derivatives: y − 3 by x, and x − y − (y − 3) by y.
+    #[test]
+    fn a_product_has_its_value_and_its_derivatives() {
+        let at = |entry: char| match entry {
+            'x' => 7.0,
+            'y' => 5.0,
+            _ => 3.0,
+        };
+        let product = Product::new(1, Form::Difference('x', 'y'), Form::Difference('y', '3'));
+        assert_eq!(product.value(at), 4.0);
+        let by = |entry: char| -> f64 {
+            let all = product.derivatives(at).filter(|d| d.0 == entry);
+            all.map(|(_, sign, slope)| f64::from(sign) * slope).sum()
+        };
+        assert_eq!([by('x'), by('y')], [2.0, 0.0]);
+        assert_eq!(
+            product.map(at).entries().collect::<Vec<_>>(),
+            [7.0, 5.0, 5.0, 3.0]
+        );
+        assert_eq!(
+            Product::new(1, Form::One, Form::Difference('x', 'x')).value(at),
+            0.0
+        );
+    }
+}
