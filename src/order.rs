@@ -16,13 +16,14 @@ pub trait InOrder<T> {
 
 impl<T> InOrder<T> for [T] {
     fn order_by(&mut self, order: impl Fn(&T, &T) -> Ordering) {
-        let places = sorted(self.len(), &|a, b| order(&self[a], &self[b]));
+        let mut places = sorted(self.len(), &|a, b| order(&self[a], &self[b]));
         for to in 0..self.len() {
             // What stood there, before those that are in their place by now were exchanged.
             let mut from = places[to];
             while from < to {
                 from = places[from];
             }
+            places[to] = from;
             self.swap(to, from);
         }
     }

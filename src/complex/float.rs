@@ -152,7 +152,7 @@ struct Stepper<N> {
     /// Terms, and where each equation's begin.
     terms: Vec<Term>,
     first: Vec<usize>,
-    /// Taylor coefficients of the unknowns, then of every term's two forms. Unknowns n and n + 1 are zero.
+    /// Taylor coefficients of the unknowns, then of every term's two forms. Unknown n is zero.
     x: Vec<[Complex<N>; ORDER + 1]>,
     forms: Vec<[[Complex<N>; ORDER + 1]; 2]>,
     /// Where a step arrives, and in floats what that leaves if it is known better.

@@ -72,9 +72,11 @@ impl Row {
     /// Its derivatives: told entry by entry, those of one entry to be added.
     pub fn derivatives(&self, at: &[Interval], mut tell: impl FnMut(usize, Interval)) {
         for p in &self.products {
-            for (entry, sign, other) in p.derivatives(|entry| at[entry]) {
-                let slope = p.factor * other;
-                tell(entry, if sign > 0 { slope } else { -slope });
+            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
+                let slope = p.factor * other.value(|entry| at[entry]);
+                for (entry, sign) in this.entries() {
+                    tell(entry, if sign > 0 { slope } else { -slope });
+                }
             }
         }
     }

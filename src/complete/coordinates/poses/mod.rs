@@ -57,13 +57,11 @@ pub struct Poses {
     points: Vec<([Number; 3], [usize; 3])>,
 }
 
-/// The ends of three differences, if an equation is about the sum of their squares.
-fn squares(terms: &[Term]) -> Option<[[usize; 2]; 3]> {
+/// The ends of three differences, if an equation is about the sum of their squares. `zero`: the entry that is the number 0.
+fn squares(terms: &[Term], zero: usize) -> Option<[[usize; 2]; 3]> {
     let &[x, y, z] = terms else { return None };
-    let square = |term: Term| match term.left {
-        Form::Difference(Some(a), Some(b)) if term.factor == 1 && term.left == term.right => {
-            Some([a, b])
-        }
+    let square = |term: Term| match term.left.map(|i| i.unwrap_or(zero)) {
+        Form::Difference(a, b) if term.factor == 1 && term.left == term.right => Some([a, b]),
         _ => None,
     };
     Some([square(x)?, square(y)?, square(z)?])
@@ -125,7 +123,8 @@ impl Poses {
                 let own: Vec<Option<[usize; 3]>> = own.collect();
                 let mut found = Vec::new();
                 for &e in &block.equations {
-                    let leg = squares(&homotopy.terms(e)).and_then(|pairs| stand(&pairs, &own));
+                    let leg = squares(&homotopy.terms(e), homotopy.equations + 1)
+                        .and_then(|pairs| stand(&pairs, &own));
                     let Some((inner, outer)) = leg else { continue };
                     let Some(foot) = place(outer) else { continue };
                     // The equation is ½|p − q|² = right.
