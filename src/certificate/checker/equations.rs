@@ -128,11 +128,8 @@ impl Equations {
 
     /// All forms of unknowns, of which t is none, for these values of 0 and 1.
     pub fn differences<T: Copy + Sub<Output = T>>(&self, x: &[T], [zero, one]: [T; 2]) -> Vec<T> {
-        let all: Vec<T> = x[..self.m]
-            .iter()
-            .copied()
-            .chain([zero, zero, one])
-            .collect();
+        let mut all = x[..self.m].to_vec();
+        all.extend([zero, zero, one]);
         self.forms.iter().map(|&[i, j]| all[i] - all[j]).collect()
     }
 

@@ -18,7 +18,6 @@ use super::format::TAG_COMPLEX_SET;
 use super::head::Head;
 use super::verdict::are_same;
 use crate::interval::Interval;
-use crate::order::InOrder;
 use crate::problem::Problem;
 use figure::Equations;
 use general::General;
@@ -294,7 +293,7 @@ fn are_apart(
         .enumerate()
         .map(|(index, key)| (key.inf(), key.sup(), index))
         .collect();
-    keys.order_by(|a, b| a.0.total_cmp(&b.0));
+    keys.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (k, &(_, high, one)) in keys.iter().enumerate() {
         for &(_, _, other) in keys[k + 1..].iter().take_while(|key| key.0 <= high) {
             let [a, b] = [one.min(other), one.max(other)];
