@@ -115,6 +115,28 @@ impl<E: Copy + PartialEq, F: Copy> Product<E, F> {
     }
 }
 
+impl Product<Option<usize>> {
+    /// The product multiplied out: for each of the terms the numbers of the unknowns in it, in order, and its factor. An entry
+    /// that is `None` is the number 0.
+    pub fn multiplied_out(self) -> impl Iterator<Item = (Vec<usize>, i32)> {
+        let parts = |form: Form<Option<usize>>| -> Vec<(Option<usize>, i32)> {
+            match form {
+                Form::One => vec![(None, 1)],
+                form => form.entries().filter(|part| part.0.is_some()).collect(),
+            }
+        };
+        let right = parts(self.right);
+        parts(self.left).into_iter().flat_map(move |(a, sign)| {
+            let terms = right.clone().into_iter();
+            terms.map(move |(b, other)| {
+                let mut unknowns: Vec<usize> = [a, b].into_iter().flatten().collect();
+                unknowns.sort_unstable();
+                (unknowns, self.factor * sign * other)
+            })
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,5 +164,16 @@ mod tests {
             Product::new(1, Form::One, Form::Difference('x', 'x')).value(at),
             0.0
         );
+    }
+
+    /// 2 (x₁ − x₀)(0 − x₀), and 3 · 1 · (x₁ − 0).
+    #[test]
+    fn a_product_is_multiplied_out() {
+        let form = |a, b| Form::Difference(a, b);
+        let out = |product: Product<Option<usize>>| product.multiplied_out().collect::<Vec<_>>();
+        let squares = out(Product::new(2, form(Some(1), Some(0)), form(None, Some(0))));
+        assert_eq!(squares, [(vec![0, 1], -2), (vec![0, 0], 2)]);
+        let linear = out(Product::new(3, Form::One, form(Some(1), None)));
+        assert_eq!(linear, [(vec![1], 3)]);
     }
 }

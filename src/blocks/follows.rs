@@ -11,7 +11,6 @@
 //! the rational numbers. What follows for another reason (of two lines parallel to a third, by cases) is not found.
 
 use super::Row;
-use crate::equations::Form;
 use crate::interval::Real;
 use crate::system::Term;
 use num_bigint::BigInt;
@@ -74,22 +73,10 @@ fn constant(right: &[Real]) -> Option<BigRational> {
 
 /// ½ Σ factor · left · right, multiplied out.
 fn polynomial(products: &[Term]) -> Polynomial {
-    let form = |form: Form<Option<usize>>| -> Vec<(Option<usize>, i32)> {
-        match form {
-            Form::One => vec![(None, 1)],
-            form => form.entries().filter(|(u, _)| u.is_some()).collect(),
-        }
-    };
     let mut out = Polynomial::new();
-    for p in products {
-        for (a, sign_a) in form(p.left) {
-            for (b, sign_b) in form(p.right) {
-                let mut monomial: Monomial = [a, b].into_iter().flatten().collect();
-                monomial.sort_unstable();
-                let factor = BigRational::new(BigInt::from(p.factor * sign_a * sign_b), 2.into());
-                add(&mut out, monomial, &factor);
-            }
-        }
+    for (monomial, factor) in products.iter().flat_map(|p| p.multiplied_out()) {
+        let factor = BigRational::new(BigInt::from(factor), 2.into());
+        add(&mut out, monomial, &factor);
     }
     out
 }
@@ -296,6 +283,7 @@ impl Given {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equations::Form;
 
     fn row(products: Vec<Term>) -> Row {
         // Equations have ½ on the left.

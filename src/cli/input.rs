@@ -1,5 +1,6 @@
 //! Reading problems from files and from standard input.
 
+use krawl::blocks::MOST_POINTS;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::edit::{Decomposition, Setting, completed};
 use krawl::import::{self, Figure, Format, Imported};
@@ -115,11 +116,8 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
     }
 }
 
-/// Figures of more points are not looked at for an advice.
-const MOST_POINTS: usize = 250;
-
-/// Whether `krawl all` searches figures of a part of a problem's constraints, and tests them against the others; false as well
-/// where finding that out would take seconds.
+/// Whether `krawl all` searches figures of a part of a problem's constraints, and tests them against the others. Of figures with
+/// very many points that is not looked for: false.
 pub fn has_surplus(problem: &Problem) -> bool {
     problem.points.len() <= MOST_POINTS
         && (Surplus::of(problem, None).is_some() || has_equations_to_spare(problem))

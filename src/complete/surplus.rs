@@ -6,7 +6,7 @@
 //! of the problem), or neither.
 
 use super::{Complete, Options, Unserved, all};
-use crate::blocks::{Account, LeftOut, Ruler, Verdict};
+use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
 use crate::interval::{Interval, enclose, point};
 use crate::linalg::Span;
 use crate::problem::{Decimal, Distance, Problem, Target, free_coordinates, rigidity};
@@ -75,13 +75,15 @@ impl Tested {
 impl Surplus {
     /// Of a problem of more distances than are needed, and nothing else. What is left out is what says nothing new in the sketch beside
     /// those written before, and after these what says nothing new in a figure whose distances may be any. `None`: there are no more than needed, or
-    /// they do not hold the figure. `tolerance`: within what a distance counts as met, where that is not half a unit of the last digit it is given with.
+    /// they do not hold the figure, or it has more than [`MOST_POINTS`] points. `tolerance`: within what a distance counts as met,
+    /// where that is not half a unit of the last digit it is given with.
     pub fn of(problem: &Problem, tolerance: Option<f64>) -> Option<Self> {
         let (d, n) = (problem.dimension, problem.points.len());
         let needed = free_coordinates(d, n);
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
         let is_it = problem.objects.is_empty() && problem.constraints.is_empty();
-        if !is_it || edges.len() <= needed || rigidity(d, n, &edges).rank < needed {
+        let may_be = is_it && n <= MOST_POINTS && edges.len() > needed;
+        if !may_be || rigidity(d, n, &edges).rank < needed {
             return None;
         }
         let mut span = Span::default();

@@ -1,7 +1,6 @@
 //! The polynomial system for other programs.
 
 use super::system::{Kind, System};
-use crate::equations::Form;
 use crate::interval::Real;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -140,22 +139,10 @@ fn names(system: &System) -> Vec<String> {
 /// Twice the left-hand side less the right one, or half that where all coefficients stay whole.
 fn polynomial(system: &System, equation: usize) -> Polynomial {
     let mut sums: BTreeMap<Vec<usize>, BigRational> = BTreeMap::new();
-    let parts = |form: Form<Option<usize>>| -> Vec<(Option<usize>, i32)> {
-        match form {
-            Form::One => vec![(None, 1)],
-            form => form.entries().filter(|(i, _)| i.is_some()).collect(),
-        }
-    };
-    for term in &system.equations[equation].terms {
-        for (left, one) in parts(term.left) {
-            for (right, other) in parts(term.right) {
-                let mut monomial: Vec<usize> = left.into_iter().chain(right).collect();
-                monomial.sort_unstable();
-                let factor = term.factor * one * other;
-                *sums.entry(monomial).or_insert_with(BigRational::zero) +=
-                    BigRational::from_integer(BigInt::from(factor));
-            }
-        }
+    let terms = system.equations[equation].terms.iter();
+    for (monomial, factor) in terms.flat_map(|term| term.multiplied_out()) {
+        *sums.entry(monomial).or_insert_with(BigRational::zero) +=
+            BigRational::from_integer(BigInt::from(factor));
     }
     sums.retain(|_, sum| !sum.is_zero());
     let equation = &system.equations[equation];

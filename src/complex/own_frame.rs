@@ -6,7 +6,8 @@
 
 use super::lower::Unserved;
 use super::system::{Equation, System};
-use crate::constraint::{self, Entry, Form};
+use crate::constraint::{self, Entry};
+use crate::equations::Form;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 
@@ -40,10 +41,7 @@ fn is_held_apart(homotopy: &Homotopy, vector: &[[usize; 2]]) -> bool {
         let mut places = equations.filter(|(_, equation)| is_place(equation));
         let is_its = |e: usize| {
             let terms = homotopy.terms(head + e);
-            let mut first = terms[0].left.entries();
-            first
-                .next()
-                .is_some_and(|(entry, _)| entry == Some(unknown))
+            matches!(terms[0].left, Form::Difference(Some(of), _) if of == unknown)
         };
         let (_, equation) = places.find(|(e, _)| is_its(*e))?;
         super::lower::at_target(&equation.right)
