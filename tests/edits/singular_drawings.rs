@@ -284,6 +284,15 @@ fn look_at(seed: u64) {
         let [a, b] = chain.parents[k].map(|p| drawn[p]);
         drawn[k + 2] = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
     }
+    let is_apart = |a: usize, b: usize| drawn[a] != drawn[b];
+    let children = chain.parents.iter().enumerate();
+    if !children
+        .flat_map(|(k, pair)| pair.map(|p| (k + 2, p)))
+        .all(|(a, b)| is_apart(a, b))
+    {
+        // Points of one distance drawn in one place are refused.
+        return;
+    }
     let flat = chain.problem(&drawn, "");
     let found = figures(&flat);
     let is_none = found.doubt().is_none() && found.count() == Some(0);
@@ -306,7 +315,7 @@ fn look_at(seed: u64) {
     if let Some((a, b)) = free.next() {
         let figure = &all[random.below(all.len())];
         let length = (figure[a][0] - figure[b][0]).hypot(figure[a][1] - figure[b][1]);
-        if length > 1.0 {
+        if length > 1.0 && drawn[a] != drawn[b] {
             let more = format!(", [\"p{a}\", \"p{b}\", {length:.9}]");
             let over = surplus(&chain.problem(&drawn, &more)).unwrap().surplus;
             assert_eq!(over.len(), 1, "{seed}: {over:?}");
