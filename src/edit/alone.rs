@@ -72,7 +72,7 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
             Ending::Limit(_)
                 if one.edited.account.meets_all()
                     || session
-                        .on_the_way(&wanted, one.edited.t.0, control)
+                        .on_the_way(slice::from_ref(&wanted), one.edited.t.0, control)
                         .1
                         .is_none() =>
             {

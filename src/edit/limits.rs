@@ -8,7 +8,7 @@ use crate::constraint::Measure;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
 use crate::remarks::detour;
-use crate::track::{Control, StopKind};
+use crate::track::{Control, Stop, StopKind};
 use std::slice;
 
 /// Towards zero a dimension is followed down to this part of what it is.
@@ -48,6 +48,16 @@ pub struct Range {
     pub account: Account,
 }
 
+/// A way that ends at a figure before the one it leads to.
+pub(super) struct Short {
+    /// t there.
+    pub t: f64,
+    /// The values of the dimensions that are led.
+    pub values: Vec<Interval>,
+    /// Why it goes no further.
+    pub stop: Stop,
+}
+
 impl End {
     /// The value where the range ends, or up to where it is known.
     pub fn value(&self) -> Interval {
@@ -80,6 +90,8 @@ impl Session {
                 SMALLEST * value.mid(),
                 90.0 - SMALLEST * (90.0 - value.mid()),
             ),
+            // All the way round.
+            (Measure::Turn, _) => (value.mid() - 360.0, value.mid() + 360.0),
             (Measure::Signed, _) => {
                 let coordinates = problem.points.iter().flat_map(|p| &p.sketch);
                 let far = coordinates.fold(value.mag(), |far, x| far.max(x.to_f64().abs()));
@@ -110,32 +122,41 @@ impl Session {
     }
 
     /// Figures on the way to the one at t, which has constraints left out that need not follow: what is proved of them, and, where
-    /// one of them misses such a constraint or is not proved, the end, at the one before it.
+    /// one of them misses such a constraint or is not proved, the one before it, where the way ends.
     pub(super) fn on_the_way(
         &mut self,
-        setting: &Setting,
+        settings: &[Setting],
         t: f64,
         control: &mut Control,
-    ) -> (Account, Option<End>) {
+    ) -> (Account, Option<Short>) {
         let mut account = self.account();
-        let mut value = self.length(setting.index);
+        let mut short = Short {
+            t: 0.0,
+            values: settings.iter().map(|s| self.length(s.index)).collect(),
+            stop: Stop::new(
+                StopKind::Undecided,
+                "the way there could not be followed a second time",
+            ),
+        };
         for k in 1..=BETWEEN {
             let part = t * f64::from(k) / f64::from(BETWEEN + 1);
-            let there = setting.before(self.problem(), part);
-            let edited = there.map(|there| self.follow_to(&[there], false, control));
-            let reason = match edited {
+            let there = settings.iter().map(|s| s.before(self.problem(), part));
+            let there: Option<Vec<Setting>> = there.collect();
+            let edited = there.map(|there| self.follow_to(&there, false, control));
+            match edited {
                 Some(edited) if edited.ending == Ending::Reached => {
                     account.join(&edited.account);
-                    value = edited.dimensions[0].value;
+                    short.t = part;
+                    short.values = edited.dimensions.iter().map(|d| d.value).collect();
                     continue;
                 }
                 Some(Edited {
-                    ending: Ending::Stopped(reason) | Ending::Passes(reason),
+                    ending: Ending::Stopped(stop) | Ending::Passes(stop),
                     ..
-                }) => reason.text,
-                _ => "the way there could not be followed a second time".to_owned(),
-            };
-            return (account, Some(End::Unknown(value, reason)));
+                }) => short.stop = stop,
+                _ => {}
+            }
+            return (account, Some(short));
         }
         (account, None)
     }
@@ -157,6 +178,7 @@ impl Session {
                 let digits = 3.0 - goal.min(most - goal).log10().floor();
                 format!("{goal:.*}", digits.clamp(0.0, 20.0) as usize)
             }
+            Measure::Turn => format!("{goal:.3}"),
             _ => format!("{goal:.3e}"),
         };
         let rounded = rounded.parse::<Decimal>();
@@ -185,8 +207,10 @@ impl Session {
             false => account,
         };
         if t.0 > 0.0 && !account.meets_all() {
-            let (between, end) = self.on_the_way(&setting, t.0, control);
-            if let Some(end) = end {
+            let way = self.on_the_way(slice::from_ref(&setting), t.0, control);
+            let (between, short) = way;
+            if let Some(short) = short {
+                let end = End::Unknown(short.values[0], short.stop.text);
                 return (end, self.points(), between);
             }
             account.join(&between);

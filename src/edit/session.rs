@@ -1,6 +1,6 @@
 //! A figure and the edits of it.
 
-use super::ending::Edited;
+use super::ending::{Edited, Ending, Orientations};
 use super::open::{Moved, OpenError};
 use super::parts::Parts;
 use super::setting::Setting;
@@ -156,9 +156,39 @@ impl Session {
 
     /// Changes dimensions as [`Session::edit`] does, with the hooks of `control`.
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        match &mut self.way {
+        let edited = match &mut self.way {
             Way::Whole(whole) => whole.edit_with(settings, control),
             Way::Parts(parts) => parts.edit(settings, true, control),
+        };
+        self.looked_at(edited, settings, control)
+    }
+
+    /// A limit, which is one of the figure only if the figures on the way there meet what was left out as well, as of `limits`: otherwise the
+    /// edit stops before.
+    fn looked_at(
+        &mut self,
+        mut edited: Edited,
+        settings: &[Setting],
+        control: &mut Control,
+    ) -> Edited {
+        if !matches!(edited.ending, Ending::Limit(_)) || edited.account.meets_all() {
+            return edited;
+        }
+        let (account, short) = self.on_the_way(settings, edited.t.0, control);
+        let Some(short) = short else {
+            edited.account.join(&account);
+            return edited;
+        };
+        for (dimension, value) in edited.dimensions.iter_mut().zip(short.values) {
+            dimension.value = value;
+        }
+        Edited {
+            ending: Ending::Stopped(short.stop),
+            t: (short.t, short.t),
+            points: self.points(),
+            orientations: Orientations::default(),
+            account,
+            ..edited
         }
     }
 
@@ -179,10 +209,11 @@ impl Session {
 
     /// What [`Session::edit`] would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        match &mut self.way {
+        let edited = match &mut self.way {
             Way::Whole(whole) => whole.probe(settings, control),
             Way::Parts(parts) => parts.edit(settings, false, control),
-        }
+        };
+        self.looked_at(edited, settings, control)
     }
 }
 

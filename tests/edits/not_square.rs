@@ -1,7 +1,7 @@
 //! Problem files with more constraints than unknowns, or fewer, and dimensions that are out of reach: what `solve` and `limits` say.
 
 use assert_cmd::Command;
-use krawl::edit::{End, Session};
+use krawl::edit::{End, Ending, Session, Setting};
 use krawl::problem::Problem;
 use std::fs;
 
@@ -236,4 +236,42 @@ fn other_files_keep_their_results() {
         .arg(&out);
     assert_eq!(command.output().unwrap().status.code(), Some(2));
     assert!(fs::read_to_string(&out).unwrap().contains("\"link\""));
+}
+
+/// A constraint that is left out is met where the edit begins and where it would end, as it is measured from a point as far from either
+/// place of p, and is missed on the way: the limit is none of the figure.
+#[test]
+fn no_limit_is_reached_through_figures_that_miss_what_was_left_out() {
+    let bars = "[\"a\", \"b\", 3], [\"b\", \"c\", 2.5], [\"c\", \"d\", 3.5], [\"b\", \"p\", 2], [\"c\", \"p\", 2], [\"b\", \"d\", 4]";
+    let text = |q: [f64; 2], fixed: &str, more: &str| {
+        format!(
+            "name = \"f\"\ndimension = 2\n[points]\na = [0, 0]\nd = [5, 0]\nb = [1.8, 2.4]\nc = [4.1, 3.38]\np = [2.34, 4.33]\n\
+             q = [{:.9}, {:.9}]\n[constraints]\nfixed = [\"a\", \"d\"{fixed}]\ndistances = [{bars}{more}]\n",
+            q[0], q[1]
+        )
+    };
+    let open = |text: &str| {
+        let problem = Problem::parse_loosely(text, "f.toml").unwrap();
+        let setting = Setting::parse(&problem, "b-d=7").unwrap();
+        (Session::open(&problem).unwrap(), setting)
+    };
+    let (mut session, setting) = open(&text([9.0, 9.0], "", ""));
+    let p = session.figure()[4];
+    let limit = session.edit(std::slice::from_ref(&setting));
+    assert!(matches!(limit.ending, Ending::Limit(_)));
+    let there = limit.points[4].map(|x| x.mid());
+    let (middle, way) = (
+        [0, 1].map(|k| (p[k] + there[k]) / 2.0),
+        [0, 1].map(|k| there[k] - p[k]),
+    );
+    let q = [middle[0] - way[1], middle[1] + way[0]];
+    let far = (q[0] - p[0]).hypot(q[1] - p[1]);
+    let (mut session, setting) = open(&text(q, ", \"q\"", &format!(", [\"p\", \"q\", {far:.4}]")));
+    assert_eq!(session.account().left_out.len(), 1);
+    let edited = session.edit(&[setting]);
+    let Ending::Stopped(stop) = &edited.ending else {
+        panic!("{:?}", edited.ending)
+    };
+    assert!(stop.text.contains("p-q"), "{}", stop.text);
+    assert!(edited.t.1 < limit.t.0 && edited.points == session.points());
 }
