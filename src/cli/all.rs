@@ -3,11 +3,14 @@
 use super::check::counted;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
+use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
+use super::take::{Listed as Taking, Take, Taken};
 use super::verify::check_cover;
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
+use krawl::constraint::Symmetry;
 use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
@@ -26,6 +29,7 @@ use std::time::{Duration, Instant};
 Examples:
   krawl all problems/disulfide.toml
   krawl all problems/disulfide.toml --html all.html --xyz all.xyz
+  krawl all problems/k33.toml --pick 3 --out taken.toml   the file with the third figure in it
   krawl all problems/dodecagon.toml --store parts    ended at any moment, the same command goes on
 
 Two machines share a search: one runs it with --store a --share 1/2, the other with --store b --share 2/2. Then
@@ -70,6 +74,10 @@ pub struct Arguments {
     #[arg(long, value_name = "X", value_parser = seconds)]
     redundant_tolerance: Option<f64>,
     #[command(flatten)]
+    take: Take,
+    #[command(flatten)]
+    measured: Measured,
+    #[command(flatten)]
     pictures: Pictures,
     /// Print no table and no progress
     #[arg(long)]
@@ -100,6 +108,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
+    arguments.take.check(file)?;
     let asked = input::asked(file, sketch, arguments.redundant_tolerance)?;
     let (problem, made, surplus) = match asked {
         Asked::Surplus(surplus) => (surplus.problem.clone(), None, Some(surplus)),
@@ -108,6 +117,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             (problem, made, None)
         }
     };
+    let measures = arguments.measured.of(&problem)?;
     let json = arguments
         .json
         .as_deref()
@@ -202,11 +212,21 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let page = Page::from_result(&complete_to_value(&problem, &result));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
+    let figures = || result.solutions.iter().map(|solution| &solution.points[..]);
     if let Some(json) = &json {
-        written &= json.write(&(complete_to_json(&problem, &result) + "\n"));
+        let text = match measures.is_empty() {
+            true => complete_to_json(&problem, &result),
+            false => {
+                let mut value = complete_to_value(&problem, &result);
+                value["measures"] = measures.to_value(figures());
+                value.to_string()
+            }
+        };
+        written &= json.write(&(text + "\n"));
     }
     if !arguments.quiet && !elsewhere {
         let mut text = complete_to_table(&problem, &result);
+        text += &measures.to_table("", figures());
         let made = input::held_and_left_out(made.as_ref());
         if !made.is_empty() {
             text +=
@@ -215,6 +235,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         text += &checked.text;
         written &= output::print(&text);
     }
+    let count = result.solutions.len() as u64;
+    let listed = Taking {
+        count,
+        first: None,
+        is_all: result.count == Some(count),
+    };
+    let either = result.symmetry == Symmetry::Isometries;
+    written &= arguments
+        .take
+        .write((file, sketch), &problem, listed, |number| {
+            Taken::of(&problem, &result.solutions[number as usize], either)
+        });
     let is_decided = result.tested.as_ref().is_none_or(Tested::is_decided);
     let of_status = match result.status {
         Status::Complete if is_decided => CLOSED,

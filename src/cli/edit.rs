@@ -1,11 +1,14 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
+use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
+use super::take::check_format;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::certificate::Writer;
-use krawl::edit::{Decomposition, Edited, Ending, OpenError, Session, Setting};
+use krawl::edit::{Asked, Decomposition, Edited, Ending, OpenError, Session, Setting};
+use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::remarks::moves;
 use krawl::report::page::Page;
@@ -26,6 +29,7 @@ Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl
   krawl verify edit.krawl problems/mechanisms/four-bar.toml
+  krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --measure A-P --measure 'angle A B P'
   krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
@@ -62,6 +66,8 @@ pub struct Arguments {
     /// Do not check the certificate that was written
     #[arg(long, requires = "cert")]
     no_verify: bool,
+    #[command(flatten)]
+    measured: Measured,
     #[command(flatten)]
     pictures: Pictures,
     /// Keep to 53 bits, and stop where they do not suffice
@@ -102,6 +108,9 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
+    if let Some(out) = &arguments.out {
+        check_format(&arguments.file, out)?;
+    }
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let mut problem = loaded.problem.clone();
     let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
@@ -120,12 +129,27 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             },
         );
     }
-    let settings = arguments.set.iter();
-    let settings = settings.map(|text| Setting::parse(&problem, text));
-    let settings = settings.collect::<Result<Vec<_>, _>>();
-    let settings = settings.map_err(|e| in_file(&e))?;
+    let named = arguments.set.iter();
+    let named = named.map(|text| Setting::split(&problem, text));
+    let named = named.collect::<Result<Vec<_>, _>>();
+    let asked = named.and_then(|named| Asked::new(&problem, &named));
+    let asked = asked.map_err(|e| in_file(&e))?;
+    let is_freecad = Format::of(&arguments.file.display().to_string()) == Some(Format::FreeCad);
+    if arguments.out.is_some()
+        && !is_freecad
+        && let Some(index) = asked.straight(&problem)
+    {
+        let name = problem.dimension_name(index);
+        return Err(in_file(&format!(
+            "{name}: under `angles` a file has none of 0 or 180 degrees: leave out --out, or say `turns` in the file"
+        )));
+    }
+    let measures = arguments.measured.of(&problem)?;
+    let as_turns = asked.in_words(&problem);
+    let (settings, given) = (asked.settings, asked.given);
+    problem = asked.problem;
     Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
-    let warnings = loaded.warnings(&settings);
+    let warnings = loaded.warnings(&given);
     let mut account = None;
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
@@ -185,6 +209,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let document = || {
         let mut value = edit_to_document(&problem, &edited, &session);
         value["warnings"] = warnings.clone().into();
+        if !measures.is_empty() {
+            value["measures"] = measures.to_value(std::iter::once(&edited.points[..]));
+        }
         value
     };
     if !pictures.is_empty() {
@@ -200,9 +227,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     {
         let (points, radii) = (session.figure(), session.radii());
         let mut changed = loaded.problem.clone();
-        settings
-            .iter()
-            .for_each(|setting| setting.apply(&mut changed));
+        given.iter().for_each(|setting| setting.apply(&mut changed));
         let bytes = loaded.rewritten(&arguments.file, &changed, &points, &radii);
         let bytes = bytes.map_err(|e| in_file(&e))?;
         let beside = Beside::new(out)?;
@@ -214,7 +239,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             Some(_) => String::new(),
         };
         let table = edit_to_table(&problem, &edited, moved);
-        let mut text = drawn + &table + &account_in_words(&edited.account);
+        let of = match edited.ending {
+            Ending::Reached => "",
+            Ending::Limit(_) => " at the limit",
+            Ending::Passes(_) | Ending::Stopped(_) => " of the old figure",
+        };
+        let mut text = as_turns + &drawn + &table + &account_in_words(&edited.account);
+        text += &measures.to_table(of, std::iter::once(&edited.points[..]));
         for warning in &warnings {
             text += &format!("warning             {warning}\n");
         }

@@ -1,8 +1,10 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
 use super::edit::LeftOut;
+use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
+use super::take::{Listed as Taking, Take, Taken};
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use crate::order::InOrder;
@@ -119,6 +121,10 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<usize>,
     #[command(flatten)]
+    take: Take,
+    #[command(flatten)]
+    measured: Measured,
+    #[command(flatten)]
     pictures: Pictures,
     /// Print one line for each problem
     #[arg(long)]
@@ -138,6 +144,15 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
 }
+
+/// The figures of a sketch, and the number of the one that `--first` means, if it is there.
+struct Found {
+    figures: Figures,
+    first: Option<u64>,
+}
+
+/// Of so many figures of a sketch, which may have many, measures are told.
+const MOST_MEASURED: u64 = 1000;
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Mode {
@@ -244,6 +259,15 @@ impl Arguments {
         if self.files.len() > 1 && self.cert.is_some() {
             return Err("`--cert` is for one problem: name one file".to_owned());
         }
+        if self.files.len() > 1 && self.take.is_wanted() {
+            return Err("`--out` is for one problem: name one file".to_owned());
+        }
+        for file in &self.files {
+            self.take.check(file)?;
+        }
+        if self.files.len() > 1 && !self.measured.is_empty() {
+            return Err("`--measure` is for one problem: name one file".to_owned());
+        }
         if self.files.len() > 1 && self.pictures.files().next().is_some() {
             return Err("a page and pictures are of one problem: name one file".to_owned());
         }
@@ -294,6 +318,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let (count, mut k) = (arguments.files.len(), 0);
     for ((problem, is_by_blocks), file) in named {
         let problem = &problem;
+        let measures = arguments.measured.of(problem)?;
         let which = output::which_of((k, count), file);
         if !silent
             && !arguments.summary
@@ -304,7 +329,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
         if is_by_blocks {
             let found = arguments.by_blocks(problem);
-            let (text, mut value, code) = match found {
+            let (text, mut value, code, found) = match found {
                 Ok(found) => found,
                 // What came of other files is not lost.
                 Err(error) => {
@@ -318,6 +343,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                     continue;
                 }
             };
+            written &= arguments.take_of(&found, (problem, file));
             let alone = match value["count"] == 0 && (!silent || json.is_some()) {
                 true => arguments.alone(problem),
                 false => Vec::new(),
@@ -375,8 +401,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             && arguments.can_be_cut(cancel)
         {
             if problem.is_absolute()
-                && let Some((mut text, value, code)) = arguments.instead(problem, reason, unbounded)
+                && let Some((mut text, value, code, found)) =
+                    arguments.instead(problem, reason, unbounded)
             {
+                written &= arguments.take_of(&found, (problem, file));
                 if arguments.cert.is_some() {
                     // What the certificate is about.
                     let whole = arguments.shown(problem, &outcome);
@@ -434,6 +462,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                     written &=
                         output::print(&format!("{gap}{}{hints}", arguments.shown_blocks(&all)));
                 }
+                if arguments.take.is_wanted() || !measures.is_empty() {
+                    let what = "the solutions listed are of parts of the figure, none of which is written or measured";
+                    output::complain(&format!("{}: {what}", input::name(file)));
+                    written = false;
+                }
                 worst = worse(worst, code);
                 k += 1;
                 continue;
@@ -449,6 +482,22 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             true => to_first_table(problem, &outcome),
             false => None,
         };
+        let mut solutions = outcome.solutions.iter();
+        let direct = solutions.position(|s| s.place.is_some_and(|p| p.folds == Some(0)));
+        let count = match (arguments.first, direct) {
+            (true, None) => 0,
+            _ => outcome.solutions.len() as u64,
+        };
+        let chosen = direct.filter(|_| arguments.first).map(|k| k as u64);
+        let from = (file.as_path(), arguments.sketch.as_deref());
+        let listed = Taking {
+            count,
+            first: chosen,
+            is_all: true,
+        };
+        written &= arguments.take.write(from, problem, listed, |number| {
+            Taken::of(problem, &outcome.solutions[number as usize], false)
+        });
         worst = match (&outcome.status, worst) {
             _ if first.is_some() => worst,
             _ if turns_at.is_some() => worse(worst, LIMIT),
@@ -491,6 +540,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 ),
                 (None, false) => arguments.shown(problem, &outcome),
             };
+            let of = match arguments.mode {
+                Mode::Certified => "",
+                Mode::Float => ", without proof",
+            };
+            let shown = match (arguments.first, direct) {
+                (true, Some(k)) => k..k + 1,
+                (true, None) => 0..0,
+                _ => 0..outcome.solutions.len(),
+            };
+            let shown = outcome.solutions[shown].iter();
+            let text = text + &measures.to_table(of, shown.map(|solution| &solution.points[..]));
             let hints = hints(problem, &outcome, &input::name(file));
             let whole = arguments.whole_in_words(file);
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
@@ -511,7 +571,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             written &= output::print(&among_in_words(among));
         }
         if json.is_some() {
-            lines += &(run.to_json_among(among, &alone) + "\n");
+            let figures = outcome
+                .solutions
+                .iter()
+                .map(|solution| &solution.points[..]);
+            let measured = (!measures.is_empty()).then(|| measures.to_value(figures));
+            lines += &(run.to_json_among(among, &alone, measured) + "\n");
         }
         k += 1;
         if cancel.load(Ordering::Relaxed) {
@@ -713,7 +778,7 @@ impl Arguments {
 
     /// The figures of a sketch in its own frame, with `--first` the nearest one with its senses: as text, as a value for
     /// JSON, and the exit code.
-    fn by_blocks(&self, problem: &Problem) -> Result<(String, Value, u8), String> {
+    fn by_blocks(&self, problem: &Problem) -> Result<(String, Value, u8, Found), String> {
         let mut control = Control {
             cancel: Some(interrupt::flag()),
             ..Control::default()
@@ -727,10 +792,14 @@ impl Arguments {
             Some(_) => STOPPED,
             None => CLOSED,
         };
-        let mut text = String::new();
+        let (mut text, mut first) = (String::new(), None);
         if self.first {
             let nearest = figures.first();
             text = first_in_words(&figures, nearest);
+            first = match nearest {
+                Nearest::Figure { number, .. } => Some(number),
+                _ => None,
+            };
             (listed, code) = match nearest {
                 Nearest::Figure { number, .. } => (Listed::Only(number), CLOSED),
                 Nearest::None { is_proved: true } if code == CLOSED => (listed, LIMIT),
@@ -741,7 +810,42 @@ impl Arguments {
             true => figures_to_summary(&figures),
             false => figures_to_table(&figures, listed),
         };
-        Ok((text, figures_to_value(&figures, listed), code))
+        let mut value = figures_to_value(&figures, listed);
+        let measures = self.measured.of(problem)?;
+        if !measures.is_empty() {
+            let numbers = match first {
+                Some(number) => number..number + 1,
+                None if self.first => 0..0,
+                None => 0..figures.count().unwrap_or(u64::MAX).min(MOST_MEASURED),
+            };
+            let boxes: Vec<_> = numbers.map(|number| figures.figure(number).0).collect();
+            let boxes = || boxes.iter().map(|points| &points[..]);
+            text += &measures.to_table("", boxes());
+            value["measures"] = measures.to_value(boxes());
+        }
+        Ok((text, value, code, Found { figures, first }))
+    }
+
+    /// Writes the figure that is wanted of those found block by block, if one is; whether all went well.
+    fn take_of(&self, found: &Found, (problem, file): (&Problem, &Path)) -> bool {
+        let Found { figures, first } = found;
+        let listed = Taking {
+            count: match (self.first, first) {
+                // None that was asked for.
+                (true, None) => 0,
+                _ => figures.count().unwrap_or(u64::MAX),
+            },
+            first: *first,
+            is_all: true,
+        };
+        let from = (file, self.sketch.as_deref());
+        self.take.write(from, problem, listed, |number| {
+            let (points, radii) = figures.figure(number);
+            Ok(Taken {
+                points: points.iter().map(|p| p.map(|x| x.mid())).collect(),
+                radii: radii.iter().map(|r| r.map_or(0.0, |r| r.mid())).collect(),
+            })
+        })
     }
 
     /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole: as text, as a
@@ -753,14 +857,14 @@ impl Arguments {
         problem: &Problem,
         reason: &str,
         unbounded: Option<Unbounded>,
-    ) -> Option<(String, Value, u8)> {
+    ) -> Option<(String, Value, u8, Found)> {
         let vanishes = unbounded.is_some_and(|path| !path.both_ways);
         let bends = problem.homotopy.bend < problem.distances.len()
             && !problem.homotopy.bend_coefficient.value().is_zero();
         if vanishes && (bends || self.wants_path().is_some()) {
             return None;
         }
-        let (text, value, code) = self.by_blocks(problem).ok()?;
+        let (text, value, code, found) = self.by_blocks(problem).ok()?;
         if vanishes && value["status"] != "complete" {
             return None;
         }
@@ -795,7 +899,7 @@ impl Arguments {
             None => code,
         };
         let is_worth_it = code == CLOSED || self.cert.is_some();
-        is_worth_it.then(|| (introduction + &text, value, worth))
+        is_worth_it.then(|| (introduction + &text, value, worth, found))
     }
 
     fn shown_blocks(&self, all: &BlockRuns) -> String {

@@ -4,12 +4,12 @@ use super::edit::{
     LeftOut, beside, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open,
     reason,
 };
+use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, input, interrupt};
+use super::{BAD_INPUT, CLOSED, input, interrupt, table};
 use krawl::certificate::Writer;
-use krawl::edit::{Ending, Setting};
-use krawl::problem::Decimal;
+use krawl::edit::{Asked, Ending, Setting};
 use krawl::report::page::Page;
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_value};
 use krawl::track::{Control, Witness};
@@ -25,24 +25,52 @@ use std::path::PathBuf;
 Examples:
   krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --frames 100 --csv leg.csv
   krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --html leg.html
+  krawl sweep problems/mechanisms/crank.toml --vary turns:D-A-B --from 0 --to 360 --html crank.html
+  krawl sweep problems/mechanisms/four-bar.toml --table docs/examples/four-bar.csv --csv frames.csv
 
 Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are written;
 2 bad input, or results that could not be written.")]
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
-    file: PathBuf,
+    pub(super) file: PathBuf,
     /// Which sketch of a .slvs or .FCStd file, where it holds several
     #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    pub(super) sketch: Option<String>,
     /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
-    #[arg(long, value_name = "NAME")]
+    #[arg(
+        long,
+        value_name = "NAME",
+        required_unless_present = "table",
+        default_value = "",
+        hide_default_value = true
+    )]
     vary: String,
     /// Its first value
-    #[arg(long, value_name = "VALUE")]
+    #[arg(
+        long,
+        value_name = "VALUE",
+        allow_negative_numbers = true,
+        required_unless_present = "table",
+        default_value = "",
+        hide_default_value = true
+    )]
     from: String,
     /// Its last value
-    #[arg(long, value_name = "VALUE")]
+    #[arg(
+        long,
+        value_name = "VALUE",
+        allow_negative_numbers = true,
+        required_unless_present = "table",
+        default_value = "",
+        hide_default_value = true
+    )]
     to: String,
+    /// Drive several dimensions together, from row to row of a table: CSV, the first line their names, each other one their values
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "from", "to", "frames", "json", "cert", "html", "svg", "animation", "obj", "xyz"])]
+    table: Option<PathBuf>,
+    /// With --table: write the figure of each row into the file that it is of, as FILE-1, FILE-2, ... in this folder
+    #[arg(long, value_name = "DIR", requires = "table")]
+    pub(super) out_folder: Option<PathBuf>,
     /// The number of frames, at equal distances, both ends among them
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     frames: u32,
@@ -51,7 +79,7 @@ pub struct Arguments {
     json: Option<PathBuf>,
     /// Write the frames as CSV: the value, then the coordinates of all points; `-` likewise
     #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    pub(super) csv: Option<PathBuf>,
     /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
     /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE")]
@@ -60,14 +88,16 @@ pub struct Arguments {
     #[arg(long, requires = "cert")]
     no_verify: bool,
     #[command(flatten)]
+    pub(super) measured: Measured,
+    #[command(flatten)]
     pictures: Pictures,
     #[command(flatten)]
-    left_out: LeftOut,
+    pub(super) left_out: LeftOut,
     #[command(flatten)]
     time: interrupt::Time,
     /// Print no summary
     #[arg(long)]
-    quiet: bool,
+    pub(super) quiet: bool,
 }
 
 /// Runs the verb and returns the exit code.
@@ -77,17 +107,20 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
+    if let Some(table) = &arguments.table {
+        return table::run(arguments, table);
+    }
     let shown = arguments.file.display();
-    let mut problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
+    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
-    let [from, to] =
-        [&arguments.from, &arguments.to].map(|value| -> Result<(usize, Decimal), String> {
-            let setting =
-                Setting::named(&problem, &arguments.vary, value).map_err(|e| in_file(&e))?;
-            let value = value.parse().expect("it was just parsed");
-            Ok((setting.index, value))
-        });
-    let ((mut index, from), (_, to)) = (from?, to?);
+    let ends = [&arguments.from, &arguments.to];
+    let named = ends.map(|value| (&*arguments.vary, &**value));
+    let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
+    Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
+    let measures = arguments.measured.of(&problem)?;
+    let as_turns = asked.in_words(&problem);
+    let (mut problem, mut index) = (asked.problem, asked.settings[0].index);
+    let [from, to] = ends.map(|value| value.parse().expect("it was just parsed"));
     let mut cert = arguments.cert.as_deref();
     let mut account = None;
     if cert.is_some() {
@@ -151,11 +184,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let page = Page::from_result(&sweep_to_value(&problem, index, &sweep));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
+    let frames = || sweep.frames.iter().map(|frame| &frame.points[..]);
     if let Some(json) = &json {
-        written &= json.write(&(sweep_to_value(&problem, index, &sweep).to_string() + "\n"));
+        let mut value = sweep_to_value(&problem, index, &sweep);
+        if !measures.is_empty() {
+            value["measures"] = measures.to_value(frames());
+        }
+        written &= json.write(&(value.to_string() + "\n"));
     }
     if let Some(csv) = &csv {
-        written &= csv.write(&sweep_to_csv(&problem, index, &sweep));
+        written &= csv.write(&sweep_to_csv(&problem, index, &sweep, &measures));
     }
     let is_piped = pictures.use_standard_output()
         || [&json, &csv]
@@ -163,7 +201,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             .any(|d| **d == Some(Destination::StandardOutput));
     if !arguments.quiet && !is_piped {
         let drawn = drawn_in_words(&problem, &session);
-        written &= output::print(&(drawn + &sweep_in_words(&problem, index, &sweep) + "\n"));
+        written &= output::print(
+            &(as_turns
+                + &drawn
+                + &sweep_in_words(&problem, index, &sweep)
+                + "\n"
+                + &measures.over(frames())),
+        );
     }
     Ok(match (written, &sweep.end) {
         (false, _) => BAD_INPUT,

@@ -4,7 +4,7 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::certificate::cover::{CoverVerdict, verify_cover_while};
 use krawl::certificate::{Compared, Contents, Outcome, Settings, Stage, contents, verify};
-use krawl::edit::Decomposition;
+use krawl::edit::{Decomposition, with_turns_of};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
@@ -99,12 +99,19 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let verdict = verify(file, &settings, &mut show);
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
-    let same = problem
-        .as_ref()
-        .is_none_or(|problem| verdict.is_about(problem));
+    let is_it = problem.as_ref().map(|problem| verdict.is_about(problem));
+    // What an edit led beyond 0 or 180 degrees.
+    let as_turns = problem.as_ref().filter(|_| is_it == Some(false));
+    let as_turns = as_turns.map(|problem| with_turns_of(problem, &verdict.problem));
+    let is_turned = as_turns.is_some_and(|problem| verdict.is_about(&problem));
+    let same = is_it != Some(false) || is_turned;
     let mut text = theorem(&verdict, clock.elapsed());
     if let Some(file) = &arguments.file {
         text += &match same {
+            true if is_turned => {
+                about(file, found.as_ref())
+                    + "Angles of it that were led beyond 0 or 180 degrees are `turns` in the certificate, in the sense in which they are drawn.\n"
+            }
             true => about(file, found.as_ref()),
             false => format!(
                 "REFUTED: the problem is not the one in {}.\n",

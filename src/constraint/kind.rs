@@ -18,6 +18,8 @@ pub enum Measure {
     Ratio,
     /// An angle between 0 and 180 degrees, of which the cosine is led.
     Degrees,
+    /// An angle with its sense, any number of degrees, of which the direction goes round.
+    Turn,
     /// An angle between a line and a plane, at most 90 degrees, of which the sine is led.
     Slope,
 }

@@ -49,6 +49,7 @@ pub use heights::{Divided, Origin, divide, odd_ones};
 pub use kind::{Fixes, Kind, Measure};
 pub use kinds::KINDS;
 pub(crate) use kinds::is_opposite_nearer;
+pub(crate) use lowering::MOST_TURN;
 pub use lowering::Spare;
 pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
@@ -324,6 +325,7 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
         Measure::Nothing => None,
         Measure::Length | Measure::Ratio => Some("a number greater than zero"),
         Measure::Signed => Some("a number"),
+        Measure::Turn => Some("a number of degrees"),
         Measure::Degrees => Some("an angle between 0 and 180 degrees"),
         Measure::Slope => Some("an angle greater than 0 and at most 90 degrees"),
     };
@@ -348,9 +350,9 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
             let items = Arguments::new(problem, &problem.constraints[index].items);
             let hint = match measure {
                 Measure::Slope => Some("for 0 degrees say `parallel`, for 90 `perpendicular`"),
-                Measure::Degrees if *number > straight => Some(
-                    "an angle has no sense of turn here, so that one beyond 180 degrees is what it lacks to 360; which way it turns \
-                     is read off the sketch",
+                Measure::Degrees if problem.dimension == 2 => Some(
+                    "it has no sense of turn; `turns` has one, counter-clockwise from the first leg or line to the second, and takes any \
+                     number, in the same words",
                 ),
                 Measure::Degrees => Some("for 0 and 180 degrees say `parallel` or `collinear`"),
                 _ if number.is_zero() => kind.instead_of_zero(items),

@@ -48,6 +48,7 @@ mod session;
 mod setting;
 mod sweep;
 mod whole;
+mod whole_turn;
 mod write;
 
 pub use alone::{Alone, alone};
@@ -57,6 +58,7 @@ pub use open::{Moved, OpenError};
 pub use session::{Decomposition, Session, Standing, TooMany, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
+pub use whole_turn::{Asked, with_turns_of};
 pub use write::{WriteError, rewrite};
 
 use crate::blocks::in_words;

@@ -1,10 +1,12 @@
 //! Which dimension is to become how long.
 
 use super::whole::length;
-use crate::constraint::{self, Measure};
-use crate::interval::{Interval, Real, hull, point};
+use crate::constraint::{self, MOST_TURN, Measure};
+use crate::interval::angle::{degrees_of_cosine, direction};
+use crate::interval::{Interval, Real, point};
 use crate::problem::{Constraint, Decimal, DecimalError, Item, Problem, Shape, Target};
 use num_rational::BigRational;
+use num_traits::Signed;
 
 /// A dimension and its new value.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,13 +67,20 @@ pub enum SettingError {
     #[error("{0}: a ratio must be greater than 0, and {1} is not")]
     NotARatio(String, String),
     /// An angle is between 0 and 180 degrees.
-    #[error("{0}: an angle must be between 0 and 180 degrees, and {1} is not")]
+    #[error(
+        "{0}: an angle must be between 0 and 180 degrees, and {1} is not: one that goes beyond is given under `turns`"
+    )]
     NotAnAngle(String, String),
     /// An angle between a line and a plane is at most 90 degrees.
     #[error(
         "{0}: an angle between a line and a plane must be greater than 0 and at most 90 degrees, and {1} is not"
     )]
     NotASlope(String, String),
+    /// Edits turn by somewhat more than a whole turn at most.
+    #[error(
+        "{0}: from {1} to {2} degrees is more than {MOST_TURN} degrees at once: go there in two steps or more"
+    )]
+    TurnsTooFar(String, String, String),
     /// A dimension is set twice.
     #[error("{0} is set twice: leave out one of the two")]
     Twice(String),
@@ -186,7 +195,7 @@ impl Setting {
     }
 
     /// What the dimension is at t on its way from what it is in `problem` to the value: what its kind leads linearly is
-    /// the number itself, of an angle the cosine, and of one between a line and a plane the sine.
+    /// the number itself, of an angle the cosine, and of one between a line and a plane the sine; turns go round.
     pub(super) fn between(&self, problem: &Problem, t: Interval) -> Interval {
         let before = Setting::now(problem, self.index);
         let linear = |from: Interval, to: Interval| from + t * (to - from);
@@ -200,6 +209,7 @@ impl Setting {
         match measure(problem, self.index) {
             Measure::Degrees => degrees_of_cosine(led(Real::cosine_of_degrees)),
             Measure::Slope => point(90.0) - degrees_of_cosine(led(Real::sine_of_degrees)),
+            Measure::Turn => turned(from.value(), to.value(), t),
             _ => linear(before.value(), self.value()),
         }
     }
@@ -217,9 +227,14 @@ impl Setting {
     /// From a text such as `a-b=5.2`: the distance between the points a and b, in either order, shall be
     /// exactly 52/10.
     pub fn parse(problem: &Problem, text: &str) -> Result<Self, SettingError> {
-        let form = || SettingError::Form(text.to_owned(), example(problem));
-        let (name, value) = text.rsplit_once('=').ok_or_else(form)?;
+        let (name, value) = Self::split(problem, text)?;
         Self::named(problem, name, value)
+    }
+
+    /// The name and the value in a text such as `a-b=5.2`.
+    pub fn split<'t>(problem: &Problem, text: &'t str) -> Result<(&'t str, &'t str), SettingError> {
+        let form = || SettingError::Form(text.to_owned(), example(problem));
+        text.rsplit_once('=').ok_or_else(form)
     }
 
     /// From the name of a dimension and the text of its new value.
@@ -253,30 +268,27 @@ impl Setting {
             {
                 return Err(SettingError::Twice(problem.dimension_name(setting.index)));
             }
+            if measure(problem, setting.index) == Measure::Turn
+                && let (Target::Length(now), Target::Length(then)) =
+                    (Setting::now(problem, setting.index).target, &setting.target)
+                && (then.value() - now.value()).abs() > BigRational::from_integer(MOST_TURN.into())
+            {
+                let name = problem.dimension_name(setting.index);
+                let (now, then) = (now.to_string(), then.to_string());
+                return Err(SettingError::TurnsTooFar(name, now, then));
+            }
         }
         Ok(())
     }
 }
 
-/// The angles in degrees, from 0 to 180, of which these are the cosines.
-fn degrees_of_cosine(cosines: Interval) -> Interval {
-    let near = |x: f64| x.clamp(-1.0, 1.0).acos().to_degrees();
-    let (mut low, mut high) = (near(cosines.sup()), near(cosines.inf()));
-    let at = |x: f64| {
-        let exact = BigRational::from_float(x);
-        exact.map(|x| Real::cosine_of_degrees(x).enclose())
-    };
-    let mut step = 1e-13;
-    while low > 0.0 && at(low).is_none_or(|c| c.inf() < cosines.sup()) {
-        low = (low - step).max(0.0);
-        step *= 2.0;
-    }
-    let mut step = 1e-13;
-    while high < 180.0 && at(high).is_none_or(|c| c.sup() > cosines.inf()) {
-        high = (high + step).min(180.0);
-        step *= 2.0;
-    }
-    hull(low, high)
+/// What a turn is at t on its way: θ and four times the argument of `1 + (e^iΔ/4 − 1) t`, as its equations lead it.
+fn turned(from: &BigRational, to: &BigRational, t: Interval) -> Interval {
+    let quarter = (to - from) / BigRational::from_integer(4.into());
+    let cosine = Real::cosine_of_degrees(quarter.clone()).enclose();
+    let sine = Real::sine_of_degrees(quarter).enclose();
+    let (x, y) = (point(1.0) + (cosine - point(1.0)) * t, sine * t);
+    Real::from(from.clone()).enclose() + point(4.0) * direction(x, y)
 }
 
 /// What the number of a dimension is.

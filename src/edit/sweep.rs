@@ -84,7 +84,7 @@ impl Session {
 
 /// `from + (to − from) k / n`, to seventeen digits behind the point of the larger; the ends exactly.
 fn between(from: &Decimal, to: &Decimal, k: usize, n: usize) -> Decimal {
-    if k == n {
+    if k == n || from.value() == to.value() {
         return to.clone();
     }
     let part = BigRational::new(BigInt::from(k), BigInt::from(n));

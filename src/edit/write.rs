@@ -6,7 +6,7 @@ use crate::order::InOrder;
 use crate::problem::{Constraint, Decimal, Problem, Target};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Signed};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use toml_edit::{Document, Item, TableLike, Value};
@@ -20,6 +20,11 @@ pub enum WriteError {
     /// A square with more digits than are read.
     #[error("{0} is given by its square, and that of the new length has too many digits")]
     LongSquare(String),
+    /// Under `angles` there are none of 0 and 180 degrees.
+    #[error(
+        "{0}: legs on one line are no angle that a file has under `angles`: write it under `turns`"
+    )]
+    Straight(String),
 }
 
 /// Puts the places of points, the radii of circles and the dimensions of `problem` into the text of the file that it was read from,
@@ -88,7 +93,7 @@ pub fn rewrite(
     let mut turned: Vec<(Range<usize>, String)> = Vec::new();
     let mut entries: HashMap<String, std::vec::IntoIter<&Value>> = HashMap::new();
     entries.insert("distances".to_owned(), others.into_iter());
-    for constraint in problem.constraints.iter() {
+    for (index, constraint) in problem.constraints.iter().enumerate() {
         let key = &constraint.kind;
         let entries = entries
             .entry(key.clone())
@@ -99,6 +104,11 @@ pub fn rewrite(
         let Some(wanted) = &constraint.value else {
             continue;
         };
+        let wanted = &match key.as_str() {
+            "angles" => folded(wanted)
+                .ok_or_else(|| WriteError::Straight(problem.constraint_name(index)))?,
+            _ => wanted.clone(),
+        };
         let array = entry.as_array().ok_or_else(|| other(key))?;
         let number = array
             .get(array.len().saturating_sub(1))
@@ -106,7 +116,8 @@ pub fn rewrite(
         let before = said(text, number);
         if before.as_ref() != Some(wanted) {
             put(number, toml_number(wanted.text()))?;
-            if let Some((which, ends)) = before.and_then(|b| turned_round(problem, constraint, &b))
+            if let Some((which, ends)) =
+                before.and_then(|b| turned_round(problem, constraint, (&b, wanted)))
             {
                 let span = |k: usize| array.get(k).and_then(Value::span);
                 let (first, last) = (span(which.start), span(which.end - 1));
@@ -155,10 +166,10 @@ pub fn rewrite(
 fn turned_round(
     problem: &Problem,
     constraint: &Constraint,
-    before: &Decimal,
+    (before, after): (&Decimal, &Decimal),
 ) -> Option<(Range<usize>, [usize; 2])> {
     let is_right = |degrees: &Decimal| *degrees.value() == BigRational::from_integer(90.into());
-    let becomes_right = constraint.value.as_ref().is_some_and(is_right) && !is_right(before);
+    let becomes_right = is_right(after) && !is_right(before);
     let mut items = Arguments::new(problem, &constraint.items);
     let all = items.left();
     if constraint.kind != "angles" || !becomes_right || (all == 3 && items.points_ahead() == 3) {
@@ -168,19 +179,7 @@ fn turned_round(
     let middle = all - items.left();
     let second = items.line().ok()?;
     items.end().ok()?;
-    let direction = |line: LineName| -> Option<[BigRational; 3]> {
-        match line {
-            LineName::Points([a, b]) => {
-                let [from, to] = [a, b].map(|p| &problem.points[p].sketch);
-                Some(std::array::from_fn(|k| to[k].value() - from[k].value()))
-            }
-            LineName::Axis(axis) => Some(std::array::from_fn(|k| {
-                BigRational::from_integer(i32::from(k == axis).into())
-            })),
-            LineName::Free(_) => None,
-        }
-    };
-    let (u, v) = (direction(first)?, direction(second)?);
+    let (u, v) = (direction(problem, first)?, direction(problem, second)?);
     let now = u.iter().zip(&v).map(|(a, b)| a * b).sum();
     if !is_opposite_nearer(&now, &Real::cosine_of_degrees(before.value().clone())) {
         return None;
@@ -189,6 +188,20 @@ fn turned_round(
         (LineName::Points([a, b]), _) => Some((0..middle, [b, a])),
         (_, LineName::Points([a, b])) => Some((middle..all, [b, a])),
         _ => None,
+    }
+}
+
+/// The direction of a line in the drawing, from its first end to its second. `None`: it is a line of its own.
+pub(super) fn direction(problem: &Problem, line: LineName) -> Option<[BigRational; 3]> {
+    match line {
+        LineName::Points([a, b]) => {
+            let [from, to] = [a, b].map(|p| &problem.points[p].sketch);
+            Some(std::array::from_fn(|k| to[k].value() - from[k].value()))
+        }
+        LineName::Axis(axis) => Some(std::array::from_fn(|k| {
+            BigRational::from_integer(i32::from(k == axis).into())
+        })),
+        LineName::Free(_) => None,
     }
 }
 
@@ -229,15 +242,36 @@ fn toml_number(text: &str) -> String {
     format!("{sign}{whole}.{fraction}{exponent}")
 }
 
+/// An angle set to any number of degrees as it is without a sense of turn, which the places of points tell: between 0 and 180.
+fn folded(degrees: &Decimal) -> Option<Decimal> {
+    let whole = |x: i32| BigRational::from_integer(x.into());
+    let value = degrees.value();
+    if value.is_positive() && *value < whole(180) {
+        return Some(degrees.clone());
+    }
+    let rest = value - (value / whole(360)).floor() * whole(360);
+    let folded = rest.clone().min(whole(360) - rest);
+    (folded.is_positive() && folded < whole(180)).then(|| decimal(folded))?
+}
+
 /// The exact square of a decimal, unless it has too many digits.
 fn squared(length: &Decimal) -> Option<Decimal> {
-    let square = length.value().pow(2);
+    decimal(length.value().pow(2))
+}
+
+/// A ratio that is a decimal, unless it has too many digits.
+fn decimal(ratio: BigRational) -> Option<Decimal> {
     let ten = BigRational::from_integer(BigInt::from(10));
-    let mut scaled = square;
+    let mut scaled = ratio;
     // A decimal's denominator divides a power of ten.
     for shift in 0..400 {
         if scaled.denom().is_one() {
-            return format!("{}e-{shift}", scaled.numer()).parse().ok();
+            let exponent = if shift == 0 {
+                String::new()
+            } else {
+                format!("e-{shift}")
+            };
+            return format!("{}{exponent}", scaled.numer()).parse().ok();
         }
         scaled *= &ten;
     }

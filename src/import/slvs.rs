@@ -1012,6 +1012,12 @@ pub fn rewrite(
             .records
             .get(source)
             .ok_or_else(|| missing("a constraint"))?;
+        let constraint = index.checked_sub(problem.distances.len());
+        let value = match constraint.map(|c| &*problem.constraints[c].kind) {
+            // Without a sense of turn, which the places of points tell.
+            Some("angles") => 180.0 - (value.rem_euclid(360.0) - 180.0).abs(),
+            _ => value,
+        };
         // A distance from a line has a sign in the file, a projection that of its line.
         let before = super::value(&imported.problem, index);
         let sign = if record.number("valA") * before < 0.0 {

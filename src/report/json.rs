@@ -43,13 +43,19 @@ impl Run<'_> {
             .expect("strings, numbers and lists have a form in JSON")
     }
 
-    /// The same, with how many of all figures the path has, where that is known, and what one dimension can do alone, where the path has
-    /// no figure.
-    pub fn to_json_among(&self, among: Option<Among>, alone: &[Alone]) -> String {
+    /// The same, with how many of all figures the path has, where that is known, what one dimension can do alone, where the path has
+    /// no figure, and what is measured of the solutions.
+    pub fn to_json_among(
+        &self,
+        among: Option<Among>,
+        alone: &[Alone],
+        measures: Option<Value>,
+    ) -> String {
         let whole = WithAll {
             document: Document::new(self),
             of_all: among.map(|among| among.all),
             alone: (!alone.is_empty()).then(|| alone_to_value(alone)),
+            measures,
         };
         serde_json::to_string(&whole).expect("strings, numbers and lists have a form in JSON")
     }
@@ -69,6 +75,8 @@ struct WithAll<'a> {
     of_all: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     alone: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measures: Option<Value>,
 }
 
 #[derive(Serialize)]

@@ -13,6 +13,7 @@ mod explore;
 mod figures;
 mod json;
 mod marks;
+mod measured;
 mod objects;
 pub mod page;
 #[cfg(feature = "cli")]
@@ -47,9 +48,12 @@ pub use figures::{
     first_in_words,
 };
 pub use json::{JSON_VERSION, Run};
+pub use measured::Measures;
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
-pub use sweep::{ranges_to_table, ranges_to_value, sweep_in_words, sweep_to_csv, sweep_to_value};
+pub use sweep::{
+    frames_to_csv, ranges_to_table, ranges_to_value, sweep_in_words, sweep_to_csv, sweep_to_value,
+};
 pub use table::{to_first_table, to_no_first, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 

@@ -3,6 +3,7 @@
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
+use super::measured::Measures;
 use crate::edit::{BETWEEN, Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::problem::Problem;
@@ -190,22 +191,37 @@ pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
     }))
 }
 
-/// A sweep as CSV: the dimension's value, then the coordinates of all points, as floats.
-pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep) -> String {
+/// A sweep as CSV: the dimension's value, then the coordinates of all points, as floats, and what is measured.
+pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep, measures: &Measures) -> String {
+    let frames = sweep.frames.iter();
+    let frames: Vec<_> = frames
+        .map(|frame| ([frame.value], &frame.points[..]))
+        .collect();
+    frames_to_csv(problem, &[problem.dimension_name(index)], &frames, measures)
+}
+
+/// Figures as CSV, each with the values of some dimensions: these, then the coordinates of all points, as floats, and what is measured.
+pub fn frames_to_csv(
+    problem: &Problem,
+    dimensions: &[String],
+    frames: &[(impl AsRef<[Interval]>, impl AsRef<[[Interval; 3]]>)],
+    measures: &Measures,
+) -> String {
     let axes = &["x", "y", "z"][..problem.dimension];
-    let mut out = quoted(&problem.dimension_name(index));
-    for point in &problem.points {
-        for axis in axes {
-            let _ = write!(out, ",{}", quoted(&format!("{}.{axis}", point.name)));
-        }
-    }
-    out.push('\n');
-    for frame in &sweep.frames {
-        let _ = write!(out, "{}", frame.value.mid());
-        for x in frame.points.iter().flat_map(|p| &p[..problem.dimension]) {
-            let _ = write!(out, ",{}", x.mid() + 0.0);
-        }
-        out.push('\n');
+    let points = problem.points.iter();
+    let coordinates =
+        points.flat_map(|p| axes.iter().map(move |axis| format!("{}.{axis}", p.name)));
+    let names = dimensions.iter().cloned().chain(coordinates);
+    let names = names.chain(measures.names().map(str::to_owned));
+    let names: Vec<String> = names.map(|name| quoted(&name)).collect();
+    let mut out = names.join(",") + "\n";
+    for (values, points) in frames {
+        let points = points.as_ref();
+        let coordinates = points.iter().flat_map(|p| &p[..problem.dimension]);
+        let measured = measures.of(points);
+        let all = values.as_ref().iter().chain(coordinates).chain(&measured);
+        let all: Vec<String> = all.map(|x| (x.mid() + 0.0).to_string()).collect();
+        out += &(all.join(",") + "\n");
     }
     out
 }

@@ -14,3 +14,4 @@ mod real_files;
 mod real_sketches;
 mod singular_drawings;
 mod sketches;
+mod whole_turns;

@@ -30,6 +30,9 @@ fn apart(a: Vector, b: Vector) -> f64 {
 fn angle(u: Vector, v: Vector) -> f64 {
     size(cross(u, v)).atan2(dot(u, v)).to_degrees()
 }
+fn turn(u: Vector, v: Vector) -> f64 {
+    cross(u, v)[2].atan2(dot(u, v)).to_degrees()
+}
 fn off_line(p: Vector, a: Vector, b: Vector) -> f64 {
     size(cross(minus(b, a), minus(p, a))) / apart(a, b)
 }
@@ -227,6 +230,19 @@ fn cases() -> Vec<Case> {
         flat("angles", "\"l\", \"m\"", |[_, b, c, d, p, _]| {
             angle(minus(b, p), minus(d, c))
         }),
+        Case {
+            dimensions: plane,
+            ..case("turns", "\"b\", \"p\", \"d\"", |[_, b, _, d, p, _]| {
+                turn(minus(b, p), minus(d, p))
+            })
+        },
+        Case {
+            dimensions: plane,
+            objects: "[lines]\nl = [\"p\", \"b\"]\nm = [\"c\", \"d\"]\n",
+            ..case("turns", "\"l\", \"m\"", |[_, b, c, d, p, _]| {
+                turn(minus(b, p), minus(d, c))
+            })
+        },
         flat("angles", "\"l\", \"e\"", |[_, b, c, d, p, _]| {
             slope(p, b, [b, c, d])
         }),
@@ -349,6 +365,7 @@ fn come_to_limits(case: &Case, dimension: usize, random: &mut Random, wanted: us
                 random.between(0.1, 89.9)
             }
             "angles" => random.between(1.0, 179.0),
+            "turns" => from + random.between(-450.0, 450.0),
             "x" | "y" | "z" | "dx" | "dy" | "dz" | "along" | "differences" => {
                 from + random.between(-4.0, 4.0)
             }
@@ -367,6 +384,11 @@ fn come_to_limits(case: &Case, dimension: usize, random: &mut Random, wanted: us
             *at = point.map(|x| x.mid());
         }
         let (is, said) = ((case.is)(at), edited.dimensions[0].value);
+        // Turns are told up to whole ones.
+        let is = match case.kind {
+            "turns" => is + 360.0 * ((said.mid() - is) / 360.0).round(),
+            _ => is,
+        };
         let room = 1e-8 * is.abs().max(1.0);
         assert!(
             said.inf() - room <= is && is <= said.sup() + room && said.wid() < 1e-6,

@@ -12,3 +12,4 @@ mod page;
 mod problem_files;
 mod readme;
 mod robustness;
+mod taking;

@@ -19,6 +19,7 @@ mod same_angle;
 mod same_distance;
 mod symmetric;
 mod tangent;
+mod turn;
 
 pub use angle::is_opposite_nearer;
 
@@ -28,6 +29,7 @@ use super::kind::Kind;
 pub const KINDS: &[&dyn Kind] = &[
     &distance::Distances,
     &angle::Angles,
+    &turn::Turns,
     &radius::RADII,
     &radius::DIAMETERS,
     &position::POSITIONS[0],

@@ -5,9 +5,11 @@ mod geometry;
 mod heading;
 mod relations;
 mod symmetry;
+mod turn;
 
 pub use geometry::{Arrow, Place};
 pub use relations::Measured;
+pub use turn::MOST_TURN;
 
 use super::frame::Frame;
 use super::polynomial::{Polynomial, ramp};

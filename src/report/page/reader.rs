@@ -317,7 +317,7 @@ impl<'a> Reader<'a> {
                 continue;
             };
             let worded = |value: &str| match kind {
-                "angles" => format!("{value}°"),
+                "angles" | "turns" => format!("{value}°"),
                 "radii" => format!("r {value}"),
                 "diameters" => format!("⌀ {value}"),
                 _ => {
@@ -338,7 +338,7 @@ impl<'a> Reader<'a> {
             };
             let mut points: Vec<usize> = items.iter().flat_map(points_of).collect();
             // Of three points the angle is at the second.
-            if let ("angles", &[_, vertex, _]) = (kind, &points[..]) {
+            if let ("angles" | "turns", &[_, vertex, _]) = (kind, &points[..]) {
                 points = vec![vertex];
             }
             if !points.is_empty() {

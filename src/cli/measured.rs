@@ -1,0 +1,25 @@
+//! What is measured of the figures that a verb prints.
+
+use krawl::problem::Problem;
+use krawl::report::Measures;
+
+/// What to measure.
+#[derive(clap::Args)]
+pub(super) struct Measured {
+    /// Measure this of every figure, as it is printed, with proof; may be given several times: `A-B`, `angle A B C`, `turn A B C` (with its sense, from
+    /// −180 to 180), `torsion A B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself)
+    #[arg(long = "measure", value_name = "WHAT")]
+    measure: Vec<String>,
+}
+
+impl Measured {
+    /// Whether nothing is to be measured.
+    pub fn is_empty(&self) -> bool {
+        self.measure.is_empty()
+    }
+
+    /// Of the points of a problem.
+    pub fn of(&self, problem: &Problem) -> Result<Measures, String> {
+        Measures::parse(problem, &self.measure)
+    }
+}

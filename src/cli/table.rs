@@ -1,0 +1,177 @@
+//! `krawl sweep --table`: several dimensions together, row by row.
+
+use super::edit::{exit_code, open};
+use super::input::{self, Loaded};
+use super::output::{self, Beside, Destination};
+use super::sweep::Arguments;
+use super::{BAD_INPUT, CLOSED, interrupt};
+use krawl::edit::{Asked, Edited, Ending, Session, Setting};
+use krawl::interval::Interval;
+use krawl::report::{account_in_words, edit_in_words, frames_to_csv};
+use krawl::track::Control;
+use std::collections::HashSet;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+/// The cells of a table, of which the first line names dimensions.
+struct Table {
+    names: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn read(file: &Path) -> Result<Self, String> {
+        let shown = file.display();
+        let reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .comment(Some(b'#'))
+            .from_path(file);
+        let mut reader = reader.map_err(|error| format!("{shown}: {error}"))?;
+        let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let names: Vec<String> = match reader.headers() {
+            Ok(names) => cells(names),
+            Err(error) => return Err(format!("{shown}: {error}")),
+        };
+        let mut seen = HashSet::new();
+        if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
+            return Err(format!(
+                "{shown}: there are two columns {twice}: leave out one of them"
+            ));
+        }
+        let rows = reader.records().map(|record| {
+            record
+                .as_ref()
+                .map(cells)
+                .map_err(|error| error.to_string())
+        });
+        let rows = rows.collect::<Result<Vec<Vec<String>>, _>>();
+        let rows = rows.map_err(|error| format!("{shown}: {error}"))?;
+        match rows.is_empty() {
+            true => Err(format!(
+                "{shown}: there is no row: the first line has the names of dimensions, each other one their values"
+            )),
+            false => Ok(Table { names, rows }),
+        }
+    }
+}
+
+/// Drives the dimensions of a table, and returns the exit code.
+pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
+    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let table = Table::read(file)?;
+    let cells = table
+        .rows
+        .iter()
+        .flat_map(|row| table.names.iter().zip(row));
+    let cells: Vec<(&str, &str)> = cells.map(|(name, cell)| (&**name, &**cell)).collect();
+    let asked = Asked::new(&loaded.problem, &cells)
+        .map_err(|error| format!("{}: {error}", file.display()))?;
+    let (columns, problem) = (table.names.len(), &asked.problem);
+    let measures = arguments.measured.of(problem)?;
+    let csv = super::edit::beside(&arguments.file, arguments.csv.as_deref())?;
+    let folder = arguments.out_folder.as_deref();
+    if let Some(folder) = folder {
+        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    let cancel = interrupt::flag();
+    let mut control = Control {
+        cancel: Some(cancel),
+        ..Control::default()
+    };
+    let options = arguments.left_out.options();
+    let mut session = match open(problem, &arguments.file, &options, &mut control)? {
+        Ok(session) => session,
+        Err(code) => return Ok(code),
+    };
+    let (mut account, mut end, mut written) = (session.account(), None, true);
+    let mut frames: Vec<(Vec<Interval>, Vec<[Interval; 3]>)> = Vec::new();
+    for (number, settings) in asked.settings.chunks(columns).enumerate() {
+        let row = number + 1;
+        let in_row = |error| format!("{}: row {row}: {error}", file.display());
+        if let Err(error) = Setting::check(session.problem(), settings) {
+            // What was reached so far is not lost.
+            output::complain(&in_row(error.to_string()));
+            written = false;
+            break;
+        }
+        let edited = session.edit_with(settings, &mut control);
+        if edited.ending != Ending::Reached {
+            end = Some((row, edited));
+            break;
+        }
+        account.join(&edited.account);
+        frames.push((
+            edited.dimensions.iter().map(|d| d.value).collect(),
+            edited.points,
+        ));
+        if let Some(folder) = folder {
+            let given = &asked.given[number * columns..][..columns];
+            written &= write(arguments, &loaded, (&session, given), (folder, row))?;
+        }
+    }
+    let names: Vec<String> = asked.settings[..columns]
+        .iter()
+        .map(|setting| problem.dimension_name(setting.index))
+        .collect();
+    if let Some(csv) = &csv {
+        written &= csv.write(&frames_to_csv(problem, &names, &frames, &measures));
+    }
+    if !arguments.quiet && csv != Some(Destination::StandardOutput) {
+        let points = frames.iter().map(|(_, points)| &points[..]);
+        let text = asked.in_words(&loaded.problem)
+            + &in_words(
+                &problem.name,
+                (frames.len(), table.rows.len()),
+                &account.clause_behind(),
+            )
+            + &end
+                .as_ref()
+                .map_or(String::new(), |(row, edited): &(usize, Edited)| {
+                    format!("Row {row}: {}\n", edit_in_words(problem, edited))
+                })
+            + &measures.over(points)
+            + &account_in_words(&account);
+        written &= output::print(&text);
+    }
+    Ok(match (written, &end) {
+        (false, _) => BAD_INPUT,
+        (true, Some((_, edited))) => exit_code(edited),
+        (true, None) => CLOSED,
+    })
+}
+
+fn in_words(name: &str, (done, all): (usize, usize), of: &str) -> String {
+    match done {
+        0 => format!("{name}: none of {all} rows was reached.\n"),
+        _ => format!(
+            "{name}: {done} of {all} rows, each figure proved to be the one and only continuation of the one before{of}.\n"
+        ),
+    }
+}
+
+/// Writes a row's figure into the file that it is of, by the number of the row.
+fn write(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    (session, given): (&Session, &[Setting]),
+    (folder, row): (&Path, usize),
+) -> Result<bool, String> {
+    let mut changed = loaded.problem.clone();
+    given.iter().for_each(|setting| setting.apply(&mut changed));
+    let (points, radii) = (session.figure(), session.radii());
+    let bytes = loaded.rewritten(&arguments.file, &changed, &points, &radii)?;
+    let stem = arguments
+        .file
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy();
+    let extension = arguments
+        .file
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy();
+    let out = folder.join(format!("{stem}-{row}.{extension}"));
+    let beside = Beside::new(&out)?;
+    Ok(beside.commit(beside.file().write_all(&bytes)))
+}

@@ -1,0 +1,48 @@
+//! `turns`: angles in the plane with their sense, which may be any number of degrees.
+//!
+//! The cosine and the sine go from those of the sketch to those of the angle on a curve round 0 (`lowering/turn.rs`), so that an edit by 250
+//! or by −400 degrees turns as far, and that way round.
+
+use super::angle::directions;
+use super::prelude::*;
+
+/// See the module.
+pub struct Turns;
+
+impl Kind for Turns {
+    fn key(&self) -> &'static str {
+        "turns"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "by how many degrees the leg to the first of three points, or the first of two lines from its first end to its second, is \
+         turned counter-clockwise where it points as the other does; any number"
+    }
+
+    fn takes(&self) -> &'static str {
+        "three points with the vertex in the middle, or two lines, in the plane"
+    }
+
+    fn measure(&self) -> Measure {
+        Measure::Turn
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        if low.problem.dimension != 2 {
+            return Err("in space an angle has no sense of turn: say `angles`".to_owned());
+        }
+        let degrees = of.number().value().clone();
+        let (u, v) = if of.items.points_ahead() == 3 && of.items.left() == 3 {
+            let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
+            if a == c {
+                return Err("both legs are one and the same: name another point".to_owned());
+            }
+            (low.span(b, a)?, low.span(b, c)?)
+        } else {
+            let ((first, _), (second, _)) = directions(&mut of.items, low)?;
+            (first, second)
+        };
+        let (u, v) = (low.heading(u), low.heading(v));
+        low.turn(of.name, &u, &v, &degrees)
+    }
+}

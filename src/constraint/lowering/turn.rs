@@ -1,0 +1,139 @@
+//! Turns: directions that go round with t, by any number of degrees.
+
+use super::super::frame::{cross_in_plane, dot, length};
+use super::super::polynomial::Polynomial;
+use super::super::quadratic::{Product, Role, value};
+use super::{Arrow, Fault, Lowering, Parity, Start};
+use crate::interval::Real;
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, Signed, ToPrimitive};
+
+/// Of edits: their quarters are at most a quarter turn for a whole one.
+const STEPS: usize = 4;
+/// By so many degrees an edit turns at most: its quarters have to be less than 180, or they would go the other way round.
+pub const MOST_TURN: i32 = 480;
+/// A direction is led along a straight line to one that is no further from it, in degrees, and otherwise past one in between.
+const STRAIGHT: f64 = 120.0;
+
+impl Lowering<'_> {
+    /// Says that v is u turned by so many degrees, counter-clockwise, in the plane, and longer or shorter: with numbers c and s,
+    /// which go from the sketch's cosine and sine to those wanted round 0, and m > 0, that `u·v = m c` and `u × v = m s`.
+    ///
+    /// # Errors
+    /// If an edit would turn by too much at once.
+    pub fn turn(
+        &mut self,
+        name: &str,
+        u: &Arrow,
+        v: &Arrow,
+        degrees: &BigRational,
+    ) -> Result<(), Fault> {
+        let power = u.power + v.power;
+        let sizes = &length(&u.at) * &length(&v.at);
+        let now = [dot(&u.at, &v.at), cross_in_plane(&u.at, &v.at)];
+        let [cosine, sine] = self.way_round(now, &sizes, degrees)?;
+        let cosine = self.coefficient(&format!("{name}, the cosine"), 0, Parity::Even, cosine);
+        let sine = self.coefficient(&format!("{name}, the sine"), 0, Parity::Odd, sine);
+        let what = format!("{name}, the product of the lengths");
+        let size = self.unknown(what, Role::Positive, power, [false; 3], sizes);
+        let dot = self.dot(1, &u.forms, &v.forms);
+        let cross = self.cross_in_plane(1, &u.forms, &v.forms);
+        for (mut products, number) in [(dot, cosine), (cross, sine)] {
+            products.push(Product::new(-1, value(size), value(number)));
+            self.equate(name, products, vec![Real::zero()], power);
+        }
+        Ok(())
+    }
+
+    /// The way of a cosine and a sine: on Bézier's curve of directions that divide the turn evenly, which goes round 0 in the
+    /// same sense all the way, as each of them is less than 180 degrees from the one before. On an edit's way from θ by Δ it is
+    /// `e^iθ (1 + (e^iΔ/4 − 1) t)⁴`.
+    fn way_round(
+        &mut self,
+        now: [BigRational; 2],
+        sizes: &Real,
+        degrees: &BigRational,
+    ) -> Result<[Polynomial; 2], Fault> {
+        let number = |x: f64| BigRational::from_f64(x).unwrap_or_default();
+        let then = Real::from(degrees.clone());
+        let before = match self.from {
+            Start::Sketch => None,
+            Start::Dimensions(record) => {
+                let lead = &record.leads[self.record.leads.len()];
+                Some(
+                    lead.as_rational()
+                        .expect("a turn is led in degrees")
+                        .clone(),
+                )
+            }
+        };
+        self.record.leads.push(then);
+        let on_circle = |degrees: BigRational| {
+            [
+                Real::cosine_of_degrees(degrees.clone()),
+                Real::sine_of_degrees(degrees),
+            ]
+        };
+        let way = |from: &BigRational, steps: usize| -> Vec<[Real; 2]> {
+            let part = |k: usize| BigRational::new(k.into(), steps.into());
+            (0..=steps)
+                .map(|k| on_circle(from + part(k) * (degrees - from)))
+                .collect()
+        };
+        let points = match before {
+            // Constant, but as long as others.
+            Some(before) if before == *degrees => {
+                let [cosine, sine] = on_circle(before).map(|x| {
+                    let mut constant = vec![Real::zero(); STEPS + 1];
+                    constant[0] = x;
+                    constant
+                });
+                return Ok([cosine, sine]);
+            }
+            Some(before)
+                if (degrees - &before).abs() > BigRational::from_integer(MOST_TURN.into()) =>
+            {
+                return Err(format!(
+                    "an edit turns by at most {MOST_TURN} degrees: go there in two or more"
+                ));
+            }
+            Some(before) => way(&before, STEPS),
+            None => {
+                let [x, y] = now.each_ref().map(|x| x.to_f64().unwrap_or(0.0));
+                let drawn = y.atan2(x).to_degrees();
+                let wanted = degrees.to_f64().unwrap_or(0.0);
+                let turn = (wanted - drawn + 180.0).rem_euclid(360.0) - 180.0;
+                let steps = match self.editable {
+                    true => STEPS,
+                    false if turn.abs() <= STRAIGHT => 1,
+                    false => 2,
+                };
+                // As many whole turns away as the drawing is near; whole degrees will do.
+                let from = number((wanted - turn).round());
+                let mut points = way(&from, steps);
+                points[0] = now.map(|x| &Real::from(x) / sizes);
+                points
+            }
+        };
+        Ok([0, 1].map(|k| {
+            let points: Vec<Real> = points.iter().map(|p| p[k].clone()).collect();
+            power_form(&points)
+        }))
+    }
+}
+
+/// The coefficients of Bézier's polynomial `Σ binom(n, k) (1 − t)ⁿ⁻ᵏ tᵏ bₖ`: of tᵏ it is `binom(n, k)` times the k-th difference.
+fn power_form(points: &[Real]) -> Polynomial {
+    let n = points.len() - 1;
+    let (mut differences, mut binomial) = (points.to_vec(), 1);
+    let mut out = Vec::with_capacity(n + 1);
+    for k in 0..=n {
+        out.push(&Real::whole(binomial) * &differences[0]);
+        differences = differences
+            .windows(2)
+            .map(|pair| &pair[1] - &pair[0])
+            .collect();
+        binomial = binomial * (n - k) as i64 / (k + 1) as i64;
+    }
+    out
+}

@@ -1,0 +1,180 @@
+//! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
+
+use super::setting::{Setting, SettingError, measure};
+use super::write::direction;
+use crate::constraint::{Arguments, KINDS, LineName, Measure, is_opposite_nearer};
+use crate::interval::Real;
+use crate::order::InOrder;
+use crate::problem::{Constraint, Decimal, Item, Problem, Target};
+use num_rational::BigRational;
+use num_traits::Signed;
+
+/// What was asked for.
+#[derive(Debug, Clone)]
+pub struct Asked {
+    /// The problem, in which angles that are set beyond 0 or 180 degrees are turns.
+    pub problem: Problem,
+    /// The settings, of that problem.
+    pub settings: Vec<Setting>,
+    /// The same settings of the problem that was given.
+    pub given: Vec<Setting>,
+}
+
+impl Asked {
+    /// Settings of a problem, each a dimension's name and its new value. An angle in the plane may be set to any number of degrees: 250
+    /// and −110 are the same place, and the way there goes up or down. It is counted in the sense in which it is drawn.
+    ///
+    /// # Errors
+    /// As [`Setting::named`].
+    pub fn new(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
+        let mut asked = Asked {
+            problem: problem.clone(),
+            settings: Vec::new(),
+            given: Vec::new(),
+        };
+        let mut constraints: Vec<(usize, Constraint)> =
+            problem.constraints.iter().cloned().enumerate().collect();
+        let head = problem.distances.len();
+        for &(name, value) in named {
+            let index = Setting::find(problem, name)?;
+            if value.parse().is_ok_and(|value| is_beyond(&value))
+                && let Some(turn) = as_turn(problem, index)
+            {
+                constraints[index - head].1 = turn;
+            }
+        }
+        constraints.order_by_key(|(_, c)| KINDS.iter().position(|kind| kind.key() == c.kind));
+        let now = |index: usize| match index.checked_sub(head) {
+            Some(c) => {
+                let mut places = constraints.iter();
+                head + places.position(|(was, _)| *was == c).expect("all are kept")
+            }
+            None => index,
+        };
+        let labels = problem.labels.iter();
+        asked.problem.labels = labels
+            .map(|(&index, label)| (now(index), label.clone()))
+            .collect();
+        asked.problem.constraints = constraints.iter().map(|(_, c)| c.clone()).collect();
+        for &(name, value) in named {
+            let index = Setting::find(problem, name)?;
+            let value = value.parse().map_err(|error| {
+                let name = problem.dimension_name(index);
+                SettingError::Number { name, error }
+            })?;
+            let setting = Setting::new(&asked.problem, now(index), value)?;
+            let target = setting.target.clone();
+            asked.given.push(Setting { index, target });
+            asked.settings.push(setting);
+        }
+        Ok(asked)
+    }
+
+    /// The first angle that is set to 0 or 180 degrees and whole turns, by index in `given`: the problem.
+    pub fn straight(&self, given: &Problem) -> Option<usize> {
+        let straight = BigRational::from_integer(180.into());
+        let is_so = |setting: &&Setting| {
+            let c = setting.index.checked_sub(given.distances.len());
+            let is_angle = c.is_some_and(|c| given.constraints[c].kind == "angles");
+            match &setting.target {
+                Target::Length(degrees) if is_angle => (degrees.value() / &straight).is_integer(),
+                _ => false,
+            }
+        };
+        self.given.iter().find(is_so).map(|setting| setting.index)
+    }
+
+    /// Which angles are turns, a line each; `given`: the problem.
+    pub fn in_words(&self, given: &Problem) -> String {
+        let pairs = self.given.iter().zip(&self.settings);
+        let names = pairs.map(|(was, is)| {
+            [
+                given.derived_name(was.index),
+                self.problem.derived_name(is.index),
+            ]
+        });
+        let mut lines: Vec<String> = names
+            .filter(|[was, is]| was != is)
+            .map(|[was, is]| {
+                format!("{was} is led beyond 0 or 180 degrees, and so as {is}: counter-clockwise from the first to the second\n")
+            })
+            .collect();
+        lines.dedup();
+        lines.concat()
+    }
+}
+
+/// A problem with those of its angles as turns that are turns in another one: what edits of it have led beyond 0 or 180 degrees, see [`Asked`].
+pub fn with_turns_of(problem: &Problem, other: &Problem) -> Problem {
+    let mut out = problem.clone();
+    let head = problem.distances.len();
+    for (k, constraint) in out.constraints.iter_mut().enumerate() {
+        if let Some(turn) = as_turn(problem, head + k)
+            && other.constraints.contains(&turn)
+        {
+            *constraint = turn;
+        }
+    }
+    out.constraints
+        .order_by_key(|c| KINDS.iter().position(|kind| kind.key() == c.kind));
+    out
+}
+
+fn is_beyond(degrees: &Decimal) -> bool {
+    let straight = BigRational::from_integer(180.into());
+    !degrees.is_positive() || *degrees.value() >= straight
+}
+
+/// An angle as a turn, in the sense in which it is drawn. `None`: it is none of two legs or lines in the plane that have a
+/// sense in the drawing.
+fn as_turn(problem: &Problem, index: usize) -> Option<Constraint> {
+    let angle = &problem.constraints[index.checked_sub(problem.distances.len())?];
+    let is_angle = angle.kind == "angles" && measure(problem, index) == Measure::Degrees;
+    if problem.dimension != 2 || !is_angle {
+        return None;
+    }
+    Some(Constraint {
+        kind: "turns".to_owned(),
+        items: directed(problem, &angle.items, angle.value.as_ref()?)?,
+        value: angle.value.clone(),
+    })
+}
+
+/// What an angle names, so that the turn from the first to the second is that angle in the drawing.
+fn directed(problem: &Problem, items: &[Item], degrees: &Decimal) -> Option<Vec<Item>> {
+    let between = |[a, b]: [usize; 2]| direction(problem, LineName::Points([a, b]));
+    let cross = |u: &[BigRational; 3], v: &[BigRational; 3]| &u[0] * &v[1] - &u[1] * &v[0];
+    let mut arguments = Arguments::new(problem, items);
+    if let [Item::Point(a), at @ Item::Point(b), Item::Point(c)] = *items {
+        let sense = cross(&between([b, a])?, &between([b, c])?);
+        return match (sense.is_positive(), sense.is_negative()) {
+            (true, _) => Some(items.to_vec()),
+            (_, true) => Some(vec![Item::Point(c), at, Item::Point(a)]),
+            _ => None,
+        };
+    }
+    let lines = [arguments.line().ok()?, arguments.line().ok()?];
+    let [mut u, mut v] = [direction(problem, lines[0])?, direction(problem, lines[1])?];
+    let mut named = lines.map(|line| match line {
+        LineName::Points(ends) => ends.map(Item::Point).to_vec(),
+        LineName::Axis(axis) => vec![Item::Axis(axis)],
+        LineName::Free(line) => vec![Item::Object(line)],
+    });
+    let cosine = &u[0] * &v[0] + &u[1] * &v[1];
+    if is_opposite_nearer(&cosine, &Real::cosine_of_degrees(degrees.value().clone())) {
+        // The one through points is named the other way round.
+        let which = lines
+            .iter()
+            .position(|line| matches!(line, LineName::Points(_)))?;
+        named[which].reverse();
+        let reversed = if which == 0 { &mut u } else { &mut v };
+        *reversed = reversed.each_ref().map(|x| -x);
+    }
+    let sense = cross(&u, &v);
+    let [first, second] = named;
+    match (sense.is_positive(), sense.is_negative()) {
+        (true, _) => Some([first, second].concat()),
+        (_, true) => Some([second, first].concat()),
+        _ => None,
+    }
+}

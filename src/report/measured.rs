@@ -1,0 +1,298 @@
+//! What is measured of figures: lengths, angles, coordinates and areas that no constraint has to give.
+
+use super::certain_digits;
+use crate::interval::angle::direction;
+use crate::interval::vector::{cross, dot, minus};
+use crate::interval::{Interval, point};
+use crate::problem::Problem;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// What is measured of each figure of a problem.
+#[derive(Debug, Clone, Default)]
+pub struct Measures {
+    all: Vec<Measure>,
+}
+
+#[derive(Debug, Clone)]
+struct Measure {
+    name: String,
+    what: What,
+    points: Vec<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum What {
+    Distance,
+    Angle,
+    Turn,
+    Torsion,
+    Coordinate(usize),
+    Area,
+}
+
+/// The forms, for messages.
+const FORMS: &str = "`A-B`, `angle A B C`, `turn A B C`, `torsion A B C D`, `x A`, `y A`, `z A` or `area A B C ...`";
+
+impl Measure {
+    fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let point = |name: &str| problem.points.iter().position(|p| p.name == name);
+        let fail = |why: String| Err(format!("--measure \"{text}\": {why}"));
+        let named = |what, points| {
+            let name = text.to_owned();
+            Ok(Measure { name, what, points })
+        };
+        // Names may have a minus in them.
+        let pairs = text
+            .match_indices('-')
+            .map(|(at, _)| (&text[..at], &text[at + 1..]));
+        let pairs = pairs.filter_map(|(a, b)| Some(vec![point(a)?, point(b)?]));
+        let pairs: Vec<Vec<usize>> = pairs.collect();
+        if let [pair] = &pairs[..]
+            && pair[0] != pair[1]
+        {
+            return named(What::Distance, pair.clone());
+        }
+        let mut words = text.split_whitespace();
+        let (what, wanted) = match words.next() {
+            Some("angle") => (What::Angle, 3),
+            Some("turn") if problem.dimension == 2 => (What::Turn, 3),
+            Some("torsion") if problem.dimension == 3 => (What::Torsion, 4),
+            Some("x") => (What::Coordinate(0), 1),
+            Some("y") => (What::Coordinate(1), 1),
+            Some("z") if problem.dimension == 3 => (What::Coordinate(2), 1),
+            Some("area") if problem.dimension == 2 => (What::Area, 0),
+            Some("turn" | "area") => return fail("is for figures in the plane".to_owned()),
+            Some("torsion" | "z") => return fail("is for figures in space".to_owned()),
+            _ => return fail(format!("write {FORMS}, with points of the problem")),
+        };
+        let mut points = Vec::new();
+        for name in words {
+            match point(name) {
+                Some(p) => points.push(p),
+                None => return fail(format!("there is no point `{name}`")),
+            }
+        }
+        let is_twice = |(k, p): (usize, &usize)| points[..k].contains(p);
+        if what != What::Area && points.iter().enumerate().any(is_twice) {
+            return fail("a point is named twice".to_owned());
+        }
+        match (what, points.len()) {
+            (What::Area, 0..3) => fail("an outline has three points at least".to_owned()),
+            (What::Area, _) => named(what, points),
+            (_, count) if count == wanted => named(what, points),
+            (_, count) => fail(format!("takes {wanted} points, and there are {count}")),
+        }
+    }
+
+    /// An enclosure, in the unit of the problem, its square, or degrees.
+    fn of(&self, figure: &[[Interval; 3]]) -> Interval {
+        let at = |k: usize| figure[self.points[k]];
+        let between = |a: usize, b: usize| minus(at(b), at(a));
+        let size = |v: [Interval; 3]| dot(v, v).sqrt();
+        match self.what {
+            What::Distance => size(between(0, 1)),
+            What::Angle => {
+                let (u, v) = (between(1, 0), between(1, 2));
+                direction(dot(u, v), size(cross(u, v)))
+            }
+            What::Turn => {
+                let (u, v) = (between(1, 0), between(1, 2));
+                direction(dot(u, v), cross(u, v)[2])
+            }
+            What::Torsion => {
+                let [u, v, w] = [between(0, 1), between(1, 2), between(2, 3)];
+                let across = cross(v, w);
+                direction(dot(cross(u, v), across), size(v) * dot(u, across))
+            }
+            What::Coordinate(axis) => at(0)[axis],
+            What::Area => {
+                let rest = 1..self.points.len() - 1;
+                let twice = rest.fold(point(0.0), |sum, k| {
+                    sum + cross(between(0, k), between(0, k + 1))[2]
+                });
+                twice.abs() * point(0.5)
+            }
+        }
+    }
+}
+
+impl Measures {
+    /// From texts such as `A-B` and `angle A B C`.
+    ///
+    /// # Errors
+    /// Which text is none, and why.
+    pub fn parse(problem: &Problem, texts: &[String]) -> Result<Self, String> {
+        let all = texts.iter().map(|text| Measure::parse(problem, text));
+        Ok(Measures {
+            all: all.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Whether nothing is measured.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// The names, as they were given.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.all.iter().map(|measure| measure.name.as_str())
+    }
+
+    /// Enclosures of all for a figure, which is given by boxes of its points.
+    pub fn of(&self, figure: &[[Interval; 3]]) -> Vec<Interval> {
+        self.all.iter().map(|measure| measure.of(figure)).collect()
+    }
+
+    /// For JSON: a list of the measures, each with its name and bounds for each figure.
+    pub fn to_value<'f>(
+        &self,
+        figures: impl Iterator<Item = &'f [[Interval; 3]]> + Clone,
+    ) -> Value {
+        let all = self.all.iter().map(|measure| {
+            let values = figures.clone().map(|figure| {
+                let value = measure.of(figure);
+                json!([value.inf(), value.sup()])
+            });
+            json!({"name": measure.name, "values": values.collect::<Vec<_>>()})
+        });
+        all.collect()
+    }
+
+    /// Between which bounds each is at some figures, a line each.
+    pub fn over<'f>(&self, figures: impl Iterator<Item = &'f [[Interval; 3]]>) -> String {
+        let rows: Vec<Vec<Interval>> = figures.map(|figure| self.of(figure)).collect();
+        let lines = self.names().enumerate().map(|(k, name)| {
+            let least = rows
+                .iter()
+                .map(|row| row[k])
+                .min_by(|a, b| a.inf().total_cmp(&b.inf()));
+            let most = rows
+                .iter()
+                .map(|row| row[k])
+                .max_by(|a, b| a.sup().total_cmp(&b.sup()));
+            match (least, most) {
+                (Some(least), Some(most)) => {
+                    let (least, most) = (certain_digits(least), certain_digits(most));
+                    format!("{name:<18}  between {least} and {most} at the frames\n")
+                }
+                _ => String::new(),
+            }
+        });
+        lines.collect()
+    }
+
+    /// A table with a line for each figure, numbered from 1 as solutions are; a figure that is the only one has no number. Empty where nothing is measured.
+    /// `of`: what is behind "Measured", where that is not plain.
+    pub fn to_table<'f>(
+        &self,
+        of: &str,
+        figures: impl Iterator<Item = &'f [[Interval; 3]]>,
+    ) -> String {
+        let rows: Vec<Vec<String>> = figures
+            .map(|figure| self.of(figure).into_iter().map(certain_digits).collect())
+            .collect();
+        if self.is_empty() || rows.is_empty() {
+            return String::new();
+        }
+        let wide = |k: usize, name: &str| {
+            let cells = rows.iter().map(|row| row[k].chars().count());
+            cells.fold(name.chars().count(), usize::max)
+        };
+        let widths: Vec<usize> = self
+            .names()
+            .enumerate()
+            .map(|(k, name)| wide(k, name))
+            .collect();
+        let mut out = format!("\nMeasured{of}\n          ");
+        for (name, width) in self.names().zip(&widths) {
+            let _ = write!(out, "  {name:>width$}");
+        }
+        out.push('\n');
+        for (number, row) in rows.iter().enumerate() {
+            let first = match rows.len() {
+                1 => String::new(),
+                _ => format!("solution {}", number + 1),
+            };
+            let _ = write!(out, "{first:<10}");
+            for (cell, width) in row.iter().zip(&widths) {
+                let _ = write!(out, "  {cell:>width$}");
+            }
+            out.push('\n');
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(dimension: usize) -> Problem {
+        let z = |x: &str| {
+            if dimension == 3 {
+                format!(", {x}")
+            } else {
+                String::new()
+            }
+        };
+        let text = format!(
+            "name = \"m\"\ndimension = {dimension}\n[points]\na = [3, 0{}]\nb = [0, 0{}]\nc = [0, 4{}]\n\"d-e\" = [-1, 4{}]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 3]]\n",
+            z("0"),
+            z("0"),
+            z("0"),
+            z("1")
+        );
+        Problem::parse_loosely(&text, "m.toml").unwrap()
+    }
+
+    fn measured(dimension: usize, text: &str) -> Result<f64, String> {
+        let problem = problem(dimension);
+        let measures = Measures::parse(&problem, &[text.to_owned()])?;
+        let points = problem.points.iter();
+        let figure: Vec<_> = points
+            .map(|p| p.sketch.each_ref().map(|x| point(x.to_f64())))
+            .collect();
+        let value = measures.of(&figure)[0];
+        assert!(value.wid() < 1e-11, "{value:?}");
+        Ok(value.mid())
+    }
+
+    #[test]
+    fn measures_are_what_they_say() {
+        for (dimension, text, value) in [
+            (2, "a-c", 5.0),
+            (2, "d-e-c", 1.0),
+            (2, "angle a b c", 90.0),
+            (2, "angle c b d-e", 14.036243467926479),
+            (2, "turn c b a", -90.0),
+            (2, "x d-e", -1.0),
+            (2, "area a b c", 6.0),
+            (2, "area a b c d-e", 4.0),
+            (3, "torsion a b c d-e", -135.0),
+            (3, "z d-e", 1.0),
+        ] {
+            let found = measured(dimension, text).unwrap();
+            assert!((found - value).abs() < 1e-11, "{text}: {found}");
+        }
+    }
+
+    #[test]
+    fn what_is_none_is_said() {
+        for (text, why) in [
+            ("a-q", "write `A-B`"),
+            ("angle a b", "takes 3 points, and there are 2"),
+            ("angle a b q", "no point `q`"),
+            ("torsion a b c d-e", "in space"),
+            ("area a b", "three points"),
+            ("a-a", "write `A-B`"),
+            ("angle a a b", "named twice"),
+            ("", "write `A-B`"),
+        ] {
+            let error = measured(2, text).unwrap_err();
+            assert!(error.contains(why), "{error}");
+        }
+    }
+}
