@@ -130,9 +130,11 @@ fn mirror_images_are_taken_as_they_are_drawn() {
     let (code, _, error) = krawl(&["all", file, "--nearest", "--out", name]);
     assert_eq!((code, error.as_str()), (Some(0), ""));
     let at = sketch(&out);
-    for (p, [x, y]) in [(2, [4.0, -3.0]), (3, [0.0, -3.0])] {
-        assert!((at[p][0] - x).hypot(at[p][1] - y) < 1e-12, "{at:?}");
-    }
+    // Seen from a and c, the reference, b and d are on the sides where they are drawn, and a rectangle is nearer than a kite.
+    let side = |p: usize| at[2][0] * at[p][1] - at[2][1] * at[p][0];
+    assert!(side(1) > 0.0 && side(3) < 0.0, "{at:?}");
+    assert!(((at[1][0] - at[3][0]).hypot(at[1][1] - at[3][1]) - 5.0).abs() < 1e-9);
+    assert!(off(&out) < 1e-12);
 }
 
 #[test]
