@@ -6,7 +6,7 @@ use super::input::Asked;
 use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::take::{Listed as Taking, Take, Taken};
+use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
@@ -236,7 +236,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= output::print(&text);
     }
     let count = result.solutions.len() as u64;
-    let listed = Taking {
+    let listed = Candidates {
         count,
         first: None,
         is_all: result.count == Some(count),

@@ -4,7 +4,7 @@ use super::edit::LeftOut;
 use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
-use super::take::{Listed as Taking, Take, Taken};
+use super::take::{Candidates, Take, Taken};
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use crate::order::InOrder;
@@ -490,7 +490,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         };
         let chosen = direct.filter(|_| arguments.first).map(|k| k as u64);
         let from = (file.as_path(), arguments.sketch.as_deref());
-        let listed = Taking {
+        let listed = Candidates {
             count,
             first: chosen,
             is_all: true,
@@ -544,13 +544,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 Mode::Certified => "",
                 Mode::Float => ", without proof",
             };
-            let shown = match (arguments.first, direct) {
+            let listed = match (arguments.first, direct) {
                 (true, Some(k)) => k..k + 1,
                 (true, None) => 0..0,
                 _ => 0..outcome.solutions.len(),
             };
-            let shown = outcome.solutions[shown].iter();
-            let text = text + &measures.to_table(of, shown.map(|solution| &solution.points[..]));
+            let listed = outcome.solutions[listed].iter();
+            let text = text + &measures.to_table(of, listed.map(|solution| &solution.points[..]));
             let hints = hints(problem, &outcome, &input::name(file));
             let whole = arguments.whole_in_words(file);
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
@@ -829,7 +829,7 @@ impl Arguments {
     /// Writes the figure that is wanted of those found block by block, if one is; whether all went well.
     fn take_of(&self, found: &Found, (problem, file): (&Problem, &Path)) -> bool {
         let Found { figures, first } = found;
-        let listed = Taking {
+        let listed = Candidates {
             count: match (self.first, first) {
                 // None that was asked for.
                 (true, None) => 0,

@@ -37,34 +37,24 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     pub(super) sketch: Option<String>,
     /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
-    #[arg(
-        long,
-        value_name = "NAME",
-        required_unless_present = "table",
-        default_value = "",
-        hide_default_value = true
-    )]
-    vary: String,
+    #[arg(long, value_name = "NAME", required_unless_present = "table")]
+    vary: Option<String>,
     /// Its first value
     #[arg(
         long,
         value_name = "VALUE",
         allow_negative_numbers = true,
-        required_unless_present = "table",
-        default_value = "",
-        hide_default_value = true
+        required_unless_present = "table"
     )]
-    from: String,
+    from: Option<String>,
     /// Its last value
     #[arg(
         long,
         value_name = "VALUE",
         allow_negative_numbers = true,
-        required_unless_present = "table",
-        default_value = "",
-        hide_default_value = true
+        required_unless_present = "table"
     )]
-    to: String,
+    to: Option<String>,
     /// Drive several dimensions together, from row to row of a table: CSV, the first line their names, each other one their values
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "from", "to", "frames", "json", "cert", "html", "svg", "animation", "obj", "xyz"])]
     table: Option<PathBuf>,
@@ -107,14 +97,24 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
-    if let Some(table) = &arguments.table {
-        return table::run(arguments, table);
+    match (
+        &arguments.table,
+        &arguments.vary,
+        &arguments.from,
+        &arguments.to,
+    ) {
+        (Some(table), ..) => table::run(arguments, table),
+        (None, Some(vary), Some(from), Some(to)) => drive(arguments, vary, [from, to]),
+        _ => unreachable!("each of the three is required where there is no table"),
     }
+}
+
+/// Drives one dimension through a range.
+fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, String> {
     let shown = arguments.file.display();
     let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
-    let ends = [&arguments.from, &arguments.to];
-    let named = ends.map(|value| (&*arguments.vary, &**value));
+    let named = ends.map(|value| (vary, value));
     let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
     Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
     let measures = arguments.measured.of(&problem)?;

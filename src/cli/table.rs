@@ -1,12 +1,13 @@
 //! `krawl sweep --table`: several dimensions together, row by row.
 
-use super::edit::{exit_code, open};
+use super::edit::{drawn_in_words, exit_code, open};
 use super::input::{self, Loaded};
 use super::output::{self, Beside, Destination};
 use super::sweep::Arguments;
 use super::{BAD_INPUT, CLOSED, interrupt};
 use krawl::edit::{Asked, Edited, Ending, Session, Setting};
 use krawl::interval::Interval;
+use krawl::problem::Decimal;
 use krawl::report::{account_in_words, edit_in_words, frames_to_csv};
 use krawl::track::Control;
 use std::collections::HashSet;
@@ -47,6 +48,13 @@ impl Table {
         });
         let rows = rows.collect::<Result<Vec<Vec<String>>, _>>();
         let rows = rows.map_err(|error| format!("{shown}: {error}"))?;
+        for (row, cells) in rows.iter().enumerate() {
+            for (name, cell) in names.iter().zip(cells) {
+                if let Err(error) = cell.parse::<Decimal>() {
+                    return Err(format!("{shown}: row {}, {name}: {error}", row + 1));
+                }
+            }
+        }
         match rows.is_empty() {
             true => Err(format!(
                 "{shown}: there is no row: the first line has the names of dimensions, each other one their values"
@@ -95,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
             written = false;
             break;
         }
-        let edited = session.edit_with(settings, &mut control);
+        let edited = session.lead(settings, &mut control);
         if edited.ending != Ending::Reached {
             end = Some((row, edited));
             break;
@@ -120,6 +128,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
     if !arguments.quiet && csv != Some(Destination::StandardOutput) {
         let points = frames.iter().map(|(_, points)| &points[..]);
         let text = asked.in_words(&loaded.problem)
+            + &drawn_in_words(problem, &session)
             + &in_words(
                 &problem.name,
                 (frames.len(), table.rows.len()),

@@ -25,9 +25,9 @@ pub(super) struct Take {
     nearest: bool,
 }
 
-/// The figures that one is taken of.
+/// The figures of which one is taken.
 #[derive(Clone, Copy)]
-pub(super) struct Listed {
+pub(super) struct Candidates {
     /// How many there are, numbered from 0.
     pub count: u64,
     /// The one that was asked for in another way, if it was.
@@ -138,7 +138,7 @@ impl Take {
         &self,
         (file, sketch): (&Path, Option<&str>),
         problem: &Problem,
-        listed: Listed,
+        listed: Candidates,
         figure: impl Fn(u64) -> Result<Taken, String>,
     ) -> bool {
         let Some(out) = &self.out else {
@@ -159,11 +159,11 @@ impl Take {
     fn number(
         &self,
         problem: &Problem,
-        listed: Listed,
+        listed: Candidates,
         figure: &impl Fn(u64) -> Result<Taken, String>,
     ) -> Result<u64, String> {
         const MOST: u64 = 100_000;
-        let Listed {
+        let Candidates {
             count,
             first,
             is_all,

@@ -192,6 +192,13 @@ impl Session {
         }
     }
 
+    /// Changes dimensions by a path of figures and in no other way, as every claim of the one continuation needs it: [`Session::edit`] of a figure that is
+    /// singular itself, which has none, goes to one that is near.
+    pub fn lead(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
+        let edited = self.follow_to(settings, true, control);
+        self.looked_at(edited, settings, control)
+    }
+
     /// Changes dimensions by a path of figures, and where there is none, in no other way, unlike [`Session::edit`] at figures that are
     /// singular themselves: what is said of all values in between needs the path.
     pub(super) fn follow_to(

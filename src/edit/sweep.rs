@@ -51,7 +51,7 @@ impl Session {
                 target: Target::Length(length),
             }]
         };
-        let approach = self.follow_to(&set(from.clone()), true, control);
+        let approach = self.lead(&set(from.clone()), control);
         let mut sweep = Sweep {
             account: approach.account.clone(),
             approach,
@@ -67,7 +67,7 @@ impl Session {
         });
         for k in 1..frames {
             let value = between(from, to, k, frames - 1);
-            let edited = self.follow_to(&set(value), true, control);
+            let edited = self.lead(&set(value), control);
             if edited.ending != Ending::Reached {
                 sweep.end = Some(edited);
                 break;

@@ -8,6 +8,7 @@ use crate::order::InOrder;
 use crate::problem::{Constraint, Decimal, Item, Problem, Target};
 use num_rational::BigRational;
 use num_traits::Signed;
+use std::collections::{HashMap, HashSet};
 
 /// What was asked for.
 #[derive(Debug, Clone)]
@@ -27,42 +28,34 @@ impl Asked {
     /// # Errors
     /// As [`Setting::named`].
     pub fn new(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
-        let mut asked = Asked {
-            problem: problem.clone(),
-            settings: Vec::new(),
-            given: Vec::new(),
-        };
-        let mut constraints: Vec<(usize, Constraint)> =
-            problem.constraints.iter().cloned().enumerate().collect();
-        let head = problem.distances.len();
+        let mut indices: HashMap<&str, usize> = HashMap::new();
+        let mut beyond = HashSet::new();
+        let mut given = Vec::with_capacity(named.len());
         for &(name, value) in named {
-            let index = Setting::find(problem, name)?;
-            if value.parse().is_ok_and(|value| is_beyond(&value))
-                && let Some(turn) = as_turn(problem, index)
-            {
-                constraints[index - head].1 = turn;
-            }
-        }
-        constraints.order_by_key(|(_, c)| KINDS.iter().position(|kind| kind.key() == c.kind));
-        let now = |index: usize| match index.checked_sub(head) {
-            Some(c) => {
-                let mut places = constraints.iter();
-                head + places.position(|(was, _)| *was == c).expect("all are kept")
-            }
-            None => index,
-        };
-        let labels = problem.labels.iter();
-        asked.problem.labels = labels
-            .map(|(&index, label)| (now(index), label.clone()))
-            .collect();
-        asked.problem.constraints = constraints.iter().map(|(_, c)| c.clone()).collect();
-        for &(name, value) in named {
-            let index = Setting::find(problem, name)?;
+            let index = match indices.get(name) {
+                Some(&index) => index,
+                None => Setting::find(problem, name)?,
+            };
+            indices.insert(name, index);
             let value = value.parse().map_err(|error| {
                 let name = problem.dimension_name(index);
                 SettingError::Number { name, error }
             })?;
-            let setting = Setting::new(&asked.problem, now(index), value)?;
+            if is_beyond(&value) {
+                beyond.insert(index);
+            }
+            given.push((index, value));
+        }
+        let head = problem.distances.len();
+        let (problem, places) = with_turns(problem, |c, _| beyond.contains(&(head + c)));
+        let mut asked = Asked {
+            problem,
+            settings: Vec::new(),
+            given: Vec::new(),
+        };
+        for (index, value) in given {
+            let now = index.checked_sub(head).map_or(index, |c| head + places[c]);
+            let setting = Setting::new(&asked.problem, now, value)?;
             let target = setting.target.clone();
             asked.given.push(Setting { index, target });
             asked.settings.push(setting);
@@ -96,7 +89,7 @@ impl Asked {
         let mut lines: Vec<String> = names
             .filter(|[was, is]| was != is)
             .map(|[was, is]| {
-                format!("{was} is led beyond 0 or 180 degrees, and so as {is}: counter-clockwise from the first to the second\n")
+                format!("{was} is led beyond 0 or 180 degrees, and so as {is}: how far the leg or line named first is turned, counter-clockwise, to point as the other\n")
             })
             .collect();
         lines.dedup();
@@ -106,18 +99,35 @@ impl Asked {
 
 /// A problem with those of its angles as turns that are turns in another one: what edits of it have led beyond 0 or 180 degrees, see [`Asked`].
 pub fn with_turns_of(problem: &Problem, other: &Problem) -> Problem {
-    let mut out = problem.clone();
+    with_turns(problem, |_, turn| other.constraints.contains(turn)).0
+}
+
+/// A problem with those of its angles as turns that are `wanted`, by the index of the constraint and the turn that it would be; and where each
+/// constraint is then, as they are in the order of their kinds.
+fn with_turns(
+    problem: &Problem,
+    wanted: impl Fn(usize, &Constraint) -> bool,
+) -> (Problem, Vec<usize>) {
     let head = problem.distances.len();
-    for (k, constraint) in out.constraints.iter_mut().enumerate() {
-        if let Some(turn) = as_turn(problem, head + k)
-            && other.constraints.contains(&turn)
-        {
-            *constraint = turn;
-        }
+    let turned = |(c, constraint): (usize, &Constraint)| {
+        let turn = as_turn(problem, head + c).filter(|turn| wanted(c, turn));
+        (c, turn.unwrap_or_else(|| constraint.clone()))
+    };
+    let mut all: Vec<(usize, Constraint)> =
+        problem.constraints.iter().enumerate().map(turned).collect();
+    all.order_by_key(|(_, c)| KINDS.iter().position(|kind| kind.key() == c.kind));
+    let mut places = vec![0; all.len()];
+    for (now, &(was, _)) in all.iter().enumerate() {
+        places[was] = now;
     }
-    out.constraints
-        .order_by_key(|c| KINDS.iter().position(|kind| kind.key() == c.kind));
-    out
+    let mut out = problem.clone();
+    out.constraints = all.into_iter().map(|(_, c)| c).collect();
+    let labels = problem.labels.iter().map(|(&index, label)| {
+        let now = index.checked_sub(head).map_or(index, |c| head + places[c]);
+        (now, label.clone())
+    });
+    out.labels = labels.collect();
+    (out, places)
 }
 
 fn is_beyond(degrees: &Decimal) -> bool {

@@ -51,11 +51,7 @@ impl Kind for Angles {
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
         let degrees = of.number().value().clone();
-        if of.items.points_ahead() == 3 && of.items.left() == 3 {
-            let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
-            if a == c {
-                return Err("both legs are one and the same: name another point".to_owned());
-            }
+        if let Some([a, b, c]) = legs(&mut of.items)? {
             let target = Real::cosine_of_degrees(degrees);
             if low.measure_opposite(of.name, [a, b, c], &target)? {
                 return Ok(());
@@ -88,6 +84,18 @@ impl Kind for Angles {
         }
         let (first, second) = (told(first.0, &target, low), told(second.0, &target, low));
         between(of.name, low, &first, &second, target, true)
+    }
+}
+
+/// Three points and nothing more, of which the middle one is the vertex of an angle; `None`: it is of other things.
+pub fn legs(items: &mut Arguments) -> Result<Option<[usize; 3]>, Fault> {
+    if items.points_ahead() != 3 || items.left() != 3 {
+        return Ok(None);
+    }
+    let [a, b, c] = [items.point()?, items.point()?, items.point()?];
+    match a == c {
+        true => Err("both legs are one and the same: name another point".to_owned()),
+        false => Ok(Some([a, b, c])),
     }
 }
 

@@ -3,7 +3,7 @@
 //! The cosine and the sine go from those of the sketch to those of the angle on a curve round 0 (`lowering/turn.rs`), so that an edit by 250
 //! or by −400 degrees turns as far, and that way round.
 
-use super::angle::directions;
+use super::angle::{directions, legs};
 use super::prelude::*;
 
 /// See the module.
@@ -32,15 +32,12 @@ impl Kind for Turns {
             return Err("in space an angle has no sense of turn: say `angles`".to_owned());
         }
         let degrees = of.number().value().clone();
-        let (u, v) = if of.items.points_ahead() == 3 && of.items.left() == 3 {
-            let (a, b, c) = (of.items.point()?, of.items.point()?, of.items.point()?);
-            if a == c {
-                return Err("both legs are one and the same: name another point".to_owned());
+        let (u, v) = match legs(&mut of.items)? {
+            Some([a, b, c]) => (low.span(b, a)?, low.span(b, c)?),
+            None => {
+                let ((first, _), (second, _)) = directions(&mut of.items, low)?;
+                (first, second)
             }
-            (low.span(b, a)?, low.span(b, c)?)
-        } else {
-            let ((first, _), (second, _)) = directions(&mut of.items, low)?;
-            (first, second)
         };
         let (u, v) = (low.heading(u), low.heading(v));
         low.turn(of.name, &u, &v, &degrees)
