@@ -71,6 +71,7 @@
 //! - `hexadecimal`: bytes as text
 //! - `random`: numbers that look random
 //! - `order`: sorting by places
+//! - `places`: short arrays, made place by place
 //! - [`equations`]: rows of products of differences
 //! - `elimination`: row echelon forms and inverses over any field
 //! - `residues`: numbers modulo a prime
@@ -140,6 +141,7 @@ pub mod interval;
 #[doc(hidden)]
 pub mod linalg;
 mod order;
+mod places;
 #[doc(hidden)]
 pub mod plan;
 pub mod problem;

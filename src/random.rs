@@ -1,5 +1,7 @@
 //! Numbers that look random and are the same everywhere.
 
+use crate::places::array;
+
 /// A sequence of a seed (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*,
 /// 2014).
 #[derive(Debug, Clone)]
@@ -26,7 +28,7 @@ impl Random {
 
     /// Three of them, or two and zero in the plane.
     pub fn jitter(&mut self, dimension: usize, size: f64) -> [f64; 3] {
-        std::array::from_fn(|axis| {
+        array(|axis| {
             if axis < dimension {
                 size * self.symmetric()
             } else {

@@ -1,5 +1,6 @@
 //! Figures of distances that fall apart at sides that their parts share.
 
+use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 
 /// Larger problems are not looked at by [`clusters`].
@@ -113,7 +114,7 @@ fn part(problem: &Problem, points: &[usize], number: usize, of: usize) -> Option
     }
     let is_inside = |pair: &[usize; 2]| pair.iter().all(|p| points.contains(p));
     for distance in problem.distances.iter().filter(|d| is_inside(&d.points)) {
-        let [a, b] = distance.points.map(name);
+        let [a, b] = distance.points.each(name);
         builder = match &distance.target {
             Target::Length(x) => builder.distance(a, b, x.clone()),
             Target::SquaredLength(x) => builder.squared_distance(a, b, x.clone()),
@@ -122,7 +123,7 @@ fn part(problem: &Problem, points: &[usize], number: usize, of: usize) -> Option
     if let Some(bend) = problem.bend()
         && is_inside(&problem.distances[bend].points)
     {
-        builder = builder.bend(problem.distances[bend].points.map(name));
+        builder = builder.bend(problem.distances[bend].points.each(name));
     }
     if problem
         .homotopy

@@ -4,6 +4,7 @@ use super::local::Local;
 use super::number::Number;
 use crate::interval::{Interval, point};
 use crate::order::InOrder;
+use crate::places::Each as _;
 use nalgebra::DMatrix;
 
 /// All solutions of a block.
@@ -161,7 +162,7 @@ fn roots(a: &Number, b: &Number, c: &Number) -> Roots {
 /// Two equations of two unknowns of which a combination is linear: circles, lines, and what is like them.
 fn two(one: &Local, other: &Local) -> Solved {
     let keys = [(0, 0), (0, 1), (1, 1)];
-    let [p, q] = [one, other].map(|row| keys.map(|(i, j)| row.q(i, j)));
+    let [p, q] = [one, other].each(|row| keys.each(|(i, j)| row.q(i, j)));
     let is_multiple = (0..3).all(|i| (0..3).all(|j| p[i] * q[j] == p[j] * q[i]));
     if !is_multiple {
         return Solved::NoFormula;

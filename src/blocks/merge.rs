@@ -3,6 +3,7 @@
 use crate::constraint::{Entry, Lowered, Nonzero, Role, Unknown};
 use crate::equations::Form;
 use crate::interval::{Real, enclose};
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Term;
 use std::collections::{BTreeMap, BTreeSet};
@@ -74,7 +75,7 @@ impl System {
                 (Form::Difference(a, b), Form::One) | (Form::One, Form::Difference(a, b)) => [a, b],
                 _ => continue,
             };
-            let [Some(a), Some(b)] = pair.map(raw) else {
+            let [Some(a), Some(b)] = pair.each(raw) else {
                 continue;
             };
             if equation.right.iter().all(Real::is_zero) && !is_dimension(index) {
@@ -132,7 +133,7 @@ impl System {
         }
         let nonzero = lowered.tail.nonzero.iter().map(|vector| Nonzero {
             name: vector.name.clone(),
-            forms: vector.forms.map(|form| form.map(|e| entry(e).into())),
+            forms: vector.forms.each(|form| form.map(|e| entry(e).into())),
         });
         System {
             nonzero: nonzero.collect(),

@@ -6,6 +6,7 @@ use super::number::Number;
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, value};
 use crate::interval::{Interval, Real, hull, point};
 use crate::order::InOrder;
+use crate::places::array;
 use crate::system::{Homotopy, Part};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::{Relation, arcs, prove_figure, track};
@@ -214,7 +215,7 @@ fn homotopy(
     let nonzero = nonzero.filter(|vector| vector.unknowns(d).all(|u| local.contains_key(&u)));
     let nonzero = nonzero.map(|vector| Nonzero {
         name: vector.name.clone(),
-        forms: std::array::from_fn(|axis| match axis < d {
+        forms: array(|axis| match axis < d {
             true => vector.forms[axis].map(|e| entry(e.unknown())),
             false => Form::Difference(Entry::Zero, Entry::Zero),
         }),

@@ -2,6 +2,7 @@
 
 use crate::constraint::KINDS;
 use crate::order::InOrder;
+use crate::places::{Each as _, array};
 use crate::problem::{Constraint, Decimal, Item, Problem};
 
 /// The problem with its reference held, so that its equations can be cut into blocks as those of a problem in its own frame
@@ -11,10 +12,10 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
     let reference = &problem.homotopy.reference;
     let &first = reference.first()?;
     let d = problem.dimension;
-    let place = |p: usize| problem.points[p].sketch.each_ref().map(Decimal::to_f64);
+    let place = |p: usize| problem.points[p].sketch.each_ref().each(Decimal::to_f64);
     let from_first = |p: usize| -> [f64; 3] {
         let (a, b) = (place(first), place(p));
-        std::array::from_fn(|k| b[k] - a[k])
+        array(|k| b[k] - a[k])
     };
     let largest = |v: [f64; 3]| (0..d).max_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs()));
     let mut out = problem.clone();
@@ -37,7 +38,7 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
             .for_each(|axis| hold_axis(second, axis));
         if let Some(&third) = reference.get(2) {
             let (u, v) = (from_first(second), from_first(third));
-            let normal = std::array::from_fn(|k| {
+            let normal = array(|k| {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
                 u[i] * v[j] - u[j] * v[i]
             });

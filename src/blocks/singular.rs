@@ -3,6 +3,7 @@
 use super::System;
 use super::cut::name;
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{Problem, list};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -120,7 +121,7 @@ fn flat(problem: &Problem, system: &System, rows: &[usize]) -> Vec<Vec<String>> 
     let mut places: Vec<([f64; 3], &str)> = Vec::new();
     for (p, point) in problem.points.iter().enumerate() {
         let own = &system.coordinates[p * d..(p + 1) * d];
-        let place = point.sketch.each_ref().map(|x| x.to_f64());
+        let place = point.sketch.each_ref().each(|x| x.to_f64());
         if own.iter().any(|u| unknowns.contains(u)) && places.iter().all(|(at, _)| *at != place) {
             places.push((place, &point.name));
         }
@@ -129,7 +130,7 @@ fn flat(problem: &Problem, system: &System, rows: &[usize]) -> Vec<Vec<String>> 
         return Vec::new();
     }
     let from = |a: usize, b: usize| -> Vector3<f64> {
-        let [a, b] = [a, b].map(|p| Vector3::from(places[p].0));
+        let [a, b] = [a, b].each(|p| Vector3::from(places[p].0));
         (b - a).normalize()
     };
     let mut sets: Vec<Vec<usize>> = Vec::new();

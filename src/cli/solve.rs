@@ -8,6 +8,7 @@ use super::take::{Candidates, Take, Taken};
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use crate::order::InOrder;
+use crate::places::Each as _;
 use clap::ValueEnum;
 use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
@@ -842,7 +843,7 @@ impl Arguments {
         self.take.write(from, problem, listed, |number| {
             let (points, radii) = figures.figure(number);
             Ok(Taken {
-                points: points.iter().map(|p| p.map(|x| x.mid())).collect(),
+                points: points.iter().map(|p| p.each(|x| x.mid())).collect(),
                 radii: radii.iter().map(|r| r.map_or(0.0, |r| r.mid())).collect(),
             })
         })

@@ -8,6 +8,7 @@ use super::measured::Measured;
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt, table};
+use crate::places::Each as _;
 use krawl::certificate::Writer;
 use krawl::edit::{Asked, Ending, Setting};
 use krawl::report::page::Page;
@@ -114,7 +115,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let shown = arguments.file.display();
     let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
-    let named = ends.map(|value| (vary, value));
+    let named = ends.each(|value| (vary, value));
     let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
     Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
     let measures = arguments.measured.of(&problem)?;

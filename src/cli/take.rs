@@ -2,6 +2,7 @@
 
 use super::input;
 use super::output::{self, Beside};
+use crate::places::Each as _;
 use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::system::{Located, Placement};
@@ -60,7 +61,11 @@ impl Taken {
 
     fn placed(problem: &Problem, solution: &Solution, mirrored: bool) -> Result<Self, String> {
         let points: Vec<[f64; 3]> = match problem.is_absolute() {
-            true => solution.points.iter().map(|p| p.map(|x| x.mid())).collect(),
+            true => solution
+                .points
+                .iter()
+                .map(|p| p.each(|x| x.mid()))
+                .collect(),
             false => {
                 let placement = Placement::of(problem).map_err(|error| error.to_string())?;
                 let last = problem.dimension - 1;
@@ -72,7 +77,7 @@ impl Taken {
                     seen
                 });
                 let there = seen.map(|p| placement.to_problem(&p));
-                there.map(|p| p.map(|x| x.mid())).collect()
+                there.map(|p| p.each(|x| x.mid())).collect()
             }
         };
         let radius = |object: &Located| match object {
@@ -87,7 +92,7 @@ impl Taken {
     fn off_sketch(&self, problem: &Problem) -> f64 {
         let pairs = self.points.iter().zip(&problem.points);
         let squares = pairs.flat_map(|(at, point)| {
-            let sketch = point.sketch.each_ref().map(|x| x.to_f64());
+            let sketch = point.sketch.each_ref().each(|x| x.to_f64());
             std::array::from_fn::<f64, 3, _>(|k| (at[k] - sketch[k]).powi(2))
         });
         squares.sum()
@@ -210,7 +215,7 @@ fn rewritten(
     let of_point = |name: &str| problem.points.iter().position(|p| p.name == name);
     let of_object = |name: &str| problem.objects.iter().position(|o| o.name == name);
     let points = loaded.problem.points.iter().map(|point| {
-        let sketch = || point.sketch.each_ref().map(|x| x.to_f64());
+        let sketch = || point.sketch.each_ref().each(|x| x.to_f64());
         of_point(&point.name).map_or_else(sketch, |p| taken.points[p])
     });
     let radii = loaded.problem.objects.iter().map(|object| {

@@ -5,6 +5,7 @@
 
 use super::matching::Matching;
 use super::{Measured, Method, Row};
+use crate::places::Each as _;
 use crate::track::{Mode, Outcome, Status};
 use std::fmt;
 
@@ -163,7 +164,7 @@ impl<'m> Reference<'m> {
             _ if ending != Ending::Stopped && !is_piece => all - places.len(),
             Ending::Open => self.passed_over_on_arc(&places),
             _ => [&forth, &back]
-                .map(|way| passed_over(way, &places))
+                .each(|way| passed_over(way, &places))
                 .into_iter()
                 .min()
                 .unwrap_or(0),

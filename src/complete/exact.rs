@@ -9,6 +9,7 @@
 use crate::blocks::{Account, LeftOut, Ruler, Verdict};
 use crate::interval::vector::Vector;
 use crate::interval::{Interval, ZERO, enclose};
+use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::system::told::range;
 use crate::system::{Placement, typical_length};
@@ -117,7 +118,7 @@ pub fn nearly(problem: &Problem, is_own: impl Fn([usize; 2]) -> bool) -> Option<
             let Some(places) = in_one_plane(problem, distance.points, turned) else {
                 continue;
             };
-            let [a, b] = distance.points.map(|p| places[p]);
+            let [a, b] = distance.points.each(|p| places[p]);
             let length = (0..3).fold(ZERO, |sum, k| sum + (a[k] - b[k]).sqr()).sqrt();
             let wanted = match &distance.target {
                 Target::Length(length) => enclose(length),

@@ -12,6 +12,7 @@ use crate::constraint::Symmetry;
 use crate::interval::vector::{cross, dot, minus, unit as direction};
 use crate::interval::{Interval, point};
 use crate::order::InOrder;
+use crate::places::array;
 use crate::problem::Problem;
 use crate::track::Solution;
 use num_traits::ToPrimitive;
@@ -581,7 +582,7 @@ fn in_gauge(
     let base = &search.plan.base;
     let place = |p: usize| -> [Interval; 3] {
         let order = base.iter().position(|&b| b == p).unwrap_or(d);
-        std::array::from_fn(|k| {
+        array(|k| {
             if k >= order.min(d) {
                 return zero;
             }
@@ -613,7 +614,7 @@ fn in_gauge(
             let v = from(p);
             let order = reference.iter().position(|&r| r == p).unwrap_or(d);
             let axes = [e1, e2, e3];
-            std::array::from_fn(|k| {
+            array(|k| {
                 if k < order.min(d) {
                     dot(axes[k], v) * unit
                 } else {

@@ -5,6 +5,7 @@ use super::node::{Node, Sign};
 use super::plan::{Drive, HingeNumbers, Kind, MeetNumbers, Meeting, Plan, Radius};
 use super::targets::Targets;
 use crate::interval::rounding::UNDERFLOW;
+use crate::places::Each as _;
 
 /// A point, or the difference of two.
 pub type Place<const D: usize, const S: usize, const M: usize> = [Model<S, M>; D];
@@ -139,7 +140,7 @@ pub fn angle<const S: usize, const M: usize>(node: &Node, parameter: usize) -> [
     let (middle, reach) = node.middle(parameter);
     let pair = rotation(parameter, middle, reach, true);
     if (node.halves >> parameter) & 1 == 1 {
-        pair.map(|x| x.scaled(-1.0))
+        pair.each(|x| x.scaled(-1.0))
     } else {
         pair
     }
@@ -235,7 +236,7 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
             }))
         }
         (&Kind::Hinge { frame, parameter }, &Known::Hinge(numbers)) => {
-            let [c1, c2, q] = frame.map(|p| &points[p]);
+            let [c1, c2, q] = frame.each(|p| &points[p]);
             let a = minus(c2, c1);
             let minus_one = Number {
                 mid: -1.0,

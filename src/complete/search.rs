@@ -11,6 +11,7 @@ use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
 use crate::linalg::damped;
+use crate::places::Each as _;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -128,7 +129,7 @@ impl Search {
             pairs: bounded.collect(),
             prover: Prover::new(targets, &plan),
             minus_squares: targets.squares.iter().map(|&s| Number::new(-s)).collect(),
-            base: base.into_iter().map(|p| p.map(Number::new)).collect(),
+            base: base.into_iter().map(|p| p.each(Number::new)).collect(),
             known,
             signed,
             least_width: 2f64.powi(-38),

@@ -9,6 +9,7 @@ use super::{Complete, Options, Unserved, all};
 use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
 use crate::interval::{Interval, enclose, point};
 use crate::linalg::Span;
+use crate::places::Each as _;
 use crate::problem::{Decimal, Distance, Problem, Target, free_coordinates, rigidity};
 use crate::system::typical_length;
 use crate::track::Solution;
@@ -90,7 +91,7 @@ impl Surplus {
         let places = problem
             .points
             .iter()
-            .map(|p| p.sketch.each_ref().map(Decimal::to_f64));
+            .map(|p| p.sketch.each_ref().each(Decimal::to_f64));
         let places: Vec<[f64; 3]> = places.collect();
         let row = |&[a, b]: &[usize; 2]| {
             let mut row = vec![0.0; d * n];
@@ -159,7 +160,7 @@ impl Surplus {
     fn account(&self, figure: &Solution) -> Vec<LeftOut> {
         let mut account = Account::default();
         for spare in &self.spare {
-            let [a, b] = spare.distance.points.map(|p| figure.points[p]);
+            let [a, b] = spare.distance.points.each(|p| figure.points[p]);
             let verdict = Verdict::of(miss(a, b, &spare.distance.target), spare.epsilon);
             account.leave_out(spare.name.clone(), verdict);
         }

@@ -9,6 +9,7 @@ use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::place::{Place, Placed, place, squared_distance};
 use super::search::Search;
 use crate::certificate::cover::{Left, Mark};
+use crate::places::array;
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 
@@ -141,7 +142,7 @@ impl<const D: usize, const S: usize, const M: usize> Room<D, S, M> {
         let zero: Place<D, S, M> = [Model::ZERO; D];
         let mut points = vec![zero; search.targets.points];
         for (&p, place) in search.plan.base.iter().zip(&search.base) {
-            points[p] = std::array::from_fn(|k| Model::constant(place[k]));
+            points[p] = array(|k| Model::constant(place[k]));
         }
         Room {
             node: node.clone(),
@@ -258,7 +259,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 let already = std::mem::replace(&mut self.branched, true);
                 for sign in [Sign::Plus, Sign::Minus] {
                     self.node.decide(sign);
-                    let here = std::array::from_fn(|k| match sign {
+                    let here = array(|k| match sign {
                         Sign::Plus => middle[k].plus(&off[k]),
                         _ => middle[k].minus(&off[k]),
                     });
@@ -391,7 +392,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 .room
                 .points
                 .iter()
-                .map(|p| std::array::from_fn(|k| if k < D { p[k].c[0] } else { 0.0 }))
+                .map(|p| array(|k| if k < D { p[k].c[0] } else { 0.0 }))
                 .collect();
             match search.prover.prove(&guess) {
                 Ok(figure) if self.is_alone(&figure) => {

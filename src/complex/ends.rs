@@ -27,6 +27,7 @@ use crate::equations::Form;
 use crate::interval::complex::Complex;
 use crate::interval::rounding::{UNDERFLOW, in_range, largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
+use crate::places::Each as _;
 use crate::system::Right;
 use crate::track::arc::Figure;
 use num_rational::BigRational;
@@ -51,7 +52,7 @@ impl EndProver {
     /// For what these right-hand sides, of real and imaginary parts in turn, are at t = 1.
     pub fn new(system: &System, rights: &[Right]) -> Self {
         let wanted = rights.chunks(2).map(|parts| {
-            let [(re, a), (im, b)] = [&parts[0], &parts[1]].map(Right::double_at_target);
+            let [(re, a), (im, b)] = [&parts[0], &parts[1]].each(Right::double_at_target);
             (Complex::new(re, im), round_up(a + b, 1))
         });
         EndProver {
@@ -244,7 +245,7 @@ impl EndProver {
             alpha = largest(alpha, off);
             beta = largest(beta, curved);
         }
-        Ok([eta, alpha, beta].map(|bound| round_up(bound, operations) + n as f64 * UNDERFLOW))
+        Ok([eta, alpha, beta].each(|bound| round_up(bound, operations) + n as f64 * UNDERFLOW))
     }
 
     /// Bounds on |B_e(h, g)| for |h|, |g| ≤ 1.

@@ -15,6 +15,7 @@ use super::system::System;
 use crate::equations::{Form, Product};
 use crate::interval::DoubleDouble;
 use crate::interval::complex::{Complex, Number};
+use crate::places::{Each as _, array};
 use crate::system::Right;
 
 /// Taylor coefficients beyond the zeroth.
@@ -172,15 +173,15 @@ impl<N: Number> Stepper<N> {
         let (mut terms, mut first) = (Vec::new(), vec![0]);
         for equation in &system.equations {
             terms.extend(equation.terms.iter().map(|term| {
-                let [left, right] = term.forms().map(|form| form.map(|i| i.unwrap_or(n)));
+                let [left, right] = term.forms().each(|form| form.map(|i| i.unwrap_or(n)));
                 Term::new(0.5 * f64::from(term.factor), left, right)
             }));
             first.push(terms.len());
         }
         let coefficients = |parts: &[Right]| -> [Complex<N>; 3] {
-            let number = |part: &Right| part.doubles().map(|(near, _)| N::near(near));
+            let number = |part: &Right| part.doubles().each(|(near, _)| N::near(near));
             let (re, im) = (number(&parts[0]), number(&parts[1]));
-            std::array::from_fn(|k| Complex::new(re[k], im[k]))
+            array(|k| Complex::new(re[k], im[k]))
         };
         let zero = Complex::default();
         Stepper {
@@ -215,7 +216,7 @@ impl<N: Number> Stepper<N> {
     fn place(&self) -> Vec<DoubleDouble> {
         let parts = |(z, low): (&Complex<N>, &Complex<f64>)| {
             [(z.re, low.re), (z.im, low.im)]
-                .map(|(x, low)| DoubleDouble::sum(x.rough(), x.rest()) + DoubleDouble::from(low))
+                .each(|(x, low)| DoubleDouble::sum(x.rough(), x.rest()) + DoubleDouble::from(low))
         };
         let all = self.there[..self.n].iter().zip(&self.low);
         all.flat_map(parts).collect()
@@ -232,7 +233,7 @@ impl<N: Number> Stepper<N> {
     /// Real and imaginary part of every unknown in turn, where the last step began.
     fn last_place(&self) -> Vec<DoubleDouble> {
         let parts = |x: &[Complex<N>; ORDER + 1]| {
-            [x[0].re, x[0].im].map(|x| DoubleDouble::sum(x.rough(), x.rest()))
+            [x[0].re, x[0].im].each(|x| DoubleDouble::sum(x.rough(), x.rest()))
         };
         self.x[..self.n].iter().flat_map(parts).collect()
     }

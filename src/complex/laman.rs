@@ -13,6 +13,7 @@
 //! The number of figures is N(G, G): Capco, Gallet, Grasegger, Koutschan, Lubbes, Schicho, *The number of realizations of a
 //! Laman graph*, SIAM Journal on Applied Algebra and Geometry 2 (2018).
 
+use crate::places::array;
 use std::collections::HashMap;
 
 /// Larger graphs take too long: the sum has two to this many terms.
@@ -55,7 +56,7 @@ struct Union([u8; 256]);
 
 impl Union {
     fn new() -> Self {
-        Union(std::array::from_fn(|i| i as u8))
+        Union(array(|i| i as u8))
     }
 
     fn root(&self, mut v: u8) -> u8 {

@@ -22,6 +22,7 @@ use crate::constraint::is_opposite_nearer;
 use crate::equations::Form;
 use crate::interval::{DoubleDouble, Real};
 use crate::order::InOrder;
+use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape, Target};
 use crate::system::Term;
 use num_rational::BigRational;
@@ -144,7 +145,7 @@ pub fn frames(problem: &Problem) -> Vec<Frame> {
     let mut frames = Vec::new();
     for lines in [[0, 1, 2], [0, 2, 1], [1, 2, 0]] {
         let [c2, c3, c23]: [f64; 3] =
-            [(0, 1), (0, 2), (1, 2)].map(|(a, b): (usize, usize)| cosine(lines[a], lines[b]));
+            [(0, 1), (0, 2), (1, 2)].each(|(a, b): (usize, usize)| cosine(lines[a], lines[b]));
         let s2 = (1.0 - c2 * c2).sqrt();
         let along = (c23 - c2 * c3) / s2;
         let up = (1.0 - c3 * c3 - along * along).max(0.0).sqrt();
@@ -185,7 +186,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
     let mut push = |name: String, power: i32, flips: [bool; 3]| {
         unknowns.push(Unknown { name, power, flips });
     };
-    let along = |axis: usize| std::array::from_fn(|k| k == axis);
+    let along = |axis: usize| array(|k| k == axis);
     for point in &problem.points {
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
             push(format!("{letter} of {}", point.name), 1, along(axis));
@@ -202,7 +203,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
     // What changes its sign where the direction of the second line is reversed, or of the third.
     let mut turned = [Vec::new(), Vec::new()];
     if !are_orthogonal {
-        let [c2, s2, c3, a, b] = DIRECTIONS.map(|k| first + k);
+        let [c2, s2, c3, a, b] = DIRECTIONS.each(|k| first + k);
         turned = [vec![c2, s2], vec![c3, a, b]];
         // Reversing the x axis and the directions of all lines: s₂, a and b change their signs, not c₂ and c₃.
         let (c, s) = ([false; 3], [true, true, false]);
@@ -217,15 +218,15 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         );
     }
     let height = first + HEIGHT;
-    let foot = FOOT.map(|k| first + k);
-    let directions = DIRECTIONS.map(|k| first + k);
+    let foot = FOOT.each(|k| first + k);
+    let directions = DIRECTIONS.each(|k| first + k);
     let coordinate = |p: usize, axis: usize| 3 * p + axis;
 
     let mut equations: Vec<Equation> = Vec::new();
     for (index, distance) in problem.distances.iter().enumerate() {
         let [a, b] = distance.points;
         let square = |axis: usize| {
-            let [a, b] = [a, b].map(|p| Some(coordinate(p, axis)));
+            let [a, b] = [a, b].each(|p| Some(coordinate(p, axis)));
             let form = Form::Difference(a, b);
             Term::new(1, form, form)
         };
@@ -238,7 +239,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         });
     }
     for (point, line, half, constraint) in &given.distances {
-        let [x, y, z] = [0, 1, 2].map(|axis| coordinate(*point, axis));
+        let [x, y, z] = [0, 1, 2].each(|axis| coordinate(*point, axis));
         let which = lines.iter().position(|l| l == line)?;
         // The differences of the point from the line's place.
         let from = match which {
@@ -269,7 +270,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
                 flips: [true, false, false],
             });
             terms.push(Term::new(-1, value(shadow), value(shadow)));
-            let [c2, s2, c3, a, b] = directions.map(value);
+            let [c2, s2, c3, a, b] = directions.each(value);
             let of = match which {
                 1 => vec![(c2, from[0]), (s2, from[1])],
                 _ => vec![(c3, from[0]), (a, from[1]), (b, from[2])],
@@ -293,7 +294,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         });
     }
     if !are_orthogonal {
-        let [c2, s2, c3, a, b] = directions.map(value);
+        let [c2, s2, c3, a, b] = directions.each(value);
         let wanted = |a: usize, b: usize| {
             let cosine = slot(lines[a], lines[b]).and_then(|slot| given.cosines[slot].clone());
             let cosine = cosine.unwrap_or_else(Real::zero);
@@ -350,7 +351,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
         unknowns,
         equations,
         points: (0..points)
-            .map(|p| [0, 1, 2].map(|axis| Some(coordinate(p, axis))))
+            .map(|p| [0, 1, 2].each(|axis| Some(coordinate(p, axis))))
             .collect(),
         unit,
         group: Vec::new(),
@@ -402,17 +403,17 @@ pub fn figure(system: &System, frame: Frame, at: &[DoubleDouble]) -> Figure {
     let count = system.points.len();
     let unknown = |k: usize| Z::new(at[2 * k], at[2 * k + 1]);
     let (zero, one) = (Z::default(), Z::real(1.0));
-    let points = (0..count).map(|p| [0, 1, 2].map(|axis| unknown(3 * p + axis)));
+    let points = (0..count).map(|p| [0, 1, 2].each(|axis| unknown(3 * p + axis)));
     let own = |k: usize| unknown(3 * count + k);
     let mut directions = match system.start {
         Start::Lines(_) => {
-            let [c2, s2, c3, a, b] = DIRECTIONS.map(own);
+            let [c2, s2, c3, a, b] = DIRECTIONS.each(own);
             [[one, zero, zero], [c2, s2, zero], [c3, a, b]]
         }
         _ => [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
     };
     if frame.is_reversed {
-        directions[2] = directions[2].map(|x| -x);
+        directions[2] = directions[2].each(|x| -x);
     }
     let mut foot = [zero; 3];
     let in_plane = (0..3).filter(|&axis| axis != across);

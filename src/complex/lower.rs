@@ -8,6 +8,7 @@ use super::{lines, own_frame};
 use crate::constraint::MAX_DEGREE;
 use crate::equations::Form;
 use crate::interval::Real;
+use crate::places::array;
 use crate::problem::{Problem, Target, list};
 use crate::system::{GaugeError, Homotopy, Term};
 use num_rational::BigRational;
@@ -166,7 +167,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         Unknown {
             name,
             power,
-            flips: std::array::from_fn(|axis| !is_absolute && axis < d && homotopy.flips(k, axis)),
+            flips: array(|axis| !is_absolute && axis < d && homotopy.flips(k, axis)),
         }
     });
     let unknowns = unknowns.collect();
@@ -196,7 +197,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     });
     let mut equations: Vec<Equation> = equations.collect();
     let points = (0..problem.points.len())
-        .map(|p| std::array::from_fn(|axis| homotopy.coordinate(p, axis)))
+        .map(|p| array(|axis| homotopy.coordinate(p, axis)))
         .collect();
     let (mut start, mut positions) = (Start::Any, 1);
     if let Some(bound) = bound

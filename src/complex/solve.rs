@@ -12,6 +12,7 @@ use super::system::{Signs, System, segment};
 use super::template::Template;
 use crate::interval::DoubleDouble;
 use crate::interval::complex::Complex;
+use crate::places::Each as _;
 use crate::problem::counted;
 use std::time::Instant;
 
@@ -274,7 +275,7 @@ fn places(system: &System, at: &[DoubleDouble]) -> Vec<[Complex<DoubleDouble>; 3
         None => Complex::default(),
     };
     let places = system.points.iter();
-    places.map(|place| place.map(coordinate)).collect()
+    places.map(|place| place.each(coordinate)).collect()
 }
 
 /// What the conjugates are. The parameters of an instance are real, so the conjugate of a solution is one too.

@@ -5,6 +5,7 @@ use super::exact::{Exact, Parameter, Random};
 use super::lines;
 use super::system::{Kind, Start, System};
 use crate::equations::Form;
+use crate::places::Each as _;
 
 /// A figure and its parameters: exactly, or, where these would be long ratios, nearly.
 #[derive(Debug, Clone)]
@@ -125,7 +126,7 @@ fn is_linear(system: &System, equation: usize, unknown: usize) -> bool {
 fn is_affine(system: &System, equation: usize, unknown: usize) -> bool {
     let stands = |form: Form<Option<usize>>| form.entries().any(|e| e.0 == Some(unknown));
     let terms = system.equations[equation].terms.iter();
-    let mut found = terms.map(|term| term.forms().map(stands));
+    let mut found = terms.map(|term| term.forms().each(stands));
     found.clone().all(|both| both != [true, true]) && found.any(|both| both != [false, false])
 }
 

@@ -6,6 +6,7 @@ use super::lines;
 use super::system::System;
 use super::vector::{Z, cross, dot, plus};
 use crate::interval::DoubleDouble;
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 
@@ -44,7 +45,7 @@ fn minus(a: [Z; 3], b: [Z; 3]) -> [Z; 3] {
 fn unit(a: [Z; 3]) -> Option<[Z; 3]> {
     let square = dot(&a, &a);
     let over = square.sqrt().inverse();
-    (square.norm_sqr() > 1e-20).then(|| a.map(|x| x * over))
+    (square.norm_sqr() > 1e-20).then(|| a.each(|x| x * over))
 }
 
 /// A figure of points, and lines with a point and a direction of length 1, in a unit.
@@ -59,12 +60,12 @@ fn in_gauge(
     };
     // Both units are powers of two.
     let scale = DoubleDouble::from(figure_unit / homotopy.unit);
-    let points: Vec<[Z; 3]> = points.iter().map(|p| p.map(|x| x.times(scale))).collect();
+    let points: Vec<[Z; 3]> = points.iter().map(|p| p.each(|x| x.times(scale))).collect();
     let first = unit(minus(points[b], points[a]))?;
     let across = minus(points[c], points[a]);
     let second = unit(plus(&across, -dot(&across, &first), &first))?;
     let axes = [first, second, cross(&first, &second)];
-    let turned = |v: [Z; 3]| axes.map(|axis| dot(&axis, &v));
+    let turned = |v: [Z; 3]| axes.each(|axis| dot(&axis, &v));
     let m = homotopy.equations;
     let mut known: Vec<Option<Z>> = vec![None; m];
     for (p, &at) in points.iter().enumerate() {
@@ -76,13 +77,13 @@ fn in_gauge(
         }
     }
     for (object, (base, along)) in lines.into_iter().enumerate() {
-        let base = turned(minus(base.map(|x| x.times(scale)), points[a]));
+        let base = turned(minus(base.each(|x| x.times(scale)), points[a]));
         let along = turned(along);
         // The place nearest to the origin, and a direction as long as in the sketch.
         let base = plus(&base, -dot(&base, &along), &along);
         let length = lines::length(problem, object)?;
         let unknowns = homotopy.object_unknowns(object);
-        for (unknown, x) in unknowns.zip(base.into_iter().chain(along.map(|x| x.times(length)))) {
+        for (unknown, x) in unknowns.zip(base.into_iter().chain(along.each(|x| x.times(length)))) {
             known[unknown] = Some(x);
         }
     }
@@ -91,7 +92,7 @@ fn in_gauge(
         let x = x?;
         let unit = homotopy.unit.powi(homotopy.power(k));
         let parts = [x.re.hi, x.im.hi, x.re.lo, x.im.lo];
-        Some(parts.map(|part| part * unit).to_vec())
+        Some(parts.each(|part| part * unit).to_vec())
     });
     numbers.collect()
 }

@@ -2,6 +2,7 @@
 
 use crate::interval::DoubleDouble;
 use crate::interval::complex::Complex;
+use crate::places::array;
 
 /// A complex number in double-doubles.
 pub type Z = Complex<DoubleDouble>;
@@ -19,5 +20,5 @@ pub fn cross(a: &[Z; 3], b: &[Z; 3]) -> [Z; 3] {
 
 /// a + factor b.
 pub fn plus(a: &[Z; 3], factor: Z, b: &[Z; 3]) -> [Z; 3] {
-    std::array::from_fn(|k| a[k] + factor * b[k])
+    array(|k| a[k] + factor * b[k])
 }

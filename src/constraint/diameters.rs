@@ -8,6 +8,7 @@
 use super::factors::{Equal, Name, entry, power};
 use super::quadratic::{Equation, Form, Product, Tail, difference};
 use crate::interval::Real;
+use crate::places::Each as _;
 
 /// A difference from a point c, by what stands for its entries: the other point's coordinate, and that of c.
 pub type Ends = [Name; 2];
@@ -44,12 +45,12 @@ pub fn halve(
         };
         let chord = found.into_iter().flatten().find_map(|both| {
             // Of each axis the coordinates of p, q and c.
-            let axes = both.map(|([p, c], [q, _])| [p, q, c]);
+            let axes = both.each(|([p, c], [q, _])| [p, q, c]);
             let is_line = |&e: &usize| {
                 let is_free = e != first && e != second && !is_done[e];
                 is_free && rights[e].is_zero() && is_cross(&tail.equations[e], equal, &axes)
             };
-            let [p, q] = [0, 1].map(|k| axes.map(|axis| axis[k]));
+            let [p, q] = [0, 1].each(|k| axes.each(|axis| axis[k]));
             let line = apart([p, q]).then(|| (0..count).find(is_line))?;
             Some((both, line?))
         });
@@ -57,10 +58,10 @@ pub fn halve(
             continue;
         };
         for (e, (a, b)) in [(second, x), (line, y)] {
-            let sum = [a, b].map(|[p, c]| difference(entry(p), entry(c)));
+            let sum = [a, b].each(|[p, c]| difference(entry(p), entry(c)));
             let equation = &mut tail.equations[e];
             equation.power = power(&tail.unknowns, sum[0]);
-            equation.products = sum.map(|form| Product::new(2, form, Form::One)).to_vec();
+            equation.products = sum.each(|form| Product::new(2, form, Form::One)).to_vec();
             equation.right = vec![Real::zero()];
             is_done[e] = true;
         }
@@ -76,11 +77,11 @@ type Named = Option<(Ends, i32)>;
 pub fn keys(equation: &Equation, equal: &Equal) -> Vec<Key> {
     let left = equal.left(&equation.products);
     let keys = left.map(|p| {
-        let ends = [p.left, p.right].map(|form| equal.ordered(form));
+        let ends = [p.left, p.right].each(|form| equal.ordered(form));
         // A difference the other way has the other sign.
         let sign = |ends: &Named| ends.map_or(1, |(_, sign)| sign);
         let factor = p.factor * sign(&ends[0]) * sign(&ends[1]);
-        let mut ends = ends.map(|ends| ends.map(|(ends, _)| ends));
+        let mut ends = ends.each(|ends| ends.map(|(ends, _)| ends));
         ends.sort_unstable();
         (factor, ends[0], ends[1])
     });
@@ -109,7 +110,7 @@ fn halves(mut one: Vec<Key>, mut other: Vec<Key>) -> Option<Vec<[(Ends, Ends); 2
         let turned = |[i, j]: Ends| [[i, j], [j, i]];
         let pairs = turned(a)
             .into_iter()
-            .flat_map(|a| turned(b).map(|b| (a, b)));
+            .flat_map(|a| turned(b).each(|b| (a, b)));
         pairs.filter(|([_, c], [_, d])| c == d).collect()
     };
     let mut out = Vec::new();
@@ -132,7 +133,7 @@ fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Name; 3]; 2]) -> bool {
     }
     // Whether a product is that of two differences of named entries.
     let is = |p: &Product, x: [Name; 2], y: [Name; 2]| {
-        let both = [p.left, p.right].map(|form| equal.ends(form));
+        let both = [p.left, p.right].each(|form| equal.ends(form));
         both == [Some(x), Some(y)] || both == [Some(y), Some(x)]
     };
     let pairs = || (0..3).flat_map(|i| (0..3).filter(move |&j| j != i).map(move |j| [i, j]));

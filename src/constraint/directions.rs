@@ -7,6 +7,7 @@
 //! ways, as from angles or coordinates, is not seen: then the equations are too many, and that is said.
 
 use super::arguments::{Arguments, Flat, LineName, Thing};
+use crate::places::Each as _;
 use crate::statement::Problem;
 
 /// The directions that constraints name.
@@ -29,7 +30,7 @@ impl Directions {
             in_plane: problem.dimension == 2,
         };
         if out.in_plane {
-            let [x, y] = [0, 1].map(|axis| Flat::Line(LineName::Axis(axis)));
+            let [x, y] = [0, 1].each(|axis| Flat::Line(LineName::Axis(axis)));
             out.say(x, y, true);
         }
         for (other, constraint) in problem.constraints.iter().enumerate() {
@@ -114,7 +115,7 @@ impl Directions {
     /// Whether two lines, two planes, or a line and a plane are said to be parallel.
     pub fn are_parallel(&mut self, a: Flat, b: Flat) -> bool {
         let mixed = matches!(a, Flat::Line(_)) != matches!(b, Flat::Line(_));
-        let classes = [a, b].map(|flat| {
+        let classes = [a, b].each(|flat| {
             let number = self.number(flat);
             self.class[number]
         });
@@ -122,7 +123,7 @@ impl Directions {
             return classes[0] == classes[1];
         }
         self.right.iter().any(|pair| {
-            let pair = pair.map(|flat| self.class[flat]);
+            let pair = pair.each(|flat| self.class[flat]);
             pair == classes || pair == [classes[1], classes[0]]
         })
     }

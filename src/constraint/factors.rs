@@ -13,6 +13,7 @@ use super::quadratic::{Entry, Form, Product, Role, Tail};
 use super::subtracted;
 use super::zeros::at_target;
 use crate::interval::{Interval, Real};
+use crate::places::Each as _;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A coordinate, an unknown or the number 0, in order; the number comes first, and stands for all that is zero.
@@ -52,7 +53,7 @@ impl Equal {
     pub fn ends(&self, form: Form) -> Option<[Name; 2]> {
         match form {
             Form::One => None,
-            Form::Difference(a, b) => Some([a, b].map(|entry| self.root(name(entry)))),
+            Form::Difference(a, b) => Some([a, b].each(|entry| self.root(name(entry)))),
         }
     }
 
@@ -258,7 +259,7 @@ mod tests {
     }
 
     fn vector(a: usize, b: usize) -> [Form; 2] {
-        [0, 1].map(|axis| difference(coordinate(a, axis), coordinate(b, axis)))
+        [0, 1].each(|axis| difference(coordinate(a, axis), coordinate(b, axis)))
     }
 
     fn dot([a, b]: [Form; 2], [c, d]: [Form; 2]) -> Equation {
@@ -308,7 +309,7 @@ mod tests {
         // The vector is said the other way round.
         assert_eq!(taken_out(named, &[]).equations[0].products, horizontal);
         let mut squared = given;
-        let squares = vector(0, 1).map(|form| Product::new(1, form, form));
+        let squares = vector(0, 1).each(|form| Product::new(1, form, form));
         squared.equations.push(equation(squares.to_vec(), 8, 2));
         let left = taken_out(squared, &[]);
         assert_eq!(left.equations[0].products, horizontal);

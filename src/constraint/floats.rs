@@ -4,6 +4,7 @@ use super::lowering::{Fault, Lowered};
 use super::quadratic::{Entry, Form, Product};
 use super::{Owner, frame::Frame, frame::vector, try_lower};
 use crate::interval::Real;
+use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 
 /// Coordinates of all points (fixed ones among them), then auxiliary unknowns.
@@ -50,7 +51,7 @@ impl<'a> Floats<'a> {
             .map(|(index, distance)| {
                 let [a, b] = distance
                     .points
-                    .map(|p| problem.points[p].sketch.each_ref().map(|x| x.to_f64()));
+                    .each(|p| problem.points[p].sketch.each_ref().each(|x| x.to_f64()));
                 let start = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
                 let end = match &distance.target {
                     Target::Length(x) => x.to_f64(),
@@ -99,7 +100,7 @@ impl<'a> Floats<'a> {
         let [a, b] = self.problem.distances[equation].points;
         (0..self.problem.dimension)
             .map(|axis| {
-                let [from, to] = [a, b].map(|point| Entry::Coordinate { point, axis });
+                let [from, to] = [a, b].each(|point| Entry::Coordinate { point, axis });
                 let form = Form::Difference(from, to);
                 Product {
                     factor: 1,

@@ -14,6 +14,7 @@ use super::quadratic::{
     Entry, Equation, Form, Nonzero, Product, Role, Tail, Unknown, difference, value,
 };
 use crate::interval::{Interval, Real, point};
+use crate::places::Each as _;
 
 /// What an auxiliary unknown of the divided equations stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -321,7 +322,7 @@ impl<'a> Dividing<'a> {
         };
         let nonzero = self.tail.nonzero.iter().map(|vector| Nonzero {
             name: vector.name.clone(),
-            forms: vector.forms.map(left),
+            forms: vector.forms.each(left),
         });
         self.out.nonzero = nonzero.collect();
         Divided {

@@ -3,6 +3,7 @@
 use super::arguments::Arguments;
 use super::lowering::{Fault, Lowering};
 use crate::decimal::Decimal;
+use crate::places::array;
 use crate::statement::{Item, Problem};
 
 /// What the number of a constraint is.
@@ -43,7 +44,7 @@ impl Fixes {
         });
         Fixes {
             frame: axis.is_some(),
-            axes: std::array::from_fn(|k| axis.is_some_and(|axis| axis != k)),
+            axes: array(|k| axis.is_some_and(|axis| axis != k)),
         }
     }
 }

@@ -21,6 +21,8 @@
 //! one plane. `detour` in a problem's `[homotopy]` takes the path round them:
 //! the values are then `δ t (1 − t)`.
 
+use crate::places::array;
+
 mod arguments;
 mod diameters;
 mod directions;
@@ -313,7 +315,7 @@ pub(crate) fn frame_of(problem: &Problem) -> Fixes {
         .filter_map(|c| Some(kind(&c.kind)?.fixes(problem, &c.items)))
         .fold(Fixes::default(), |all, one| Fixes {
             frame: all.frame || one.frame,
-            axes: std::array::from_fn(|k| all.axes[k] || one.axes[k]),
+            axes: array(|k| all.axes[k] || one.axes[k]),
         })
 }
 

@@ -10,6 +10,7 @@ use super::polynomial::multiply;
 use super::quadratic::{Entry, Form, Product, Role, value};
 use crate::decimal::Decimal;
 use crate::interval::Real;
+use crate::places::{Each as _, array};
 use crate::statement::Shape;
 use num_rational::BigRational;
 
@@ -57,7 +58,7 @@ impl Plane {
                 low.dot(factor, &self.normal.forms, &low.between(base, of).forms)
             }
             Level::Offset(level, _) => {
-                let mut products = low.dot(factor, &self.normal.forms, &of.entries.map(value));
+                let mut products = low.dot(factor, &self.normal.forms, &of.entries.each(value));
                 products.push(Product::new(-factor, value(*level), Form::One));
                 products
             }
@@ -96,7 +97,7 @@ impl Lowering<'_> {
                 let name = self.problem.objects[object].name.clone();
                 let three = |from: usize| {
                     let entry = |k| entries.get(from + k).copied().unwrap_or(Entry::Zero);
-                    std::array::from_fn(|k| {
+                    array(|k| {
                         if k < self.dimension() {
                             entry(k)
                         } else {
@@ -253,7 +254,7 @@ impl Lowering<'_> {
                 let seen = std::array::from_fn(|k| self.frame.coordinate(&at, k));
                 let base = self.coordinates(&format!("the base of {name}"), 1, false, seen);
                 let along = self.unit(&format!("the direction of {name}"), &direction);
-                let products = self.dot(1, &base.map(value), &along.map(value));
+                let products = self.dot(1, &base.each(value), &along.each(value));
                 let what = format!("{name}: its base is its nearest point to the origin");
                 self.equate(&what, products, vec![Real::zero()], 1);
                 let d = self.dimension();
@@ -308,7 +309,7 @@ impl Lowering<'_> {
     fn unit(&mut self, name: &str, at: &Vector) -> [Entry; 3] {
         let seen = std::array::from_fn(|k| self.frame.component(at, k));
         let entries = self.coordinates(name, 0, false, seen);
-        let forms = entries.map(value);
+        let forms = entries.each(value);
         let products = self.dot(1, &forms, &forms);
         let what = format!("{name} keeps its length");
         self.equate(&what, products, vec![dot(at, at).into()], 0);

@@ -11,6 +11,7 @@ use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower, try_lower_editable};
 use crate::elimination::Echelon;
 use crate::equations::Ring;
+use crate::places::Each as _;
 use crate::residues::{Residue, Residues};
 use crate::statement::{DEPENDS, Problem, counted, list};
 
@@ -85,7 +86,7 @@ impl<'a> System<'a> {
             let [a, b] = self.problem.distances[equation].points;
             return (0..self.problem.dimension)
                 .map(|axis| {
-                    let [from, to] = [a, b].map(|point| Entry::Coordinate { point, axis });
+                    let [from, to] = [a, b].each(|point| Entry::Coordinate { point, axis });
                     let form = support(Form::Difference(from, to));
                     (1, [form, form])
                 })

@@ -5,6 +5,7 @@ use super::floats::Floats;
 use super::frame::Frame;
 use super::quadratic::{Entry, Form};
 use crate::interval::{Interval, point};
+use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
@@ -21,7 +22,7 @@ impl Figure {
     /// From one point to another.
     pub fn arrow(&self, from: &str, to: &str) -> [f64; 3] {
         let (a, b) = (self.at(from), self.at(to));
-        std::array::from_fn(|k| b[k] - a[k])
+        array(|k| b[k] - a[k])
     }
 
     /// How far apart two points are.
@@ -178,7 +179,7 @@ pub fn examine(text: &str) -> Figure {
     holds_in_the_sketch(&problem);
     let figure = solution(&problem);
     for distance in &problem.distances {
-        let [a, b] = distance.points.map(|p| problem.points[p].name.as_str());
+        let [a, b] = distance.points.each(|p| problem.points[p].name.as_str());
         if let crate::problem::Target::Length(x) = &distance.target {
             near(figure.distance(a, b), x.to_f64());
         }

@@ -4,6 +4,7 @@ use super::lower_for_sets;
 use super::quadratic::{Entry, Product, difference};
 use super::testing::{Figure, angle, cross, dot, examine, near, read, size};
 use crate::interval::point;
+use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use crate::system::{Edge, Homotopy};
 
@@ -45,7 +46,7 @@ fn angles_between_given_lengths_have_the_form_of_distances() {
         r#""c", "b", "b", "a""#,
     ];
     let all = lines.into_iter().chain([at_point]);
-    let all = all.flat_map(|items| [(2, 70.0f64), (3, 110.0), (2, 90.0)].map(|of| (items, of)));
+    let all = all.flat_map(|items| [(2, 70.0f64), (3, 110.0), (2, 90.0)].each(|of| (items, of)));
     for (items, (dimension, degrees)) in all {
         let z = if dimension == 3 { ", 0.3" } else { "" };
         let more = match dimension {
@@ -67,8 +68,8 @@ fn angles_between_given_lengths_have_the_form_of_distances() {
         let mut ends = all[homotopy.equations - 1].points;
         ends.sort_unstable();
         assert_eq!(ends, [0, 2]);
-        let at = |p: usize| problem.points[p].sketch.each_ref().map(|x| x.to_f64());
-        let arrow = |to: usize| -> [f64; 3] { std::array::from_fn(|k| at(to)[k] - at(1)[k]) };
+        let at = |p: usize| problem.points[p].sketch.each_ref().each(|x| x.to_f64());
+        let arrow = |to: usize| -> [f64; 3] { array(|k| at(to)[k] - at(1)[k]) };
         let (u, v) = (arrow(0), arrow(2));
         let product = dot(u, v);
         let cosine = degrees.to_radians().cos();

@@ -4,6 +4,7 @@ use super::setting::Setting;
 use super::{Edited, Ending, Session};
 use crate::interval::Interval;
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{Decimal, Item, Problem, Shape};
 use crate::track::{Control, Options};
 use std::slice;
@@ -98,10 +99,10 @@ fn meet(a: Interval, b: Interval) -> bool {
 /// A setting to what a dimension is in the sketch, to seven digits; `None`: it is of another kind than those named above, or
 /// no dimension can be that.
 fn drawn(problem: &Problem, index: usize) -> Option<Setting> {
-    let at = |p: usize| problem.points[p].sketch.each_ref().map(Decimal::to_f64);
+    let at = |p: usize| problem.points[p].sketch.each_ref().each(Decimal::to_f64);
     let between = |a: usize, b: usize| {
         let (a, b) = (at(a), at(b));
-        [0, 1, 2].map(|k| b[k] - a[k])
+        [0, 1, 2].each(|k| b[k] - a[k])
     };
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let value = match index.checked_sub(problem.distances.len()) {

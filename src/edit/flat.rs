@@ -2,6 +2,7 @@
 
 use super::ending::Limit;
 use crate::interval::{Interval, point};
+use crate::places::{Each as _, array};
 use crate::track::arc::Orientation;
 
 /// Points are said to be on one line, or in one plane, where the sine of the angle is at most this. What is said is
@@ -26,7 +27,7 @@ impl Limit {
         let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let largest = motion.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
         for v in &mut motion {
-            *v = v.map(|x| x / largest);
+            *v = v.each(|x| x / largest);
         }
         Limit {
             flat,
@@ -42,8 +43,7 @@ fn sine(places: &[[Interval; 3]], points: &[usize]) -> f64 {
     let [first, others @ ..] = points else {
         return 1.0;
     };
-    let from_first =
-        |p: &usize| -> [Interval; 3] { std::array::from_fn(|k| places[*p][k] - places[*first][k]) };
+    let from_first = |p: &usize| -> [Interval; 3] { array(|k| places[*p][k] - places[*first][k]) };
     let sides: Vec<[Interval; 3]> = others.iter().map(from_first).collect();
     let minor =
         |v: &[Interval; 3], w: &[Interval; 3], i: usize, j: usize| v[i] * w[j] - v[j] * w[i];

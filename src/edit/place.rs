@@ -2,6 +2,7 @@
 
 use crate::interval::point;
 use crate::interval::vector::{Vector, minus, unit};
+use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use crate::system::Placement;
 
@@ -31,7 +32,7 @@ impl Stand {
         let places: Vec<Vector> = problem
             .points
             .iter()
-            .map(|p| p.sketch.each_ref().map(crate::interval::enclose))
+            .map(|p| p.sketch.each_ref().each(crate::interval::enclose))
             .collect();
         let mut points = vec![0];
         let mut there = None;
@@ -82,14 +83,14 @@ impl Stand {
         let turned = match frame {
             Some(frame) => frame
                 .axes
-                .map(|axis| (0..3).map(|k| axis[k].mid() * v[k]).sum::<f64>()),
+                .each(|axis| (0..3).map(|k| axis[k].mid() * v[k]).sum::<f64>()),
             None => v,
         };
         let axes = match frame {
             Some(_) => self.there.axes,
             None => self.gauge.axes,
         };
-        std::array::from_fn(|k| (0..3).map(|axis| axes[axis][k].mid() * turned[axis]).sum())
+        array(|k| (0..3).map(|axis| axes[axis][k].mid() * turned[axis]).sum())
     }
 }
 

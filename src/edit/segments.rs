@@ -5,6 +5,7 @@
 //! an end, in every verb, unless a dimension with a sign says itself that this very line is to run the other way.
 
 use crate::interval::Interval;
+use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::{Extent, Segment};
 use crate::track::arc::Kept;
@@ -17,7 +18,7 @@ pub(super) fn segments(
 ) -> Vec<Segment> {
     let extent = |shape: &Shape| match *shape {
         Shape::Line([a, b]) if problem.dimension == 2 => {
-            let same = [0, 1].map(|axis| is_same(a, b, axis));
+            let same = [0, 1].each(|axis| is_same(a, b, axis));
             let axis = match same {
                 [true, false] => 1,
                 [false, true] => 0,

@@ -7,6 +7,7 @@ use super::setting::Setting;
 use super::whole::Whole;
 use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::track::{Control, Options, StartError};
 
@@ -106,7 +107,7 @@ impl Session {
     /// The figure in floats, in the coordinates of the problem: the middle of each box of [`Session::points`].
     pub fn figure(&self) -> Vec<[f64; 3]> {
         let points = self.points();
-        points.iter().map(|p| p.map(|x| x.mid())).collect()
+        points.iter().map(|p| p.each(|x| x.mid())).collect()
     }
 
     /// The radii of circles, by object, in floats; zero for all other objects.

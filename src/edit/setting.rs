@@ -4,6 +4,7 @@ use super::whole::length;
 use crate::constraint::{self, MOST_TURN, Measure};
 use crate::interval::angle::{degrees_of_cosine, direction};
 use crate::interval::{Interval, Real, point};
+use crate::places::Each as _;
 use crate::problem::{Constraint, Decimal, DecimalError, Item, Problem, Shape, Target};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -203,7 +204,7 @@ impl Setting {
             return linear(before.value(), self.value());
         };
         let led = |of: fn(BigRational) -> Real| {
-            let [from, to] = [from, to].map(|x| of(x.value().clone()).enclose());
+            let [from, to] = [from, to].each(|x| of(x.value().clone()).enclose());
             linear(from, to)
         };
         match measure(problem, self.index) {
@@ -349,7 +350,7 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
             None => {
                 let [a, b] = problem.distances[index]
                     .points
-                    .map(|p| problem.points[p].name.as_str());
+                    .each(|p| problem.points[p].name.as_str());
                 is(a, b) || is(b, a)
             }
             Some(_) => {

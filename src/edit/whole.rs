@@ -10,6 +10,7 @@ use super::setting::Setting;
 use crate::blocks::Account;
 use crate::constraint::{Entry, Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
+use crate::places::Each as _;
 use crate::problem::{Decimal, Object, Problem, Shape, Target};
 use crate::system::{Homotopy, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
@@ -376,7 +377,7 @@ impl Whole {
         let velocity = velocity.points(homotopy);
         let d = homotopy.dimension;
         let turned = velocity.iter().map(|v| {
-            let v = v.map(|x| x.mid());
+            let v = v.each(|x| x.mid());
             self.stand.turn(d, &places, v)
         });
         Limit::new(&places, orientations, turned.collect())

@@ -5,6 +5,7 @@ use super::write::direction;
 use crate::constraint::{Arguments, KINDS, LineName, Measure, is_opposite_nearer};
 use crate::interval::Real;
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{Constraint, Decimal, Item, Problem, Target};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -166,7 +167,7 @@ fn directed(problem: &Problem, items: &[Item], degrees: &Decimal) -> Option<Vec<
     let lines = [arguments.line().ok()?, arguments.line().ok()?];
     let [mut u, mut v] = [direction(problem, lines[0])?, direction(problem, lines[1])?];
     let mut named = lines.map(|line| match line {
-        LineName::Points(ends) => ends.map(Item::Point).to_vec(),
+        LineName::Points(ends) => ends.each(Item::Point).to_vec(),
         LineName::Axis(axis) => vec![Item::Axis(axis)],
         LineName::Free(line) => vec![Item::Object(line)],
     });

@@ -3,6 +3,7 @@
 use crate::constraint::{Arguments, LineName, is_opposite_nearer};
 use crate::interval::Real;
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{Constraint, Decimal, Problem, Target};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -84,7 +85,7 @@ pub fn rewrite(
         let array = value.as_array();
         array.is_some_and(|array| {
             let name = |k: usize| array.get(k).and_then(Value::as_str);
-            let both = [0, 1].map(|k| name(k).is_some_and(|name| names.contains(name)));
+            let both = [0, 1].each(|k| name(k).is_some_and(|name| names.contains(name)));
             array.len() == 3 && both == [true, true]
         })
     };
@@ -195,7 +196,7 @@ fn turned_round(
 pub(super) fn direction(problem: &Problem, line: LineName) -> Option<[BigRational; 3]> {
     match line {
         LineName::Points([a, b]) => {
-            let [from, to] = [a, b].map(|p| &problem.points[p].sketch);
+            let [from, to] = [a, b].each(|p| &problem.points[p].sketch);
             Some(std::array::from_fn(|k| to[k].value() - from[k].value()))
         }
         LineName::Axis(axis) => Some(std::array::from_fn(|k| {
@@ -314,7 +315,7 @@ mod tests {
         let places = problem
             .points
             .iter()
-            .map(|p| p.sketch.each_ref().map(Decimal::to_f64));
+            .map(|p| p.sketch.each_ref().each(Decimal::to_f64));
         let places: Vec<[f64; 3]> = places.collect();
         let at = problem.constraints.iter().position(|c| c.kind == "angles");
         let mut written = |degrees: &str| {

@@ -7,6 +7,7 @@
 //! meet are the branches.
 
 use crate::order::InOrder;
+use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem};
 use crate::random::Random;
 
@@ -265,11 +266,11 @@ impl Walk<'_> {
 type V = [f64; 3];
 
 fn minus(a: V, b: V) -> V {
-    std::array::from_fn(|k| a[k] - b[k])
+    array(|k| a[k] - b[k])
 }
 
 fn along(a: V, s: f64, d: V) -> V {
-    std::array::from_fn(|k| a[k] + s * d[k])
+    array(|k| a[k] + s * d[k])
 }
 
 fn dot(a: V, b: V) -> f64 {
@@ -277,7 +278,7 @@ fn dot(a: V, b: V) -> f64 {
 }
 
 fn cross(a: V, b: V) -> V {
-    std::array::from_fn(|k| {
+    array(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i] * b[j] - a[j] * b[i]
     })
@@ -311,14 +312,14 @@ fn line(dimension: usize, rows: &[(V, f64)]) -> Option<(V, V)> {
     match (dimension, rows) {
         (2, &[(e, h)]) => {
             let ee = dot(e, e);
-            let foot = e.map(|x| x * h / ee);
+            let foot = e.each(|x| x * h / ee);
             Some((foot, [-e[1], e[0], 0.0]))
         }
         (3, &[(e, h), (f, g)]) => {
             let d = cross(e, f);
             let dd = dot(d, d);
             let (a, b) = (cross(f, d), cross(d, e));
-            let foot = std::array::from_fn(|k| (h * a[k] + g * b[k]) / dd);
+            let foot = array(|k| (h * a[k] + g * b[k]) / dd);
             Some((foot, d))
         }
         _ => None,
@@ -336,7 +337,7 @@ fn meet(dimension: usize, step: &Step, figure: &[V], places: &[V]) -> Option<[V;
         return None;
     }
     let s = square.sqrt();
-    let at = |s: f64| along(std::array::from_fn(|k| c[k] + foot[k]), s, d);
+    let at = |s: f64| along(array(|k| c[k] + foot[k]), s, d);
     Some([at(-s), at(s)])
 }
 
@@ -353,7 +354,7 @@ mod tests {
     fn figure_of(problem: &Problem) -> Vec<V> {
         let points = problem.points.iter();
         points
-            .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
             .collect()
     }
 

@@ -2,6 +2,7 @@
 
 use super::record::{BoxRecord, End, Met, PathRecord, Sketch, bounds};
 use super::way::{Way, is_usable};
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::track::{
@@ -57,7 +58,7 @@ pub struct Job {
 
 /// The lengths of all distances of a problem's sketch, in floats.
 pub fn lengths_of(problem: &Problem) -> Vec<f64> {
-    let place = |p: usize| problem.points[p].sketch.each_ref().map(|x| x.to_f64());
+    let place = |p: usize| problem.points[p].sketch.each_ref().each(|x| x.to_f64());
     let length = |[a, b]: [usize; 2]| {
         let (a, b) = (place(a), place(b));
         (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
@@ -205,7 +206,7 @@ pub fn have_same_form(one: &Homotopy, other: &Homotopy) -> bool {
     // What is to be met at t = 1 is what the problem says, whatever the sketch; it is enclosed from the sketch's numbers.
     // Enclosures that are disjoint show that the other sketch has the constraint the other way round.
     let targets_agree = |e: usize| {
-        let [a, b] = [one, other].map(|h| h.rights[e].at_target());
+        let [a, b] = [one, other].each(|h| h.rights[e].at_target());
         !a.disjoint(b)
     };
     one.unit == other.unit
@@ -256,7 +257,7 @@ mod tests {
         };
         for start in &record.starts {
             let points = start.figure().points(&homotopy);
-            let points: Vec<[f64; 3]> = points.iter().map(|p| p.map(|x| x.mid())).collect();
+            let points: Vec<[f64; 3]> = points.iter().map(|p| p.each(|x| x.mid())).collect();
             let mirrored: Vec<[f64; 3]> = points.iter().map(|&[x, y, z]| [x, y, -z]).collect();
             for points in [points, mirrored] {
                 let again = job(&problem, &way, sketch(1, points), vec![candidate.clone()]);
@@ -271,7 +272,7 @@ mod tests {
             ..candidate
         };
         let points = record.starts[1].figure().points(&homotopy);
-        let points = points.iter().map(|p| p.map(|x| x.mid())).collect();
+        let points = points.iter().map(|p| p.each(|x| x.mid())).collect();
         let again = job(&problem, &way, sketch(1, points), vec![nowhere]);
         let again = again.run(&FREE).unwrap();
         assert_eq!((again.end, again.solutions.len()), (End::Closed, 4));

@@ -7,6 +7,7 @@ use super::record::{Class, End, Met, PathRecord, Sketch, bounds, intervals};
 use super::store::{Change, Contents, Store, StoreError};
 use super::way::Way;
 use super::{ExploreError, Finish, Options, Progress, Share};
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::random::Random;
 use crate::system::Homotopy;
@@ -204,14 +205,14 @@ impl Explorer {
     fn own_sketch(&self) -> Vec<[f64; 3]> {
         let points = self.problem.points.iter();
         points
-            .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
             .collect()
     }
 
     /// Adds the sketches of a way that a solution gives.
     fn expand(&mut self, change: &mut Change, class: &Class, number: usize) {
         let way = self.way(number);
-        let middles = |p: &[[f64; 2]; 3]| p.map(|[a, b]| 0.5 * (a + b));
+        let middles = |p: &[[f64; 2]; 3]| p.each(|[a, b]| 0.5 * (a + b));
         let figure: Vec<[f64; 3]> = class.points.iter().map(middles).collect();
         let plan = &self.plans[way.plan];
         let branches = plan.branches(self.problem.dimension, &figure, BRANCHES);

@@ -1,6 +1,7 @@
 //! What is kept of sketches, paths and solutions, in the store and in the files of work units.
 
 use crate::interval::{Interval, hull};
+use crate::places::Each as _;
 use crate::track::FigureBox;
 use crate::track::arc::Figure;
 use serde::{Deserialize, Serialize};
@@ -86,12 +87,12 @@ pub type Bounds = Vec<[[f64; 2]; 3]>;
 /// Bounds of intervals.
 pub fn bounds(points: &[[Interval; 3]]) -> Bounds {
     let pair = |x: &Interval| [x.inf(), x.sup()];
-    points.iter().map(|p| p.each_ref().map(pair)).collect()
+    points.iter().map(|p| p.each_ref().each(pair)).collect()
 }
 
 /// Intervals of bounds.
 pub fn intervals(points: &Bounds) -> Vec<[Interval; 3]> {
-    points.iter().map(|p| p.map(|[a, b]| hull(a, b))).collect()
+    points.iter().map(|p| p.each(|[a, b]| hull(a, b))).collect()
 }
 
 /// A solution on a path.

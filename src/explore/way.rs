@@ -1,6 +1,7 @@
 //! Ways: which plan makes sketches, which length bends, and by how much.
 
 use super::construction::Construction;
+use crate::places::Each as _;
 use crate::problem::{Decimal, Distance, Problem};
 
 /// A way to make sketches from solutions and to follow them.
@@ -90,7 +91,7 @@ pub fn is_usable(of: &Problem) -> bool {
     let places: Vec<[f64; 3]> = of
         .points
         .iter()
-        .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
         .collect();
     let length = |a: usize, b: usize| {
         let squares = (0..3).map(|k| (places[a][k] - places[b][k]).powi(2));

@@ -1,6 +1,7 @@
 //! Octahedra edge to edge.
 
 use super::frame::{Frame, Hinge, JITTER, RADIUS, on_circle, plus};
+use crate::places::array;
 use crate::random::Random;
 
 /// Of the six points of an octahedron, a and b are an edge shared with the one before, c and d
@@ -28,7 +29,7 @@ pub(super) fn frame(points: usize, random: &mut Random) -> Frame {
     bars.push([0, 1]);
     for k in 0..octahedra {
         let at = 4 * k;
-        let [a, b, c, d, e, f] = std::array::from_fn(|j| at + j);
+        let [a, b, c, d, e, f] = array(|j| at + j);
         bars.extend([[a, c], [b, c]]);
         if k > 0 {
             hinges.push(Hinge {

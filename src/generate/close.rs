@@ -1,6 +1,7 @@
 //! Hinges in a chain, and bars that close it.
 
 use super::frame::{Frame, Hinge, Structure, V3, cross, distance, dot, minus, plus, times};
+use crate::places::Each as _;
 use crate::random::Random;
 
 /// The angle at the first hinge between its levers, to either end of the closing bar, where the
@@ -53,7 +54,7 @@ pub(super) fn close(mut frame: Frame, loops: usize, random: &mut Random) -> Stru
 
     // The lengths of the first closing bar, turned to where the target is, and to its limit.
     let [near, far] = closing[0];
-    let [sketch, target, limit] = ANGLES.map(|angle| {
+    let [sketch, target, limit] = ANGLES.each(|angle| {
         turn(&mut frame, &hinges[0], near, far, angle);
         distance(frame.points[near], frame.points[far])
     });
@@ -93,7 +94,7 @@ fn lever(frame: &Frame, hinge: &Hinge, among: impl Iterator<Item = usize>, wante
 
 /// A unit vector along the axis; upwards in the plane.
 fn direction(frame: &Frame, hinge: &Hinge) -> V3 {
-    let [a, b] = hinge.axis.map(|p| frame.points[p]);
+    let [a, b] = hinge.axis.each(|p| frame.points[p]);
     if hinge.axis[0] == hinge.axis[1] {
         [0.0, 0.0, 1.0]
     } else {

@@ -1,5 +1,6 @@
 //! Chains of points and bars, and problems made of them.
 
+use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use crate::random::Random;
 
@@ -85,15 +86,15 @@ pub(super) fn on_circle(angle: f64, out: f64, up: f64) -> V3 {
 }
 
 pub(super) fn plus(a: V3, b: V3) -> V3 {
-    std::array::from_fn(|k| a[k] + b[k])
+    array(|k| a[k] + b[k])
 }
 
 pub(super) fn minus(a: V3, b: V3) -> V3 {
-    std::array::from_fn(|k| a[k] - b[k])
+    array(|k| a[k] - b[k])
 }
 
 pub(super) fn times(s: f64, a: V3) -> V3 {
-    a.map(|x| s * x)
+    a.each(|x| s * x)
 }
 
 pub(super) fn dot(a: V3, b: V3) -> f64 {

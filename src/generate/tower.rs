@@ -1,6 +1,7 @@
 //! Octahedra face to face.
 
 use super::frame::{JITTER, RADIUS, Structure, on_circle, plus};
+use crate::places::{Each as _, array};
 use crate::random::Random;
 use std::f64::consts::TAU;
 
@@ -30,10 +31,10 @@ pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Str
         before(k + 1) > before(k)
     };
     let mut bars: Vec<([usize; 2], Option<f64>)> =
-        [[0, 1], [0, 2], [1, 2]].map(|bar| (bar, None)).to_vec();
+        [[0, 1], [0, 2], [1, 2]].each(|bar| (bar, None)).to_vec();
     let mut closing = Vec::new();
     for k in 0..octahedra {
-        let [a, b, c, d, e, f] = std::array::from_fn(|j| 3 * k + j);
+        let [a, b, c, d, e, f] = array(|j| 3 * k + j);
         // The turn by a sixth puts d between a and b.
         let regular = [
             [a, d],
@@ -45,7 +46,7 @@ pub(super) fn structure(points: usize, loops: usize, random: &mut Random) -> Str
             [d, f],
             [e, f],
         ];
-        bars.extend(regular.map(|bar| (bar, None)));
+        bars.extend(regular.each(|bar| (bar, None)));
         if is_plain(k) {
             closing.push([a, f]);
         } else {

@@ -2,6 +2,7 @@
 
 use crate::constraint::KINDS;
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{
     Constraint, Decimal, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape, Target,
 };
@@ -79,7 +80,7 @@ impl Drawing {
 
     /// A line, or nothing where its ends are in one place.
     pub fn line(&mut self, name: String, ends: [usize; 2]) -> Option<usize> {
-        let [a, b] = ends.map(|p| self.at(p));
+        let [a, b] = ends.each(|p| self.at(p));
         (a != b).then(|| self.object(name, Shape::Line(ends)))
     }
 
@@ -162,7 +163,7 @@ impl Drawing {
                 self.distances.push((distance, Some(source)));
             }
             None => {
-                let items = points.map(Item::Point).to_vec();
+                let items = points.each(Item::Point).to_vec();
                 self.constrain(Some(source), "coincident", items, None);
             }
         }
@@ -177,7 +178,7 @@ impl Drawing {
     /// Says that a line and an arc (or two arcs, or lines) have one direction at a point that both go through: each
     /// side is an object and the point of it.
     pub fn touch_at(&mut self, source: Source, sides: [(usize, usize); 2]) -> bool {
-        let [one, other] = sides.map(|(object, point)| match *self.shape(object) {
+        let [one, other] = sides.each(|(object, point)| match *self.shape(object) {
             Shape::Line(ends) => Some((true, ends)),
             Shape::Arc { center, .. } | Shape::Round { center, .. } => {
                 Some((false, [center, point]))
@@ -239,7 +240,7 @@ impl Drawing {
             {
                 continue;
             }
-            let items = edges.map(Item::Object).to_vec();
+            let items = edges.each(Item::Object).to_vec();
             self.constrain(Some(source), "tangent", items, None);
         }
         self.snap();

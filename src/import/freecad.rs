@@ -8,6 +8,7 @@
 use super::drawing::{Drawing, Finished};
 use super::{Figure, Imported, Listed, Places as AllPlaces, Tied};
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
@@ -369,7 +370,7 @@ impl Reader {
         match whole(node, "Type") {
             1 => {
                 let points = [self.point_of(first)?, self.point_of(second)?];
-                let items = points.map(Item::Point).to_vec();
+                let items = points.each(Item::Point).to_vec();
                 self.drawing.constrain(source, "coincident", items, None);
             }
             kind @ (2 | 3) => {
@@ -379,13 +380,13 @@ impl Reader {
                     (_, true) => [self.point_of(first)?, self.point_of(second)?],
                     _ => return None,
                 };
-                let items = ends.map(Item::Point).to_vec();
+                let items = ends.each(Item::Point).to_vec();
                 self.drawing.constrain(source, key, items, None);
             }
             4 => {
                 let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
                 self.drawing
-                    .constrain(source, "parallel", lines.map(Item::Object).to_vec(), None);
+                    .constrain(source, "parallel", lines.each(Item::Object).to_vec(), None);
             }
             5 if third.0 == NONE => return self.tangent(index, first, second),
             6 => match (first.1, second) {
@@ -422,7 +423,7 @@ impl Reader {
                     (1.., true) => [self.point_of(first)?, self.point_of(second)?],
                     _ => return None,
                 };
-                let items = ends.map(Item::Point).to_vec();
+                let items = ends.each(Item::Point).to_vec();
                 let key = if axis == 0 { "dx" } else { "dy" };
                 self.drawing.constrain(source, key, items, Some(value));
             }
@@ -458,12 +459,12 @@ impl Reader {
             }
             12 => {
                 let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
-                let lines = edges.map(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
+                let lines = edges.each(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
                 if lines[0] != lines[1] {
                     return None;
                 }
                 self.drawing
-                    .constrain(source, "equal", edges.map(Item::Object).to_vec(), None);
+                    .constrain(source, "equal", edges.each(Item::Object).to_vec(), None);
             }
             13 => {
                 let (p, edge) = (self.point_of(first)?, self.object_of(second.0)?);
@@ -502,7 +503,7 @@ impl Reader {
         let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
         match (first.1, second.1) {
             (0, 0) => {
-                let lines = edges.map(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
+                let lines = edges.each(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
                 if lines[0] && lines[1] {
                     return None;
                 }
@@ -511,7 +512,7 @@ impl Reader {
             }
             (1.., 1..) => {
                 let points = [self.point_of(first)?, self.point_of(second)?];
-                let items = points.map(Item::Point).to_vec();
+                let items = points.each(Item::Point).to_vec();
                 self.drawing
                     .constrain(Some(index), "coincident", items, None);
                 let sides = [(edges[0], points[0]), (edges[1], points[1])];
@@ -550,7 +551,7 @@ impl Reader {
         let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
         if first.1 != 0 && second.1 != 0 {
             let points = [self.point_of(first)?, self.point_of(second)?];
-            let items = points.map(Item::Point).to_vec();
+            let items = points.each(Item::Point).to_vec();
             self.drawing.constrain(source, "coincident", items, None);
         } else if first.1 != 0 || second.1 != 0 {
             let (point, line) = match first.1 {
@@ -560,7 +561,7 @@ impl Reader {
             let items = vec![Item::Point(point), Item::Object(line)];
             self.drawing.constrain(source, "on", items, None);
         }
-        let items = lines.map(Item::Object).to_vec();
+        let items = lines.each(Item::Object).to_vec();
         self.drawing.constrain(source, "perpendicular", items, None);
         Some(())
     }

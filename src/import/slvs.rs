@@ -7,6 +7,7 @@
 
 use super::drawing::{Drawing, Finished, SNAP};
 use super::{Figure, Imported, Listed, Places as AllPlaces};
+use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
 use std::collections::HashMap;
 
@@ -190,7 +191,7 @@ impl<'a> Contents<'a> {
     fn place_in_space(&self, point: Handle) -> Option<[f64; 3]> {
         let point = self.entity(point)?;
         matches!(point.whole("type"), 2000..=2012)
-            .then(|| ["actPoint.x", "actPoint.y", "actPoint.z"].map(|key| point.number(key)))
+            .then(|| ["actPoint.x", "actPoint.y", "actPoint.z"].each(|key| point.number(key)))
     }
 }
 
@@ -212,14 +213,14 @@ impl Plane {
 
     /// Through a place, turned like a normal.
     fn turned(origin: [f64; 3], normal: &Record) -> Self {
-        let quaternion = ["w", "vx", "vy", "vz"].map(|k| normal.number(&format!("actNormal.{k}")));
+        let quaternion = ["w", "vx", "vy", "vz"].each(|k| normal.number(&format!("actNormal.{k}")));
         // What SolveSpace's solver leaves is of length 1 to few digits, and what it means is a rotation.
         let squared: f64 = quaternion.iter().map(|x| x * x).sum();
         let long = match (squared - 1.0).abs() > 4.0 * f64::EPSILON && squared > 0.0 {
             true => squared.sqrt(),
             false => 1.0,
         };
-        let [w, x, y, z] = quaternion.map(|x| x / long);
+        let [w, x, y, z] = quaternion.each(|x| x / long);
         Plane {
             origin,
             u: [
@@ -242,12 +243,12 @@ impl Plane {
     }
 
     fn seen(&self, place: [f64; 3]) -> [f64; 2] {
-        let from: [f64; 3] = std::array::from_fn(|k| place[k] - self.origin[k]);
-        [self.u, self.v].map(|axis| (0..3).map(|k| axis[k] * from[k]).sum())
+        let from: [f64; 3] = array(|k| place[k] - self.origin[k]);
+        [self.u, self.v].each(|axis| (0..3).map(|k| axis[k] * from[k]).sum())
     }
 
     fn in_space(&self, [u, v]: [f64; 2]) -> [f64; 3] {
-        std::array::from_fn(|k| self.origin[k] + u * self.u[k] + v * self.v[k])
+        array(|k| self.origin[k] + u * self.u[k] + v * self.v[k])
     }
 }
 
@@ -429,7 +430,7 @@ impl<'a> Reader<'a> {
         let point = match (own, entity.whole("type")) {
             (Some(request), POINT_IN_2D) if entity.hex("workplane.v") == self.workplane => {
                 let params = self.contents.params_of_point(handle, request);
-                let at = params.map(|param| self.contents.param(param));
+                let at = params.each(|param| self.contents.param(param));
                 self.places.push(Some((params, handle)));
                 self.drawing.point(name, at)
             }
@@ -495,7 +496,7 @@ impl<'a> Reader<'a> {
 
     /// A line that stays where it is.
     fn fixed_line(&mut self, name: &str, ends: [[f64; 2]; 2]) -> Option<usize> {
-        let [a, b] = [("1", ends[0]), ("2", ends[1])].map(|(which, at)| {
+        let [a, b] = [("1", ends[0]), ("2", ends[1])].each(|(which, at)| {
             self.places.push(None);
             self.drawing.fixed_point(format!("{name}.{which}"), at)
         });
@@ -513,8 +514,8 @@ impl<'a> Reader<'a> {
         let plane = Plane::new(self.contents, handle)?;
         let normal = plane.normal();
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-        let from: [f64; 3] = std::array::from_fn(|k| plane.origin[k] - self.plane.origin[k]);
-        let across = [self.plane.u, self.plane.v].map(|axis| straightened(dot(normal, axis)));
+        let from: [f64; 3] = array(|k| plane.origin[k] - self.plane.origin[k]);
+        let across = [self.plane.u, self.plane.v].each(|axis| straightened(dot(normal, axis)));
         let is_right = dot(normal, self.plane.normal()).abs() <= ROUNDED;
         if let Some(&line) = self.objects.get(&handle) {
             return Some((line, is_right));
@@ -526,7 +527,7 @@ impl<'a> Reader<'a> {
             return None;
         }
         let off = dot(normal, from) / squared;
-        let base = [a * off, b * off].map(|x| if x.abs() <= ROUNDED { 0.0 } else { x });
+        let base = [a * off, b * off].each(|x| if x.abs() <= ROUNDED { 0.0 } else { x });
         let far = self.drawing.size() / squared.sqrt();
         let ends = [base, [base[0] - b * far, base[1] + a * far]];
         let line = self.fixed_line(&format!("w{handle:08x}"), ends)?;
@@ -550,7 +551,7 @@ impl<'a> Reader<'a> {
             return None;
         }
         let far = self.drawing.size();
-        let end = [self.plane.u, self.plane.v].map(|axis| straightened(dot(normal, axis)) * far);
+        let end = [self.plane.u, self.plane.v].each(|axis| straightened(dot(normal, axis)) * far);
         let line = self.fixed_line(&format!("n{handle:08x}"), [[0.0; 2], end])?;
         self.objects.insert(handle, line);
         Some(line)
@@ -568,7 +569,7 @@ impl<'a> Reader<'a> {
         let Some([from, to]) = ends else {
             return false;
         };
-        let along: [f64; 3] = std::array::from_fn(|k| to[k] - from[k]);
+        let along: [f64; 3] = array(|k| to[k] - from[k]);
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
         dot(along, self.plane.normal()).abs() <= ROUNDED * dot(along, along).sqrt()
     }
@@ -576,7 +577,7 @@ impl<'a> Reader<'a> {
     /// Whether all that a constraint is about lies in the sketch's plane.
     fn is_about_plane(&self, record: &Record) -> bool {
         let keys = ["ptA", "ptB", "entityA", "entityB", "entityC", "entityD"];
-        let named = keys.map(|key| record.hex(&format!("{key}.v")));
+        let named = keys.each(|key| record.hex(&format!("{key}.v")));
         named
             .into_iter()
             .filter(|&handle| handle != 0)
@@ -589,7 +590,7 @@ impl<'a> Reader<'a> {
                 };
                 let points: Vec<Handle> = match entity.whole("type") {
                     LINE => [0, 1]
-                        .map(|k| entity.hex(&format!("point[{k}].v")))
+                        .each(|k| entity.hex(&format!("point[{k}].v")))
                         .to_vec(),
                     2000..=2012 => vec![handle],
                     _ => return false,
@@ -618,7 +619,7 @@ impl<'a> Reader<'a> {
         let Shape::Line(ends) = *self.drawing.shape(line) else {
             return None;
         };
-        let [from, to] = ends.map(|p| self.drawing.at(p));
+        let [from, to] = ends.each(|p| self.drawing.at(p));
         Some([to[0] - from[0], to[1] - from[1]])
     }
 
@@ -711,7 +712,7 @@ impl<'a> Reader<'a> {
                 let Shape::Line(ends) = *self.drawing.shape(line) else {
                     return None;
                 };
-                let [from, to] = [a, b].map(|p| self.drawing.at(p));
+                let [from, to] = [a, b].each(|p| self.drawing.at(p));
                 let apart = [to[0] - from[0], to[1] - from[1]];
                 // The sign in the file goes by the line's direction; what it means is seen in the figure.
                 let signed = |now: f64| Some(if now < 0.0 { -value.abs() } else { value.abs() });
@@ -750,7 +751,7 @@ impl<'a> Reader<'a> {
             50 => {
                 let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
                 self.drawing
-                    .constrain(source, "equal", lines.map(object).to_vec(), None);
+                    .constrain(source, "equal", lines.each(object).to_vec(), None);
             }
             51 | 56 => {
                 let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
@@ -758,7 +759,7 @@ impl<'a> Reader<'a> {
                 if lines[0] == lines[1] || (kind == 51 && value <= 0.0) {
                     return None;
                 }
-                let items = lines.map(object).to_vec();
+                let items = lines.each(object).to_vec();
                 self.drawing.constrain(source, key, items, Some(value));
             }
             54 => {
@@ -781,7 +782,7 @@ impl<'a> Reader<'a> {
                 if !is_told || a == b || c == d {
                     return None;
                 }
-                let items = lines.map(object).to_vec();
+                let items = lines.each(object).to_vec();
                 self.drawing.constrain(source, "equal_angles", items, None);
             }
             53 => {
@@ -864,7 +865,7 @@ impl<'a> Reader<'a> {
                     "perpendicular"
                 };
                 self.drawing
-                    .constrain(source, kind, lines.map(object).to_vec(), None);
+                    .constrain(source, kind, lines.each(object).to_vec(), None);
             }
             123 => {
                 let (arc, line) = (
@@ -893,7 +894,7 @@ impl<'a> Reader<'a> {
                     self.round(handle("entityB"))?,
                 ];
                 self.drawing
-                    .constrain(source, "equal", rounds.map(object).to_vec(), None);
+                    .constrain(source, "equal", rounds.each(object).to_vec(), None);
             }
             200 => {
                 let p = self.point(handle("ptA"))?;

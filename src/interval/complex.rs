@@ -3,6 +3,7 @@
 use super::DoubleDouble;
 use crate::elimination::Field;
 use crate::equations::Ring;
+use nalgebra::ComplexField;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What complex numbers are made of.
@@ -141,7 +142,7 @@ impl<N: Number> Complex<N> {
 impl Complex<DoubleDouble> {
     /// About a square root.
     pub fn sqrt(self) -> Self {
-        let near = nalgebra::Complex::new(self.re.hi, self.im.hi).sqrt();
+        let near = ComplexField::sqrt(nalgebra::Complex::new(self.re.hi, self.im.hi));
         let mut root = Complex::new(near.re.into(), near.im.into());
         if near.norm_sqr() > 0.0 {
             for _ in 0..2 {

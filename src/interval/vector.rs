@@ -1,6 +1,7 @@
 //! Vectors of three intervals.
 
 use super::Interval;
+use crate::places::Each as _;
 
 /// A vector in space; in the plane the last entry is zero.
 pub type Vector = [Interval; 3];
@@ -27,5 +28,5 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
 /// v / |v|; `None` where v may be zero.
 pub fn unit(v: Vector) -> Option<Vector> {
     let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();
-    (length.inf() > 0.0).then(|| v.map(|x| x / length))
+    (length.inf() > 0.0).then(|| v.each(|x| x / length))
 }

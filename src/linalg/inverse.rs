@@ -2,6 +2,7 @@
 
 use super::matrix::{LANE, Lane, Matrix, Sparse, Vector, with_block};
 use super::pivots::{Pivots, Room};
+use crate::places::{Each as _, array};
 
 /// No pivot of any size was left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -158,9 +159,9 @@ fn exchange<const L: usize>(
         column[block_of_k][lane][at] = 0.0;
         let column_lanes = column.as_flattened_mut().iter_mut();
         for (m, x) in multipliers.lanes_mut().iter_mut().zip(column_lanes) {
-            let scaled = x.map(|x| x * inverse);
+            let scaled = x.each(|x| x * inverse);
             *x = scaled;
-            *m = scaled.map(|x| -x);
+            *m = scaled.each(|x| -x);
         }
         column[block_of_k][lane][at] = inverse;
         // The block of the pivot's row last, as all the others read it.
@@ -173,7 +174,7 @@ fn exchange<const L: usize>(
                 let entries = &mut blocks[from + block];
                 for (entry, m) in entries.iter_mut().zip(&m) {
                     let sum = *entry;
-                    *entry = std::array::from_fn(|i| m[i].mul_add(c, sum[i]));
+                    *entry = array(|i| m[i].mul_add(c, sum[i]));
                 }
                 if block == block_of_k {
                     // Its multiplier was zero.

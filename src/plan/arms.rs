@@ -4,6 +4,7 @@ use super::boundary::{gamma_three, gamma_two};
 use super::change::place;
 use super::derive::Graph;
 use super::{Arm, Instruction, Plan};
+use crate::places::Each as _;
 use crate::system::Homotopy;
 
 /// Shorter arms are taken where they are this far from a boundary configuration in the sketch.
@@ -135,7 +136,7 @@ impl Graph {
         }
         let triples = pairs.flat_map(move |(i, j)| (j + 1..count).map(move |k| [i, j, k]));
         Box::new(triples.filter_map(move |indices| {
-            let [a, b, c] = indices.map(|i| earlier[i]);
+            let [a, b, c] = indices.each(|i| earlier[i]);
             [[a, b, c], [a, c, b], [b, c, a]]
                 .iter()
                 .map(|arms| choice(arms))

@@ -4,6 +4,7 @@ use super::boundary::{gamma_three, gamma_two};
 use super::shift::{shift_from_circle, shift_in_plane, shift_in_space};
 use super::vector::{V3, cross, dot, sub};
 use super::{Arm, Instruction, Plan};
+use crate::places::array;
 
 /// Where the path is, when a plan is to be changed. All lengths are in the homotopy's unit.
 #[derive(Debug, Clone, Copy)]
@@ -155,7 +156,7 @@ impl Instruction {
             Arm::Edge { centre, .. } => place(figure, dimension, *centre),
             Arm::Driving { place } => *place,
         };
-        let c: [V3; 3] = std::array::from_fn(|j| {
+        let c: [V3; 3] = array(|j| {
             if j < self.arity {
                 centre(&self.arms[j])
             } else {

@@ -2,6 +2,7 @@
 
 use super::Plan;
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::system::{Edge, Homotopy};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
@@ -76,7 +77,7 @@ impl Graph {
         let in_sketch = |(e, edge): (usize, &Edge)| match homotopy.lengths.get(e) {
             Some(length) => length.value(0.0),
             None => {
-                let [a, b] = edge.points.map(|p| p * homotopy.dimension);
+                let [a, b] = edge.points.each(|p| p * homotopy.dimension);
                 let of_axis = |k: usize| (homotopy.sketch[a + k] - homotopy.sketch[b + k]).powi(2);
                 (0..homotopy.dimension).map(of_axis).sum::<f64>().sqrt()
             }

@@ -4,6 +4,7 @@ use super::boundary::{gamma_three, gamma_two};
 use super::vector::{V3, add_scaled, cross, dot, norm, scale, sub};
 use super::{Arm, Lanes, Plan};
 use crate::linalg::with_axes;
+use crate::places::{Each as _, array};
 use crate::system::Homotopy;
 
 /// A plan made ready for evaluation, `[b]I` and `[b]H_R` of RR 8705, sections 2.3 and 3.2, with
@@ -225,12 +226,12 @@ impl Evaluation {
         let places = self.places.as_chunks::<D>().0;
         for row in &mut self.rows {
             let p = places[row.point];
-            let c = row.centres.map(|c| places[c]);
+            let c = row.centres.each(|c| places[c]);
             let side = match row.arity {
                 1 => p[0],
                 2 => side_of_line(p, c[0], c[1]),
                 _ => {
-                    let [u, e, f] = [sub(p, c[0]), sub(c[1], c[0]), sub(c[2], c[0])].map(spatial);
+                    let [u, e, f] = [sub(p, c[0]), sub(c[1], c[0]), sub(c[2], c[0])].each(spatial);
                     dot(cross(e, f), u)
                 }
             };
@@ -319,11 +320,11 @@ impl Evaluation {
                     clear = clear.min((-alpha).mul_add(r1.max(r2) * ee.max(r1.min(r2)), hh * ee));
                     let z = row.sign * (hh * per_ee).sqrt();
                     let p = add_scaled(add_scaled([c1[0], c1[1]], x, e), z, [-e[1], e[0]]);
-                    std::array::from_fn(|k| if k < 2 { p[k] } else { 0.0 })
+                    array(|k| if k < 2 { p[k] } else { 0.0 })
                 }
                 _ => {
                     let x = row.sign * self.squared[row.radii[0]].sqrt();
-                    std::array::from_fn(|k| if k == 0 { x } else { 0.0 })
+                    array(|k| if k == 0 { x } else { 0.0 })
                 }
             };
             places[row.point] = place;
@@ -387,7 +388,7 @@ impl Evaluation {
                     }
                 }
                 2 => {
-                    let u: [_; 2] = std::array::from_fn(|k| sub(p, places[row.centres[k]]));
+                    let u: [_; 2] = array(|k| sub(p, places[row.centres[k]]));
                     let per_det = 1.0 / (u[0][0] * u[1][1] - u[0][1] * u[1][0]);
                     let w = [
                         [u[1][1] * per_det, -u[1][0] * per_det],
@@ -440,11 +441,11 @@ impl Evaluation {
         let place = |at: usize| -> V3 {
             let place = self.places[at * self.dimension..].iter();
             let mut axes = place.take(self.dimension);
-            std::array::from_fn(|_| axes.next().copied().unwrap_or(0.0))
+            array(|_| axes.next().copied().unwrap_or(0.0))
         };
         self.rows.iter().fold(1.0, |least, row| {
             let p = place(row.point);
-            let c = row.centres.map(place);
+            let c = row.centres.each(place);
             match row.arity {
                 1 => least,
                 2 => least.min(gamma_two(p, c[0], c[1])),
@@ -510,7 +511,7 @@ fn spatial<const D: usize>(v: [f64; D]) -> [f64; 3] {
 
 #[inline(always)]
 fn narrow<const D: usize>(v: [f64; 3]) -> [f64; D] {
-    std::array::from_fn(|k| v[k])
+    array(|k| v[k])
 }
 
 fn side_of_line<const D: usize>(p: [f64; D], c1: [f64; D], c2: [f64; D]) -> f64 {

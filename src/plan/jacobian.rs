@@ -2,6 +2,7 @@
 
 use super::{Instruction, Plan};
 use crate::linalg::rstructure::Ordering;
+use crate::places::array;
 use crate::system::Homotopy;
 
 /// Where the Jacobian F_X has entries, and which of its columns and rows a plan sets apart: the
@@ -117,7 +118,7 @@ fn key_axes(
                 (a[i] * b[j] - a[j] * b[i]).abs()
             };
             let out = (0..3).max_by(|&i, &j| minor(i).total_cmp(&minor(j)));
-            keys = std::array::from_fn(|axis| Some(axis) == out);
+            keys = array(|axis| Some(axis) == out);
         }
         _ => keys = [false; 3],
     }

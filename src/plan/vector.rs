@@ -1,21 +1,23 @@
 //! Vectors of the space: coordinates as arrays.
 
+use crate::places::array;
+
 pub(super) type V3 = [f64; 3];
 
 #[inline(always)]
 pub(super) fn sub<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|k| a[k] - b[k])
+    array(|k| a[k] - b[k])
 }
 
 /// a + s b.
 #[inline(always)]
 pub(super) fn add_scaled<const D: usize>(a: [f64; D], s: f64, b: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|k| s.mul_add(b[k], a[k]))
+    array(|k| s.mul_add(b[k], a[k]))
 }
 
 #[inline(always)]
 pub(super) fn scale<const D: usize>(s: f64, a: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|k| s * a[k])
+    array(|k| s * a[k])
 }
 
 #[inline(always)]

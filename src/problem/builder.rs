@@ -8,6 +8,7 @@ use super::{
     reference,
 };
 use crate::constraint::{self, Owner};
+use crate::places::Each as _;
 use crate::statement::nearest;
 use std::collections::HashMap;
 
@@ -80,7 +81,7 @@ impl Problem {
             builder = builder.point(&point.name, coordinates);
         }
         for (index, distance) in self.distances.iter().enumerate() {
-            let [a, b] = distance.points.map(|p| self.points[p].name.as_str());
+            let [a, b] = distance.points.each(|p| self.points[p].name.as_str());
             builder = match &distance.target {
                 _ if !is_kept(index) => builder,
                 Target::Length(x) => builder.distance(a, b, x.clone()),

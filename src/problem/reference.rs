@@ -3,6 +3,7 @@
 use super::check::collinear;
 use super::{Distance, Object, Point, Problem, Shape};
 use crate::constraint::fix_frame;
+use crate::places::{Each as _, array};
 
 /// A body whose roundest triangle is thinner than this tells its plane badly: other points are taken then.
 const THIN: f64 = 0.1;
@@ -49,7 +50,7 @@ pub(super) fn choose(
 ) -> Option<Vec<usize>> {
     let place: Vec<[f64; 3]> = points
         .iter()
-        .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
         .collect();
     let n = points.len();
     let mut joined = vec![Vec::new(); n];
@@ -82,7 +83,7 @@ pub(super) fn choose(
     for (body, local) in bodies.take(1) {
         let local: Vec<[f64; 3]> = local
             .iter()
-            .map(|p| p.each_ref().map(|x| x.to_f64()))
+            .map(|p| p.each_ref().each(|x| x.to_f64()))
             .collect();
         let count = body.len().min(MOST_OF_BODY);
         for (k, l) in (0..count).flat_map(|l| (0..l).map(move |k| (k, l))) {
@@ -159,8 +160,8 @@ fn squared_length(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Twice the area over the square of the longest side: 0 for a flat triangle, √3/2 at most.
 fn roundness(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    let u: [f64; 3] = std::array::from_fn(|k| b[k] - a[k]);
-    let v: [f64; 3] = std::array::from_fn(|k| c[k] - a[k]);
+    let u: [f64; 3] = array(|k| b[k] - a[k]);
+    let v: [f64; 3] = array(|k| c[k] - a[k]);
     let normal = [
         u[1] * v[2] - u[2] * v[1],
         u[2] * v[0] - u[0] * v[2],

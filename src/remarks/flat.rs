@@ -1,6 +1,7 @@
 //! Where the sketch is singular because points are on one line or in one plane, exactly.
 
 use super::{Remark, joined, tetrahedra, triangles};
+use crate::places::{Each as _, array};
 use crate::problem::{Object, Problem, Shape};
 use crate::system::Homotopy;
 use num_rational::BigRational;
@@ -9,7 +10,7 @@ use num_traits::Zero;
 type Vector = [BigRational; 3];
 
 fn from(problem: &Problem, a: usize, b: usize) -> Vector {
-    let [a, b] = [a, b].map(|p| &problem.points[p].sketch);
+    let [a, b] = [a, b].each(|p| &problem.points[p].sketch);
     std::array::from_fn(|k| b[k].value() - a[k].value())
 }
 
@@ -126,13 +127,12 @@ fn flat_with(problem: &Problem, [middle, a, b]: [usize; 3]) -> Option<Vec<usize>
     let places: Vec<[f64; 3]> = problem
         .points
         .iter()
-        .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
         .collect();
-    let nearly =
-        |p: usize| -> [f64; 3] { std::array::from_fn(|k| places[p][k] - places[middle][k]) };
+    let nearly = |p: usize| -> [f64; 3] { array(|k| places[p][k] - places[middle][k]) };
     let (u, v) = (nearly(a), nearly(b));
     let product = |u: [f64; 3], v: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|k| {
+        array(|k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             u[i] * v[j] - u[j] * v[i]
         })

@@ -7,6 +7,7 @@
 
 use crate::blocks::{Floats, System, straight};
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::{Distance, Problem, Target, list};
 use crate::system::typical_length;
 use nalgebra::{DMatrix, DVector};
@@ -112,7 +113,7 @@ pub fn moves(problem: &Problem) -> Option<Moves> {
 
 /// By how much the sketch misses a distance.
 fn off(problem: &Problem, distance: &Distance) -> f64 {
-    let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+    let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
     let square = |k: usize| (a[k].to_f64() - b[k].to_f64()).powi(2);
     let is: f64 = (0..problem.dimension).map(square).sum();
     let target = match &distance.target {

@@ -2,6 +2,7 @@
 
 use super::Remark;
 use super::target::length_in_words;
+use crate::places::Each as _;
 use crate::problem::Problem;
 
 /// A remark as a sentence without its end, with the names of points.
@@ -100,8 +101,8 @@ pub fn in_words(problem: &Problem, remark: &Remark) -> String {
             )
         }
         Remark::Twins { side, corners } => {
-            let [a, b] = side.map(name);
-            let [c, d] = corners.map(name);
+            let [a, b] = side.each(name);
+            let [c, d] = corners.each(name);
             format!(
                 "the triangles {a} {b} {c} and {a} {b} {d} have the same sides all along the path: where one comes \
                  to be on a line the other does too, branches meet, and a proof ends there; one point of the sketch \

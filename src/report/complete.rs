@@ -10,6 +10,7 @@ use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, supposed_lengths, symmetry};
 use crate::interval::Interval;
+use crate::places::Each as _;
 use crate::problem::{Problem, counted, list};
 use crate::track::Mode;
 use std::fmt::Write;
@@ -440,7 +441,7 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
 /// Which figures are none though the words of the constraints may hold in them; empty where there are none such.
 fn supposed(problem: &Problem) -> String {
     let name = |[a, b]: [usize; 2]| {
-        let [a, b] = [a, b].map(|p| &problem.points[p].name);
+        let [a, b] = [a, b].each(|p| &problem.points[p].name);
         format!("{a}-{b}")
     };
     let lengths: Vec<String> = supposed_lengths(problem).into_iter().map(name).collect();

@@ -6,6 +6,7 @@ use crate::complex::infinity::{Departure, Split};
 use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
+use crate::places::Each as _;
 use crate::problem::{Problem, Target, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -15,7 +16,7 @@ fn parts(lowered: &Lowered, one: &SolutionBox, unknown: usize) -> [Interval; 2] 
     let system = &lowered.system;
     // A power of two: exact.
     let unit = point(system.unit.powi(system.unknowns[unknown].power));
-    [2 * unknown, 2 * unknown + 1].map(|i| one.parts[i] * unit)
+    [2 * unknown, 2 * unknown + 1].each(|i| one.parts[i] * unit)
 }
 
 /// A coordinate; zero where the gauge fixes it. Of a real solution the imaginary part is zero.
@@ -397,7 +398,7 @@ fn sum_of_lengths(problem: &Problem, split: &Split) -> String {
             Target::Length(length) => length.to_f64(),
             Target::SquaredLength(squared) => squared.to_f64().sqrt(),
         };
-        let [a, b] = [from, to].map(|p| problem.points[p].name.as_str());
+        let [a, b] = [from, to].each(|p| problem.points[p].name.as_str());
         text += &format!("{sign}{length} ({a}-{b})");
     }
     text + " = 0"

@@ -3,6 +3,7 @@
 use super::json::{Exact, Points};
 use super::objects::Objects;
 use crate::interval::Interval;
+use crate::places::Each as _;
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::{Gauge, Placement};
 use serde::Serialize;
@@ -134,7 +135,7 @@ fn sketch_of(problem: &Problem) -> Vec<[f64; 3]> {
     let middle = |x: &Decimal| crate::interval::enclose(x).mid();
     let points = problem.points.iter();
     points
-        .map(|point| point.sketch.each_ref().map(middle))
+        .map(|point| point.sketch.each_ref().each(middle))
         .collect()
 }
 

@@ -5,6 +5,7 @@ use super::drawing::Drawing;
 use super::json::{Points, WrittenFold, WrittenSample, written_folds, written_samples};
 use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
 use crate::interval::Interval;
+use crate::places::{Each as _, array};
 use crate::problem::{Problem, Published, counted};
 use crate::track::{Outcome, Trace};
 use serde::Serialize;
@@ -164,11 +165,11 @@ fn is_flat(problem: &Problem, class: &Class) -> bool {
     let places: Vec<[f64; 3]> = class
         .points
         .iter()
-        .map(|p| p.map(|[a, b]| 0.5 * (a + b)))
+        .map(|p| p.each(|[a, b]| 0.5 * (a + b)))
         .collect();
-    let from = |p: usize| -> [f64; 3] { std::array::from_fn(|k| places[p][k] - places[0][k]) };
+    let from = |p: usize| -> [f64; 3] { array(|k| places[p][k] - places[0][k]) };
     let cross = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|k| {
+        array(|k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             a[i] * b[j] - a[j] * b[i]
         })
@@ -406,7 +407,7 @@ fn document<'a>(explored: &'a Explored) -> Document<'a> {
         };
         let way = explored.explorer.way(sketch.way);
         let own = problem.points.iter();
-        let own = own.map(|p| p.sketch.each_ref().map(|x| x.to_f64()));
+        let own = own.map(|p| p.sketch.each_ref().each(|x| x.to_f64()));
         paths.insert(
             class.path.to_string(),
             Path {

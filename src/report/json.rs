@@ -8,6 +8,7 @@ use super::table::verdict;
 use crate::complete::Among;
 use crate::edit::Alone;
 use crate::interval::Interval;
+use crate::places::Each as _;
 use crate::problem::{Decimal, Problem};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
@@ -303,7 +304,7 @@ impl<'a> WrittenOptions<'a> {
                 Preset::Paper => "paper",
             },
             reverse: options.reverse,
-            bend: bend.map(|bend| bend.points.map(|p| problem.points[p].name.as_str())),
+            bend: bend.map(|bend| bend.points.each(|p| problem.points[p].name.as_str())),
             bend_coefficient: Exact(&problem.homotopy.bend_coefficient),
             max_step: options.max_step,
             tube_radius: options.tube_radius,

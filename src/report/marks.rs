@@ -1,6 +1,7 @@
 //! Which triangles (in space: tetrahedra) of joined points a solution has turned over, beside the sketch.
 
 use crate::interval::enclose;
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::{orientation, simplices};
 use crate::track::Solution;
@@ -26,7 +27,7 @@ impl Marks {
             sets.clear();
         }
         let points = problem.points.iter();
-        let sketch: Vec<_> = points.map(|p| p.sketch.each_ref().map(enclose)).collect();
+        let sketch: Vec<_> = points.map(|p| p.sketch.each_ref().each(enclose)).collect();
         let signs = sets.iter().map(|set| orientation(&sketch, set)).collect();
         Marks { sets, signs }
     }

@@ -2,6 +2,7 @@
 
 use super::json::Coordinate;
 use crate::interval::{Interval, enclose, point};
+use crate::places::Each as _;
 use crate::problem::{Decimal, Problem, Shape};
 use crate::system::Located;
 use serde::Serialize;
@@ -59,7 +60,7 @@ impl<'a, C: Coordinate> Objects<'a, C> {
 impl<'a> Objects<'a, f64> {
     /// The objects of a sketch, in the coordinates of the file.
     pub fn in_sketch(problem: &'a Problem) -> Self {
-        let three = |x: &[Decimal; 3]| x.each_ref().map(enclose);
+        let three = |x: &[Decimal; 3]| x.each_ref().each(enclose);
         let at = |p: usize| three(&problem.points[p].sketch);
         let from = |a: usize, b: usize| {
             let (a, b) = (at(a), at(b));

@@ -6,6 +6,7 @@ use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_t
 use super::measured::Measures;
 use crate::edit::{BETWEEN, Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
+use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -55,7 +56,7 @@ fn write_ranges(
         let cells = rows.iter().map(|row| row[k].chars().count());
         cells.chain([headings[k].len()]).max().unwrap_or(0)
     };
-    let widths: [usize; 4] = std::array::from_fn(width);
+    let widths: [usize; 4] = array(width);
     let line = |cells: [&str; 4]| {
         let padded: Vec<String> = cells
             .iter()
@@ -66,7 +67,7 @@ fn write_ranges(
     };
     writeln!(out, "  {}", line(headings))?;
     for row in &rows {
-        writeln!(out, "  {}", line(row.each_ref().map(String::as_str)))?;
+        writeln!(out, "  {}", line(row.each_ref().each(String::as_str)))?;
     }
     let scope = account.map_or(String::new(), |account| after(account.scope()));
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {

@@ -3,6 +3,7 @@
 use super::{ExactLength, Homotopy, Length, Right};
 use crate::constraint::{self, Record, Tail};
 use crate::interval::{Interval, enclose, point};
+use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use num_rational::BigRational;
 
@@ -33,7 +34,7 @@ impl Homotopy {
 
     /// Leads distance `index` from one length at t = 0 to another at t = 1, in proportion to t.
     pub fn lead(&mut self, index: usize, from: &Target, to: &Target) {
-        let [start, end] = [from, to].map(|target| self.enclose_target(target));
+        let [start, end] = [from, to].each(|target| self.enclose_target(target));
         self.set_length(index, Length::new(start, end, None), from, to);
     }
 
@@ -85,7 +86,7 @@ impl Homotopy {
 /// Whether the sketch of a problem meets one of its distances, exactly.
 pub fn is_met(problem: &Problem, index: usize) -> bool {
     let distance = &problem.distances[index];
-    let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+    let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
     let sum = (0..3).fold(BigRational::from_integer(0.into()), |sum, k| {
         let d = a[k].value() - b[k].value();
         sum + &d * &d

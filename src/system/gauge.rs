@@ -2,6 +2,7 @@
 
 use crate::interval::vector::{Vector, cross, dot, minus, unit};
 use crate::interval::{Interval, enclose, point};
+use crate::places::{Each as _, array};
 use crate::problem::{Problem, free_coordinates};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -87,12 +88,12 @@ impl Gauge {
     /// there is no reference.
     pub fn placement(&self, problem: &Problem) -> Result<Placement, GaugeError> {
         let name = |k: usize| problem.points[self.reference[k]].name.clone();
-        let coordinates = |p: usize| problem.points[p].sketch.each_ref().map(enclose);
+        let coordinates = |p: usize| problem.points[p].sketch.each_ref().each(enclose);
         if self.reference.is_empty() {
-            let one = |axis: usize| std::array::from_fn(|k| point(f64::from(u8::from(k == axis))));
+            let one = |axis: usize| array(|k| point(f64::from(u8::from(k == axis))));
             return Ok(Placement {
                 origin: [point(0.0); 3],
-                axes: std::array::from_fn(one),
+                axes: array(one),
             });
         }
         let origin = coordinates(self.reference[0]);
@@ -123,8 +124,8 @@ impl Gauge {
         let Placement { origin, axes } = self.placement(problem)?;
         Ok((0..problem.points.len())
             .map(|p| {
-                let v = minus(problem.points[p].sketch.each_ref().map(enclose), origin);
-                let mut out = axes.map(|axis| dot(axis, v));
+                let v = minus(problem.points[p].sketch.each_ref().each(enclose), origin);
+                let mut out = axes.each(|axis| dot(axis, v));
                 for (axis, x) in out.iter_mut().enumerate() {
                     let fixed = axis >= self.dimension
                         || self.variable[p * self.dimension + axis] == self.place.len();
@@ -197,24 +198,24 @@ impl Placement {
 
     /// A point as it is seen in the frame: an enclosure.
     pub fn seen(&self, p: &Vector) -> Vector {
-        self.axes.map(|axis| dot(axis, minus(*p, self.origin)))
+        self.axes.each(|axis| dot(axis, minus(*p, self.origin)))
     }
 
     /// The motion from the gauge to the coordinates of the problem, in floats: in the plane a turn about
     /// the z axis.
     pub fn motion(&self) -> Isometry3<f64> {
-        let axes = self.axes.map(|axis| Vector3::from(axis.map(|x| x.mid())));
+        let axes = self.axes.each(|axis| Vector3::from(axis.each(|x| x.mid())));
         // Columns are perpendicular and of length 1 but for rounding.
         let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&axes));
         Isometry3::from_parts(
-            Translation3::from(self.origin.map(|x| x.mid())),
+            Translation3::from(self.origin.each(|x| x.mid())),
             UnitQuaternion::from_rotation_matrix(&rotation),
         )
     }
 
     /// A point of the gauge in the coordinates of the problem: an enclosure.
     pub fn to_problem(&self, p: &[Interval; 3]) -> [Interval; 3] {
-        std::array::from_fn(|k| {
+        array(|k| {
             let [x, y, z] = self.axes;
             self.origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]
         })

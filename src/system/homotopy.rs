@@ -4,6 +4,7 @@ use super::{ExactLength, Gauge, GaugeError, Length, Right, Segment};
 use crate::constraint::{self, Entry, Role, Tail};
 use crate::equations::{Form, Product};
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
+use crate::places::{Each as _, array};
 use crate::problem::{Distance, Problem, Shape, Target};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
@@ -289,7 +290,7 @@ impl Homotopy {
     fn add_distances(&mut self, problem: &Problem, distances: &[Distance]) {
         let per_unit = point(1.0 / self.unit);
         for (index, distance) in distances.iter().enumerate() {
-            let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+            let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
             let squared = (0..3).fold(
                 num_rational::BigRational::from_integer(0.into()),
                 |sum, k| {
@@ -521,11 +522,10 @@ pub(crate) fn typical_length(problem: &Problem) -> f64 {
         let places: Vec<[f64; 3]> = problem
             .points
             .iter()
-            .map(|p| p.sketch.each_ref().map(|x| x.to_f64()))
+            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
             .collect();
         let n = places.len().max(1) as f64;
-        let middle: [f64; 3] =
-            std::array::from_fn(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
+        let middle: [f64; 3] = array(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
         let away = |p: &[f64; 3]| -> f64 { (0..3).map(|k| (p[k] - middle[k]).powi(2)).sum() };
         let mean = places.iter().map(|p| away(p).sqrt()).sum::<f64>() / n;
         if mean > 0.0 { mean } else { 1.0 }

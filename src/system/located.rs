@@ -3,6 +3,7 @@
 use super::Homotopy;
 use crate::constraint::Entry;
 use crate::interval::{Interval, hull, point};
+use crate::places::{Each as _, array};
 use crate::problem::Shape;
 
 /// Where an object is in a figure, enclosed: in the coordinates and the unit of the figure's points. In the plane third
@@ -70,7 +71,7 @@ impl Homotopy {
         let unit = point(self.unit);
         let value = |entry: Entry| self.entry(entry).map_or(point(0.0), &unknown);
         let three = |entries: &[Entry]| -> [Interval; 3] {
-            std::array::from_fn(|k| entries.get(k).map_or(point(0.0), |&entry| value(entry)))
+            array(|k| entries.get(k).map_or(point(0.0), |&entry| value(entry)))
         };
         let objects = self.shapes.iter().zip(&self.tail.objects);
         objects
@@ -101,11 +102,11 @@ impl Homotopy {
 }
 
 fn minus(a: &[Interval; 3], b: &[Interval; 3]) -> [Interval; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
+    array(|k| a[k] - b[k])
 }
 
 fn cross(a: &[Interval; 3], b: &[Interval; 3]) -> [Interval; 3] {
-    std::array::from_fn(|k| {
+    array(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i] * b[j] - a[j] * b[i]
     })
@@ -116,7 +117,7 @@ fn cross(a: &[Interval; 3], b: &[Interval; 3]) -> [Interval; 3] {
 fn unit_vector(v: [Interval; 3]) -> [Interval; 3] {
     let length = v.iter().fold(point(0.0), |sum, x| sum + x.sqr()).sqrt();
     let all = hull(-1.0, 1.0);
-    v.map(|x| match length.inf() > 0.0 {
+    v.each(|x| match length.inf() > 0.0 {
         true => (x / length).intersection(all),
         false if x == point(0.0) => x,
         false => all,

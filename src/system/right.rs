@@ -3,6 +3,7 @@
 use super::{ExactLength, Length};
 use crate::constraint::MAX_DEGREE;
 use crate::interval::{Ball, DoubleDouble, Interval, Real, point};
+use crate::places::{Each as _, array};
 use num_rational::BigRational;
 
 /// E(t), a polynomial of degree at most 4 with exact coefficients, in the homotopy's unit: half the
@@ -73,8 +74,8 @@ impl Right {
         degree: usize,
     ) -> Self {
         Right {
-            e: enclosures.map(|x| x.mid()),
-            e_radius: enclosures.map(|x| x.rad()),
+            e: enclosures.each(|x| x.mid()),
+            e_radius: enclosures.each(|x| x.rad()),
             enclosures,
             target,
             exact,
@@ -108,7 +109,7 @@ impl Right {
     pub fn doubles(&self) -> [Approximate; MAX_DEGREE + 1] {
         match &self.exact {
             Exact::HalfSquare(length) => length.half_square(),
-            Exact::Polynomial(coefficients, unit) => std::array::from_fn(|k| {
+            Exact::Polynomial(coefficients, unit) => array(|k| {
                 let coefficient = coefficients.get(k).cloned().unwrap_or_else(Real::zero);
                 divided(coefficient, unit).double()
             }),

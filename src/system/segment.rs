@@ -1,6 +1,7 @@
 //! Drawn lines along an axis and arcs: what of them must not shrink to nothing and come out turned round.
 
 use crate::interval::Interval;
+use crate::places::Each as _;
 
 /// A line or an arc that is drawn, and keeps its sense as long as it does not vanish.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,7 +47,7 @@ impl Extent {
             Extent::Along { axis, .. } => of(at(1)[axis] - at(0)[axis]),
             Extent::Sweep { .. } => {
                 let [c, s, e] = [at(0), at(1), at(2)];
-                let [u, v] = [s, e].map(|p| [p[0] - c[0], p[1] - c[1]]);
+                let [u, v] = [s, e].each(|p| [p[0] - c[0], p[1] - c[1]]);
                 match of(u[0] * v[1] - u[1] * v[0]) {
                     0 if of(u[0] * v[0] + u[1] * v[1]) < 0 => 1,
                     sign => sign,

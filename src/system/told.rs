@@ -16,6 +16,7 @@
 use super::{Homotopy, Term};
 use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose_rational};
+use crate::places::Each as _;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -448,7 +449,7 @@ impl Told {
     ) -> bool {
         let homotopy = view.homotopy;
         let told = |ends: [usize; 2]| {
-            let [a, b] = ends.map(|i| (i < homotopy.equations).then_some(i));
+            let [a, b] = ends.each(|i| (i < homotopy.equations).then_some(i));
             let mut sum = self.form(Form::Difference(a, b));
             for (row, pivot) in rows.clone() {
                 let pivot = pivot

@@ -1,6 +1,7 @@
 //! What follows from an arc of path that sets out from a figure at t = 0 with t rising.
 
 use crate::interval::{Interval, hull, point};
+use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::Stop;
 
@@ -41,7 +42,7 @@ impl Figure {
             }
         };
         (0..homotopy.points)
-            .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
+            .map(|p| array(|axis| coordinate(p, axis)))
             .collect()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Solution;
 use crate::interval::point;
+use crate::places::{Each as _, array};
 
 /// What a float run found, as solutions: thin boxes, with their classes of congruence.
 pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<Solution> {
@@ -14,7 +15,7 @@ pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<So
         })
         .collect();
     let thin = |((figure, class), mirror_of): ((Vec<[f64; 3]>, usize), Option<usize>)| Solution {
-        points: figure.into_iter().map(|p| p.map(point)).collect(),
+        points: figure.into_iter().map(|p| p.each(point)).collect(),
         objects: Vec::new(),
         auxiliary: Vec::new(),
         class,
@@ -35,7 +36,7 @@ pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<So
 /// the sign of the area (in the plane, where all third coordinates are zero) or of the volume that is
 /// largest among those spanned by the first point, the one furthest from it, and others.
 fn is_mirrored(one: &[[f64; 3]], other: &[[f64; 3]]) -> bool {
-    let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| a[k] - b[k]) };
+    let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { array(|k| a[k] - b[k]) };
     let cross = |a: [f64; 3], b: [f64; 3]| {
         [
             a[1] * b[2] - a[2] * b[1],
@@ -167,8 +168,8 @@ mod tests {
     #[test]
     fn tells_mirror_images_from_moved_figures() {
         let one = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.5, 1.0, 0.0]];
-        let turned = one.map(|[x, y, z]| [-y, x, z]);
-        let mirrored = one.map(|[x, y, z]| [x, -y, z]);
+        let turned = one.each(|[x, y, z]| [-y, x, z]);
+        let mirrored = one.each(|[x, y, z]| [x, -y, z]);
         assert!(is_mirrored(&one, &mirrored) && !is_mirrored(&one, &turned));
         let apex = |figure: [[f64; 3]; 3], z| [&figure[..], &[[0.2, 0.3, z]]].concat();
         let (one, other) = (apex(one, 1.0), apex(one, -1.0));

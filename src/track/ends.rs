@@ -1,6 +1,7 @@
 //! Where a path that does not come back to the sketch ends.
 
 use crate::constraint::Tail;
+use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
 use crate::system::Homotopy;
 
@@ -104,13 +105,12 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
         let [Item::Point(a), Item::Point(b), Item::Point(c)] = constraint.items[..] else {
             continue;
         };
-        let leg =
-            |end: usize| -> [f64; 3] { std::array::from_fn(|k| figure[end][k] - figure[b][k]) };
+        let leg = |end: usize| -> [f64; 3] { array(|k| figure[end][k] - figure[b][k]) };
         let (u, v) = (leg(a), leg(c));
         // Legs that vanish have no direction.
         let sine = size(cross(u, v)) / (size(u) * size(v));
         if sine < LEGS && size(u).min(size(v)) > NEARLY * size(u).max(size(v)) {
-            let [a, b, c] = [a, b, c].map(|p| problem.points[p].name.as_str());
+            let [a, b, c] = [a, b, c].each(|p| problem.points[p].name.as_str());
             remarks.push(format!(
                 "the legs of the angle at {b} between {a} and {c} become parallel"
             ));
@@ -123,15 +123,15 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
 /// two points that are said to be on it; without two it is not looked at.
 fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     let sketch: Vec<[f64; 3]> = (problem.points.iter())
-        .map(|point| point.sketch.each_ref().map(|x| x.to_f64()))
+        .map(|point| point.sketch.each_ref().each(|x| x.to_f64()))
         .collect();
     let between = |figure: &[[f64; 3]], a: usize, b: usize| -> [f64; 3] {
-        std::array::from_fn(|k| figure[b][k] - figure[a][k])
+        array(|k| figure[b][k] - figure[a][k])
     };
     let lines = problem.objects.iter().enumerate();
     let lines = lines.filter_map(|(index, object)| match &object.shape {
         &Shape::Line([a, b]) => {
-            let directions = [&sketch[..], figure].map(|figure| between(figure, a, b));
+            let directions = [&sketch[..], figure].each(|figure| between(figure, a, b));
             Some((object.name.as_str(), directions))
         }
         Shape::FreeLine { direction, .. } => {
@@ -140,7 +140,7 @@ fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
             let pairs = pairs.flat_map(|(k, &a)| on_it[..k].iter().map(move |&b| (a, b)));
             let apart = pairs.map(|(a, b)| between(figure, a, b));
             let longest = apart.max_by(|u, v| size(*u).total_cmp(&size(*v)))?;
-            let before = direction.each_ref().map(|x| x.to_f64());
+            let before = direction.each_ref().each(|x| x.to_f64());
             Some((object.name.as_str(), [before, longest]))
         }
         _ => None,
@@ -150,7 +150,7 @@ fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     for (k, (one, of_one)) in lines.iter().enumerate() {
         for (other, of_other) in &lines[..k] {
             // Not a number where a direction vanishes.
-            let [before, now] = [0, 1].map(|at| {
+            let [before, now] = [0, 1].each(|at| {
                 let (u, v) = (of_one[at], of_other[at]);
                 size(cross(u, v)) / (size(u) * size(v))
             });
@@ -211,7 +211,7 @@ fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
 /// The unit normal of the widest triangle of some points.
 fn normal(figure: &[[f64; 3]], points: &[usize]) -> Option<[f64; 3]> {
     let (&first, rest) = points.split_first()?;
-    let from = |p: usize| -> [f64; 3] { std::array::from_fn(|k| figure[p][k] - figure[first][k]) };
+    let from = |p: usize| -> [f64; 3] { array(|k| figure[p][k] - figure[first][k]) };
     let mut best = ([0.0; 3], 0.0f64);
     for (k, &a) in rest.iter().enumerate() {
         for &b in &rest[..k] {
@@ -222,11 +222,11 @@ fn normal(figure: &[[f64; 3]], points: &[usize]) -> Option<[f64; 3]> {
             }
         }
     }
-    (best.1 > 0.0).then(|| best.0.map(|x| x / best.1))
+    (best.1 > 0.0).then(|| best.0.each(|x| x / best.1))
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| {
+    array(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i] * b[j] - a[j] * b[i]
     })
@@ -251,7 +251,7 @@ pub fn places(homotopy: &Homotopy, z: &[f64]) -> Vec<[f64; 3]> {
         let at = homotopy.coordinate(p, axis);
         at.map_or(0.0, |i| z[i] * homotopy.unit)
     };
-    let place = |p: usize| std::array::from_fn(|axis| coordinate(p, axis));
+    let place = |p: usize| array(|axis| coordinate(p, axis));
     (0..homotopy.points).map(place).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use super::{PathEnd, Stop};
 use crate::interval::Interval;
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Located;
 use nalgebra::Point3;
@@ -96,7 +97,7 @@ pub struct Solution {
 }
 
 fn middle(place: &[Interval; 3]) -> Point3<f64> {
-    Point3::from(place.map(|x| x.mid()))
+    Point3::from(place.each(|x| x.mid()))
 }
 
 impl Solution {

@@ -25,6 +25,7 @@ use super::number::Number;
 use super::singular::Singular;
 use super::{Account, Verdict};
 use crate::interval::{Interval, point};
+use crate::places::array;
 use crate::problem::Problem;
 use crate::track::{Control, Options};
 use parts::{may_be_reversed, parts_of, vanishes, verdict};
@@ -391,7 +392,7 @@ impl Figures {
             number.enclosure()
         };
         let points = (0..self.cut.problem.points.len()).map(|p| {
-            std::array::from_fn(|axis| match axis < d {
+            array(|axis| match axis < d {
                 true => at(self.cut.system.coordinates[p * d + axis]),
                 false => point(0.0),
             })

@@ -10,6 +10,7 @@ use crate::blocks::cut::{Cut, name};
 use crate::blocks::number::Number;
 use crate::constraint::{Arguments, Flat, LineName, Sort, Thing};
 use crate::interval::{Interval, point};
+use crate::places::Each as _;
 use crate::problem::Shape;
 use crate::system::simplices;
 use std::collections::BTreeMap;
@@ -104,7 +105,7 @@ impl Quantity {
             }
             Quantity::Untold => Number::within(Interval::ENTIRE),
             Quantity::Volume([p, a, b, c]) => {
-                let [u, v, w] = [a, b, c].map(|q| Arrow::Between(p, q));
+                let [u, v, w] = [a, b, c].each(|q| Arrow::Between(p, q));
                 (0..3).fold(Number::halves(0), |sum, axis| {
                     let minor = turn(v, w, [(axis + 1) % 3, (axis + 2) % 3], cut, of);
                     sum.plus(&u.part(cut, axis, of).times(&minor))
@@ -123,11 +124,11 @@ impl Quantity {
         let size = match *self {
             Quantity::Turn(u, v) | Quantity::Direction(u, v) => (squared(u) * squared(v)).sqrt(),
             Quantity::Larger(one, other) => [one, other]
-                .map(|object| squared_radius(cut, object, &near).enclosure())
+                .each(|object| squared_radius(cut, object, &near).enclosure())
                 .into_iter()
                 .fold(point(0.0), |sum, x| sum + x),
             Quantity::Volume([p, a, b, c]) => [a, b, c]
-                .map(|q| squared(Arrow::Between(p, q)))
+                .each(|q| squared(Arrow::Between(p, q)))
                 .into_iter()
                 .fold(point(1.0), |product, x| product * x)
                 .sqrt(),
@@ -219,7 +220,7 @@ pub(super) fn senses(cut: &Cut) -> Option<Vec<Sense>> {
     let one: Vec<usize> = (0..problem.points.len())
         .map(|p| *first.entry(at(p)).or_insert(p))
         .collect();
-    let pairs = problem.distances.iter().map(|d| d.points.map(|p| one[p]));
+    let pairs = problem.distances.iter().map(|d| d.points.each(|p| one[p]));
     let pairs = pairs.filter(|[a, b]| a != b);
     for set in simplices(problem.dimension, problem.points.len(), pairs) {
         let names: Vec<&str> = set.iter().map(|&p| &*problem.points[p].name).collect();

@@ -8,6 +8,7 @@
 
 use super::system::{Form, Row, Shared, product};
 use crate::interval::{Interval, ZERO, checked, point};
+use crate::places::Each as _;
 
 /// A box in which nothing is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -117,7 +118,7 @@ fn revise(
         {
             let root = root(shared.square(wanted))?;
             let old = x[shared.entry];
-            let [low, high] = [-root, root].map(|side| old.intersection(shared.middle + side));
+            let [low, high] = [-root, root].each(|side| old.intersection(shared.middle + side));
             let new = match (low.is_empty(), high.is_empty()) {
                 (true, true) => return Err(Empty),
                 (false, true) => low,

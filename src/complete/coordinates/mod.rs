@@ -46,6 +46,7 @@ use crate::blocks::{Block as Cut, Blocks, LeftOut};
 use crate::certificate::cover::coordinates::{Body, Half};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::order::InOrder;
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::told::{self, Told};
 use crate::system::{GaugeError, Homotopy, typical_length};
@@ -293,7 +294,7 @@ fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
     let mut bounds = Vec::new();
     for a in 0..targets.points {
         for b in 0..a {
-            let [least, most] = pairs.squares(a, b).map(|x| x * scale);
+            let [least, most] = pairs.squares(a, b).each(|x| x * scale);
             if targets.edge(a, b).is_none() && most < FAR {
                 let ends = (0..homotopy.dimension).map(|axis| [entry(a, axis), entry(b, axis)]);
                 bounds.push((ends.collect::<Vec<_>>(), hull(least, most)));

@@ -2,6 +2,7 @@
 
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
+use crate::places::Each as _;
 use crate::system::Homotopy;
 
 /// A difference of two entries, or the number 1.
@@ -170,7 +171,7 @@ impl System {
         let row = |e: usize| {
             let terms = homotopy.terms(e).into_iter();
             let products = terms.map(|term| {
-                let [left, right] = term.forms().map(|form| form.map(|i| i.unwrap_or(m)));
+                let [left, right] = term.forms().each(|form| form.map(|i| i.unwrap_or(m)));
                 Product::new(point(0.5 * f64::from(term.factor)), left, right)
             });
             Row::new(products.collect(), homotopy.rights[e].at_target(), m)
@@ -183,7 +184,7 @@ impl System {
         };
         let names = system.names();
         for ends in system.nonzero.iter_mut().flatten() {
-            *ends = ends.map(|end| names[end.min(m)]);
+            *ends = ends.each(|end| names[end.min(m)]);
         }
         let mut follow = system.cross_products();
         follow.extend(system.divided(homotopy));
@@ -209,7 +210,7 @@ impl System {
                 && let (Form::Difference(a, b), Form::One) | (Form::One, Form::Difference(a, b)) =
                     (p.left, p.right)
             {
-                let [a, b] = [a, b].map(|entry| root(&names, entry));
+                let [a, b] = [a, b].each(|entry| root(&names, entry));
                 let (first, other) = match order(a) < order(b) {
                     true => (a, b),
                     false => (b, a),
@@ -249,7 +250,8 @@ impl System {
         for (i, &(k, v, u)) in found.iter().enumerate() {
             for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {
                 let products = [(1.0, v, x), (-1.0, w, u)];
-                let products = products.map(|(f, left, right)| Product::new(point(f), left, right));
+                let products =
+                    products.each(|(f, left, right)| Product::new(point(f), left, right));
                 let products = products.to_vec();
                 out.push(Row::new(products, ZERO, zero));
             }

@@ -8,6 +8,7 @@
 //! from the first end of each line to its second (of planes between their normals).
 
 use super::prelude::*;
+use crate::places::Each as _;
 
 /// See the module.
 pub struct Angles;
@@ -46,7 +47,7 @@ impl Kind for Angles {
         }
         let names = items.clone();
         let things = items.two_flats().ok()?;
-        Some(names.in_words(things.map(Thing::Flat)))
+        Some(names.in_words(things.each(Thing::Flat)))
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {

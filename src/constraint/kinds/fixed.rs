@@ -5,6 +5,7 @@
 //! plane of its own likewise those of its normal, and its level; of a circle the centre and the radius.
 
 use super::prelude::*;
+use crate::places::array;
 use crate::statement::{Shape, most_along};
 
 /// See the module.
@@ -28,7 +29,7 @@ impl Kind for Fixed {
             Some(&Item::Object(o)) => Some(&problem.objects[o].shape),
             _ => None,
         };
-        let axes = std::array::from_fn(|k| match shape {
+        let axes = array(|k| match shape {
             // Along a line of its own figures can still slide, and along a plane of its own.
             Some(Shape::FreeLine { direction, .. }) => k != most_along(direction),
             Some(Shape::FreePlane { normal, .. }) => k == most_along(normal),

@@ -6,6 +6,7 @@
 //! Neither vector may vanish.
 
 use super::prelude::*;
+use crate::places::Each as _;
 
 /// Parallel, or with `right` at a right angle.
 pub struct Parallel {
@@ -42,7 +43,7 @@ impl Kind for Parallel {
     fn read_as(&self, mut items: Arguments) -> Option<String> {
         let names = items.clone();
         let things = items.two_flats().ok()?;
-        Some(names.in_words(things.map(Thing::Flat)))
+        Some(names.in_words(things.each(Thing::Flat)))
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {

@@ -2,6 +2,7 @@
 //! along an axis than the first, with its sign.
 
 use super::prelude::*;
+use crate::places::array;
 
 /// A coordinate, or a difference of two.
 pub struct Position {
@@ -63,7 +64,7 @@ impl Kind for Position {
     }
 
     fn fixes(&self, _: &Problem, _: &[Item]) -> Fixes {
-        let axes = std::array::from_fn(|k| k == self.axis && !self.difference);
+        let axes = array(|k| k == self.axis && !self.difference);
         Fixes { frame: true, axes }
     }
 

@@ -5,6 +5,7 @@
 //! agree or are opposite.
 
 use super::prelude::*;
+use crate::places::Each as _;
 
 /// See the module.
 pub struct Symmetric;
@@ -48,7 +49,7 @@ impl Kind for Symmetric {
                 low.vanish_linear(of.name, products, across.at[axis].clone().into(), 1);
                 let other = 1 - axis;
                 let products =
-                    [&p, &q].map(|at| Product::new(1, value(at.entries[other]), Form::One));
+                    [&p, &q].each(|at| Product::new(1, value(at.entries[other]), Form::One));
                 let start = &p.at[other] + &q.at[other];
                 low.vanish_linear(of.name, products.to_vec(), start.into(), 1);
             }

@@ -5,6 +5,7 @@ use super::super::polynomial::{Polynomial, ramp};
 use super::super::quadratic::{Entry, Form, Nonzero, Product, Role, coordinate, difference, value};
 use super::{Fault, Lowering, Parity, Start};
 use crate::interval::Real;
+use crate::places::{Each as _, array};
 use crate::statement::{AXES, Target};
 use num_rational::BigRational;
 use num_traits::One;
@@ -47,7 +48,7 @@ impl Lowering<'_> {
             }
         };
         Place {
-            entries: std::array::from_fn(entry),
+            entries: array(entry),
             at: vector(&self.problem.points[point].sketch),
         }
     }
@@ -55,7 +56,7 @@ impl Lowering<'_> {
     /// From one place to another.
     pub fn between(&self, from: &Place, to: &Place) -> Arrow {
         Arrow {
-            forms: std::array::from_fn(|k| difference(to.entries[k], from.entries[k])),
+            forms: array(|k| difference(to.entries[k], from.entries[k])),
             at: minus(&to.at, &from.at),
             power: 1,
             axial: false,
@@ -87,7 +88,7 @@ impl Lowering<'_> {
     /// A direction of which the length is fixed, made of unknowns.
     pub fn direction(&self, entries: [Entry; 3], at: Vector, name: String) -> Arrow {
         Arrow {
-            forms: entries.map(value),
+            forms: entries.each(value),
             known: Some(vec![length(&at)]),
             at,
             power: 0,
@@ -101,7 +102,7 @@ impl Lowering<'_> {
         let one = BigRational::one;
         let is_it = |k: usize| k == axis;
         Arrow {
-            forms: std::array::from_fn(|k| {
+            forms: array(|k| {
                 if is_it(k) {
                     Form::One
                 } else {
@@ -203,7 +204,7 @@ impl Lowering<'_> {
             self.equate(&name, products, vec![Real::zero()], power);
         }
         let arrow = Arrow {
-            forms: entries.map(value),
+            forms: entries.each(value),
             at,
             power,
             axial,
@@ -236,7 +237,7 @@ impl Lowering<'_> {
             [a, b] => [a, b],
             _ => unreachable!("at most two vectors"),
         };
-        let entries = [self.length(a), self.length(b)].map(value);
+        let entries = [self.length(a), self.length(b)].each(value);
         let at = &length(&a.at) * &length(&b.at);
         let both = format!("the lengths of {} and {}, multiplied", a.name, b.name);
         let (zero, power) = (vec![Real::zero()], a.power + b.power);

@@ -13,10 +13,11 @@ use super::{Arrow, Lowering};
 use crate::constraint::frame::length;
 use crate::constraint::objects::{Line, Plane};
 use crate::interval::Real;
+use crate::places::Each as _;
 
 /// A vector the other way round.
 fn reversed(forms: [Form; 3]) -> [Form; 3] {
-    forms.map(|form| match form {
+    forms.each(|form| match form {
         Form::Difference(a, b) => Form::Difference(b, a),
         Form::One => Form::One,
     })
@@ -53,7 +54,7 @@ impl Lowering<'_> {
         let entries = self.coordinates(&name, 0, of.axial, seen);
         let what = format!("the length of {}", of.name);
         let far = self.unknown(what.clone(), Role::Positive, of.power, [false; 3], size);
-        let forms = entries.map(value);
+        let forms = entries.each(value);
         for (whole, part) in of.forms.into_iter().zip(forms).take(self.dimension()) {
             let products = vec![
                 Product::new(1, whole, Form::One),

@@ -15,6 +15,7 @@ use super::frame::Frame;
 use super::polynomial::{Polynomial, ramp};
 use super::quadratic::{Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, value};
 use crate::interval::Real;
+use crate::places::array;
 use crate::statement::{Item, Problem, Target};
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -215,7 +216,7 @@ impl<'a> Lowering<'a> {
 
     /// A new unknown that is a number for itself.
     pub fn scalar(&mut self, name: String, power: i32, parity: Parity, at: Real) -> Entry {
-        let flips = std::array::from_fn(|k| k < self.dimension() && parity == Parity::Odd);
+        let flips = array(|k| k < self.dimension() && parity == Parity::Odd);
         self.unknown(name, Role::Free, power, flips, at)
     }
 
@@ -229,7 +230,7 @@ impl<'a> Lowering<'a> {
     ) -> [Entry; 3] {
         let mut entries = [Entry::Zero; 3];
         for (axis, at) in at.into_iter().enumerate().take(self.dimension()) {
-            let flips = std::array::from_fn(|k| k < self.dimension() && (k == axis) != axial);
+            let flips = array(|k| k < self.dimension() && (k == axis) != axial);
             let name = format!("{name}, {}", ["x", "y", "z"][axis]);
             entries[axis] = self.unknown(name, Role::Free, power, flips, at);
         }

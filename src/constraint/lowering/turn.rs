@@ -5,6 +5,7 @@ use super::super::polynomial::Polynomial;
 use super::super::quadratic::{Product, Role, value};
 use super::{Arrow, Fault, Lowering, Parity, Start};
 use crate::interval::Real;
+use crate::places::Each as _;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive};
 
@@ -99,7 +100,7 @@ impl Lowering<'_> {
             }
             Some(before) => way(&before, STEPS),
             None => {
-                let [x, y] = now.each_ref().map(|x| x.to_f64().unwrap_or(0.0));
+                let [x, y] = now.each_ref().each(|x| x.to_f64().unwrap_or(0.0));
                 let drawn = y.atan2(x).to_degrees();
                 let wanted = degrees.to_f64().unwrap_or(0.0);
                 let turn = (wanted - drawn + 180.0).rem_euclid(360.0) - 180.0;

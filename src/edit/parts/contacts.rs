@@ -6,6 +6,7 @@
 //! is left out.
 
 use crate::blocks::Cut;
+use crate::places::Each as _;
 use crate::problem::{Constraint, Item, Problem, Shape};
 
 /// More contacts are not looked for.
@@ -94,11 +95,11 @@ fn all(cut: &Cut) -> Vec<Contact> {
     if problem.dimension != 2 || cut.singular.as_ref().is_none_or(|s| s.moved.is_some()) {
         return Vec::new();
     }
-    let place = |p: usize| [0, 1].map(|axis| cut.system.coordinates[2 * p + axis]);
-    let at = |p: usize| [0, 1].map(|axis| problem.points[p].sketch[axis].to_f64());
+    let place = |p: usize| [0, 1].each(|axis| cut.system.coordinates[2 * p + axis]);
+    let at = |p: usize| [0, 1].each(|axis| problem.points[p].sketch[axis].to_f64());
     let along = |line: &[Item]| -> Option<[f64; 2]> {
         let ends = match *line {
-            [Item::Axis(axis)] => return Some([0, 1].map(|k| f64::from(u8::from(k == axis)))),
+            [Item::Axis(axis)] => return Some([0, 1].each(|k| f64::from(u8::from(k == axis)))),
             [Item::Point(a), Item::Point(b)] => [a, b],
             [Item::Object(o)] => match problem.objects[o].shape {
                 Shape::Line(ends) => ends,
@@ -106,7 +107,7 @@ fn all(cut: &Cut) -> Vec<Contact> {
             },
             _ => return None,
         };
-        let [a, b] = ends.map(at);
+        let [a, b] = ends.each(at);
         Some([b[0] - a[0], b[1] - a[1]])
     };
     // Lines, each with the points that are on it.

@@ -4,6 +4,7 @@ use super::{Known, Parts, Used};
 use crate::constraint::{Entry, Nonzero};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, hull, point};
+use crate::places::array;
 use crate::system::{Extent, Segment, orientation};
 use crate::track::arc::{Kept, Orientation};
 use crate::track::{Stop, StopKind};
@@ -141,7 +142,7 @@ impl Parts {
             let set: Vec<usize> = (0..points.len()).collect();
             let sign = |time: Interval| -> i8 {
                 let place = |k: usize| -> [Interval; 3] {
-                    std::array::from_fn(|axis| match axis < d {
+                    array(|axis| match axis < d {
                         true => self.place_at(&paths, of[k * d + axis], time),
                         false => point(0.0),
                     })
@@ -190,7 +191,7 @@ impl Parts {
             }
             let sign = |time: Interval| {
                 extent.sign(|k| {
-                    std::array::from_fn(|axis| match axes.contains(&axis) {
+                    array(|axis| match axes.contains(&axis) {
                         true => self.place_at(&paths, place(points[k], axis), time),
                         false => point(0.0),
                     })

@@ -4,6 +4,7 @@ use super::exact::{is_positive, value_at};
 use super::{End, Known, Parts, Run, Used, moves};
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
+use crate::places::array;
 use crate::system::{Extent, Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
@@ -232,7 +233,7 @@ impl Parts {
         });
         let nonzero = nonzero.map(|vector| Nonzero {
             name: vector.name.clone(),
-            forms: std::array::from_fn(|axis| match axis < d {
+            forms: array(|axis| match axis < d {
                 true => vector.forms[axis].map(|e| entry(e.unknown())),
                 false => Form::Difference(Entry::Zero, Entry::Zero),
             }),

@@ -24,6 +24,7 @@ use crate::edit::open::{Moved, OpenError};
 use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
 use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
+use crate::places::array;
 use crate::problem::Problem;
 use crate::system::{Extent, Segment};
 use crate::track::arc::{Kept, Orientation};
@@ -351,7 +352,7 @@ impl Parts {
             false => point(0.0),
         };
         (0..self.problem.points.len())
-            .map(|p| std::array::from_fn(|axis| coordinate(p, axis)))
+            .map(|p| array(|axis| coordinate(p, axis)))
             .collect()
     }
 
@@ -537,7 +538,7 @@ impl Parts {
     fn limit(&self, figure: &[Known], velocity: &[f64], orientations: &[Orientation]) -> Limit {
         let d = self.problem.dimension;
         let motion = (0..self.problem.points.len()).map(|p| {
-            std::array::from_fn(|axis| match axis < d {
+            array(|axis| match axis < d {
                 true => velocity[self.system.coordinates[p * d + axis]],
                 false => 0.0,
             })

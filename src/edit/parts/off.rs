@@ -4,6 +4,7 @@ use super::Parts;
 use crate::blocks::Singular;
 use crate::edit::ending::{Dimension, Edited, Ending, Orientations};
 use crate::edit::setting::Setting;
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::track::{Control, Stop, StopKind};
 use std::time::Instant;
@@ -101,7 +102,7 @@ impl Parts {
         let (own, others) = (self.points(), twin.points());
         let pairs = self.problem.points.iter().zip(own.iter().zip(&others));
         let elsewhere = pairs.filter(|(_, (a, b))| (0..3).any(|k| a[k].disjoint(b[k])));
-        let other = elsewhere.map(|(point, (_, b))| (point.name.clone(), b.map(|x| x.mid())));
+        let other = elsewhere.map(|(point, (_, b))| (point.name.clone(), b.each(|x| x.mid())));
         let other = other.collect();
         if let Some(singular) = &mut self.singular {
             singular.other = other;

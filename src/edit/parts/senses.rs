@@ -1,6 +1,7 @@
 //! Which points tell by their orientation the senses that constraints leave open, tangents, angles and chirality.
 
 use crate::interval::enclose;
+use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::{orientation, simplices};
 use std::collections::BTreeSet;
@@ -93,7 +94,7 @@ fn angles(items: &[Item], points_of: impl Fn(&Item) -> Vec<usize>) -> Vec<Vec<us
 /// One tetrahedron of each point that is joined to three others at least, the first that is not flat in the sketch.
 fn chiralities(problem: &Problem) -> Vec<Vec<usize>> {
     let points = problem.points.iter();
-    let sketch: Vec<_> = points.map(|p| p.sketch.each_ref().map(enclose)).collect();
+    let sketch: Vec<_> = points.map(|p| p.sketch.each_ref().each(enclose)).collect();
     let mut found = vec![None; problem.points.len()];
     for pair in pairs(problem).collect::<BTreeSet<_>>() {
         for p in pair {

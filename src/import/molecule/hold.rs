@@ -2,6 +2,7 @@
 
 use crate::linalg::Span;
 use crate::order::InOrder;
+use crate::places::array;
 use crate::problem::rigidity;
 use std::collections::BTreeSet;
 
@@ -214,7 +215,7 @@ impl Candidates {
 
 /// Four atoms in one plane, if they are, the three of the largest triangle first.
 fn ordered(places: &[Place], four: [usize; 4]) -> Option<[usize; 4]> {
-    let without = |k: usize| -> [usize; 3] { std::array::from_fn(|i| four[(k + 1 + i) % 4]) };
+    let without = |k: usize| -> [usize; 3] { array(|i| four[(k + 1 + i) % 4]) };
     let last = (0..4).max_by(|&k, &l| {
         let area = |k: usize| area(places, without(k));
         area(k).total_cmp(&area(l))
@@ -307,7 +308,7 @@ impl<'a> Rank<'a> {
 }
 
 fn minus(a: Place, b: Place) -> Place {
-    std::array::from_fn(|k| a[k] - b[k])
+    array(|k| a[k] - b[k])
 }
 
 fn dot(a: Place, b: Place) -> f64 {
@@ -315,7 +316,7 @@ fn dot(a: Place, b: Place) -> f64 {
 }
 
 fn cross(a: Place, b: Place) -> Place {
-    std::array::from_fn(|k| {
+    array(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i] * b[j] - a[j] * b[i]
     })

@@ -9,6 +9,7 @@
 use super::Scalar;
 use super::rows::{Lane, Row, add, width_for, with_width, zeros};
 use crate::linalg::{LANE, Singular};
+use crate::places::Each as _;
 
 /// What elimination reads of a matrix [[H, A], [C, L]] whose diagonal blocks are factored. Unknowns have any
 /// numbers; the ignored equations are counted from 0 to k − 1.
@@ -194,7 +195,7 @@ pub(crate) fn invert_transposed<const W: usize, T: Scalar>(
         let scale = pivot.inverse();
         a[k][w][l] = T::one();
         for lane in &mut a[k] {
-            *lane = lane.map(|x| x.times(scale));
+            *lane = lane.each(|x| x.times(scale));
         }
         let row = a[k];
         for (i, other) in a.iter_mut().enumerate() {

@@ -1,6 +1,7 @@
 //! Lengths that no triangle has.
 
 use crate::interval::{Interval, enclose};
+use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 
 impl Problem {
@@ -50,7 +51,7 @@ impl Problem {
                         .is_some_and(|of_a| (of_a + lengths[of_b]).sup() < lengths[index].inf())
             });
             if let Some(&(c, _)) = third {
-                let [a, b, c] = [a, b, c].map(|p| &self.points[p].name);
+                let [a, b, c] = [a, b, c].each(|p| &self.points[p].name);
                 return Some(format!(
                     "no figure has these lengths: {a}-{b} is longer than {a}-{c} and {c}-{b} together"
                 ));

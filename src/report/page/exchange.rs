@@ -1,6 +1,7 @@
 //! Figures for other programs: Wavefront OBJ and XYZ.
 
 use super::Page;
+use crate::places::Each as _;
 use std::fmt::Write;
 
 /// The symbols of the elements, as XYZ files have them.
@@ -22,7 +23,7 @@ impl Page {
                 let _ = writeln!(out, "v {} {} {}", p[0], p[1], p[2]);
             }
             for bar in &self.bars {
-                let [a, b] = bar.ends.map(|p| first + p);
+                let [a, b] = bar.ends.each(|p| first + p);
                 let _ = writeln!(out, "l {a} {b}");
             }
             first += self.points.len();

@@ -1,6 +1,7 @@
 //! Lines, planes, circles, spheres and arcs as they are drawn: each in a few numbers that move with the figure.
 
 use super::{Page, Shape};
+use crate::places::{Each as _, array};
 
 /// How far drawn lines and planes go beyond the figure, as a part of it.
 const BEYOND: f64 = 0.12;
@@ -30,18 +31,17 @@ pub(super) fn plane(figure: &[f64], point: [f64; 3], normal: [f64; 3]) -> Vec<f6
         (0..3).for_each(|k| middle[k] += p[k] / count);
     }
     let height: f64 = (0..3).map(|k| normal[k] * (middle[k] - point[k])).sum();
-    let foot: [f64; 3] = std::array::from_fn(|k| middle[k] - height * normal[k]);
+    let foot: [f64; 3] = array(|k| middle[k] - height * normal[k]);
     let far = |p: &[f64]| (0..3).map(|k| (p[k] - middle[k]).powi(2)).sum::<f64>();
     let reach = figure.chunks_exact(3).map(far).fold(0.0, f64::max).sqrt();
     // The axis that is least along the normal, made to lie in the plane.
     let axis = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()));
     let axis = axis.expect("three axes");
-    let mut u: [f64; 3] =
-        std::array::from_fn(|k| f64::from(u8::from(k == axis)) - normal[axis] * normal[k]);
+    let mut u: [f64; 3] = array(|k| f64::from(u8::from(k == axis)) - normal[axis] * normal[k]);
     let size = u.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-300);
     u.iter_mut()
         .for_each(|x| *x *= (0.7 + BEYOND) * reach / size);
-    let v: [f64; 3] = std::array::from_fn(|k| {
+    let v: [f64; 3] = array(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         normal[i] * u[j] - normal[j] * u[i]
     });
@@ -53,12 +53,12 @@ pub(super) fn plane(figure: &[f64], point: [f64; 3], normal: [f64; 3]) -> Vec<f6
 
 /// The vector from one place to another.
 pub(super) fn from(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| b[k] - a[k])
+    array(|k| b[k] - a[k])
 }
 
 /// The product that is perpendicular to both.
 pub(super) fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| {
+    array(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         u[i] * v[j] - u[j] * v[i]
     })
@@ -67,7 +67,7 @@ pub(super) fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
 /// A vector made 1 long; `None` if it has no direction.
 pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let long = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (long > 0.0 && long.is_finite()).then(|| v.map(|x| x / long))
+    (long > 0.0 && long.is_finite()).then(|| v.each(|x| x / long))
 }
 
 /// The angle from the start of an arc to its end, counter-clockwise, from 0 to 2π.
@@ -224,7 +224,7 @@ impl Drawn {
                 )
             }
             Drawn::Arc([start, end], radius, flags) => {
-                let [large, clockwise] = flags.map(u8::from);
+                let [large, clockwise] = flags.each(u8::from);
                 format!(
                     "M{}A{radius:.1} {radius:.1} 0 {large} {clockwise} {}",
                     at(*start),

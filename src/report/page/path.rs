@@ -2,6 +2,7 @@
 
 use super::reader::{Reader, ShowError, list, place, wrong};
 use super::{Accuracy, Level, Mark, Path, Sample};
+use crate::places::Each as _;
 use serde_json::Value;
 
 /// The path of homotopy that a document tells of. `None`: it has no samples.
@@ -35,7 +36,7 @@ pub(super) fn read(reader: &Reader, document: &Value) -> Result<Option<Path>, Sh
     let mut marks = Vec::new();
     for fold in list(document, "folds")? {
         let at = fold["at"].as_f64().ok_or(wrong("folds"))?;
-        let t = [0, 1].map(|k| fold["t"][k].as_f64());
+        let t = [0, 1].each(|k| fold["t"][k].as_f64());
         let [Some(low), Some(high)] = t else {
             return Err(wrong("folds"));
         };

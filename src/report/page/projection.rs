@@ -1,6 +1,7 @@
 //! Figures seen from where the page sees them first.
 
 use super::Page;
+use crate::places::{Each as _, array};
 
 /// Points in space (or the plane) to places on paper, the second axis downwards, and how near they are.
 pub(super) struct Projection {
@@ -23,7 +24,7 @@ impl Projection {
                 high[k] = high[k].max(p[k]);
             }
         }
-        let middle: [f64; 3] = std::array::from_fn(|k| match low[k] <= high[k] {
+        let middle: [f64; 3] = array(|k| match low[k] <= high[k] {
             true => 0.5 * (low[k] + high[k]),
             false => 0.0,
         });
@@ -54,7 +55,7 @@ impl Projection {
         let size = (0..2).map(|k| 0.5 * (high[k] - low[k])).fold(0.0, f64::max);
         if size > 0.0 && size.is_finite() {
             projection.size = size;
-            projection.centre = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+            projection.centre = array(|k| 0.5 * (low[k] + high[k]));
         }
         projection
     }
@@ -75,7 +76,7 @@ impl Projection {
     /// The places of a figure's points, all of them between -1 and 1.
     pub fn places(&self, figure: &[f64]) -> Vec<[f64; 3]> {
         let place = |p: &[f64]| {
-            let [x, y, z] = self.rows.map(|row| {
+            let [x, y, z] = self.rows.each(|row| {
                 let along = (0..3).map(|k| row[k] * (p[k] - self.middle[k]));
                 along.sum::<f64>()
             });

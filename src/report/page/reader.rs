@@ -2,6 +2,7 @@
 
 use super::{Bar, Figure, Label, Page, Shape, Tone, outlines};
 use crate::interval::hull;
+use crate::places::array;
 use crate::report::certain_digits;
 use serde_json::Value;
 
@@ -162,14 +163,12 @@ impl<'a> Reader<'a> {
 
     /// In the coordinates of the sketch.
     pub fn there(&self, p: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| {
-            self.origin[k] + (0..3).map(|axis| self.axes[axis][k] * p[axis]).sum::<f64>()
-        })
+        array(|k| self.origin[k] + (0..3).map(|axis| self.axes[axis][k] * p[axis]).sum::<f64>())
     }
 
     /// A direction in the coordinates of the sketch.
     fn turned(&self, v: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| (0..3).map(|axis| self.axes[axis][k] * v[axis]).sum())
+        array(|k| (0..3).map(|axis| self.axes[axis][k] * v[axis]).sum())
     }
 
     /// A figure with bounds of its coordinates, seen as results are, as a solution without a name yet. `None`: it is none.

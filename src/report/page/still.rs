@@ -4,6 +4,7 @@ use super::outlines::Drawn;
 use super::projection::{Projection, colour, escaped};
 use super::{Figure, Page};
 use crate::order::InOrder;
+use crate::places::Each as _;
 use std::fmt::{self, Write};
 
 /// More figures are not drawn: a picture with hundreds shows none.
@@ -118,7 +119,7 @@ impl Page {
         }
         if places.len() <= 16 {
             let count = places.len() as f64;
-            let middle = [0, 1].map(|k| places.iter().map(|p| p[k]).sum::<f64>() / count);
+            let middle = [0, 1].each(|k| places.iter().map(|p| p[k]).sum::<f64>() / count);
             for (name, [x, y, _]) in self.points.iter().zip(&places) {
                 let (dx, dy) = (x - middle[0], y - middle[1]);
                 let far = dx.hypot(dy).max(1e-9);

@@ -1,5 +1,6 @@
 //! Colours, letters, axes, legends.
 
+use crate::places::Each as _;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::prelude::*;
@@ -249,7 +250,7 @@ pub fn places_for_numbers(signs: &[(i32, i32)]) -> Vec<Option<(i32, i32)>> {
     signs
         .iter()
         .map(|&(x, y)| {
-            let offsets = DIRECTIONS.map(|(dx, dy)| {
+            let offsets = DIRECTIONS.each(|(dx, dy)| {
                 let reach = f64::from(px(14));
                 ((dx * reach) as i32, (dy * reach) as i32)
             });

@@ -23,6 +23,7 @@ use super::link::{Ball, Frame, Tube};
 use crate::interval::rounding::{gamma, in_range, largest, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
+use crate::places::Each as _;
 use crate::system::Homotopy;
 use crate::track::arc::{Figure, Fold};
 use crate::track::full::newton::{End, UNTIL, Until};
@@ -226,17 +227,17 @@ impl FoldProver {
         for e in 0..m {
             let (mut size, mut size_v, mut change) = (0.0, 0.0, 0.0);
             for axis in 0..equations.dimension() {
-                let free = equations.ends[axis][e].map(|end| is_free(end as usize));
+                let free = equations.ends[axis][e].each(|end| is_free(end as usize));
                 let free = free[0] + free[1];
                 size += self.d[axis][e].abs() * free;
                 size_v += self.dv[axis][e].abs() * free;
                 change += free * free;
             }
             for (half, forms) in equations.tail.products(e) {
-                let free = forms.map(|form| equations.tail.ends(form).map(is_free));
-                let [left, right] = free.map(|ends| ends[0] + ends[1]);
+                let free = forms.each(|form| equations.tail.ends(form).each(is_free));
+                let [left, right] = free.each(|ends| ends[0] + ends[1]);
                 let of = |d: &Differences| {
-                    let [l, r] = forms.map(|form| d.forms[form].abs());
+                    let [l, r] = forms.each(|form| d.forms[form].abs());
                     half.abs() * (l * right + r * left)
                 };
                 size += of(&self.d);
@@ -313,7 +314,7 @@ impl FoldProver {
         for e in 0..m {
             let (mut squared, mut moved) = (point(0.0), point(0.0));
             for axis in 0..equations.dimension() {
-                let [i, j] = equations.ends[axis][e].map(|end| end as usize);
+                let [i, j] = equations.ends[axis][e].each(|end| end as usize);
                 let d = point(self.x[i]) - point(self.x[j]);
                 squared += d.sqr();
                 moved += d * (point(self.v[i]) - point(self.v[j]));
@@ -322,15 +323,15 @@ impl FoldProver {
             let between = |z: &Vector, form: usize, one: f64| match form {
                 Tail::ONE => point(one),
                 _ => {
-                    let [i, j] = tail.ends(form).map(|end| point(z[end]));
+                    let [i, j] = tail.ends(form).each(|end| point(z[end]));
                     i - j
                 }
             };
             let mut value = squared * point(0.5);
             for (half, forms) in tail.products(e) {
                 // The number 1 does not move.
-                let [l, r] = forms.map(|form| between(&self.x, form, 1.0));
-                let [dl, dr] = forms.map(|form| between(&self.v, form, 0.0));
+                let [l, r] = forms.each(|form| between(&self.x, form, 1.0));
+                let [dl, dr] = forms.each(|form| between(&self.v, form, 0.0));
                 value += point(half) * l * r;
                 moved += point(half) * (l * dr + dl * r);
             }

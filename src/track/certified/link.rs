@@ -3,6 +3,7 @@
 use super::proof::Proof;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::{LANE, Matrix, Vector};
+use crate::places::{Each as _, array};
 use crate::track::events::TimeAlong;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
 
@@ -235,7 +236,7 @@ impl<const N: usize, Y: Frame> Tube<N, Y> {
     fn entry_if(&self, proof: &Proof, i: usize) -> TimeAlong<N> {
         // One rounding each, within what `TimeAlong` adds for its own.
         TimeAlong::with_low(
-            std::array::from_fn(|k| self.local.z[k][i]),
+            array(|k| self.local.z[k][i]),
             self.local.low[i],
             proof.h,
             round_up(proof.distance * self.weights[i], 1),
@@ -286,8 +287,8 @@ pub fn offsets<const N: usize, Y: Preconditioner>(
             size[i] = size[i].mul_add(s.abs(), z[i].abs());
         }
     }
-    let [high, low] = [&ball.centre, &ball.low].map(|v| &v.lanes()[lane]);
-    let [z_high, z_low] = [&local.z[0], &local.low].map(|v| &v.lanes()[lane]);
+    let [high, low] = [&ball.centre, &ball.low].each(|v| &v.lanes()[lane]);
+    let [z_high, z_low] = [&local.z[0], &local.low].each(|v| &v.lanes()[lane]);
     let (mut away, mut error) = ([0.0; LANE], [0.0; LANE]);
     for i in 0..LANE {
         let (from_high, from_low) = (high[i] - z_high[i], low[i] - z_low[i]);

@@ -6,6 +6,7 @@
 use super::link::{Frame, Tube};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
+use crate::places::{Each as _, array};
 use crate::system::{Extent, Homotopy, simplices};
 use crate::track::arc::{Figure, Kept, Orientation};
 
@@ -59,9 +60,7 @@ impl Orientations {
         };
         let simplex = |points: Vec<usize>, segment| Simplex {
             segment,
-            entries: std::array::from_fn(|k| {
-                std::array::from_fn(|axis| entry(points[k.min(points.len() - 1)], axis))
-            }),
+            entries: array(|k| array(|axis| entry(points[k.min(points.len() - 1)], axis))),
             what: Orientation {
                 points,
                 sign: 0,
@@ -236,7 +235,7 @@ impl Simplex {
         // Of one length, so that one check of an index serves all.
         let (slope, radius) = (&slope[..middle.len()], &radius[..middle.len()]);
         let at = |k: usize| {
-            self.entries[k].map(|i| Along {
+            self.entries[k].each(|i| Along {
                 value: middle[i as usize],
                 slope: slope[i as usize],
                 rest: radius[i as usize],
@@ -245,7 +244,7 @@ impl Simplex {
         let first = at(0);
         let side = |k: usize| -> [Along; 3] {
             let other = at(k);
-            std::array::from_fn(|axis| other[axis].minus(first[axis]))
+            array(|axis| other[axis].minus(first[axis]))
         };
         let minor = |v: [Along; 3], w: [Along; 3], i: usize, j: usize| {
             v[i].times(w[j]).minus(v[j].times(w[i]))
@@ -272,7 +271,7 @@ impl Simplex {
         } else {
             let (u, v, w) = (side(1), side(2), side(3));
             let parts = [(0, 1, 2), (1, 2, 0), (2, 0, 1)];
-            let [a, b, c] = parts.map(|(i, j, k)| u[i].times(minor(v, w, j, k)));
+            let [a, b, c] = parts.each(|(i, j, k)| u[i].times(minor(v, w, j, k)));
             a.plus(b).plus(c)
         };
         certain(value)

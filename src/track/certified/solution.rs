@@ -4,6 +4,7 @@ use super::reasons::Doubt;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
+use crate::places::{Each as _, array};
 use crate::system::{Homotopy, Located};
 use crate::track::full::{Equations, InverseMaker, Local, Tail};
 
@@ -181,7 +182,7 @@ impl SolutionProver {
             let slope = local.lengths.terms[1][e].abs();
             let (mut size, mut change) = (slope, 0.0);
             for axis in 0..equations.dimension() {
-                let free = equations.ends[axis][e].map(|end| is_free(end as usize));
+                let free = equations.ends[axis][e].each(|end| is_free(end as usize));
                 let free = free[0] + free[1];
                 size += local.d[0][axis][e].abs() * free;
                 // |w_i − w_j| times the row sum of the entry's two columns.
@@ -189,8 +190,8 @@ impl SolutionProver {
             }
             for (half, forms) in equations.tail.products(e) {
                 // The same for a product of two factors.
-                let free = forms.map(|form| equations.tail.ends(form).map(is_free));
-                let [left, right] = free.map(|ends| ends[0] + ends[1]);
+                let free = forms.each(|form| equations.tail.ends(form).each(is_free));
+                let [left, right] = free.each(|ends| ends[0] + ends[1]);
                 let value = |form: usize| local.d[0].forms[form].abs();
                 size += half.abs() * (value(forms[0]) * right + value(forms[1]) * left);
                 change += 2.0 * half.abs() * left * right;
@@ -240,14 +241,14 @@ impl SolutionProver {
             for e in 0..m {
                 let ends = equations.ends.iter();
                 let squared = ends.fold(point(0.0), |sum, ends| {
-                    let [i, j] = ends[e].map(|end| point(local.z[0][end as usize]));
+                    let [i, j] = ends[e].each(|end| point(local.z[0][end as usize]));
                     sum + (i - j).sqr()
                 });
                 let form = |form: usize| match form {
                     Tail::ONE => point(1.0),
                     _ => {
                         let ends = equations.tail.ends(form);
-                        let [i, j] = ends.map(|end| point(local.z[0][end]));
+                        let [i, j] = ends.each(|end| point(local.z[0][end]));
                         i - j
                     }
                 };
@@ -345,7 +346,7 @@ impl SolutionBox {
         let m = homotopy.equations;
         (0..homotopy.points)
             .map(|p| {
-                std::array::from_fn(|axis| {
+                array(|axis| {
                     if axis >= d || homotopy.gauge.variable[p * d + axis] == m {
                         return point(0.0);
                     }

@@ -2,6 +2,7 @@
 
 use super::link::{Frame, Tube};
 use crate::interval::{Interval, hull, point};
+use crate::places::{Each as _, array};
 use crate::system::{Gauge, Homotopy, Located};
 use crate::track::full::path_length;
 use crate::track::turns::{Stretch, Turns};
@@ -380,7 +381,7 @@ impl Trace {
         let (z, _) = self.at(at)?;
         let homotopy = self.homotopy.as_ref()?;
         let points = all_points(&homotopy.gauge, |i| z[i], 0.0);
-        let places: Vec<[Interval; 3]> = points.iter().map(|p| p.map(point)).collect();
+        let places: Vec<[Interval; 3]> = points.iter().map(|p| p.each(point)).collect();
         Some(Sample {
             at,
             t: z[self.width - 1],
@@ -408,7 +409,7 @@ fn all_points<T: Copy>(gauge: &Gauge, free: impl Fn(usize) -> T, zero: T) -> Vec
     let points = gauge.variable.chunks_exact(d);
     points
         .map(|variables| {
-            std::array::from_fn(|axis| match variables.get(axis) {
+            array(|axis| match variables.get(axis) {
                 Some(&i) if i < m => free(i),
                 _ => zero,
             })

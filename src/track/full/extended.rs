@@ -12,6 +12,7 @@ use super::tail::Tail;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
 use crate::linalg::Vector;
+use crate::places::Each as _;
 use crate::system::Homotopy;
 
 /// A coefficient and how far the exact one may be from it.
@@ -46,7 +47,7 @@ impl Extended {
         for (axis, out) in out.iter_mut().enumerate() {
             for (e, out) in out[..equations.m].iter_mut().enumerate() {
                 // The float nearest to it.
-                *out = difference((z, low), equations.ends[axis][e].map(|end| end as usize)).hi;
+                *out = difference((z, low), equations.ends[axis][e].each(|end| end as usize)).hi;
             }
         }
         let value = |form: usize| form_value(equations, (z, low), form).hi;
@@ -132,7 +133,7 @@ fn refuse_overlap((z, low): (&[f64], &[f64]), error: Option<&mut Vector>) {
 }
 
 fn difference((z, low): (&[f64], &[f64]), ends: [usize; 2]) -> DoubleDouble {
-    let [i, j] = ends.map(|end| DoubleDouble {
+    let [i, j] = ends.each(|end| DoubleDouble {
         hi: z[end],
         lo: low[end],
     });
@@ -158,7 +159,7 @@ fn equation(
 ) -> (f64, f64) {
     let ends = equations.ends.iter();
     let squared = ends.fold(DoubleDouble::default(), |sum, ends| {
-        let d = difference(z, ends[e].map(|end| end as usize));
+        let d = difference(z, ends[e].each(|end| end as usize));
         sum + d * d
     });
     let half = squared.half();
@@ -179,7 +180,7 @@ fn add_tail(
 ) -> (DoubleDouble, f64) {
     let mut size = 0.0;
     for (half, forms) in equations.tail.products(e) {
-        let [left, right] = forms.map(|form| form_value(equations, z, form));
+        let [left, right] = forms.each(|form| form_value(equations, z, form));
         let product = DoubleDouble::from(half) * left * right;
         sum = sum + product;
         size += product.size();

@@ -3,6 +3,7 @@
 use super::equations::{Differences, Equations, Lengths, MAX_DEGREE};
 use super::preconditioner::Preconditioner;
 use crate::linalg::{LANE, Matrix, Vector};
+use crate::places::{Each as _, array};
 
 /// Degree of the Taylor polynomials where nothing else is said.
 pub const ORDER: usize = 5;
@@ -96,7 +97,7 @@ impl<const N: usize, Y: Preconditioner> Local<N, Y> {
             let mut f = std::mem::take(&mut self.f);
             self.coefficient(equations, k, 1, &mut f);
             for lane in f.lanes_mut() {
-                *lane = lane.map(|x| -x);
+                *lane = lane.each(|x| -x);
             }
             f[m] = if k == 1 { 1.0 } else { 0.0 };
             self.y.solve(equations, &f[..n], &mut self.delta);
@@ -169,7 +170,7 @@ impl<const N: usize, Y: Preconditioner> Local<N, Y> {
         let lanes = e2.len();
         let out_lanes = &mut out.lanes_mut()[..lanes];
         for ((out, e2), slope) in out_lanes.iter_mut().zip(e2).zip(slope) {
-            *out = std::array::from_fn(|i| -(e2[i].mul_add(square, slope[i] * linear)));
+            *out = array(|i| -(e2[i].mul_add(square, slope[i] * linear)));
         }
         for a in least..=k / 2 {
             let b = k - a;
@@ -266,7 +267,7 @@ impl<const N: usize, Y: Preconditioner> Local<N, Y> {
 
     /// ẑ(s).
     pub fn at(&self, s: f64, out: &mut Vector) {
-        let z = self.z.each_ref().map(|z| z.lanes());
+        let z = self.z.each_ref().each(|z| z.lanes());
         for (l, out) in out.lanes_mut().iter_mut().enumerate() {
             for i in 0..LANE {
                 out[i] = (0..N)
@@ -297,7 +298,7 @@ impl<const N: usize, Y: Preconditioner> Local<N, Y> {
             let mut sum = [0.0f64; LANE];
             for (k, z) in self.z.iter().enumerate().skip(1).rev() {
                 let (k, z) = (k as f64, z.lanes()[l]);
-                sum = std::array::from_fn(|i| sum[i].mul_add(s, k * z[i]));
+                sum = array(|i| sum[i].mul_add(s, k * z[i]));
             }
             *out = sum;
         }

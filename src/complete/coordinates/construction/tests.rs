@@ -5,6 +5,7 @@ use crate::blocks::Blocks;
 use crate::complete::coordinates::search::Block;
 use crate::complete::coordinates::system::{Row, System};
 use crate::interval::{Interval, ZERO, hull, point};
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use proptest::prelude::*;
@@ -62,12 +63,12 @@ fn look(system: &System, sketch: &[f64], seed: u64, seen: &mut Seen) {
             // What blocks before have found are ranges.
             let known = width * 1e-3 * random.next().max(0.0);
             for e in 0..m {
-                let [below, above] = [random.next(), random.next()].map(|x| known * x.max(0.0));
+                let [below, above] = [random.next(), random.next()].each(|x| known * x.max(0.0));
                 x[e] = hull(zero[e] - below, zero[e] + above);
             }
             for &u in &own {
                 // Now and then the zero is at the border.
-                let [below, above] = [random.next(), random.next()].map(|x| width * x.max(0.0));
+                let [below, above] = [random.next(), random.next()].each(|x| width * x.max(0.0));
                 x[u] = hull(zero[u] - below, zero[u] + above);
             }
             let leaves = (0..=6).find_map(|symbols| match walk(symbols, order, &rows, &x) {

@@ -18,6 +18,7 @@ use crate::complete::contract::contract;
 use crate::complete::coordinates::system::{Form, Row, volume};
 use crate::complete::model::{Model, Number, Range};
 use crate::interval::{Interval, hull, point};
+use crate::places::Each as _;
 
 /// What is divided by has to be at least this part of its greatest size.
 const PIVOT: f64 = 0.05;
@@ -402,7 +403,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         }
         second = second.scaled(0.5);
         if first.c[0] < 0.0 {
-            [first, second, third] = [first, second, third].map(|x| x.scaled(-1.0));
+            [first, second, third] = [first, second, third].each(|x| x.scaled(-1.0));
         }
         let range = first.range();
         if !(range.lo > PIVOT * range.hi) {
@@ -562,7 +563,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             let pairs = leaf.x.iter().zip(&other.x);
             let hull: Vec<Interval> = pairs.map(|(x, y)| x.convex_hull(*y)).collect();
             let all = volume(&hull);
-            let parts = [own, volume(&other.x)].map(|part| (part - all).exp());
+            let parts = [own, volume(&other.x)].each(|part| (part - all).exp());
             (parts[0] + parts[1] >= TOGETHER).then_some((k, hull))
         })
     }

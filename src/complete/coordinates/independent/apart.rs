@@ -2,6 +2,7 @@
 
 use super::super::{Cut, Figures, State};
 use super::forms;
+use crate::places::Each as _;
 
 /// How the equations fall apart, whatever their zeros are.
 pub struct Apart {
@@ -33,7 +34,7 @@ impl Apart {
         let node = |i: usize| node.get(i).copied().unwrap_or(m);
         let edges = |e: usize| {
             let edges = forms(homotopy, e).into_iter();
-            let edges = edges.map(|entries| entries.map(node));
+            let edges = edges.map(|entries| entries.each(node));
             edges.filter(|[a, b]| a != b).collect::<Vec<_>>()
         };
         // The tree, block by block: what hangs on what, and how far down.
@@ -85,7 +86,7 @@ impl Apart {
             join(&mut groups, &all);
         }
         let of_conditions = conditions.iter().map(|condition| {
-            let edges = condition.iter().map(|entries| entries.map(node));
+            let edges = condition.iter().map(|entries| entries.each(node));
             edges.flat_map(way).collect::<Vec<usize>>()
         });
         let of_conditions: Vec<Vec<usize>> = of_conditions.collect();
@@ -132,7 +133,7 @@ impl Apart {
             }
             state.x[u] = state.x[on] + (reference.x[u] - reference.x[on]);
             let told = [&reference.told, &reference.told, &state.told];
-            if let [Some(x), Some(y), Some(z)] = [(0, u), (1, on), (2, on)].map(|(k, i)| {
+            if let [Some(x), Some(y), Some(z)] = [(0, u), (1, on), (2, on)].each(|(k, i)| {
                 let learnt = values.iter().find(|(known, _)| k == 2 && *known == i);
                 learnt.map(|(_, value)| value).or(told[k].value(i))
             }) {

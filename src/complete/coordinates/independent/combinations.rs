@@ -5,6 +5,7 @@ use super::{Case, One, Parts, forms};
 use crate::certificate::cover::coordinates::{Change, signs_changed};
 use crate::complete::parts::LISTED;
 use crate::interval::{Interval, ZERO};
+use crate::places::Each as _;
 use crate::track::FigureBox;
 
 impl Figures<'_> {
@@ -28,7 +29,7 @@ impl Figures<'_> {
         let differ = |one: &Case, other: &Case, turn: &dyn Fn(usize) -> bool| {
             let mut base = parts.base.iter();
             base.any(|&i| {
-                let [x, y] = [one, other].map(|case| self.entry_of(parts, case.first, i));
+                let [x, y] = [one, other].each(|case| self.entry_of(parts, case.first, i));
                 (if turn(i) { -x } else { x }).disjoint(y)
             })
         };
@@ -45,7 +46,7 @@ impl Figures<'_> {
                         let edges = edges.filter(|&[a, b]| turn(a) && turn(b));
                         edges.filter_map(|[a, b]| {
                             let of = |figure: usize| {
-                                let [x, y] = [a, b].map(|i| self.entry_of(parts, figure, i));
+                                let [x, y] = [a, b].each(|i| self.entry_of(parts, figure, i));
                                 sign(x - y)
                             };
                             let all = of(case.first)?;

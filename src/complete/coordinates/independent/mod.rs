@@ -21,6 +21,7 @@ use crate::certificate::cover::coordinates::{Case as ToldCase, Independent};
 use crate::complete::{Choice, Why};
 use crate::equations::Form;
 use crate::interval::{Interval, ZERO};
+use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::system::told::Told;
@@ -172,7 +173,7 @@ impl Figures<'_> {
         let vectors = self.homotopy.nonzero_vectors().into_iter();
         let vectors = vectors.map(|mut vector| {
             vector.retain(|ends| {
-                let [a, b] = ends.map(|i| names[i.min(m)]);
+                let [a, b] = ends.each(|i| names[i.min(m)]);
                 a != b
             });
             vector

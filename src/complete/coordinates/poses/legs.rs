@@ -18,6 +18,7 @@ use super::part::Part;
 use crate::complete::model::{Model, Number, Range, weighted};
 use crate::interval::rounding::{UNDERFLOW, largest, round_up};
 use crate::interval::{Interval, point};
+use crate::places::{Each as _, array};
 
 /// A leg beside the first one.
 #[derive(Debug, Clone)]
@@ -70,8 +71,8 @@ impl Leg {
         let both = holds.iter().chain(&stands);
         let sizes = both.fold(point(0.0), |sum, x| sum + x.sqr());
         Leg {
-            stands: stands.map(Number::new),
-            holds: holds.map(Number::new),
+            stands: stands.each(Number::new),
+            holds: holds.each(Number::new),
             constant: Number::new((square - first - sizes) * point(0.5)),
         }
     }
@@ -103,7 +104,7 @@ impl Legs {
             let [x, y, z] = leg.holds;
             let held = turned
                 .each_ref()
-                .map(|row| weighted(&Model::ZERO, [(x, &row[0]), (y, &row[1]), (z, &row[2])]));
+                .each(|row| weighted(&Model::ZERO, [(x, &row[0]), (y, &row[1]), (z, &row[2])]));
             for k in 0..3 {
                 a[i][k] = weighted(&held[k], [(negative(leg.stands[k]), &square)]);
             }
@@ -135,8 +136,8 @@ impl Legs {
         };
         // The axes that are eliminated, and b without what the other one says.
         let axes: [usize; K] = match part.height {
-            Some(axis) => std::array::from_fn(|k| (axis + 1 + k) % 3),
-            None => std::array::from_fn(|k| k),
+            Some(axis) => array(|k| (axis + 1 + k) % 3),
+            None => array(|k| k),
         };
         let height = (K < 3).then(|| part.symbol::<S, M>(3));
         if let Some(height) = &height {
@@ -146,8 +147,9 @@ impl Legs {
             }
         }
         // The columns that are eliminated.
-        let told: [[Model<S, M>; K]; OTHERS] = a.each_ref().map(|row| axes.map(|axis| row[axis]));
-        let middle: [[f64; K]; OTHERS] = told.each_ref().map(|row| row.each_ref().map(|x| x.c[0]));
+        let told: [[Model<S, M>; K]; OTHERS] = a.each_ref().each(|row| axes.each(|axis| row[axis]));
+        let middle: [[f64; K]; OTHERS] =
+            told.each_ref().each(|row| row.each_ref().each(|x| x.c[0]));
         let Some(bases) = Bases::<K>::of(&middle) else {
             self.wide::<S, M, K>(&mut look, &a, None);
             return Some(look);
@@ -157,11 +159,11 @@ impl Legs {
         for (j, row) in off.iter_mut().enumerate() {
             for (k, entry) in row.iter_mut().enumerate() {
                 let start = if j == k { MINUS_ONE } else { ZERO };
-                let column = told.each_ref().map(|row| &row[k]);
+                let column = told.each_ref().each(|row| &row[k]);
                 *entry = combination(Model::constant(start), &bases.inverse[j], column);
             }
         }
-        let sizes = off.each_ref().map(|row| row.each_ref().map(Model::size));
+        let sizes = off.each_ref().each(|row| row.each_ref().each(Model::size));
         let norm = sizes.iter().fold(0.0, |max: f64, row| {
             largest(max, round_up(row.iter().sum(), K + 2))
         });
@@ -190,9 +192,8 @@ impl Legs {
         (axes, height): ([usize; K], Option<(usize, &Model<S, M>)>),
     ) {
         // p̃: y − E (y − E y) with y = Y b, of which the polynomial alone is taken.
-        let y: [Model<S, M>; K] = std::array::from_fn(|j| {
-            polynomial(combination(Model::ZERO, &bases.inverse[j], b.each_ref()))
-        });
+        let y: [Model<S, M>; K] =
+            array(|j| polynomial(combination(Model::ZERO, &bases.inverse[j], b.each_ref())));
         let mut near = y;
         for _ in 0..2 {
             let before = near;
@@ -204,22 +205,21 @@ impl Legs {
                 near[j] = polynomial(near[j]);
             }
         }
-        let rest: [Model<S, M>; OTHERS] = std::array::from_fn(|i| {
-            (0..K).fold(b[i], |rest, k| rest.minus(&a[i][k].times(&near[k])))
-        });
+        let rest: [Model<S, M>; OTHERS] =
+            array(|i| (0..K).fold(b[i], |rest, k| rest.minus(&a[i][k].times(&near[k]))));
         // δ.
         let size = |row: &[f64; OTHERS]| combination(Model::ZERO, row, rest.each_ref()).size();
-        let moved: [f64; K] = std::array::from_fn(|j| size(&bases.inverse[j]));
+        let moved: [f64; K] = array(|j| size(&bases.inverse[j]));
         let most = moved.iter().copied().fold(0.0, largest);
         let most = round_up(most / (1.0 - norm), 6);
-        let delta: [f64; K] = std::array::from_fn(|j| {
+        let delta: [f64; K] = array(|j| {
             let sum: f64 = sizes[j].iter().map(|e| e * most).sum();
             round_up(moved[j] + sum, K + 4)
         });
         for row in &bases.kernel {
             let mut left = combination(Model::ZERO, row, rest.each_ref());
             for k in 0..K {
-                let column = a.each_ref().map(|row| &row[k]);
+                let column = a.each_ref().each(|row| &row[k]);
                 let size = combination(Model::ZERO, row, column).size();
                 left.r = round_up(left.r + size * delta[k], 4);
             }
@@ -234,7 +234,7 @@ impl Legs {
         if let Some((axis, height)) = height {
             look.place[axis] = *height;
         }
-        let squares = look.place.each_ref().map(Model::squared);
+        let squares = look.place.each_ref().each(Model::squared);
         let sum = squares[0].plus(&squares[1]).plus(&squares[2]);
         look.equations.push(sum.shifted(negative(self.square)));
         // What is not linear in an equation, beside what is, and how the matrix changes.
@@ -318,7 +318,7 @@ fn combination<const S: usize, const M: usize>(
     f: [&Model<S, M>; OTHERS],
 ) -> Model<S, M> {
     let mut i = 0;
-    let terms = f.map(|f| {
+    let terms = f.each(|f| {
         i += 1;
         (float(row[i - 1]), f)
     });
@@ -341,7 +341,7 @@ fn quadratic<const S: usize, const M: usize>(f: &Model<S, M>, mut tell: impl FnM
 /// Q and N over a part.
 fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3], Model<S, M>) {
     let mut next = 0;
-    let q: [Model<S, M>; 4] = std::array::from_fn(|i| {
+    let q: [Model<S, M>; 4] = array(|i| {
         if i == part.chart {
             return Model::constant(float(1.0));
         }
@@ -349,10 +349,10 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
         part.symbol(next - 1)
     });
     let of = |i: usize, j: usize| q[i].times(&q[j]);
-    let squares: [Model<S, M>; 4] = std::array::from_fn(|i| q[i].squared());
+    let squares: [Model<S, M>; 4] = array(|i| q[i].squared());
     let diagonal = |k: usize| {
         let sign = |i: usize| float(if i == k { 1.0 } else { -1.0 });
-        let others = [1, 2, 3].map(|i| (sign(i), &squares[i]));
+        let others = [1, 2, 3].each(|i| (sign(i), &squares[i]));
         weighted(&squares[0], others)
     };
     // 2 (q_i q_j ± q_0 q_k).
@@ -369,7 +369,7 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
         [side(1, 3, -1.0, 2), side(2, 3, 1.0, 1), diagonal(3)],
     ];
     let one = float(1.0);
-    let others = [1, 2, 3].map(|i| (one, &squares[i]));
+    let others = [1, 2, 3].each(|i| (one, &squares[i]));
     (matrix, weighted(&squares[0], others))
 }
 
@@ -390,7 +390,7 @@ impl<const K: usize> Bases<K> {
         let mut q: Vec<[f64; OTHERS]> = Vec::new();
         let mut r = [[0.0; K]; K];
         for k in 0..K {
-            let mut column: [f64; OTHERS] = std::array::from_fn(|i| matrix[i][k]);
+            let mut column: [f64; OTHERS] = array(|i| matrix[i][k]);
             let size = dot(&column, &column).sqrt();
             // Twice is enough.
             for _ in 0..2 {
@@ -405,7 +405,7 @@ impl<const K: usize> Bases<K> {
                 return None;
             }
             r[k][k] = left;
-            q.push(column.map(|x| x / left));
+            q.push(column.each(|x| x / left));
         }
         // R⁻¹ Qᵀ, from the last row up.
         let mut inverse = [[0.0; OTHERS]; K];
@@ -428,7 +428,7 @@ impl<const K: usize> Bases<K> {
                 }
             }
             let size = dot(&new, &new).sqrt();
-            q.push(new.map(|x| x / size));
+            q.push(new.each(|x| x / size));
         }
         let is_finite = |rows: &[[f64; OTHERS]]| rows.iter().flatten().all(|x| x.is_finite());
         (is_finite(&inverse) && is_finite(&q)).then(|| Bases {

@@ -27,6 +27,7 @@ use crate::complete::model::Number;
 use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose, point};
 use crate::order::InOrder;
+use crate::places::{Each as _, array};
 use crate::problem::{Problem, Shape};
 use crate::system::{Homotopy, Term};
 use legs::{Leg, Legs, Look};
@@ -91,7 +92,7 @@ impl Poses {
         }
         let is_own = |u: usize| block.unknowns.contains(&u);
         let unknowns = |p: usize| -> Option<[usize; 3]> {
-            let all = [0, 1, 2].map(|axis| homotopy.coordinate(p, axis).filter(|&u| is_own(u)));
+            let all = [0, 1, 2].each(|axis| homotopy.coordinate(p, axis).filter(|&u| is_own(u)));
             let [Some(a), Some(b), Some(c)] = all else {
                 return None;
             };
@@ -137,7 +138,7 @@ impl Poses {
                 let (_, first, foot, first_square) = found[0];
                 // From the first leg's point, in the body's coordinates.
                 let from = |k: usize| -> [Interval; 3] {
-                    std::array::from_fn(|axis| {
+                    array(|axis| {
                         let at = |k: usize| enclose(&local[k][axis]);
                         match k == first {
                             true => ZERO,
@@ -146,12 +147,12 @@ impl Poses {
                     })
                 };
                 let leg = |&(_, k, at, square): &(usize, usize, [Interval; 3], Interval)| {
-                    let stands = std::array::from_fn(|axis| at[axis] - foot[axis]);
+                    let stands = array(|axis| at[axis] - foot[axis]);
                     Leg::new(from(k), stands, square, first_square)
                 };
                 let free = points.iter().enumerate();
                 let free =
-                    free.filter_map(|(k, &p)| Some((from(k).map(Number::new), unknowns(p)?)));
+                    free.filter_map(|(k, &p)| Some((from(k).each(Number::new), unknowns(p)?)));
                 Some(Poses {
                     body: Body {
                         object: number,
@@ -223,7 +224,7 @@ impl Poses {
         let turned = look
             .turned
             .each_ref()
-            .map(|row| row.each_ref().map(|entry| entry.times(&over)));
+            .each(|row| row.each_ref().each(|entry| entry.times(&over)));
         for (from, unknowns) in &self.points {
             for axis in 0..3 {
                 let mut at = look.place[axis].shifted(Number::new(self.foot[axis]));

@@ -9,6 +9,7 @@ use super::super::prelude::*;
 use super::CENTRE;
 use super::place::off_line;
 use crate::constraint::Entry;
+use crate::places::Each as _;
 
 /// A point is so far from a circle or sphere.
 pub fn from_point(
@@ -97,7 +98,7 @@ pub fn between(
         return Err("name two different ones".to_owned());
     }
     let rounds = [one, other].map(|object| low.round(object));
-    let centers = [one, other].map(|object| low.center(object));
+    let centers = [one, other].each(|object| low.center(object));
     let is_larger = rounds[0].squared > rounds[1].squared;
     let are_equal = rounds[0].squared == rounds[1].squared;
     let edges = rounds.map(|round| Off(round.radius, Real::from(round.squared).sqrt()));
@@ -127,7 +128,7 @@ pub fn between(
         false => (large, [small, &apart]),
     };
     let mut products = vec![Product::new(1, value(first.0), Form::One)];
-    products.extend(rest.map(|off| Product::new(-1, value(off.0), Form::One)));
+    products.extend(rest.each(|off| Product::new(-1, value(off.0), Form::One)));
     let now = &(&first.1 - &rest[0].1) - &rest[1].1;
     let path = low.lead(now, then);
     low.equate(name, products, path, 1);

@@ -2,6 +2,7 @@
 
 use super::Ledger;
 use crate::interval::{Interval, hull, point};
+use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::{Stop, StopKind};
 
@@ -57,7 +58,7 @@ const PIECES: usize = 64;
 /// Lower bounds of a function on the pieces of a range.
 fn lower_bounds(enclose: impl Fn(Interval) -> Interval, range: Interval) -> [f64; PIECES] {
     let (lo, width) = (point(range.inf()), point(range.sup()) - point(range.inf()));
-    std::array::from_fn(|k| {
+    array(|k| {
         let piece = hull(k as f64 / PIECES as f64, (k + 1) as f64 / PIECES as f64);
         enclose((lo + width * piece).intersection(range)).inf()
     })

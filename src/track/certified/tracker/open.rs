@@ -6,6 +6,7 @@ use super::{EndKind, PathEnd, Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
+use crate::places::Each as _;
 use crate::track::ends::{
     Away, ENDLESS, FAR, OUTSIDE, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
 };
@@ -27,7 +28,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             return None;
         }
         let exit = |i: usize| {
-            let [x, low] = [&tube.exit.centre, &tube.exit.low].map(|v| point(v[i]));
+            let [x, low] = [&tube.exit.centre, &tube.exit.low].each(|v| point(v[i]));
             x + low + hull(-tube.exit.radius[i], tube.exit.radius[i])
         };
         let (from, to) = tube.exit_between;

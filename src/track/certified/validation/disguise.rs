@@ -5,6 +5,7 @@ use crate::constraint::{
     Entry, Equation, Form, Product, Role, Tail, Unknown, coordinate, difference, value,
 };
 use crate::interval::{Interval, Real, point};
+use crate::places::Each as _;
 use crate::problem::{Distance, Problem, Target};
 use crate::system::Homotopy;
 use crate::track::certified::track;
@@ -57,7 +58,7 @@ impl Disguised {
 
     /// The coefficients of a(t).
     fn length(&self, distance: &Distance, c: &Option<Real>) -> [Real; 3] {
-        let [a, b] = distance.points.map(|p| &self.plain.points[p].sketch);
+        let [a, b] = distance.points.each(|p| &self.plain.points[p].sketch);
         let squared = (0..3).fold(Real::zero(), |sum, k| {
             let d = Real::from(a[k].value() - b[k].value());
             &sum + &(&d * &d)

@@ -2,6 +2,7 @@
 
 use super::solutions::exact_solution;
 use super::*;
+use crate::places::Each as _;
 use crate::problem::Target;
 use crate::track::certified::link::Ball;
 use crate::track::certified::solution::SolutionProver;
@@ -40,7 +41,7 @@ impl<'a> Rational<'a> {
             BigRational::new(scaled.sqrt(), scale)
         };
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
-            let [p, q] = distance.points.map(|p| &problem.points[p].sketch);
+            let [p, q] = distance.points.each(|p| &problem.points[p].sketch);
             let squared = (0..3).fold(BigRational::zero(), |sum, k| {
                 sum + (p[k].value() - q[k].value()).pow(2)
             });
@@ -245,7 +246,7 @@ fn residuals(problem: &Problem, random: &mut Random, cancelled: &mut usize) {
         extended.differences(equations, (&z, &low), &mut differences);
         for axis in 0..equations.dimension() {
             for e in 0..m {
-                let [i, j] = equations.ends[axis][e].map(|end| end as usize);
+                let [i, j] = equations.ends[axis][e].each(|end| end as usize);
                 let d = sum_of(z[i], low[i]) - sum_of(z[j], low[j]);
                 let off = (&d - exact(differences[axis][e])).abs();
                 assert!(off <= d.abs() * exact(f64::EPSILON));

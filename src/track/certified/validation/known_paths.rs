@@ -6,6 +6,7 @@
 
 use super::solutions::check_solutions;
 use super::*;
+use crate::places::Each as _;
 use crate::track::{Control, Options, Status, solve};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -229,7 +230,7 @@ fn tent(random: &mut Random) -> (Problem, Known) {
                 random.sign() * random.between(0.2, 2.0),
             ],
         }
-        .map(|x| rounded(x, 7));
+        .each(|x| rounded(x, 7));
         first = first.or(Some(place));
         builder = builder.point(&format!("q{k}"), place);
         for (j, p) in base.iter().enumerate() {
@@ -243,7 +244,7 @@ fn tent(random: &mut Random) -> (Problem, Known) {
         }
     }
     let sides: Vec<f64> = [(0, 1), (0, 2), (1, 2)]
-        .map(|(i, j): (usize, usize)| size(base[i][0] - base[j][0], base[i][1] - base[j][1], 0.0))
+        .each(|(i, j): (usize, usize)| size(base[i][0] - base[j][0], base[i][1] - base[j][1], 0.0))
         .into();
     for (k, (i, j)) in [("p0", "p1"), ("p0", "p2"), ("p1", "p2")]
         .into_iter()
@@ -274,7 +275,7 @@ fn tent(random: &mut Random) -> (Problem, Known) {
         // The base in the plane: (0, 0), (a, 0), (x2, y2).
         let x2 = (a * a + b * b - c * c) / (2.0 * a);
         let y2 = (b * b - x2 * x2).sqrt();
-        let [p, q, r] = [0, 1, 2].map(|j| length(3 * k + j));
+        let [p, q, r] = [0, 1, 2].each(|j| length(3 * k + j));
         let x = (p * p - q * q + a * a) / (2.0 * a);
         let y = (p * p - r * r + b * b - 2.0 * x * x2) / (2.0 * y2);
         // Lengths must stay positive, too, and the base must not turn over.

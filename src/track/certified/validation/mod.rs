@@ -24,6 +24,7 @@ mod tubes;
 pub use faults::inject as inject_fault;
 
 use crate::equations::Form;
+use crate::places::Each as _;
 use along::{at_sketch, check_entry, link_is_true, middle, sketch, slope};
 
 use super::link::Tube;
@@ -267,7 +268,7 @@ impl<'a> Exact<'a> {
                     }
                 }
                 let e = self.homotopy.rights[e].enclosures();
-                let [two, three, four] = [2.0, 3.0, 4.0].map(point);
+                let [two, three, four] = [2.0, 3.0, 4.0].each(point);
                 row[self.m] = -(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4])));
                 row
             })

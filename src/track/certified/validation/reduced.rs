@@ -7,6 +7,7 @@ use super::disguise::Disguised;
 use super::*;
 use crate::interval::rounding::round_up;
 use crate::linalg::LANE;
+use crate::places::{Each as _, array};
 use crate::track::reduced::certified::{COEFFICIENTS, ReducedTest};
 use crate::track::{Options, Space};
 
@@ -229,7 +230,7 @@ pub fn right_hand_sides(random: &mut Random, rows: usize) -> Vec<[f64; LANE]> {
         true => 0.0,
         false => random.between(-1.0, 1.0),
     };
-    let row = |_| std::array::from_fn(|_| entry());
+    let row = |_| array(|_| entry());
     (0..rows).map(row).collect()
 }
 
@@ -385,7 +386,7 @@ fn check_tube(exact: &Exact, sample: &Proved, random: &mut Random, tally: &mut T
             .map(|&e| unknowns.iter().map(|&i| jacobian[e][i]).collect())
             .collect();
         let g = right_hand_sides(random, rows.len());
-        let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.map(f64::abs)).collect();
+        let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.each(f64::abs)).collect();
         let (mut work, mut bound) = (sizes.clone(), sizes.clone());
         y.resolvent.bound(
             &exact_equations(exact),

@@ -2,6 +2,7 @@
 
 use super::solutions::check_solutions;
 use super::*;
+use crate::places::Each as _;
 use crate::problem::Target;
 use crate::track::{Control, Options, Outcome, Status, solve};
 
@@ -10,7 +11,11 @@ use crate::track::{Control, Options, Outcome, Status, solve};
 fn figures(outcome: &Outcome) -> (usize, Vec<(Vec<f64>, usize)>) {
     let mut figures: Vec<(Vec<f64>, usize)> = Vec::new();
     for solution in &outcome.solutions {
-        let p: Vec<[f64; 3]> = solution.points.iter().map(|p| p.map(|x| x.mid())).collect();
+        let p: Vec<[f64; 3]> = solution
+            .points
+            .iter()
+            .map(|p| p.each(|x| x.mid()))
+            .collect();
         let mut shape = Vec::new();
         for i in 0..p.len() {
             for j in 0..i {

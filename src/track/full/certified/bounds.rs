@@ -3,6 +3,7 @@
 use super::tube::KrawczykTest;
 use crate::interval::rounding::gamma;
 use crate::linalg::{LANE, Vector};
+use crate::places::{Each as _, array};
 use crate::track::full::{DEGREE, Differences, Equations, Local, MAX_DEGREE, ORDER};
 
 /// Bounds by equation along a tube.
@@ -70,8 +71,8 @@ impl KrawczykTest {
             low,
             ..
         } = &mut self.bounds;
-        let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
-        let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        let [e0, e1, e2] = equations.e.each_ref().each(|e| e.lanes());
+        let [r0, r1, r2] = equations.e_radius.each_ref().each(|r| r.lanes());
         for l in 0..e0.len() {
             let (mut j_near, mut j_far) = ([0.0; LANE], [0.0; LANE]);
             let (mut j_width, mut size) = ([0.0; LANE], [0.0; LANE]);
@@ -85,17 +86,16 @@ impl KrawczykTest {
                     size[i] += (near[i] + far[i]) * (near[i] + far[i]);
                 }
             }
-            let [e0, e1, e2] = [e0[l], e1[l], e2[l]].map(|e| e.map(f64::abs));
+            let [e0, e1, e2] = [e0[l], e1[l], e2[l]].each(|e| e.each(f64::abs));
             let (r0, r1, r2) = (r0[l], r1[l], r2[l]);
-            rounding.lanes_mut()[l] = std::array::from_fn(|i| {
+            rounding.lanes_mut()[l] = array(|i| {
                 let slope_size = e1[i] + 2.0 * t * e2[i];
                 let slope_radius = r1[i] + 2.0 * t * r2[i];
                 per_entry * (j_near[i] + slope_size * ut) + slope_radius * ut
             });
-            higher.lanes_mut()[l] = std::array::from_fn(|i| j_far[i] + 2.0 * e2[i] * t_higher * ut);
-            width.lanes_mut()[l] =
-                std::array::from_fn(|i| j_width[i] + 2.0 * (e2[i] + r2[i]) * (ut * ut));
-            low.lanes_mut()[l] = std::array::from_fn(|i| {
+            higher.lanes_mut()[l] = array(|i| j_far[i] + 2.0 * e2[i] * t_higher * ut);
+            width.lanes_mut()[l] = array(|i| j_width[i] + 2.0 * (e2[i] + r2[i]) * (ut * ut));
+            low.lanes_mut()[l] = array(|i| {
                 let length_size = e0[i] + t * (e1[i] + t * e2[i]);
                 let length_radius = r0[i] + t * (r1[i] + t * r2[i]);
                 of_right * (size[i] + length_size) + length_radius
@@ -170,15 +170,15 @@ impl KrawczykTest {
             ..
         } = &mut self.bounds;
         let lanes = local.d[0].forms.lanes().len();
-        let forms: [_; ORDER + 1] = std::array::from_fn(|k| &local.d[k].forms.lanes()[..lanes]);
+        let forms: [_; ORDER + 1] = array(|k| &local.d[k].forms.lanes()[..lanes]);
         let (near, far) = (&mut self.near.forms, &mut self.far.forms);
         near.set_lanes(tail, |lane| {
             let size = |k: usize, i: usize| forms[k][lane][i].abs() * hs[k];
-            std::array::from_fn(|i| size(0, i) + size(1, i) + size(2, i))
+            array(|i| size(0, i) + size(1, i) + size(2, i))
         });
         far.set_lanes(tail, |lane| {
             let size = |k: usize, i: usize| forms[k][lane][i].abs() * hs[k];
-            std::array::from_fn(|i| (3..=ORDER).fold(0.0, |sum: f64, k| sum + size(k, i)))
+            array(|i| (3..=ORDER).fold(0.0, |sum: f64, k| sum + size(k, i)))
         });
         let sums = &self.sums.forms;
         // |J_k| u and |J'(w)| u: either factor changes while the other is there.
@@ -187,9 +187,7 @@ impl KrawczykTest {
         tail.add_products_abs(1.0, sums, sums, width);
         let coefficients = &mut self.tail_sizes;
         let (near, far) = (near.lanes(), far.lanes());
-        coefficients.set_lanes(tail, |lane| {
-            std::array::from_fn(|i| near[lane][i] + far[lane][i])
-        });
+        coefficients.set_lanes(tail, |lane| array(|i| near[lane][i] + far[lane][i]));
         tail.add_squares_abs(2.0 * per_term, coefficients, low);
     }
 
@@ -211,7 +209,7 @@ impl KrawczykTest {
             ..
         } = &mut self.bounds;
         let bend = &equations.bends[b];
-        let (e, r, at) = (bend.e.map(f64::abs), &bend.e_radius, bend.edge);
+        let (e, r, at) = (bend.e.each(f64::abs), &bend.e_radius, bend.edge);
         let cube = t * t * t;
         let of_right = gamma(equations.roundings().of_coefficient(ORDER));
         low[at] += of_right * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);

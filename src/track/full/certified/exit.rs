@@ -3,6 +3,7 @@
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
+use crate::places::array;
 use crate::track::certified::link::{Ball, Tube, from_middle};
 use crate::track::certified::proof::Proof;
 use crate::track::full::newton::{UNTIL, Until};
@@ -156,7 +157,7 @@ impl KrawczykTest {
                 // Beyond n all of these are zero.
                 for (v, f) in test.v.lanes_mut().iter_mut().zip(test.f.lanes()) {
                     let step = *v;
-                    *v = std::array::from_fn(|i| step[i] - s * f[i]);
+                    *v = array(|i| step[i] - s * f[i]);
                 }
                 norm_of(&test.v, u, n)
             },
@@ -167,7 +168,7 @@ impl KrawczykTest {
                 }
                 for (centre, v) in out.centre.lanes_mut().iter_mut().zip(test.v.lanes()) {
                     let from = *centre;
-                    *centre = std::array::from_fn(|i| from[i] - v[i]);
+                    *centre = array(|i| from[i] - v[i]);
                 }
             },
         );

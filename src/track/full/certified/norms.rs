@@ -2,6 +2,7 @@
 
 use super::low_orders::LowOrders;
 use crate::interval::rounding::{in_range, round_up};
+use crate::places::Each as _;
 use crate::track::certified::proof::{ATTEMPTS, Contraction, Proof, longest};
 use crate::track::certified::shortfall::Shortfall;
 use crate::track::full::{MAX_DEGREE, ORDER};
@@ -116,7 +117,7 @@ impl Norms {
         // with all rounding see `LowOrders::slope`.
         // In the last term, of the bend alone, ½ |E⁽³⁾| is below the curvature that `width` counts.
         let moving = 1.0 + h * self.a;
-        let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].map(|k| k as f64 / h);
+        let orders = [ORDER + 1, ORDER + 2, (MAX_DEGREE - 1) * ORDER].each(|k| k as f64 / h);
         let x = h / self.h;
         let x3 = x * x * x;
         let defect_slope = self.low.slope(self.h)

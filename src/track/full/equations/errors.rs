@@ -3,6 +3,7 @@
 use super::{Bend, Differences, Equations};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::{LANE, Vector};
+use crate::places::Each as _;
 
 impl Equations {
     /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
@@ -11,8 +12,8 @@ impl Equations {
         let t = t.abs();
         let count = self.roundings();
         let (per_term, roundings) = (gamma(count.of_residual()), count.of_residual_bound());
-        let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
-        let [r0, r1, r2] = self.e_radius.each_ref().map(|r| r.lanes());
+        let [e0, e1, e2] = self.e.each_ref().each(|e| e.lanes());
+        let [r0, r1, r2] = self.e_radius.each_ref().each(|r| r.lanes());
         let lanes = out.lanes_mut().iter_mut().take(e0.len());
         for (l, out) in lanes.enumerate() {
             let squared = d.lane_of_products(d, l);
@@ -63,7 +64,7 @@ impl Equations {
             let (slope_size, slope_radius) = self.slope_of_length(e, t);
             let mut curvature = 2.0 * (self.e[2][e].abs() + self.e_radius[2][e]);
             if let Some(bend) = self.bend_of(e) {
-                let (c, r) = (bend.e.map(f64::abs), &bend.e_radius);
+                let (c, r) = (bend.e.each(f64::abs), &bend.e_radius);
                 curvature += t * (6.0 * (c[3] + r[3]) + 12.0 * t * (c[4] + r[4]));
             }
             let time = slope_radius + curvature * t_radius;
@@ -76,7 +77,7 @@ impl Equations {
     /// E' at |t|, and on how far it may be from that of the coefficients. At most twelve roundings.
     pub fn slope_of_length(&self, edge: usize, t: f64) -> (f64, f64) {
         let slope = |e: [f64; 5]| {
-            let [_, e1, e2, e3, e4] = e.map(f64::abs);
+            let [_, e1, e2, e3, e4] = e.each(f64::abs);
             e1 + t * (2.0 * e2 + t * (3.0 * e3 + t * (4.0 * e4)))
         };
         if let Some(bend) = self.bend_of(edge) {

@@ -2,6 +2,7 @@
 
 use super::{Differences, Equations, Lengths};
 use crate::linalg::{LANE, Vector};
+use crate::places::Each as _;
 
 impl Equations {
     /// p_i − p_j for the point `z`, per axis and distance, and the tail's forms.
@@ -47,7 +48,7 @@ impl Equations {
     /// The Taylor coefficients E⁽ʲ⁾(t)/j!: for all distances up to j = 2, for the bend to j = 4.
     #[inline(always)]
     pub fn expand_lengths(&self, t: f64, out: &mut Lengths) {
-        let [e0, e1, e2] = self.e.each_ref().map(|e| e.lanes());
+        let [e0, e1, e2] = self.e.each_ref().each(|e| e.lanes());
         let [t0, t1] = &mut out.terms;
         let (t0, t1) = (t0.lanes_mut(), t1.lanes_mut());
         for l in 0..e0.len() {

@@ -13,6 +13,7 @@ mod room;
 use super::extended::Extended;
 use super::tail::{Forms, Tail};
 use crate::linalg::{Sparse, Vector};
+use crate::places::Each as _;
 use crate::system::Homotopy;
 
 pub use room::{Differences, Lengths};
@@ -75,7 +76,7 @@ impl Equations {
         let entry = |point: usize, axis: usize| homotopy.coordinate(point, axis).unwrap_or(m + 1);
         let of_axis = |axis: usize| {
             let head = homotopy.half_squares();
-            let ends = head.map(|edge| edge.points.map(|p| entry(p, axis) as u32));
+            let ends = head.map(|edge| edge.points.each(|p| entry(p, axis) as u32));
             let of_tail = std::iter::repeat([m as u32 + 1; 2]);
             ends.chain(of_tail).take(m).collect()
         };

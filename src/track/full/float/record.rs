@@ -2,6 +2,7 @@
 
 use crate::interval::point;
 use crate::linalg::{Matrix, Vector};
+use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner};
 use crate::track::{Driving, Mode, Outcome, Space, Status, observed_solutions};
@@ -119,7 +120,7 @@ impl<Y: Preconditioner> Record<Y> {
                 let unit = homotopy.unit;
                 places
                     .chunks(d)
-                    .map(|p| std::array::from_fn(|k| p.get(k).map_or(0.0, |x| x * unit)))
+                    .map(|p| array(|k| p.get(k).map_or(0.0, |x| x * unit)))
                     .collect()
             })
             .collect();

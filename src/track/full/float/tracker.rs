@@ -4,6 +4,7 @@ use super::Record;
 use super::crossing::Crossing as FlatCrossing;
 use super::open::{Ends, Halt, endless, follow_both_ways};
 use crate::linalg::{Matrix, Vector};
+use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::ends::ENDLESS;
 use crate::track::events::{Crossing, TimeAlong};
@@ -248,7 +249,7 @@ impl Events {
         }
         let error = error.max(apart);
         for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
-            let z: [f64; ORDER + 1] = std::array::from_fn(|k| local.z[k][equations.m]);
+            let z: [f64; ORDER + 1] = array(|k| local.z[k][equations.m]);
             let reach = 2.0 * (to - from);
             let time = TimeAlong::new(z, reach, error, 12.0 * error / step);
             time.crossings(from, to, &mut self.crossings)

@@ -4,6 +4,7 @@ mod products;
 mod rows;
 
 use crate::equations::Form;
+use crate::places::Each as _;
 use crate::system::Homotopy;
 use products::Slots;
 use rows::Rows;
@@ -199,7 +200,7 @@ impl Tail {
 
     /// The entries of z that a form is the difference of; not for the number 1.
     pub fn ends(&self, form: usize) -> [usize; 2] {
-        self.ends[form].map(|end| end as usize)
+        self.ends[form].each(|end| end as usize)
     }
 
     /// `Σ |half| |x_left| |y_right|` of one equation, zero for distances.

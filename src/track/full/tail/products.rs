@@ -7,6 +7,7 @@
 use super::super::local::MAX_ORDER;
 use super::Tail;
 use crate::linalg::{LANE, Vector};
+use crate::places::{Each as _, array};
 
 /// Four numbers, one for each equation of a lane.
 type Lane = [f64; LANE];
@@ -110,12 +111,12 @@ impl Forms {
         let slots = &tail.slots;
         let values = &self.values[..];
         for (left, forms) in self.left.iter_mut().zip(&slots.left) {
-            *left = forms.map(|form| values[form as usize]);
+            *left = forms.each(|form| values[form as usize]);
         }
         let halves = slots.right.iter().zip(&slots.half);
         for (right, (forms, half)) in self.right.iter_mut().zip(halves) {
-            let of_slot = forms.map(|form| values[form as usize]);
-            *right = std::array::from_fn(|i| half[i] * of_slot[i]);
+            let of_slot = forms.each(|form| values[form as usize]);
+            *right = array(|i| half[i] * of_slot[i]);
         }
     }
 
@@ -196,7 +197,7 @@ impl Tail {
     pub fn add_products(&self, factor: f64, x: &Forms, y: &Forms, out: &mut [f64]) {
         let value = |slots: std::ops::Range<usize>| {
             let sum = x.times(y, slots.clone(), [0.0; LANE]);
-            y.times(x, slots, sum).map(|sum| factor * sum)
+            y.times(x, slots, sum).each(|sum| factor * sum)
         };
         self.add(value, out);
     }
@@ -241,7 +242,7 @@ impl Tail {
 
     /// Adds `factor · Σ |half| |x_left| |x_right|`.
     pub fn add_squares_abs(&self, factor: f64, x: &Forms, out: &mut [f64]) {
-        let value = |slots| x.times_abs(x, slots, [0.0; LANE]).map(|sum| factor * sum);
+        let value = |slots| x.times_abs(x, slots, [0.0; LANE]).each(|sum| factor * sum);
         self.add(value, out);
     }
 
@@ -249,7 +250,7 @@ impl Tail {
     pub fn add_products_abs(&self, factor: f64, x: &Forms, y: &Forms, out: &mut [f64]) {
         let value = |slots: std::ops::Range<usize>| {
             let sum = x.times_abs(y, slots.clone(), [0.0; LANE]);
-            y.times_abs(x, slots, sum).map(|sum| factor * sum)
+            y.times_abs(x, slots, sum).each(|sum| factor * sum)
         };
         self.add(value, out);
     }

@@ -7,6 +7,7 @@ use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
 use crate::linalg::rstructure::Lane;
 use crate::linalg::{LANE, Vector};
+use crate::places::{Each as _, array};
 use crate::track::certified::proof::powers_of;
 use crate::track::full::{Equations, MAX_DEGREE};
 
@@ -84,9 +85,9 @@ impl Along {
             self.tail.measure(equations, local, entries, hs);
         }
         for axis in 0..equations.dimension() {
-            let d: [&[Lane]; COEFFICIENTS] = std::array::from_fn(|k| local.d[k][axis].lanes());
+            let d: [&[Lane]; COEFFICIENTS] = array(|k| local.d[k][axis].lanes());
             let lanes = d[0].len();
-            let d = d.map(|d| &d[..lanes]);
+            let d = d.each(|d| &d[..lanes]);
             let all = &mut self.all[axis].lanes_mut()[..lanes];
             let from1 = &mut self.from1[axis].lanes_mut()[..lanes];
             let from2 = &mut self.from2[axis].lanes_mut()[..lanes];
@@ -155,8 +156,8 @@ impl Along {
         let of_coefficient = count.of_reduced_coefficient(COEFFICIENTS);
         let (at_point, rounding) = (gamma(count.of_reduced_residual()), gamma(of_coefficient));
         let t = self.time.t;
-        let [e0, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
-        let [r0, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        let [e0, e1, e2] = equations.e.each_ref().each(|e| e.lanes());
+        let [r0, r1, r2] = equations.e_radius.each_ref().each(|r| r.lanes());
         // Rounding in F(z₀) is at most γ(at a point) times ½ Σ d₀² + |E|(|t₀|). Rounding in the coefficient of
         // sᵏ, k ≥ 1, is at most γ(in a coefficient) times that of hᵏ in Σ all² + |E|(T), with T(h) = Σ |t_k| hᵏ,
         // and the radii's share that in E's radius at T. These are polynomials in h with coefficients
@@ -169,7 +170,7 @@ impl Along {
             let (mut at_0, mut beyond, mut turned) = ([0.0; LANE], [0.0; LANE], [0.0; LANE]);
             for axis in 0..equations.dimension() {
                 let of = |vectors: &[Vector]| vectors[axis].lanes()[l];
-                let (d, from1) = (of(&local.d[0]).map(f64::abs), of(&self.from1));
+                let (d, from1) = (of(&local.d[0]).each(f64::abs), of(&self.from1));
                 let (all, slopes) = (of(&self.all), of(&self.slopes));
                 for i in 0..LANE {
                     at_0[i] += 0.5 * (d[i] * d[i]);
@@ -194,14 +195,14 @@ impl Along {
         let beyond = |c: [f64; 5], t: f64| t * t * t * (c[3] + t * c[4]);
         for bend in &equations.bends {
             self.low[bend.edge] +=
-                at_point * beyond(bend.e.map(f64::abs), t0) + beyond(bend.e_radius, t);
+                at_point * beyond(bend.e.each(f64::abs), t0) + beyond(bend.e_radius, t);
         }
     }
 
     /// Measures t, E' and E''.
     fn measure_time(&mut self, equations: &Equations, local: &Locals) {
         let hs = &self.powers;
-        self.time = Time::new(std::array::from_fn(|k| local.z[k][equations.m]), hs);
+        self.time = Time::new(array(|k| local.z[k][equations.m]), hs);
         let tail = self.time.tail;
         let tails = self.slope_tails.iter_mut().zip(equations.e[2].iter());
         tails.for_each(|(out, e2)| *out = 2.0 * e2.abs() * tail);
@@ -211,8 +212,8 @@ impl Along {
                 .sum();
         }
         let t = self.time.t;
-        let [_, e1, e2] = equations.e.each_ref().map(|e| e.lanes());
-        let [_, r1, r2] = equations.e_radius.each_ref().map(|r| r.lanes());
+        let [_, e1, e2] = equations.e.each_ref().each(|e| e.lanes());
+        let [_, r1, r2] = equations.e_radius.each_ref().each(|r| r.lanes());
         let sizes = self.slope_size.lanes_mut().iter_mut();
         let radii = self.slope_radius.lanes_mut().iter_mut();
         let curvatures = self.curvature.lanes_mut().iter_mut();
@@ -229,7 +230,7 @@ impl Along {
             let (size, radius) = equations.slope_of_length(bend.edge, t);
             self.slope_size[bend.edge] = size;
             self.slope_radius[bend.edge] = radius;
-            self.curvature[bend.edge] = second(bend.e.map(f64::abs)) + second(bend.e_radius);
+            self.curvature[bend.edge] = second(bend.e.each(f64::abs)) + second(bend.e_radius);
         }
     }
 

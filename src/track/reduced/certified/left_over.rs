@@ -7,6 +7,7 @@ use super::frame::{Reduction, SERIES};
 use super::series::{SIGNED, Series, add_product};
 use crate::linalg::LANE;
 use crate::linalg::rstructure::{Row, add};
+use crate::places::Each as _;
 use crate::track::full::Equations;
 
 /// The two parts of a bound by key unknown.
@@ -23,12 +24,12 @@ pub fn of_z<const W: usize>(
 ) -> Parts<W> {
     let hs = &along.powers;
     let [mut constant, mut cubic] = [[[0.0; LANE]; W]; 2];
-    let zj = series.zj.each_ref().map(|zj| zj.as_chunks::<W>().0);
+    let zj = series.zj.each_ref().each(|zj| zj.as_chunks::<W>().0);
     for block in &y.elimination.layout.blocks {
         for &unknown in &block.unknowns[..block.size] {
             let i = unknown as usize;
             let rho = rho_a[i];
-            let zj = zj.map(|zj| &zj[i]);
+            let zj = zj.each(|zj| &zj[i]);
             for w in 0..W {
                 for l in 0..LANE {
                     let entry = |q: usize| hs[q] * zj[q][w][l].abs();
@@ -38,7 +39,7 @@ pub fn of_z<const W: usize>(
             }
         }
     }
-    let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
+    let zs = y.z.each_ref().each(|z| z.as_chunks::<W>().0);
     for e in 0..equations.tail.first() {
         let mut tails = [0.0; SERIES + 1];
         for axis in 0..equations.dimension() {
@@ -49,14 +50,14 @@ pub fn of_z<const W: usize>(
             tails[2] += along.from2[axis][e] * both;
         }
         for (q, (z, tail)) in zs.iter().zip(tails).enumerate() {
-            let size = z[e].map(|lane| lane.map(f64::abs));
+            let size = z[e].each(|lane| lane.each(f64::abs));
             add(&mut cubic, hs[q] * tail, &size);
         }
     }
     for e in equations.tail.first()..equations.m {
         let [_, from2, from3, from4, _] = &along.tail.entries;
         for (q, (z, from)) in zs.iter().zip([from4, from3, from2]).enumerate() {
-            let size = z[e].map(|lane| lane.map(f64::abs));
+            let size = z[e].each(|lane| lane.each(f64::abs));
             let tail = along.tail.times(equations, e, from, rho_a);
             add(&mut cubic, hs[q] * tail, &size);
         }
@@ -73,7 +74,7 @@ pub fn of_s<const W: usize>(
     kappa: &Row<W>,
 ) -> Parts<W> {
     let layout = &y.elimination.layout;
-    let zs = y.z.each_ref().map(|z| z.as_chunks::<W>().0);
+    let zs = y.z.each_ref().each(|z| z.as_chunks::<W>().0);
     let keys = layout.keys();
     let m = zs[0].len() - 1;
     let rows_of_s = layout.rows_of_s(m);
@@ -95,7 +96,7 @@ pub fn of_s<const W: usize>(
             if q == 0 {
                 column[w][l] -= 1.0;
             }
-            let size = column.map(|lane| lane.map(f64::abs));
+            let size = column.each(|lane| lane.each(f64::abs));
             add(part, along.powers[q] * kappa[w][l], &size);
         }
     }

@@ -11,6 +11,7 @@ use super::test::ReducedTest;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::linalg::LANE;
 use crate::linalg::rstructure::{MAX_KEYS, Row};
+use crate::places::Each as _;
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::Layout;
 
@@ -118,7 +119,7 @@ impl ReducedTest {
             &bounds,
             slope_of,
         ));
-        let width: [f64; MAX_KEYS] = self.sides.keys.map(|sides| sides[second::WIDTH]);
+        let width: [f64; MAX_KEYS] = self.sides.keys.each(|sides| sides[second::WIDTH]);
         self.shape
             .set_next_weights(&layout, kappa.as_flattened(), &width[..layout.keys()]);
         let y = &mut tube.local.y;
@@ -136,7 +137,7 @@ impl ReducedTest {
         let (equations, layout, y) = (place.equations, place.layout, &place.local.y);
         let (along, sides) = (&mut self.along, &mut self.sides);
         let t = equations.m;
-        let [moved0, moved1, moved2] = self.shape.moved.each_ref().map(|moved| &moved[..]);
+        let [moved0, moved1, moved2] = self.shape.moved.each_ref().each(|moved| &moved[..]);
         let omega = &self.shape.omega[..];
         let first = equations.tail.first();
         if first < equations.m {
@@ -167,7 +168,7 @@ impl ReducedTest {
         sides.g[t] = [0.0; LANE];
         sides.gather(y);
         // For the key unknowns these are counted with their signs, see `left_over`.
-        let [jk3, jk4] = [3, 4].map(|q| self.series.jk[q].as_chunks::<W>().0);
+        let [jk3, jk4] = [3, 4].each(|q| self.series.jk[q].as_chunks::<W>().0);
         let (h3, h4) = (along.powers[3], along.powers[4]);
         for block in &layout.blocks {
             for r in 0..block.size {
@@ -278,7 +279,7 @@ impl ReducedTest {
             0.0,
             0.0,
         ];
-        let jk = [0, 1, 2].map(|q| self.series.jk[q].as_chunks::<W>().0);
+        let jk = [0, 1, 2].each(|q| self.series.jk[q].as_chunks::<W>().0);
         for block in &layout.blocks {
             for &e in &block.rows[..block.size] {
                 let e = e as usize;

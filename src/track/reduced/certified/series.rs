@@ -5,6 +5,7 @@ use super::COEFFICIENTS;
 use super::frame::{Locals, SERIES};
 use crate::linalg::rstructure::{Lane, Row, add};
 use crate::linalg::{LANE, Vector};
+use crate::places::array;
 use crate::track::full::Equations;
 use crate::track::reduced::structure::passes::Derivative;
 
@@ -46,7 +47,7 @@ impl Series {
         }
         let (d, y) = (&local.d, &mut local.y);
         let normal = &local.normal[..n];
-        let jacobians: [Derivative; SIGNED + 1] = std::array::from_fn(|q| Derivative {
+        let jacobians: [Derivative; SIGNED + 1] = array(|q| Derivative {
             ends: &equations.ends,
             d: &d[q],
             slope: &self.slopes[q],

@@ -5,6 +5,7 @@ use super::sides::{PerKey, Sides, row_of, weigh};
 use crate::interval::rounding::round_up;
 use crate::linalg::rstructure::{Lane, MAX_KEYS, Row};
 use crate::linalg::{LANE, Vector};
+use crate::places::Each as _;
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::Layout;
 
@@ -79,7 +80,7 @@ impl Shape {
         resize(&mut y.k_slope, n + 1);
         resize(&mut y.z_size, n);
         let [k0, k1, k2] =
-            [&y.elimination.reduced.k, &y.k[0], &y.k[1]].map(|k| &k.as_chunks::<W>().0[..n]);
+            [&y.elimination.reduced.k, &y.k[0], &y.k[1]].each(|k| &k.as_chunks::<W>().0[..n]);
         let sizes = &mut y.k_size.as_chunks_mut::<W>().0[..n];
         let slopes = &mut y.k_slope.as_chunks_mut::<W>().0[..n];
         let [m0, m1, m2] = self.moved.each_mut().map(|moved| &mut moved[..n]);
@@ -98,7 +99,7 @@ impl Shape {
                 }
             }
         }
-        let [z0, z1, z2] = y.z.each_ref().map(|z| &z.as_chunks::<W>().0[..n]);
+        let [z0, z1, z2] = y.z.each_ref().each(|z| &z.as_chunks::<W>().0[..n]);
         let sizes = &mut y.z_size.as_chunks_mut::<W>().0[..n];
         for e in 0..n {
             for w in 0..W {

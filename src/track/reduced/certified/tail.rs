@@ -4,6 +4,7 @@ use super::frame::Locals;
 use super::{COEFFICIENTS, DEGREE, ORDER};
 use crate::interval::rounding::gamma;
 use crate::linalg::{LANE, Vector};
+use crate::places::{Each as _, array};
 use crate::track::full::{Equations, Forms};
 
 /// Sizes over a tube of a length that was chosen last; nothing where there are distances only.
@@ -52,7 +53,7 @@ impl TailSizes {
     ) {
         let tail = &equations.tail;
         let lanes = local.d[0].forms.lanes().len();
-        let forms: [_; COEFFICIENTS] = std::array::from_fn(|k| &local.d[k].forms.lanes()[..lanes]);
+        let forms: [_; COEFFICIENTS] = array(|k| &local.d[k].forms.lanes()[..lanes]);
         // Σ f_k w_k from k = 1 on, without signs.
         let weighed = |lane: usize, weights: &[f64; COEFFICIENTS]| -> [f64; LANE] {
             let mut sum = [0.0; LANE];
@@ -63,15 +64,14 @@ impl TailSizes {
             }
             sum
         };
-        let powers = std::array::from_fn(|k| hs[k]);
-        let rates = std::array::from_fn(|k| k as f64 * hs[k.saturating_sub(1)]);
+        let powers = array(|k| hs[k]);
+        let rates = array(|k| k as f64 * hs[k.saturating_sub(1)]);
         self.at_0
-            .set_lanes(tail, |lane| forms[0][lane].map(f64::abs));
+            .set_lanes(tail, |lane| forms[0][lane].each(f64::abs));
         self.from1.set_lanes(tail, |lane| weighed(lane, &powers));
         let (at_0, from1) = (self.at_0.lanes(), self.from1.lanes());
-        self.all.set_lanes(tail, |lane| {
-            std::array::from_fn(|i| at_0[lane][i] + from1[lane][i])
-        });
+        self.all
+            .set_lanes(tail, |lane| array(|i| at_0[lane][i] + from1[lane][i]));
         self.slopes.set_lanes(tail, |lane| weighed(lane, &rates));
         let [all, from2, from3, from4, from5] = &mut self.entries;
         tail.row_sizes(&self.all, all);
@@ -79,7 +79,7 @@ impl TailSizes {
         // rounding for the form, one for the product, and one for each part.
         let hidden = gamma(equations.roundings().of_row_along(COEFFICIENTS));
         let count = all.len();
-        let values = values.each_ref().map(|values| &values[..count]);
+        let values = values.each_ref().each(|values| &values[..count]);
         let [from2, from3, from4, from5] =
             [from2, from3, from4, from5].map(|bounds| &mut bounds[..count]);
         for entry in 0..count {

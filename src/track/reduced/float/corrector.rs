@@ -3,6 +3,7 @@
 use super::elimination::Elimination;
 use super::lane;
 use super::path_point::{PathPoint, distance, dot};
+use crate::places::Each as _;
 use crate::plan::{Differences, Evaluation, Lanes};
 
 /// Work space: parameters, corrections, factorizations.
@@ -182,7 +183,7 @@ impl Corrector {
     fn step_size(&self) -> f64 {
         let mut sum = Lanes::ZERO;
         for (step, &size) in self.step.iter().zip(&self.sizes) {
-            sum = sum.plus_product(Lanes(step.0.map(|x| x * x)), size);
+            sum = sum.plus_product(Lanes(step.0.each(|x| x * x)), size);
         }
         sum.sum().sqrt()
     }

@@ -1,5 +1,7 @@
 //! The cubic between two points of the path whose tangents are known.
 
+use crate::places::Each as _;
+
 /// The cubic x(s), s from 0 to h, with given values and slopes at both ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cubic {
@@ -38,7 +40,7 @@ impl Cubic {
     /// The turning points strictly between the ends, ascending; only the first so many are meant.
     pub fn turning_points(&self) -> ([f64; 2], usize) {
         // x'(u) = a u² + b u + c
-        let [m0, m1] = self.slope.map(|m| m * self.h);
+        let [m0, m1] = self.slope.each(|m| m * self.h);
         let rise = self.x[1] - self.x[0];
         let (a, b, c) = (
             3.0 * (m0 + m1 - 2.0 * rise),

@@ -6,6 +6,8 @@
 //! ϕ' (RR 8705, (4)). So a change of plan costs no history, and the step control measures what
 //! happens to the figure. That is for distances; `structured` is for other constraints.
 
+use crate::places::array;
+
 mod corrector;
 mod cubic;
 mod elimination;
@@ -254,7 +256,7 @@ impl<'a> Tracker<'a> {
             .map(|figure| {
                 let points = figure.chunks_exact(self.homotopy.dimension);
                 points
-                    .map(|p| std::array::from_fn(|k| p.get(k).map_or(0.0, |x| x * unit)))
+                    .map(|p| array(|k| p.get(k).map_or(0.0, |x| x * unit)))
                     .collect()
             })
             .collect();

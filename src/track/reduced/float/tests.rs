@@ -1,4 +1,5 @@
 use super::track;
+use crate::places::Each as _;
 use crate::plan::testing::{rigid, shipped};
 use crate::problem::{Problem, Target};
 use crate::system::Homotopy;
@@ -57,7 +58,7 @@ fn off_target(problem: &Problem, outcome: &Outcome) -> f64 {
     let mut worst = 0.0f64;
     for solution in &outcome.solutions {
         for distance in &problem.distances {
-            let [a, b] = distance.points.map(|p| solution.points[p]);
+            let [a, b] = distance.points.each(|p| solution.points[p]);
             let length = (0..3)
                 .map(|k| (a[k].mid() - b[k].mid()).powi(2))
                 .sum::<f64>()

@@ -6,6 +6,7 @@ use super::pivots::{Candidate, dot, take_best};
 use super::sequence::Group;
 use crate::linalg::LANE;
 use crate::linalg::rstructure::width_for;
+use crate::places::Each as _;
 use crate::track::full::{Differences, Equations};
 
 /// Groups in an order, each with the equations that have others only from groups before it.
@@ -234,7 +235,7 @@ fn entries_of(equations: &Equations, e: usize) -> Vec<(usize, Entry)> {
     }
     let ends = equations.ends.iter().enumerate();
     let entries = ends.flat_map(|(axis, ends)| {
-        let [i, j] = ends[e].map(|end| end as usize);
+        let [i, j] = ends[e].each(|end| end as usize);
         [
             (i, Entry::Distance(axis, 1.0)),
             (j, Entry::Distance(axis, -1.0)),

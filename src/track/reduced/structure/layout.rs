@@ -4,6 +4,7 @@ use super::groups::Groups;
 use super::pivots::{Candidate, dot, take_best};
 use super::sequence::{Group, groups_in_order};
 use crate::linalg::rstructure::MAX_KEYS;
+use crate::places::array;
 use crate::plan::Plan;
 use crate::system::{Edge, Homotopy};
 use crate::track::full::{Differences, Equations};
@@ -231,7 +232,7 @@ impl Layout {
     /// The rows of S in matrices with a row per equation and the normal's, the `m`-th: the ignored
     /// equations, then the normal. What comes after [`Layout::keys`] of them is the normal again.
     pub fn rows_of_s(&self, m: usize) -> [usize; MAX_KEYS] {
-        std::array::from_fn(|l| self.ignored.get(l).map_or(m, |&e| e as usize))
+        array(|l| self.ignored.get(l).map_or(m, |&e| e as usize))
     }
 
     /// Whether there are as many ignored equations as key unknowns: always, where no distance is

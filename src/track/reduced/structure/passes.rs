@@ -9,6 +9,7 @@
 use super::layout::{Block, Kind, Layout, WIDEST};
 use crate::linalg::rstructure::{Row, add, invert_transposed, zeros};
 use crate::linalg::{LANE, Vector, with_axes};
+use crate::places::{Each as _, array};
 use crate::track::full::Tail;
 
 /// A derivative of the Jacobian along the path: differences per axis, the slopes of the right-hand sides,
@@ -90,7 +91,7 @@ impl<const D: usize> Head<'_, D> {
     #[inline(always)]
     fn add_left<const W: usize>(&self, e: usize, z: &Row<W>, out: &mut [Row<W>]) {
         for axis in 0..D {
-            let [i, j] = self.ends[axis][e].map(|end| end as usize);
+            let [i, j] = self.ends[axis][e].each(|end| end as usize);
             add(&mut out[i], self.d[axis][e], z);
             add(&mut out[j], -self.d[axis][e], z);
         }
@@ -113,7 +114,7 @@ impl<const D: usize> Head<'_, D> {
             let e = block.rows[r] as usize;
             z[e] = sum;
             for axis in 0..D {
-                let [i, j] = self.ends[axis][e].map(|end| end as usize);
+                let [i, j] = self.ends[axis][e].each(|end| end as usize);
                 let other = if block.signs[r] > 0.0 { j } else { i };
                 add(&mut t[other], -block.signs[r] * self.d[axis][e], &sum);
             }
@@ -141,8 +142,8 @@ impl<'a> Derivative<'a> {
     fn head<const D: usize>(&self) -> Head<'a, D> {
         let first = self.tail.first();
         Head {
-            ends: std::array::from_fn(|axis| &self.ends[axis][..first]),
-            d: std::array::from_fn(|axis| &self.d[axis][..first]),
+            ends: array(|axis| &self.ends[axis][..first]),
+            d: array(|axis| &self.d[axis][..first]),
             slope: &self.slope[..first],
             t: self.t,
         }
@@ -237,7 +238,7 @@ impl<'a> Derivative<'a> {
         let first = self.tail.first();
         for (ends, d) in self.ends.iter().zip(self.d) {
             for ((ends, d), z) in ends[..first].iter().zip(&d[..]).zip(z) {
-                let [i, j] = ends.map(|end| end as usize);
+                let [i, j] = ends.each(|end| end as usize);
                 add(&mut out[i], *d, z);
                 add(&mut out[j], -*d, z);
             }

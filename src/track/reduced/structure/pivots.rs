@@ -1,6 +1,7 @@
 //! Which equations find the unknowns of a group at a point: those whose rows depend least on each other.
 
 use super::layout::WIDEST;
+use crate::places::Each as _;
 
 /// One number for each unknown of a group.
 pub type Wide = [f64; WIDEST];
@@ -81,5 +82,5 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn divided(row: Wide, by: f64) -> Wide {
-    if by > 0.0 { row.map(|x| x / by) } else { row }
+    if by > 0.0 { row.each(|x| x / by) } else { row }
 }

@@ -2,6 +2,7 @@
 
 use super::layout::{Block, Kind, Layout};
 use super::passes::{Derivative, Inverses};
+use crate::places::Each as _;
 
 /// The entries that A's rows have before their blocks, as floats: those of unknowns that are found before.
 #[derive(Debug, Clone, Default)]
@@ -100,7 +101,7 @@ impl Substitution {
 fn each_entry(j: &Derivative, e: usize, mut to: impl FnMut(usize, f64)) {
     if e < j.tail.first() {
         for (ends, d) in j.ends.iter().zip(j.d) {
-            let [plus, minus] = ends[e].map(|end| end as usize);
+            let [plus, minus] = ends[e].each(|end| end as usize);
             to(plus, d[e]);
             to(minus, -d[e]);
         }

@@ -2,6 +2,7 @@
 
 use super::big::{Big, Rows, dot, exact, solve};
 use crate::equations::Form;
+use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::system::{Homotopy, Term};
 use num_rational::BigRational;
@@ -20,7 +21,7 @@ impl Figure {
     pub fn new(problem: &Problem, homotopy: &Homotopy) -> Self {
         let unit = Big::of(homotopy.unit);
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
-            let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
+            let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
             let squared = (0..3).fold(BigRational::from_integer(0.into()), |sum, k| {
                 let d = a[k].value() - b[k].value();
                 sum + &d * &d

@@ -7,6 +7,7 @@ use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
 use crate::linalg::{LANE, Vector};
+use crate::places::Each as _;
 use crate::track::certified::link::{Ball, Frame};
 use crate::track::certified::tracker::Test;
 use crate::track::reduced::certified::{Bounds, COEFFICIENTS};
@@ -130,7 +131,7 @@ pub fn check_resolvent(
         })
         .collect();
     let g = right_hand_sides(random, view.rows.len());
-    let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.map(f64::abs)).collect();
+    let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.each(f64::abs)).collect();
     let (mut work, mut bound) = (sizes.clone(), sizes.clone());
     let layout = &y.elimination.layout;
     y.resolvent

@@ -4,6 +4,7 @@ use super::super::reduced::ReducedTube;
 use super::big::{exact, horner, horner_slope};
 use super::*;
 use crate::linalg::LANE;
+use crate::places::Each as _;
 use crate::track::reduced::certified::Block;
 
 /// A tube of the reduced space, its numbers taken for exact.
@@ -42,7 +43,7 @@ impl<'a> View<'a> {
     /// Coefficients of row i, entry l of a series.
     fn series(&self, rows: [&[[f64; LANE]]; 3], i: usize, l: usize) -> [f64; 3] {
         let width = self.tube.local.y.elimination.reduced.width;
-        rows.map(|rows| rows[i * width + l / LANE][l % LANE])
+        rows.each(|rows| rows[i * width + l / LANE][l % LANE])
     }
 
     fn k_of(&self, i: usize, l: usize) -> [f64; 3] {

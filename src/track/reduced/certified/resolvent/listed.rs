@@ -3,6 +3,7 @@
 use super::{Diagonal, Resolvent};
 use crate::linalg::rstructure::Lane;
 use crate::linalg::{LANE, Vector};
+use crate::places::{Each as _, array};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, WIDEST};
 
@@ -76,7 +77,7 @@ impl Resolvent {
                     }
                 },
             );
-            lists.ranges[start + r] = [begin, lists.before.len()].map(|at| at as u32);
+            lists.ranges[start + r] = [begin, lists.before.len()].each(|at| at as u32);
             let n = &mut self.n[first + r * lanes..][..lanes];
             n.fill([0.0; LANE]);
             n[(start + r) / LANE][(start + r) % LANE] = -1.0;
@@ -114,14 +115,14 @@ impl Resolvent {
         };
         if e < equations.tail.first() {
             for axis in 0..equations.dimension() {
-                let [i, j] = equations.ends[axis][e].map(|end| end as usize);
-                let (a, size) = (d.map(|d| d[axis][e]), self.spread[axis][e]);
+                let [i, j] = equations.ends[axis][e].each(|end| end as usize);
+                let (a, size) = (d.each(|d| d[axis][e]), self.spread[axis][e]);
                 put(i, a, size);
-                put(j, a.map(|a| -a), size);
+                put(j, a.each(|a| -a), size);
             }
         } else {
             let row = equations.tail.row(e);
-            let [a0, a1] = entries.map(|entries| &entries[row.clone()]);
+            let [a0, a1] = entries.each(|entries| &entries[row.clone()]);
             let sizes = equations.tail.row_with(e, &self.spread_of_tail);
             for (((unknown, size), &a0), &a1) in sizes.zip(a0).zip(a1) {
                 put(unknown, [a0, a1], size);
@@ -141,7 +142,7 @@ impl Resolvent {
         let (start, size) = (block.start, block.size);
         let (mut rest, mut near) = self.before::<K>((start, size), g, y);
         for (r, rest) in rest[..size].iter_mut().enumerate() {
-            let [begin, end] = self.lists.ranges[start + r].map(|at| at as usize);
+            let [begin, end] = self.lists.ranges[start + r].each(|at| at as usize);
             for &(from, spread) in &self.lists.before[begin..end] {
                 let v = &v[from as usize];
                 for i in 0..LANE {
@@ -203,8 +204,8 @@ fn fill_rows<const S: usize, const K: usize>(
 ) {
     assert!(S <= K, "a block has more rows than blocks of its kind");
     for l in 0..lanes {
-        let left: [Lane; S] = std::array::from_fn(|r| n[r * lanes + l]);
-        let found: [Lane; S] = std::array::from_fn(|c| {
+        let left: [Lane; S] = array(|r| n[r * lanes + l]);
+        let found: [Lane; S] = array(|c| {
             let mut sum = [0.0; LANE];
             for r in 0..S {
                 for i in 0..LANE {
@@ -224,7 +225,7 @@ fn fill_rows<const S: usize, const K: usize>(
                     turn[i] = found[c][i].mul_add(inside1[r][c], turn[i]);
                 }
             }
-            n[r * lanes + l] = std::array::from_fn(|i| sum[i].abs() + h * turn[i].abs());
+            n[r * lanes + l] = array(|i| sum[i].abs() + h * turn[i].abs());
         }
     }
 }

@@ -18,6 +18,7 @@ use super::diagonal::{bound_on_inverse, bound_on_wide_inverse};
 use crate::interval::rounding::round_up;
 use crate::linalg::rstructure::Lane;
 use crate::linalg::{LANE, Vector, with_axes};
+use crate::places::{Each as _, array};
 use crate::track::full::Equations;
 use crate::track::reduced::structure::layout::{Block, Kind, Layout, WIDEST};
 use crate::track::reduced::structure::passes::Inverses;
@@ -221,11 +222,11 @@ impl Resolvent {
         };
         for c in 0..block.size {
             let axis = block.axes[c] as usize;
-            add(block.start + c, d.map(|d| sign * d[axis][e]));
+            add(block.start + c, d.each(|d| sign * d[axis][e]));
         }
         for axis in 0..D {
             if let Some(row) = other(&self.position, equations, axis, e, sign) {
-                add(row, d.map(|d| -sign * d[axis][e]));
+                add(row, d.each(|d| -sign * d[axis][e]));
             }
         }
         sum_row(&mut self.n[at..end], &terms[..count], block.start + r, h);
@@ -307,9 +308,9 @@ impl Resolvent {
         (rest, near): (&mut [Lane], &mut [Lane]),
     ) -> usize {
         let y = &y[..start];
-        let n: [&[f64]; S] = std::array::from_fn(|r| self.row(&self.n, at + r, start));
-        let x: [&[f64]; S] = std::array::from_fn(|r| self.row(&self.x, at + r, start));
-        let mut sums: [Lane; S] = std::array::from_fn(|r| g[at + r]);
+        let n: [&[f64]; S] = array(|r| self.row(&self.n, at + r, start));
+        let x: [&[f64]; S] = array(|r| self.row(&self.x, at + r, start));
+        let mut sums: [Lane; S] = array(|r| g[at + r]);
         let mut through = [[0.0; LANE]; S];
         for (column, y) in y.iter().enumerate() {
             for r in 0..S {
