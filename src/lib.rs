@@ -69,9 +69,9 @@
 //!
 //! - `decimal`: exact numbers as they are written
 //! - `hexadecimal`: bytes as text
+//! - `places`: short arrays, made place by place
 //! - `random`: numbers that look random
 //! - `order`: sorting by places
-//! - `places`: short arrays, made place by place
 //! - [`equations`]: rows of products of differences
 //! - `elimination`: row echelon forms and inverses over any field
 //! - `residues`: numbers modulo a prime
@@ -87,6 +87,7 @@
 //! - [`blocks`]: how the equations of a sketch fall apart, and its figures block by block
 //! - `remarks`: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
+//! - [`motion`]: all figures of a linkage that moves in one way, and what is measured of them
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
@@ -140,6 +141,7 @@ pub mod import;
 pub mod interval;
 #[doc(hidden)]
 pub mod linalg;
+pub mod motion;
 mod order;
 mod places;
 #[doc(hidden)]

@@ -18,6 +18,11 @@ impl Measured {
         self.measure.is_empty()
     }
 
+    /// What is to be measured, as it was written.
+    pub fn texts(&self) -> &[String] {
+        &self.measure
+    }
+
     /// Of the points of a problem.
     pub fn of(&self, problem: &Problem) -> Result<Measures, String> {
         Measures::parse(problem, &self.measure)

@@ -13,6 +13,7 @@ mod interrupt;
 mod limits;
 mod measured;
 mod merge;
+mod motion;
 mod output;
 mod pictures;
 mod processor;
@@ -64,6 +65,7 @@ Examples:
   krawl solve sketch.toml                   the figures that meet the dimensions
   krawl solve sketch.toml --html page.html  a page to look at
   krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
+  krawl motion sketch.toml --free a-c       a linkage all the way round, past every dead centre
   krawl all sketch.toml                     every figure that there is
   krawl complex sketch.toml                 every complex one
   krawl explore sketch.toml --store DIR     more real ones, from new sketches
@@ -93,6 +95,7 @@ enum Verb {
     Generate(generate::Arguments),
     Limits(limits::Arguments),
     Merge(merge::Arguments),
+    Motion(motion::Arguments),
     Show(show::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
@@ -120,6 +123,7 @@ pub fn run() -> ExitCode {
         Verb::Generate(arguments) => generate::run(&arguments),
         Verb::Limits(arguments) => limits::run(&arguments),
         Verb::Merge(arguments) => merge::run(&arguments),
+        Verb::Motion(arguments) => motion::run(&arguments),
         Verb::Show(arguments) => show::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Sweep(arguments) => sweep::run(&arguments),

@@ -21,7 +21,7 @@ use std::time::Instant;
 
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
 #[derive(Debug)]
-pub(super) struct Whole {
+pub(crate) struct Whole {
     problem: Problem,
     options: Options,
     arcs: Box<dyn FollowArcs>,
@@ -226,7 +226,10 @@ impl Whole {
 
     /// Leads the constraints that are not distances, in proportion to t, from what they are to what they are to be, once
     /// for an edit. What they are then led to comes back, where they can be edited.
-    fn lead_constraints(&mut self, settings: &[Setting]) -> Result<Option<Record>, String> {
+    pub(super) fn lead_constraints(
+        &mut self,
+        settings: &[Setting],
+    ) -> Result<Option<Record>, String> {
         if self.arcs.homotopy().tail.is_empty() {
             return Ok(None);
         }
@@ -391,7 +394,30 @@ impl Whole {
         for x in points.iter_mut().flatten() {
             *x *= unit;
         }
-        self.stand.put(homotopy.dimension, &points)
+        self.put(&points)
+    }
+
+    /// A figure of the gauge, in lengths of the problem, in its coordinates.
+    pub(super) fn put(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
+        self.stand.put(self.arcs.homotopy().dimension, places)
+    }
+
+    /// The homotopy's unit of length.
+    pub(super) fn unit(&self) -> f64 {
+        self.arcs.homotopy().unit
+    }
+
+    pub(super) fn homotopy(&self) -> &Homotopy {
+        self.arcs.homotopy()
+    }
+
+    pub(super) fn homotopy_mut(&mut self) -> &mut Homotopy {
+        self.arcs.homotopy_mut()
+    }
+
+    /// The figure as it is now.
+    pub(super) fn first(&self) -> &Figure {
+        &self.figure
     }
 }
 

@@ -8,6 +8,7 @@
 //! coefficients, solution boxes. The loops over whole matrices use plain floats with a-priori
 //! error bounds instead; those are in [`rounding`].
 
+pub mod along;
 pub mod angle;
 pub mod complex;
 mod double_double;

@@ -2,22 +2,23 @@
 
 use super::Interval;
 use crate::places::Each as _;
+use std::ops::{Add, Mul, Sub};
 
 /// A vector in space; in the plane the last entry is zero.
 pub type Vector = [Interval; 3];
 
 /// a − b.
-pub fn minus(a: Vector, b: Vector) -> Vector {
+pub fn minus<T: Copy + Sub<Output = T>>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// a · b.
-pub fn dot(a: Vector, b: Vector) -> Interval {
+pub fn dot<T: Copy + Add<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// a × b.
-pub fn cross(a: Vector, b: Vector) -> Vector {
+pub fn cross<T: Copy + Sub<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

@@ -1,121 +1,16 @@
 //! What is measured of figures: lengths, angles, coordinates and areas that no constraint has to give.
 
 use super::certain_digits;
-use crate::interval::angle::direction;
-use crate::interval::vector::{cross, dot, minus};
-use crate::interval::{Interval, point};
+use crate::interval::Interval;
 use crate::problem::Problem;
+use crate::system::Quantity;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// What is measured of each figure of a problem.
 #[derive(Debug, Clone, Default)]
 pub struct Measures {
-    all: Vec<Measure>,
-}
-
-#[derive(Debug, Clone)]
-struct Measure {
-    name: String,
-    what: What,
-    points: Vec<usize>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum What {
-    Distance,
-    Angle,
-    Turn,
-    Torsion,
-    Coordinate(usize),
-    Area,
-}
-
-/// The forms, for messages.
-const FORMS: &str = "`A-B`, `angle A B C`, `turn A B C`, `torsion A B C D`, `x A`, `y A`, `z A` or `area A B C ...`";
-
-impl Measure {
-    fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
-        let text = text.trim();
-        let point = |name: &str| problem.points.iter().position(|p| p.name == name);
-        let fail = |why: String| Err(format!("--measure \"{text}\": {why}"));
-        let named = |what, points| {
-            let name = text.to_owned();
-            Ok(Measure { name, what, points })
-        };
-        // Names may have a minus in them.
-        let pairs = text
-            .match_indices('-')
-            .map(|(at, _)| (&text[..at], &text[at + 1..]));
-        let pairs = pairs.filter_map(|(a, b)| Some(vec![point(a)?, point(b)?]));
-        let pairs: Vec<Vec<usize>> = pairs.collect();
-        if let [pair] = &pairs[..]
-            && pair[0] != pair[1]
-        {
-            return named(What::Distance, pair.clone());
-        }
-        let mut words = text.split_whitespace();
-        let (what, wanted) = match words.next() {
-            Some("angle") => (What::Angle, 3),
-            Some("turn") if problem.dimension == 2 => (What::Turn, 3),
-            Some("torsion") if problem.dimension == 3 => (What::Torsion, 4),
-            Some("x") => (What::Coordinate(0), 1),
-            Some("y") => (What::Coordinate(1), 1),
-            Some("z") if problem.dimension == 3 => (What::Coordinate(2), 1),
-            Some("area") if problem.dimension == 2 => (What::Area, 0),
-            Some("turn" | "area") => return fail("is for figures in the plane".to_owned()),
-            Some("torsion" | "z") => return fail("is for figures in space".to_owned()),
-            _ => return fail(format!("write {FORMS}, with points of the problem")),
-        };
-        let mut points = Vec::new();
-        for name in words {
-            match point(name) {
-                Some(p) => points.push(p),
-                None => return fail(format!("there is no point `{name}`")),
-            }
-        }
-        let is_twice = |(k, p): (usize, &usize)| points[..k].contains(p);
-        if what != What::Area && points.iter().enumerate().any(is_twice) {
-            return fail("a point is named twice".to_owned());
-        }
-        match (what, points.len()) {
-            (What::Area, 0..3) => fail("an outline has three points at least".to_owned()),
-            (What::Area, _) => named(what, points),
-            (_, count) if count == wanted => named(what, points),
-            (_, count) => fail(format!("takes {wanted} points, and there are {count}")),
-        }
-    }
-
-    /// An enclosure, in the unit of the problem, its square, or degrees.
-    fn of(&self, figure: &[[Interval; 3]]) -> Interval {
-        let at = |k: usize| figure[self.points[k]];
-        let between = |a: usize, b: usize| minus(at(b), at(a));
-        let size = |v: [Interval; 3]| dot(v, v).sqrt();
-        match self.what {
-            What::Distance => size(between(0, 1)),
-            What::Angle => {
-                let (u, v) = (between(1, 0), between(1, 2));
-                direction(dot(u, v), size(cross(u, v)))
-            }
-            What::Turn => {
-                let (u, v) = (between(1, 0), between(1, 2));
-                direction(dot(u, v), cross(u, v)[2])
-            }
-            What::Torsion => {
-                let [u, v, w] = [between(0, 1), between(1, 2), between(2, 3)];
-                let across = cross(v, w);
-                direction(dot(cross(u, v), across), size(v) * dot(u, across))
-            }
-            What::Coordinate(axis) => at(0)[axis],
-            What::Area => {
-                let rest = 1..self.points.len() - 1;
-                let twice = rest.fold(point(0.0), |sum, k| {
-                    sum + cross(between(0, k), between(0, k + 1))[2]
-                });
-                twice.abs() * point(0.5)
-            }
-        }
-    }
+    all: Vec<Quantity>,
 }
 
 impl Measures {
@@ -124,7 +19,7 @@ impl Measures {
     /// # Errors
     /// Which text is none, and why.
     pub fn parse(problem: &Problem, texts: &[String]) -> Result<Self, String> {
-        let all = texts.iter().map(|text| Measure::parse(problem, text));
+        let all = texts.iter().map(|text| Quantity::parse(problem, text));
         Ok(Measures {
             all: all.collect::<Result<_, _>>()?,
         })
@@ -228,6 +123,7 @@ impl Measures {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interval::point;
 
     fn problem(dimension: usize) -> Problem {
         let z = |x: &str| {

@@ -14,6 +14,7 @@ mod figures;
 mod json;
 mod marks;
 mod measured;
+mod motion;
 mod objects;
 pub mod page;
 #[cfg(feature = "cli")]
@@ -49,6 +50,7 @@ pub use figures::{
 };
 pub use json::{JSON_VERSION, Run};
 pub use measured::Measures;
+pub use motion::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
 pub use sweep::{

@@ -19,7 +19,7 @@ mod witness;
 
 #[cfg(feature = "explore")]
 pub(crate) use certified::prove_figure;
-pub use certified::{FigureBox, FiguresSeen, Fold, Relation, Sample, Trace};
+pub use certified::{FigureBox, FiguresSeen, Fold, Relation, Sample, Trace, TubePart};
 pub use choice::{prove, solve_in_best_space, trace_path};
 pub use congruence::{congruence_classes, observed_solutions};
 pub use control::{Control, Limit, Progress};

@@ -9,6 +9,7 @@ mod claims;
 mod edit;
 mod edit_mixed;
 mod measures;
+mod motion;
 mod not_square;
 mod real_files;
 mod real_sketches;

@@ -654,8 +654,8 @@ fn time_ends_a_run_with_what_was_found() {
     assert!(text.contains("interrupted"), "{text}");
     assert!(clock.elapsed().as_secs() < 60, "{:?}", clock.elapsed());
     for verb in [
-        "solve", "edit", "limits", "sweep", "all", "complex", "explore", "verify", "compare",
-        "template", "work",
+        "solve", "edit", "limits", "motion", "sweep", "all", "complex", "explore", "verify",
+        "compare", "template", "work",
     ] {
         let help = krawl().args([verb, "--help"]).assert().success();
         let text = String::from_utf8(help.get_output().stdout.clone()).unwrap();

@@ -98,6 +98,20 @@ fn results_of_other_verbs_meet_their_schemas() {
         ("edit", "reached", &["edit", plate, "--set", "C-D=40"][..]),
         ("edit", "limit", &["edit", plate, "--set", "C-D=200"]),
         (
+            "motion",
+            "closed",
+            &[
+                "motion",
+                bar,
+                "--free",
+                "B-D",
+                "--measure",
+                "area A B C",
+                "--measure",
+                "turn D A B",
+            ],
+        ),
+        (
             "sweep",
             "reached",
             &[

@@ -8,6 +8,7 @@ mod command_line;
 #[cfg(unix)]
 mod help;
 mod json_schema;
+mod motion;
 mod page;
 mod problem_files;
 mod readme;

@@ -9,6 +9,7 @@ mod cut;
 mod edited;
 mod exchange;
 mod explored;
+mod motion;
 mod moving;
 mod outlines;
 mod path;

@@ -94,7 +94,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
 }
 
 /// How far all points together are from where they were.
-fn way(from: &[f64], to: &[f64]) -> f64 {
+pub(super) fn way(from: &[f64], to: &[f64]) -> f64 {
     let squares = from.iter().zip(to).map(|(a, b)| (a - b).powi(2));
     squares.sum::<f64>().sqrt()
 }

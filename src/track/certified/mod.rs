@@ -22,7 +22,7 @@ mod validation;
 
 pub use figures::{FigureBox, FiguresSeen, Relation, prove_figure};
 pub use solution::Same;
-pub use trace::{Fold, Sample, Trace};
+pub use trace::{Fold, Sample, Trace, TubePart};
 
 use crate::system::Homotopy;
 use crate::track::arc::{ArcRun, Figure};
@@ -91,12 +91,22 @@ pub fn arcs(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
     }
 }
 
-/// Follows the path and proves every step.
+/// Follows the path through the sketch and proves every step.
 pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
-    match options.space {
-        Space::Full => tracker::track::<{ ORDER + 1 }, KrawczykTest>(homotopy, options, control),
-        Space::Reduced => {
-            tracker::track::<{ COEFFICIENTS }, ReducedTest>(homotopy, options, control)
-        }
-    }
+    track_from(homotopy, None, options, control)
+}
+
+/// Follows the path through a figure at t = 0 that a box holds, the only one in it, or else through the sketch, and proves
+/// every step.
+pub fn track_from(
+    homotopy: &Homotopy,
+    start: Option<&Figure>,
+    options: &Options,
+    control: &mut Control,
+) -> Outcome {
+    let track = match options.space {
+        Space::Full => tracker::track::<{ ORDER + 1 }, KrawczykTest>,
+        Space::Reduced => tracker::track::<{ COEFFICIENTS }, ReducedTest>,
+    };
+    track(homotopy, start, options, control)
 }

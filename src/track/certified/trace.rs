@@ -1,6 +1,7 @@
 //! The path as it was proved, kept to be drawn: the tubes' polynomials, and the folds.
 
 use super::link::{Frame, Tube};
+use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, hull, point};
 use crate::places::{Each as _, array};
 use crate::system::{Gauge, Homotopy, Located};
@@ -284,6 +285,51 @@ impl Trace {
         behind.chain(self.folds.iter().cloned()).collect()
     }
 
+    /// The way from the sketch in the other direction, where the path has two ends: its lengths are counted from there.
+    pub fn back(&self) -> Option<&Trace> {
+        self.back.as_deref()
+    }
+
+    /// A part of a tube, from `a` to `b` of the path's way through it (0 to 1). Parts that follow each other leave no gap.
+    ///
+    /// # Panics
+    /// If there is no such tube.
+    pub fn part(&self, tube: usize, (a, b): (f64, f64)) -> TubePart<'_> {
+        let piece = self.pieces[tube];
+        let s = |part: f64| match part {
+            1.0 => piece.to,
+            part => piece.from + (piece.to - piece.from) * part,
+        };
+        let (a, b) = (s(a), s(b));
+        TubePart {
+            trace: self,
+            tube,
+            s: hull(a.min(b), a.max(b)),
+        }
+    }
+
+    /// The length of the path up to a part of a tube, as in [`Trace::part`].
+    pub fn length_at(&self, tube: usize, part: f64) -> f64 {
+        let piece = self.pieces[tube];
+        piece.at + (piece.end - piece.at) * part
+    }
+
+    /// A box around the figure of the path where it is about so long, in the gauge and the units of the problem.
+    pub fn box_at(&self, at: f64) -> Option<Vec<[Interval; 3]>> {
+        if at < 0.0
+            && let Some(back) = &self.back
+        {
+            return back.box_at(-at);
+        }
+        let tube = self.piece(at)?;
+        let Piece { at: start, end, .. } = self.pieces[tube];
+        let part = match end > start {
+            true => ((at - start) / (end - start)).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        Some(self.part(tube, (part, part)).points())
+    }
+
     /// The number of tubes.
     pub fn tubes(&self) -> usize {
         self.pieces.len()
@@ -400,6 +446,69 @@ impl Trace {
         (0..count)
             .filter_map(|k| self.sample(start + length * (k as f64 / steps)))
             .collect()
+    }
+}
+
+/// A part of a tube, and the path in it: coordinates are in the gauge and the units of the problem.
+#[derive(Debug, Clone, Copy)]
+pub struct TubePart<'t> {
+    trace: &'t Trace,
+    tube: usize,
+    s: Interval,
+}
+
+impl TubePart<'_> {
+    /// The parameter, as seen from the middle.
+    pub fn along(&self) -> Interval {
+        self.s - point(self.s.mid())
+    }
+
+    /// Boxes of all points.
+    pub fn points(&self) -> Vec<[Interval; 3]> {
+        let Some(homotopy) = &self.trace.homotopy else {
+            return Vec::new();
+        };
+        let points = 0..homotopy.points;
+        points.map(|p| self.around(p).each(|x| x.value)).collect()
+    }
+
+    /// A box of a point, and of how fast the tube's polynomial moves: the path is beside it, at most so far that the box holds it.
+    pub fn around(&self, point: usize) -> [Along; 3] {
+        self.at(point, self.s)
+    }
+
+    /// A box of a point in the middle.
+    pub fn middle(&self, point: usize) -> [Interval; 3] {
+        let s = crate::interval::point(self.s.mid());
+        self.at(point, s).each(|x| x.value)
+    }
+
+    fn at(&self, p: usize, s: Interval) -> [Along; 3] {
+        let (trace, zero) = (self.trace, Along::constant(0.0));
+        let Some(gauge) = trace.homotopy.as_ref().map(|homotopy| &homotopy.gauge) else {
+            return [zero; 3];
+        };
+        let (n, start) = (trace.width, self.tube * trace.order * trace.width);
+        let within = trace.pieces[self.tube].within;
+        let (unit, near, middle) = (point(trace.unit), hull(-within, within), point(s.mid()));
+        let d = gauge.dimension;
+        array(|axis| {
+            let variable = gauge.variable.get(p * d + axis).copied();
+            let Some(i) = variable.filter(|&i| axis < d && i < gauge.place.len()) else {
+                return zero;
+            };
+            // A middle, and the mean value theorem: Horner's rule alone would not show that little changes.
+            let coefficient = |k: usize| point(trace.coefficients[start + k * n + i]);
+            let (mut value, mut slope) = (point(0.0), point(0.0));
+            for k in (1..trace.order).rev() {
+                value = (value + coefficient(k)) * middle;
+                slope = slope * s + point(k as f64) * coefficient(k);
+            }
+            Along {
+                value: (coefficient(0) + value + slope * (s - middle)) * unit + near,
+                slope: slope * unit,
+            }
+        })
     }
 }
 

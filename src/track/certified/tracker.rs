@@ -49,14 +49,19 @@ const EXIT: f64 = 0.97;
 /// Accuracy of points on the path, in the homotopy's unit: far below the tubes' radii, which is
 /// all that is asked of them. Proofs do not depend on it.
 const POINT_TOLERANCE: f64 = 1e-9;
-/// Follows the path and proves every step by a test.
+/// Follows the path and proves every step by a test: from the sketch, or from a figure at t = 0 that `start` holds, the only
+/// one in it.
 pub fn track<const N: usize, T: Test<N>>(
     homotopy: &Homotopy,
+    start: Option<&Figure>,
     options: &Options,
     control: &mut Control,
 ) -> Outcome {
     let clock = Instant::now();
     let mut tracker = Tracker::<N, T>::new(Cow::Borrowed(homotopy), options);
+    if let Some(start) = start {
+        tracker.begin(start);
+    }
     tracker.crossing = Crossing::new(homotopy);
     if let Some(witness) = &mut control.witness {
         witness.begin(homotopy.unit);
@@ -439,6 +444,12 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             (tube.entry.0, to),
             &tube.local.z[LEFT_OUT][..n],
         );
+    }
+
+    /// Sets out from the figure that another run set out from.
+    fn stands_where(&mut self, other: &Self) {
+        self.sketch = other.sketch.clone();
+        self.size_of_sketch = other.size_of_sketch;
     }
 
     /// Begins anew: from another figure, or with other lengths in the homotopy.

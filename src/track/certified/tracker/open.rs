@@ -222,6 +222,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         };
         let mut back = Tracker::<N, T>::new(self.homotopy.clone(), &options);
         back.crossing = Crossing::new(&self.homotopy);
+        back.stands_where(self);
         if let Some(witness) = &mut control.witness {
             witness.turn();
         }

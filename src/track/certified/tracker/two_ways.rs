@@ -165,6 +165,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             ..here.clone()
         };
         let mut back = Tracker::<N, T>::new(self.homotopy.clone(), &there);
+        back.stands_where(self);
         (self.way, back.way) = (way(0), way(1));
         let ahead = std::thread::scope(|scope| {
             let other = || back.run(&there, &mut Control::default());
@@ -199,7 +200,9 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         };
         if !is_whole || self.ledger.close_with(back.ledger).is_err() {
             // One way alone does not have to tell the two accounts apart.
-            *self = Tracker::new(self.homotopy.clone(), options);
+            let mut anew = Tracker::new(self.homotopy.clone(), options);
+            anew.stands_where(self);
+            *self = anew;
             return self.run(options, control);
         }
         self.ways = Some([self.steps, back.steps]);

@@ -1,0 +1,107 @@
+//! `krawl motion`: how a figure moves that has one degree of freedom.
+
+use super::edit::beside;
+use super::measured::Measured;
+use super::output::{self, Destination};
+use super::pictures::Pictures;
+use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
+use krawl::motion::Motion;
+use krawl::report::page::Page;
+use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
+use krawl::track::{Control, Options, Status};
+use std::path::PathBuf;
+
+/// Follow a linkage all the way round, with proof: between which bounds its lengths and angles stay, and where
+///
+/// The figure in FILE has one degree of freedom, or has one once --free leaves a dimension out. All figures that it can move through are
+/// followed, until it comes back or to its two ends, past every dead centre. Each step is proved, so nothing between is missed, and no
+/// branch is taken for another.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl motion problems/mechanisms/crank.toml --free turns:D-A-B
+  krawl motion problems/mechanisms/crank.toml --free turns:D-A-B --measure \"angle A D C\" --measure \"turn D A B\"
+  krawl motion problems/mechanisms/four-bar.toml --free B-D --html motion.html    a page with a slider
+  krawl motion problems/mechanisms/jansen.toml --free M-F --csv leg.csv           the frames, for a plot of the foot's curve
+
+Exit codes: 0 it comes back, 5 it has two ends, 1 it could not be followed to an end: what is printed holds as far as it was followed;
+2 bad input, a figure that cannot move or can move in more than one way, or results that could not be written.")]
+pub struct Arguments {
+    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
+    file: PathBuf,
+    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
+    /// Leave this dimension out, such as a-b or angles:a-b-c, so that the figure can move; may be given more than once
+    #[arg(long, value_name = "NAME")]
+    free: Vec<String>,
+    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write frames as CSV, at equal steps of the way: how far it is, the coordinates of all points, what is measured; `-` likewise
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    #[command(flatten)]
+    measured: Measured,
+    #[command(flatten)]
+    pictures: Pictures,
+    #[command(flatten)]
+    time: interrupt::Time,
+    /// Print nothing
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
+    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
+    // What can be measured is known before anything is followed.
+    let measures = arguments.measured.of(&problem)?;
+    let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.file])?;
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        ..Control::default()
+    };
+    let motion = Motion::of(
+        &problem,
+        &arguments.free,
+        arguments.measured.texts(),
+        &Options::certified(),
+        &mut control,
+    );
+    let motion = motion.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
+    let mut written = true;
+    if let Some(csv) = &csv {
+        written &= csv.write(&motion_to_csv(&motion, &measures));
+    }
+    if json.is_some() || !pictures.is_empty() {
+        let value = motion_to_value(&motion);
+        if let Some(json) = &json {
+            written &= json.write(&(value.to_string() + "\n"));
+        }
+        if !pictures.is_empty() {
+            let page = Page::from_result(&value).map_err(|error| error.to_string())?;
+            written &= pictures.write(&page);
+        }
+    }
+    let standard = Some(Destination::StandardOutput);
+    let elsewhere = json == standard || csv == standard || pictures.use_standard_output();
+    if elsewhere && !arguments.quiet {
+        output::complain(&motion_in_words(&motion));
+    } else if !arguments.quiet {
+        written &= output::print(&motion_to_table(&motion));
+    }
+    Ok(match (written, &motion.outcome.status) {
+        (false, _) => BAD_INPUT,
+        (true, Status::Closed) => CLOSED,
+        (true, Status::Open(_)) => OPEN,
+        (true, Status::Stopped(_)) => STOPPED,
+    })
+}

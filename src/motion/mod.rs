@@ -1,0 +1,419 @@
+//! How a figure moves that has one degree of freedom: all figures that it comes through, and between which bounds what is measured
+//! of them stays.
+//!
+//! The figures that meet all dimensions are then a curve. It is the path along which some distance, which no constraint gives, changes while
+//! everything else stands still; that path is followed past every place where the distance turns back, until the figure is the first
+//! one again. Each step is proved, as those of [`crate::track`] are, so a loop is the whole of it: no other figure can be reached from
+//! the drawing without taking the linkage apart.
+//!
+//! ```
+//! use krawl::motion::{Bounds, Motion};
+//! use krawl::problem::Problem;
+//! use krawl::track::{Control, Options, Status};
+//!
+//! // A four-bar linkage, of which the crank can turn all the way round.
+//! let linkage = Problem::parse_loosely(
+//!     r#"
+//!     name = "four-bar"
+//!     dimension = 2
+//!     [points]
+//!     A = [0, 0]
+//!     D = [4, 0]
+//!     B = [0.5, 0.86]
+//!     C = [3.34, 2.92]
+//!     [constraints]
+//!     distances = [["A", "D", 4], ["A", "B", 1], ["B", "C", 3.5], ["C", "D", 3]]
+//!     "#,
+//!     "four-bar.toml",
+//! )?;
+//! let asked = ["turn D A B", "angle A D C"].map(String::from);
+//! let motion = Motion::of(&linkage, &[], &asked, &Options::certified(), &mut Control::default())?;
+//! assert_eq!(motion.outcome.status, Status::Closed);
+//! assert_eq!(motion.measured[0].bounds, Bounds::AllTheWay(1));
+//! // The rocker's ends, where crank and coupler are in line: 3² + 4² - 2·3·4·cos = (3.5 ± 1)².
+//! let Bounds::Between { least, most } = &motion.measured[1].bounds else { panic!() };
+//! let dead = |reach: f64| ((25.0 - reach * reach) / 24.0_f64).acos().to_degrees();
+//! assert!((least.value.mid() - dead(2.5)).abs() < 1e-6 && least.value.wid() < 1e-5);
+//! assert!((most.value.mid() - dead(4.5)).abs() < 1e-6 && most.value.wid() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod bounds;
+mod surplus;
+
+pub use bounds::{Bounds, Extreme, Measured};
+
+use crate::blocks::Account;
+use crate::edit::{Round, Setting};
+use crate::interval::Interval;
+use crate::order::InOrder;
+use crate::problem::{Decimal, Distance, Item, Problem, Target, counted};
+use crate::system::Quantity;
+use crate::track::{Control, Options, Outcome, Status};
+use std::collections::BTreeMap;
+
+/// All figures of a linkage that moves in one way.
+#[derive(Debug)]
+pub struct Motion {
+    /// The problem without the dimensions that were set free.
+    pub problem: Problem,
+    /// The names of those.
+    pub freed: Vec<String>,
+    /// The points whose distance, which no constraint gives, was led along the path.
+    pub driver: [usize; 2],
+    /// How it was followed: [`Status::Closed`] is a loop; with [`Status::Open`] it is an arc between two ends. What solutions
+    /// there are has no meaning.
+    pub outcome: Outcome,
+    /// What is proved of its figures: which distances were left out, and how all figures stand to them.
+    pub account: Account,
+    /// No point was moved further than this from where the sketch has it to the figure that the motion sets out from (its reference
+    /// standing still where no constraint says where it is).
+    pub moved: f64,
+    /// That figure.
+    pub figure: Vec<[Interval; 3]>,
+    /// What was asked for, in that order.
+    pub measured: Vec<Measured>,
+    /// Figures along the path at equal lengths of it, beginning with the first one (or with the end behind it); of a loop the last one is
+    /// the first.
+    pub frames: Vec<Frame>,
+}
+
+/// A figure along the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// The length of the path up to it, Euclidean in all coordinates and the driven length's part of the way.
+    pub at: f64,
+    /// A box around its points, in the coordinates of the problem.
+    pub points: Vec<[Interval; 3]>,
+}
+
+/// So many lengths are tried, one after the other, until the path along which one of them changes closes: one that comes to be 0
+/// leads nowhere.
+const TRIED: usize = 8;
+
+/// Where there are more distances than say something new, which are left out is chosen in so many ways.
+const CHOICES: usize = 4;
+
+/// And for each of these so many lengths are tried.
+const EACH: usize = 2;
+
+/// So many lengths are measured where nothing was asked for.
+const DEFAULT: usize = 12;
+
+/// Frames for pictures and tables.
+const FRAMES: usize = 181;
+
+impl Motion {
+    /// Follows the figure of a problem's sketch, which has one degree of freedom once some dimensions, `free`, are left out.
+    ///
+    /// `asked` is what to measure, as `A-B` and `angle A B C`; if it is nothing, the dimensions that were left out and the lengths
+    /// that change.
+    ///
+    /// # Errors
+    /// Where there is no such motion, or none was found: why, in words.
+    pub fn of(
+        problem: &Problem,
+        free: &[String],
+        asked: &[String],
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<Self, String> {
+        let (problem, freed, mut quantities) = without(problem, free)?;
+        if !asked.is_empty() {
+            quantities.clear();
+        }
+        for text in asked {
+            quantities.push(Quantity::parse(&problem, text)?);
+        }
+        let (led, corrected) = surplus::corrected(&problem);
+        let lengths = lengths(&led, &quantities);
+        let Followed {
+            round,
+            driver,
+            left_out,
+        } = follow(&led, &lengths, options, control)?;
+        let account = surplus::account(&problem, &left_out, &round);
+        if let Some(missed) = account.left_out.iter().find(|one| one.verdict.is_missed()) {
+            return Err(format!(
+                "the figure cannot move while all its dimensions stand still: without {} it could, and {}",
+                missed.name,
+                account.left_out_in_words()
+            ));
+        }
+        let is_by_default = asked.is_empty();
+        if is_by_default {
+            let known: Vec<_> = quantities.iter().filter_map(Quantity::ends).collect();
+            let others = lengths.iter().filter(|ends| !known.contains(ends));
+            quantities.extend(others.map(|&ends| Quantity::length(&problem, ends)));
+        }
+        let is_loop = round.outcome.status == Status::Closed;
+        let mut measured = Vec::new();
+        for quantity in quantities {
+            let found = bounds::measure(&round, quantity, is_loop);
+            // Of all lengths those that change are meant, and points in one place count as one.
+            if !is_by_default
+                || found.changes() && !measured.iter().any(|other| found.is_like(other))
+            {
+                measured.push(found);
+            }
+            if is_by_default && measured.len() == DEFAULT {
+                break;
+            }
+        }
+        Ok(Motion {
+            driver,
+            account,
+            freed,
+            frames: frames(&round),
+            moved: corrected + round.moved().distance,
+            figure: round.figure(),
+            outcome: round.outcome,
+            measured,
+            problem,
+        })
+    }
+}
+
+/// A problem without some dimensions, their names as they are written, and what can be measured in their place.
+fn without(
+    problem: &Problem,
+    free: &[String],
+) -> Result<(Problem, Vec<String>, Vec<Quantity>), String> {
+    let mut indices = Vec::new();
+    for name in free {
+        indices.push(Setting::find(problem, name).map_err(|error| error.to_string())?);
+    }
+    indices.sort_unstable();
+    indices.dedup();
+    let names = indices.iter().map(|&index| problem.dimension_name(index));
+    let quantities = indices.iter().filter_map(|&index| in_place(problem, index));
+    let (names, quantities) = (names.collect(), quantities.collect());
+    Ok((leave_out(problem, &indices), names, quantities))
+}
+
+/// A problem without some dimensions.
+fn leave_out(problem: &Problem, indices: &[usize]) -> Problem {
+    let mut out = problem.clone();
+    let is_kept = |index: usize| !indices.contains(&index);
+    let head = problem.distances.len();
+    let mut at = 0..head;
+    out.distances.retain(|_| at.next().is_some_and(is_kept));
+    let mut at = head..;
+    out.constraints.retain(|_| at.next().is_some_and(is_kept));
+    let before = |index: usize| indices.iter().filter(|&&freed| freed < index).count();
+    let labels = problem.labels.iter();
+    let labels = labels.filter(|(index, _)| is_kept(**index));
+    out.labels = labels
+        .map(|(&index, label)| (index - before(index), label.clone()))
+        .collect::<BTreeMap<_, _>>();
+    // None of those that are left is bent.
+    out.homotopy.bend = out.distances.len();
+    out
+}
+
+/// What is measured of a dimension that is free.
+fn in_place(problem: &Problem, index: usize) -> Option<Quantity> {
+    let Some(constraint) = index
+        .checked_sub(problem.distances.len())
+        .map(|at| &problem.constraints[at])
+    else {
+        return Some(Quantity::length(problem, problem.distances[index].points));
+    };
+    let names = constraint.items.iter().map(|item| match *item {
+        Item::Point(p) => Some(problem.points[p].name.as_str()),
+        _ => None,
+    });
+    let names: Vec<&str> = names.collect::<Option<_>>()?;
+    let word = match constraint.kind.as_str() {
+        "angles" => "angle",
+        "turns" => "turn",
+        "torsions" => "torsion",
+        _ => return None,
+    };
+    Quantity::parse(problem, &format!("{word} {}", names.join(" "))).ok()
+}
+
+/// Lengths that no distance gives, those that are asked for first, and then those that were drawn longest.
+fn lengths(problem: &Problem, quantities: &[Quantity]) -> Vec<[usize; 2]> {
+    let is_given = |ends: &[usize; 2]| {
+        let mut given = problem.distances.iter().map(|d| d.points);
+        given.any(|[a, b]| [a, b] == *ends || [b, a] == *ends)
+    };
+    let count = problem.points.len();
+    let mut others: Vec<[usize; 2]> = (0..count)
+        .flat_map(|a| (a + 1..count).map(move |b| [a, b]))
+        .collect();
+    others.order_by(|&a, &b| drawn(problem, b).total_cmp(&drawn(problem, a)));
+    let mut out: Vec<[usize; 2]> = Vec::new();
+    let asked = quantities.iter().filter_map(Quantity::ends);
+    for ends in asked.chain(others) {
+        let [a, b] = ends;
+        if !is_given(&ends)
+            && drawn(problem, ends) > 0.0
+            && !out.iter().any(|o| *o == [a, b] || *o == [b, a])
+        {
+            out.push(ends);
+        }
+    }
+    out
+}
+
+/// A length as it is drawn.
+fn drawn(problem: &Problem, ends: [usize; 2]) -> f64 {
+    let [a, b] = ends.map(|p| problem.points[p].sketch.each_ref().map(Decimal::to_f64));
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A path that was followed.
+struct Followed {
+    round: Round,
+    /// The length that was led along it.
+    driver: [usize; 2],
+    /// The distances that were left out, by index.
+    left_out: Vec<usize>,
+}
+
+impl Followed {
+    /// How much is known of it.
+    fn rank(&self) -> u8 {
+        match &self.round.outcome.status {
+            Status::Closed => 2,
+            Status::Open(_) => 1,
+            Status::Stopped(_) => 0,
+        }
+    }
+}
+
+/// Follows the path along which one of some lengths changes: the first of which it closes.
+fn follow(
+    problem: &Problem,
+    lengths: &[[usize; 2]],
+    options: &Options,
+    control: &mut Control,
+) -> Result<Followed, String> {
+    let is_of_distances = surplus::is_of_distances(problem);
+    if is_of_distances {
+        match surplus::freedom(problem) {
+            0 => return Err(RIGID.to_owned()),
+            1 => {}
+            n => {
+                return Err(format!(
+                    "a motion is of a figure with one degree of freedom, and as it is drawn this one has {n}: give {} more",
+                    counted(n - 1, "dimension")
+                ));
+            }
+        }
+    }
+    let mut best: Option<Followed> = None;
+    let (mut tried, mut fault) = (0, None);
+    let attempts =
+        (0..CHOICES).flat_map(|choice| lengths.iter().map(move |&driver| (choice, driver)));
+    for (choice, driver) in attempts {
+        if tried == TRIED || control.is_interrupted() {
+            break;
+        }
+        // Of each choice of what is left out a few lengths.
+        let has_surplus = best.as_ref().is_some_and(|best| !best.left_out.is_empty());
+        if has_surplus && tried >= EACH * (choice + 1) {
+            continue;
+        }
+        let left_out = match is_of_distances {
+            true => surplus::surplus(problem, driver, choice),
+            false => Some(Vec::new()),
+        };
+        let Some(left_out) = left_out else {
+            continue;
+        };
+        if left_out.is_empty() && choice > 0 {
+            break;
+        }
+        let used = match &left_out[..] {
+            [] => problem.clone(),
+            left_out => leave_out(problem, left_out),
+        };
+        let (driven, setting) = driven(&used, driver);
+        let round = match driven.check() {
+            Ok(()) => Round::new(&driven, &setting, options, control).map_err(|e| e.to_string()),
+            Err(error) => Err(error.to_string()),
+        };
+        let round = match round {
+            Ok(round) => round,
+            Err(error) => {
+                fault.get_or_insert(error);
+                continue;
+            }
+        };
+        // A length that does not change sets nothing in motion.
+        if let (0, Status::Stopped(stop)) = (round.trace.tubes(), &round.outcome.status) {
+            fault.get_or_insert(stop.text.clone());
+            continue;
+        }
+        tried += 1;
+        let followed = Followed {
+            round,
+            driver,
+            left_out,
+        };
+        if best
+            .as_ref()
+            .is_none_or(|best| followed.rank() > best.rank())
+        {
+            best = Some(followed);
+        }
+        if best.as_ref().is_some_and(|best| best.rank() == 2) {
+            break;
+        }
+    }
+    best.ok_or_else(|| rigid(problem, fault))
+}
+
+/// The problem with one more distance, and a value for it to be led to.
+fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
+    let mut out = problem.clone();
+    let length = drawn(problem, ends);
+    let decimal = |x: f64| format!("{x:e}").parse().unwrap_or(Decimal::from(1));
+    let index = out.distances.len();
+    out.distances.push(Distance {
+        points: ends,
+        target: Target::Length(decimal(length)),
+    });
+    // Nothing is bent, but problems of distances name one that may be; the reference is chosen among the others.
+    out.homotopy.bend = match surplus::is_of_distances(problem) {
+        true => index,
+        false => out.distances.len(),
+    };
+    // Labels of constraints stand behind those of distances.
+    let labels = std::mem::take(&mut out.labels).into_iter();
+    let moved = labels.map(|(at, label)| (at + usize::from(at >= index), label));
+    out.labels = moved.collect();
+    let target = Target::Length(decimal(1.25 * length));
+    (out.up_to_motions(), Setting { index, target })
+}
+
+const RIGID: &str =
+    "the figure cannot move while all its dimensions stand still: set one free with `--free NAME`";
+
+/// That there is no motion, and why.
+fn rigid(problem: &Problem, fault: Option<String>) -> String {
+    match fault {
+        _ if problem.check().is_ok() => RIGID.to_owned(),
+        Some(fault) => format!(
+            "a motion is of a figure with one degree of freedom, all of whose constraints are needed; with one more length given: {fault}"
+        ),
+        None => "no length can change".to_owned(),
+    }
+}
+
+/// Figures at equal lengths of the path.
+fn frames(round: &Round) -> Vec<Frame> {
+    let (start, end) = (round.trace.start(), round.trace.length());
+    let place = |k: usize| start + (end - start) * (k as f64 / (FRAMES - 1) as f64);
+    let frames = (0..FRAMES).filter_map(|k| {
+        let points = round.in_problem(&round.trace.box_at(place(k))?);
+        Some(Frame {
+            at: place(k),
+            points,
+        })
+    });
+    frames.collect()
+}

@@ -1,0 +1,89 @@
+//! The page of a motion: the linkage all along its way, and where what is measured is least and greatest.
+
+use super::reader::{Reader, ShowError, digits, list, pair, text, wrong};
+use super::swept::way;
+use super::{Figure, Page, Path, Sample, Text, Tone};
+use serde_json::Value;
+
+pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
+    let result = reader.result;
+    let mut page = reader.page()?;
+    page.figures[0].name = "In the file".into();
+    page.figures[0].note = "as it is drawn".into();
+    let (badge, tone) = match text(result, "status")? {
+        "closed" => ("proved · all the way round", Tone::Proved),
+        "open" => ("proved · between two ends", Tone::Proved),
+        _ => ("proved in part", Tone::Stopped),
+    };
+    (page.badge, page.tone) = (badge.into(), tone);
+    let words = text(result, "words")?;
+    let own_name = format!("{}: ", page.title);
+    page.verdict = words.trim_start_matches(&own_name).to_owned();
+    let names = list(result, "driver")?.iter().map(|name| {
+        let name = name.as_str()?;
+        page.points.iter().position(|point| point == name)
+    });
+    let driver: Vec<usize> = names.collect::<Option<_>>().ok_or(wrong("driver"))?;
+    let &[a, b] = &driver[..] else {
+        return Err(wrong("driver"));
+    };
+    let name = format!("{}-{}", page.points[a], page.points[b]);
+    let mut samples: Vec<Sample> = Vec::new();
+    for frame in list(result, "frames")? {
+        let figure = reader.figure(&frame["points"], &Value::Null);
+        let figure = figure.ok_or(wrong("frames"))?;
+        let square = |k: usize| (figure.points[3 * a + k] - figure.points[3 * b + k]).powi(2);
+        samples.push(Sample {
+            at: samples.last().map_or(0.0, |last: &Sample| {
+                last.at + way(&last.points, &figure.points)
+            }),
+            t: (0..3).map(square).sum::<f64>().sqrt(),
+            points: figure.points,
+            outlines: figure.outlines,
+        });
+    }
+    let mut ranges = Vec::new();
+    for measured in list(result, "measured")? {
+        let name = text(measured, "name")?;
+        let mut ends = Vec::new();
+        for which in ["least", "greatest"] {
+            let end = &measured[which];
+            if end.is_null() {
+                continue;
+            }
+            let value = digits(pair(&end["value"]).ok_or(wrong("measured"))?);
+            let figure = reader.figure(&end["points"], &Value::Null);
+            page.figures.push(Figure {
+                name: format!("{name} = {value}"),
+                note: format!("the {which}"),
+                class: Some(1 + usize::from(which == "greatest")),
+                ..figure.ok_or(wrong("measured"))?
+            });
+            ends.push(value);
+        }
+        ranges.push(match (&ends[..], measured["turns"].as_i64()) {
+            ([least, greatest], _) => format!("{name} from {least} to {greatest}"),
+            (_, Some(_)) => format!("{name} all the way round"),
+            _ => format!("{name} is not told"),
+        });
+    }
+    page.text = vec![
+        Text::Paragraph("Between which bounds it stays, proved:".into()),
+        Text::List(ranges),
+    ];
+    page.digits = reader.proved_digits();
+    if samples.len() > 1 {
+        page.paths.push(Path {
+            name: String::new(),
+            along: "how far the points move".into(),
+            legend: format!("How {name} changes as the figure moves."),
+            parameter: name,
+            levels: Vec::new(),
+            samples,
+            marks: Vec::new(),
+            accuracy: None,
+            has_own_sketch: false,
+        });
+    }
+    Ok(page)
+}

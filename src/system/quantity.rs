@@ -1,0 +1,286 @@
+//! What can be measured of a figure: lengths, angles, coordinates and areas that no constraint has to give.
+
+use crate::interval::along::{Along, Quantifiable};
+use crate::interval::angle::direction;
+use crate::interval::vector::{cross, dot, minus};
+use crate::interval::{Interval, hull, point};
+use crate::places::Each as _;
+use crate::problem::Problem;
+
+/// Something that is measured of figures of a problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// As it was asked for.
+    pub name: String,
+    what: What,
+    points: Vec<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum What {
+    Distance,
+    Angle,
+    Turn,
+    Torsion,
+    Coordinate(usize),
+    Area,
+}
+
+/// The forms, for messages.
+const FORMS: &str = "`A-B`, `angle A B C`, `turn A B C`, `torsion A B C D`, `x A`, `y A`, `z A` or `area A B C ...`";
+
+impl Quantity {
+    /// The length between two points.
+    pub fn length(problem: &Problem, points: [usize; 2]) -> Self {
+        Quantity {
+            name: points.each(|p| problem.points[p].name.as_str()).join("-"),
+            what: What::Distance,
+            points: points.to_vec(),
+        }
+    }
+
+    /// The two points between which it is the length, if it is one.
+    pub fn ends(&self) -> Option<[usize; 2]> {
+        match (self.what, &self.points[..]) {
+            (What::Distance, &[a, b]) => Some([a, b]),
+            _ => None,
+        }
+    }
+
+    /// From a text such as `A-B` and `angle A B C`.
+    ///
+    /// # Errors
+    /// That it is none, and why.
+    pub fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let point = |name: &str| problem.points.iter().position(|p| p.name == name);
+        let fail = |why: String| Err(format!("--measure \"{text}\": {why}"));
+        let named = |what, points| {
+            let name = text.to_owned();
+            Ok(Quantity { name, what, points })
+        };
+        // Names may have a minus in them.
+        let pairs = text
+            .match_indices('-')
+            .map(|(at, _)| (&text[..at], &text[at + 1..]));
+        let pairs = pairs.filter_map(|(a, b)| Some(vec![point(a)?, point(b)?]));
+        let pairs: Vec<Vec<usize>> = pairs.collect();
+        if let [pair] = &pairs[..]
+            && pair[0] != pair[1]
+        {
+            return named(What::Distance, pair.clone());
+        }
+        let mut words = text.split_whitespace();
+        let (what, wanted) = match words.next() {
+            Some("angle") => (What::Angle, 3),
+            Some("turn") if problem.dimension == 2 => (What::Turn, 3),
+            Some("torsion") if problem.dimension == 3 => (What::Torsion, 4),
+            Some("x") => (What::Coordinate(0), 1),
+            Some("y") => (What::Coordinate(1), 1),
+            Some("z") if problem.dimension == 3 => (What::Coordinate(2), 1),
+            Some("area") if problem.dimension == 2 => (What::Area, 0),
+            Some("turn" | "area") => return fail("is for figures in the plane".to_owned()),
+            Some("torsion" | "z") => return fail("is for figures in space".to_owned()),
+            _ => return fail(format!("write {FORMS}, with points of the problem")),
+        };
+        let mut points = Vec::new();
+        for name in words {
+            match point(name) {
+                Some(p) => points.push(p),
+                None => return fail(format!("there is no point `{name}`")),
+            }
+        }
+        let is_twice = |(k, p): (usize, &usize)| points[..k].contains(p);
+        if what != What::Area && points.iter().enumerate().any(is_twice) {
+            return fail("a point is named twice".to_owned());
+        }
+        match (what, points.len()) {
+            (What::Area, 0..3) => fail("an outline has three points at least".to_owned()),
+            (What::Area, _) => named(what, points),
+            (_, count) if count == wanted => named(what, points),
+            (_, count) => fail(format!("takes {wanted} points, and there are {count}")),
+        }
+    }
+
+    /// An enclosure, in the unit of the problem, its square, or degrees.
+    pub fn of(&self, figure: &[[Interval; 3]]) -> Interval {
+        match self.found(|p| figure[p]) {
+            Found::Number(x) => x,
+            Found::Direction(x, y) => direction(x, y),
+        }
+    }
+
+    /// A number that grows with the quantity and takes no time to speak of: of angles that have a sense of turn one that grows by
+    /// [`WHOLE_TURN`] over a whole turn, the one nearest to `near` of all that differ by whole turns. [`Quantity::of_key`] says of what it is.
+    /// Of points as `at` has them.
+    pub fn key<T: Quantifiable>(&self, at: impl Fn(usize) -> [T; 3], near: f64) -> Interval {
+        self.whole(self.found(at), near).0
+    }
+
+    /// The key along a stretch of a curve, of which the second number is the parameter as seen from the middle: of points as `around` has
+    /// them there, with a slope each, and as `middle` has them in the middle.
+    pub fn key_along(
+        &self,
+        (around, along): (impl Fn(usize) -> [Along; 3], Interval),
+        middle: impl Fn(usize) -> [Interval; 3],
+        near: f64,
+    ) -> Interval {
+        let (key, slope) = self.whole(self.found(around), near);
+        let by_slope = self.key(middle, key.mid()) + slope * along;
+        key.intersection(by_slope)
+    }
+
+    /// The key and its slope.
+    fn whole<T: Quantifiable>(&self, found: Found<T>, near: f64) -> (Interval, Interval) {
+        match (found, self.what) {
+            (Found::Number(x), _) => (x.value(), x.slope()),
+            (Found::Direction(x, y), What::Angle) => {
+                let (key, slope) = quarters(x, y);
+                (key.intersection(hull(0.0, 2.0)), slope)
+            }
+            (Found::Direction(x, y), _) => {
+                let (key, slope) = quarters(x, y);
+                let turns = ((near - key.mid()) / WHOLE_TURN).round();
+                (key + point(turns * WHOLE_TURN), slope)
+            }
+        }
+    }
+
+    /// The quantity with this key.
+    pub fn of_key(&self, key: Interval) -> Interval {
+        if !self.is_in_degrees() {
+            return key;
+        }
+        let [low, high] = [key.inf(), key.sup()].each(degrees);
+        low.convex_hull(high)
+    }
+
+    /// Whether it is an angle with a sense of turn, which grows from turn to turn.
+    pub fn is_direction(&self) -> bool {
+        matches!(self.what, What::Turn | What::Torsion)
+    }
+
+    /// Whether it is an angle.
+    pub fn is_in_degrees(&self) -> bool {
+        self.unit() == "degrees"
+    }
+
+    /// What it is measured in: `degrees`, `length` or `area`.
+    pub fn unit(&self) -> &'static str {
+        match self.what {
+            What::Angle | What::Turn | What::Torsion => "degrees",
+            What::Distance | What::Coordinate(_) => "length",
+            What::Area => "area",
+        }
+    }
+
+    /// Whether it is the same wherever the figure stands as a whole.
+    pub fn is_invariant(&self) -> bool {
+        !matches!(self.what, What::Coordinate(_))
+    }
+
+    fn found<T: Quantifiable>(&self, at: impl Fn(usize) -> [T; 3]) -> Found<T> {
+        let at = |k: usize| at(self.points[k]);
+        let between = |a: usize, b: usize| minus(at(b), at(a));
+        let size = |v: [T; 3]| dot(v, v).sqrt();
+        Found::Number(match self.what {
+            What::Distance => size(between(0, 1)),
+            What::Angle => {
+                let (u, v) = (between(1, 0), between(1, 2));
+                return Found::Direction(dot(u, v), size(cross(u, v)));
+            }
+            What::Turn => {
+                let (u, v) = (between(1, 0), between(1, 2));
+                return Found::Direction(dot(u, v), cross(u, v)[2]);
+            }
+            What::Torsion => {
+                let [u, v, w] = [between(0, 1), between(1, 2), between(2, 3)];
+                let across = cross(v, w);
+                return Found::Direction(dot(cross(u, v), across), size(v) * dot(u, across));
+            }
+            What::Coordinate(axis) => at(0)[axis],
+            What::Area => {
+                let rest = 1..self.points.len() - 1;
+                let twice = rest.fold(T::constant(0.0), |sum, k| {
+                    sum + cross(between(0, k), between(0, k + 1))[2]
+                });
+                twice.abs() * T::constant(0.5)
+            }
+        })
+    }
+}
+
+enum Found<T> {
+    Number(T),
+    /// A vector in the direction of the angle.
+    Direction(T, T),
+}
+
+/// A whole turn in [`Quantity::key`]s.
+pub const WHOLE_TURN: f64 = 4.0;
+
+/// A number from −2 to 2 that grows with the direction of a vector, by 1 for each quarter of a turn: where the ray meets the square
+/// |x| + |y| = 1; and its slope, (x y' − y x') / (|x| + |y|)² in each quarter. It may go a little beyond near the negative x axis.
+fn quarters<T: Quantifiable>(x: T, y: T) -> (Interval, Interval) {
+    let one = point(1.0);
+    let (a, b) = (x.value(), y.value());
+    let over = one / (a.abs() + b.abs());
+    let slope = (a * y.slope() - b * x.slope()) * over.sqr();
+    let key = if a.inf() > 0.0 {
+        b * over
+    } else if b.inf() > 0.0 {
+        one - a * over
+    } else if b.sup() < 0.0 {
+        a * over - one
+    } else if a.sup() < 0.0 {
+        point(2.0) - b * over
+    } else {
+        return (hull(-2.0, 2.0), Interval::ENTIRE);
+    };
+    (key, slope)
+}
+
+/// The angle in degrees with this number of quarters, as in [`quarters`].
+fn degrees(quarters: f64) -> Interval {
+    let turns = (quarters / WHOLE_TURN).round();
+    // Both exact: turns are few, and the rest is no greater than half of one.
+    let [whole, rest] = [turns * 360.0, quarters - turns * WHOLE_TURN].each(point);
+    let (x, y) = match rest.mid() {
+        q if q > 1.0 => (point(1.0) - rest, point(2.0) - rest),
+        q if q < -1.0 => (point(1.0) + rest, -rest - point(2.0)),
+        _ => (point(1.0) - rest.abs(), rest),
+    };
+    whole + direction(x, y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarters_grow_with_the_direction() {
+        let mut before = -2.0;
+        for k in -179..=180 {
+            let angle = f64::from(k).to_radians();
+            let found = quarters(point(angle.cos() * 3.0), point(angle.sin() * 3.0)).0;
+            assert!(
+                found.wid() < 1e-14 && found.mid() > before,
+                "{k}: {found:?}"
+            );
+            before = found.mid();
+            let back = degrees(found.mid() + 8.0);
+            assert!(
+                (back.mid() - f64::from(k) - 720.0).abs() < 1e-11,
+                "{k}: {back:?}"
+            );
+            // A box around it.
+            let around = |x: f64| hull(x - 1e-3, x + 1e-3);
+            let wide = quarters(around(angle.cos()), around(angle.sin())).0;
+            let near = wide.wid() < 0.01;
+            assert!(
+                near && (wide.contains(found.mid()) || k == 180),
+                "{k}: {wide:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! `krawl motion` as people and programs use it.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::fs;
+
+fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+const CRANK: &str = "problems/mechanisms/crank.toml";
+
+#[test]
+fn a_crank_turns_all_the_way_round() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (json, csv, page) = (at("m.json"), at("m.csv"), at("m.html"));
+    let (code, text, error) = krawl(&[
+        "motion",
+        CRANK,
+        "--free",
+        "turns:D-A-B",
+        "--measure",
+        "angle A D C",
+        "--measure",
+        "turn D A B",
+        "--json",
+        &json,
+        "--csv",
+        &csv,
+        "--html",
+        &page,
+    ]);
+    assert_eq!(code, Some(0), "{error}");
+    for words in [
+        "turns:D-A-B set free",
+        "a loop of figures, proved in",
+        "all the way round",
+        "38.6248",
+        "78.5848",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let result: Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    assert_eq!(result["status"], "closed");
+    assert_eq!(
+        result["measured"][1]["turns"].as_i64().map(i64::abs),
+        Some(1)
+    );
+    // The figure at the end of the rocker's way reaches into the bound.
+    let points = &result["measured"][0]["least"]["points"];
+    let middle = |name: &str, axis: usize| {
+        let bounds = &points[name][axis];
+        0.5 * (bounds[0].as_f64().unwrap() + bounds[1].as_f64().unwrap())
+    };
+    let (x, y) = (
+        middle("C", 0) - middle("D", 0),
+        middle("C", 1) - middle("D", 1),
+    );
+    let angle = y.atan2(x).to_degrees();
+    assert!((180.0 - angle.abs() - 38.6248).abs() < 1e-3, "{angle}");
+    let rows = fs::read_to_string(&csv).unwrap();
+    assert!(rows.starts_with("way,A.x,A.y,"), "{rows}");
+    assert_eq!(rows.lines().count(), 182);
+    let html = fs::read_to_string(&page).unwrap();
+    assert!(
+        html.contains("angle A D C from 38.6248"),
+        "{}",
+        &html[..2000]
+    );
+    // Standard output in place of the table.
+    let (code, text, error) = krawl(&["motion", CRANK, "--free", "turns:D-A-B", "--json", "-"]);
+    assert!(
+        code == Some(0) && serde_json::from_str::<Value>(&text).is_ok() && error.contains("a loop"),
+        "{error}"
+    );
+    let (code, text, _) = krawl(&["show", &json]);
+    assert_eq!(code, Some(0), "{text}");
+}
+
+#[test]
+fn what_cannot_be_moved_is_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let bodies = folder.path().join("bodies.toml");
+    fs::write(
+        &bodies,
+        "name = \"arm\"\ndimension = 2\n[points]\nA = [0, 0]\nB = [1, 0.1]\nC = [2, 0.5]\nD = [3, 0]\n[constraints]\n\
+         distances = [[\"A\", \"B\", 1], [\"B\", \"C\", 1], [\"C\", \"D\", 1]]\n",
+    )
+    .unwrap();
+    let bodies = bodies.to_str().unwrap();
+    for (arguments, why) in [
+        (&["motion", CRANK][..], "set one free with `--free NAME`"),
+        (
+            &["motion", CRANK, "--free", "A-Z"],
+            "there is no dimension `A-Z`",
+        ),
+        (
+            &["motion", CRANK, "--free", "turns:D-A-B", "--measure", "A-Z"],
+            "--measure",
+        ),
+        (&["motion", bodies], "this one has 2: give 1 dimension more"),
+        (&["motion", "nowhere.toml"], "nowhere.toml"),
+    ] {
+        let (code, text, error) = krawl(arguments);
+        assert!(
+            code == Some(2) && text.is_empty() && error.contains(why),
+            "{arguments:?}: {error}"
+        );
+    }
+}
