@@ -77,6 +77,43 @@ impl Decimal {
     pub fn is_positive(&self) -> bool {
         self.value.is_positive()
     }
+
+    /// The sum of two, exactly. An error: it is out of the range of numbers.
+    pub fn plus(&self, other: &Decimal) -> Result<Decimal, DecimalError> {
+        let place = self.last_digit().min(other.last_digit()).min(0);
+        let places = place.unsigned_abs() as usize;
+        let scale =
+            BigRational::from_integer(num_bigint::BigInt::from(10).pow(place.unsigned_abs()));
+        let sum = ((&self.value + &other.value) * scale).to_integer();
+        let digits = format!(
+            "{:0>width$}",
+            sum.magnitude().to_string(),
+            width = places + 1
+        );
+        let (whole, parts) = digits.split_at(digits.len() - places);
+        let sign = if sum.sign() == num_bigint::Sign::Minus {
+            "-"
+        } else {
+            ""
+        };
+        match parts {
+            "" => format!("{sign}{whole}").parse(),
+            parts => format!("{sign}{whole}.{parts}").parse(),
+        }
+    }
+
+    /// The number with the other sign.
+    pub fn negative(&self) -> Decimal {
+        let text = self.text.strip_prefix('-');
+        let text = text.map_or_else(
+            || format!("-{}", self.text.trim_start_matches('+')),
+            str::to_owned,
+        );
+        Decimal {
+            value: -self.value.clone(),
+            text,
+        }
+    }
 }
 
 impl FromStr for Decimal {

@@ -88,6 +88,7 @@
 //! - `remarks`: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`motion`]: all figures of a linkage that moves in one way, and what is measured of them
+//! - [`tolerance`]: dimensions within limits, and what they do to a figure
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
@@ -154,6 +155,7 @@ pub mod report;
 mod residues;
 mod statement;
 pub mod system;
+pub mod tolerance;
 pub mod track;
 
 /// The library of points and motions that the interface speaks, in the version it speaks.

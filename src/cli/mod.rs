@@ -25,6 +25,7 @@ mod sweep;
 mod table;
 mod take;
 mod template;
+mod tolerance;
 mod verify;
 mod work;
 
@@ -66,6 +67,7 @@ Examples:
   krawl solve sketch.toml --html page.html  a page to look at
   krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
   krawl motion sketch.toml --free a-c       a linkage all the way round, past every dead centre
+  krawl tolerance sketch.toml --default 0.1  every dimension within its limits
   krawl all sketch.toml                     every figure that there is
   krawl complex sketch.toml                 every complex one
   krawl explore sketch.toml --store DIR     more real ones, from new sketches
@@ -100,6 +102,7 @@ enum Verb {
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
     Template(template::Arguments),
+    Tolerance(tolerance::Arguments),
     Verify(verify::Arguments),
     Work(work::Arguments),
     Completions(shell::Completions),
@@ -128,6 +131,7 @@ pub fn run() -> ExitCode {
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Sweep(arguments) => sweep::run(&arguments),
         Verb::Template(arguments) => template::run(&arguments),
+        Verb::Tolerance(arguments) => tolerance::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Work(arguments) => work::run(&arguments),
         Verb::Completions(arguments) => shell::completions(&arguments),

@@ -8,7 +8,7 @@ use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
 use krawl::report::page::Page;
 use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
-use krawl::track::{Control, Options, Status};
+use krawl::track::{Control, Options};
 use std::path::PathBuf;
 
 /// Follow a linkage all the way round, with proof: between which bounds its lengths and angles stay, and where
@@ -76,7 +76,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         &Options::certified(),
         &mut control,
     );
-    let motion = motion.map_err(|error| format!("{}: {error}", arguments.file.display()))?;
+    let motion = match motion {
+        Err(_) if control.is_interrupted() => {
+            output::complain("interrupted before anything was proved");
+            return Ok(STOPPED);
+        }
+        motion => motion.map_err(|error| format!("{}: {error}", arguments.file.display()))?,
+    };
     let mut written = true;
     if let Some(csv) = &csv {
         written &= csv.write(&motion_to_csv(&motion, &measures));
@@ -98,10 +104,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     } else if !arguments.quiet {
         written &= output::print(&motion_to_table(&motion));
     }
-    Ok(match (written, &motion.outcome.status) {
-        (false, _) => BAD_INPUT,
-        (true, Status::Closed) => CLOSED,
-        (true, Status::Open(_)) => OPEN,
-        (true, Status::Stopped(_)) => STOPPED,
+    Ok(match (written, motion.is_loop(), motion.is_told()) {
+        (false, ..) => BAD_INPUT,
+        (_, true, _) => CLOSED,
+        (_, _, true) => OPEN,
+        _ => STOPPED,
     })
 }

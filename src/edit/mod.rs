@@ -50,6 +50,7 @@ mod setting;
 mod sweep;
 mod whole;
 mod whole_turn;
+mod within;
 mod write;
 
 pub use alone::{Alone, alone};
@@ -57,10 +58,13 @@ pub use ending::{Dimension, Edited, Ending, Limit, Lost, Orientations};
 pub use limits::{BETWEEN, End, Range};
 pub use open::{Moved, OpenError};
 pub(crate) use round::Round;
+pub use round::WayEnd;
 pub use session::{Decomposition, Session, Standing, TooMany, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use whole_turn::{Asked, with_turns_of};
+pub use within::Limits;
+pub(crate) use within::Within;
 pub use write::{WriteError, rewrite};
 
 use crate::blocks::in_words;

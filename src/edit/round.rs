@@ -3,10 +3,12 @@
 use super::open::OpenError;
 use super::setting::Setting;
 use super::whole::Whole;
-use crate::interval::Interval;
+use crate::interval::{Interval, point};
+use crate::places::Each as _;
 use crate::problem::Problem;
+use crate::system::Placement;
 use crate::track::certified::track_from;
-use crate::track::{Control, Options, Outcome, StartError, Trace};
+use crate::track::{Control, Options, Outcome, PathEnd, StartError, Status, Stop, StopKind, Trace};
 use std::slice;
 
 /// So far may the path be from the middle of a tube, in typical lengths: what is measured along it is known about that well.
@@ -15,15 +17,48 @@ const FINE: f64 = 1e-8;
 /// All figures of a path along which one distance changes and all other dimensions stand still.
 pub(crate) struct Round {
     whole: Whole,
-    /// How the path was followed.
-    pub outcome: Outcome,
     /// It.
     pub trace: Trace,
+    /// Where it ends one way and the other; none of a loop.
+    pub ends: Vec<WayEnd>,
+    /// The tubes.
+    pub tubes: usize,
+}
+
+/// Where a path ends, or was followed no further.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WayEnd {
+    /// Why, as a word for programs: [`crate::track::EndKind::name`] or [`crate::track::StopKind::name`].
+    pub kind: &'static str,
+    /// Whether it is a place of the figure's own, past which it was not to be followed, and not one where time or the proof came to an end.
+    pub is_told: bool,
+    /// Why, in words.
+    pub words: String,
+}
+
+impl From<&PathEnd> for WayEnd {
+    fn from(end: &PathEnd) -> Self {
+        WayEnd {
+            kind: end.kind.name(),
+            is_told: true,
+            words: end.reason.clone(),
+        }
+    }
+}
+
+impl From<&Stop> for WayEnd {
+    fn from(stop: &Stop) -> Self {
+        WayEnd {
+            kind: stop.kind.name(),
+            is_told: stop.kind == StopKind::Singular,
+            words: stop.text.clone(),
+        }
+    }
 }
 
 impl Round {
     /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does, and follows it while one of its distances is
-    /// led towards a value, and on from there, until it comes back.
+    /// led towards a value, and on from there, until it comes back; or else both ways as far as it goes.
     pub fn new(
         problem: &Problem,
         setting: &Setting,
@@ -31,32 +66,66 @@ impl Round {
         control: &mut Control,
     ) -> Result<Self, OpenError> {
         let mut whole = Whole::open_with(problem, options, control)?;
-        let options = Options {
-            tube_radius: Some(FINE * whole.unit()),
-            threads: 1,
-            ..options.clone()
-        };
-        let mut trace = Trace::default();
-        let outcome = whole.lead_on(setting, |homotopy, figure| {
-            let mut control = Control {
-                cancel: control.cancel,
-                limit: control.limit,
-                trace: Some(&mut trace),
-                ..Control::default()
+        let mut follow = |reverse: bool| -> Result<(Outcome, Trace), OpenError> {
+            let options = Options {
+                tube_radius: Some(FINE * whole.unit()),
+                threads: 1,
+                reverse,
+                ..options.clone()
             };
-            track_from(homotopy, Some(figure), &options, &mut control)
-        });
-        let outcome = outcome.map_err(StartError::Unsupported)?;
+            let mut trace = Trace::default();
+            let outcome = whole.lead_on(setting, |homotopy, figure| {
+                let mut control = Control {
+                    cancel: control.cancel,
+                    limit: control.limit,
+                    trace: Some(&mut trace),
+                    ..Control::default()
+                };
+                track_from(homotopy, Some(figure), &options, &mut control)
+            });
+            Ok((outcome.map_err(StartError::Unsupported)?, trace))
+        };
+        let (first, trace) = follow(false)?;
+        let (mut ends, mut tubes) = (ends(&first), first.steps);
+        let mut all = trace;
+        // What stops one way may go on the other, unless that was tried.
+        if let Status::Stopped(stop) = &first.status
+            && stop.kind != StopKind::Interrupted
+            && all.back().is_none()
+            && all.tubes() > 0
+        {
+            let (second, back) = follow(true)?;
+            match &second.status {
+                Status::Stopped(_) if back.back().is_none() => {
+                    ends.extend(self::ends(&second));
+                    tubes += second.steps;
+                    all = all.with_back(back);
+                }
+                _ => {
+                    (ends, tubes, all) = (self::ends(&second), second.steps, back);
+                }
+            }
+        }
         Ok(Round {
             whole,
-            outcome,
-            trace,
+            trace: all,
+            ends,
+            tubes,
         })
     }
 
-    /// The figure that it sets out from, in the coordinates of the problem.
+    /// Whether the path comes back to the figure that it sets out from.
+    pub fn is_loop(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The figure that it sets out from, in the coordinates of the problem, as all others of the way.
     pub fn figure(&self) -> Vec<[Interval; 3]> {
-        self.whole.points()
+        let homotopy = self.whole.homotopy();
+        let unit = point(homotopy.unit);
+        let places = self.whole.first().points(homotopy);
+        let places: Vec<_> = places.iter().map(|p| p.each(|x| x * unit)).collect();
+        self.in_problem(&places)
     }
 
     /// How many equations it was followed by, the one of the distance that is led not among them.
@@ -69,9 +138,30 @@ impl Round {
         self.whole.moved()
     }
 
-    /// A figure of the trace in the coordinates of the problem.
+    /// From the trace's coordinates to those of the problem: one motion for all figures, so that the reference's points stand still, the
+    /// first where the sketch has it and the next ones on the ray, and in the plane, in which it has them.
+    pub fn placement(&self) -> Placement {
+        self.whole.gauge()
+    }
+
+    /// A figure of the trace there.
     pub fn in_problem(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
-        self.whole.put(places)
+        let placement = self.placement();
+        places.iter().map(|p| placement.to_problem(p)).collect()
+    }
+
+    /// The points that stand still so; none where constraints say where the figure is.
+    pub fn standing(&self) -> &[usize] {
+        &self.whole.problem().homotopy.reference
+    }
+}
+
+/// Where a run ended.
+fn ends(outcome: &Outcome) -> Vec<WayEnd> {
+    match &outcome.status {
+        Status::Closed => Vec::new(),
+        Status::Open(ends) => ends.iter().map(WayEnd::from).collect(),
+        Status::Stopped(stop) => vec![WayEnd::from(stop)],
     }
 }
 

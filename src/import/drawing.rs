@@ -278,6 +278,7 @@ impl Drawing {
             },
             distances,
             labels,
+            tolerances: Default::default(),
         };
         Finished {
             problem,

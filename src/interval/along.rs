@@ -1,6 +1,8 @@
 //! Numbers along a curve: what they are, and how fast they change.
 
 use super::Interval;
+use super::vector::dot;
+use crate::places::{Each as _, array};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// An enclosure of a number along a stretch of a curve, and of its derivative by the curve's parameter.
@@ -81,6 +83,9 @@ pub trait Quantifiable:
 
     /// What is left of the sign.
     fn abs(self) -> Self;
+
+    /// The length of a vector.
+    fn length(v: [Self; 3]) -> Self;
 }
 
 impl Quantifiable for Interval {
@@ -102,6 +107,10 @@ impl Quantifiable for Interval {
 
     fn abs(self) -> Self {
         Interval::abs(self)
+    }
+
+    fn length(v: [Self; 3]) -> Self {
+        dot(v, v).sqrt()
     }
 }
 
@@ -137,6 +146,34 @@ impl Quantifiable for Along {
         };
         self.map(self.value.abs(), sign)
     }
+
+    fn length(v: [Self; 3]) -> Self {
+        let values = v.each(|x| x.value);
+        let cosines = array(|axis| cosine(values, axis));
+        Along {
+            value: dot(values, values).sqrt(),
+            slope: dot(cosines, v.each(|x| x.slope)),
+        }
+    }
+}
+
+/// v_k / |v|, as sharp as can be: it grows with v_k, and with the others towards 0 in size.
+fn cosine(v: [Interval; 3], axis: usize) -> Interval {
+    let others = v.each(|x| x.sqr());
+    let rest = others[(axis + 1) % 3] + others[(axis + 2) % 3];
+    let at = |x: f64, rest: f64| {
+        let (x, rest) = (super::point(x), super::point(rest));
+        let size = (x.sqr() + rest).sqrt();
+        match size.inf() > 0.0 {
+            true => (x / size).intersection(super::hull(-1.0, 1.0)),
+            false => super::hull(-1.0, 1.0),
+        }
+    };
+    let (near, far) = (rest.inf().max(0.0), rest.sup());
+    let x = v[axis];
+    let low = at(x.inf(), if x.inf() < 0.0 { near } else { far });
+    let high = at(x.sup(), if x.sup() < 0.0 { far } else { near });
+    low.convex_hull(high)
 }
 
 #[cfg(test)]
@@ -161,6 +198,21 @@ mod tests {
             let bound = along.slope * point(way) + hull(-1e-12, 1e-12);
             prop_assert!(bound.contains(change.mid()), "{bound:?} {change:?}");
             prop_assert!(along.value.contains(here.mid()) && along.value.contains(there.mid()));
+        }
+
+        /// A length changes by its slope times the way, and the slope of a vector that only grows is 1.
+        #[test]
+        fn lengths_have_sharp_slopes(v in [-3.0..3.0f64, -3.0..3.0, -3.0..3.0], w in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0], way in 0.0..0.5f64) {
+            let along = array(|k| Along {
+                value: hull(v[k].min(v[k] + way * w[k]), v[k].max(v[k] + way * w[k])),
+                slope: point(w[k]),
+            });
+            let there = array(|k| point(v[k] + way * w[k]));
+            let change = Interval::length(there) - Interval::length(v.map(point));
+            let bound = Along::length(along).slope * point(way) + hull(-1e-12, 1e-12);
+            prop_assert!(bound.contains(change.mid()), "{bound:?} {change:?}");
+            let straight = [Along { value: hull(1.0, 7.0), slope: point(1.0) }, Along::constant(0.0), Along::constant(0.0)];
+            prop_assert!(Along::length(straight).slope.wid() < 1e-15);
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Between which bounds something stays along a path.
 
 use crate::edit::Round;
-use crate::interval::{Interval, hull};
-use crate::system::{Quantity, WHOLE_TURN};
-use crate::track::Trace;
+use crate::interval::along::Along;
+use crate::interval::{Interval, hull, point};
+use crate::places::{Each as _, array};
+use crate::system::{Placement, Quantity, WHOLE_TURN};
+use crate::track::{Control, Trace};
 
 /// What is measured along a path.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,9 +30,9 @@ pub enum Bounds {
         /// The greatest.
         most: Extreme,
     },
-    /// An angle that is another by so many whole turns once the figure has come back: more than 0 counter-clockwise.
-    AllTheWay(i32),
-    /// It cannot be told, as points may come to be in one place, where an angle has no meaning.
+    /// An angle that is another by so many whole turns once the figure has come back.
+    AllTheWay(u32),
+    /// It cannot be told, as points may come to be in one place, where an angle has no meaning; or the time was over.
     Untold,
 }
 
@@ -85,12 +87,15 @@ const DEPTH: u32 = 24;
 /// Nor are so many looked at for one bound.
 const MOST: usize = 40_000;
 
-struct Look<'r> {
+struct Look<'r, 'c> {
     round: &'r Round,
     quantity: &'r Quantity,
+    /// Of what depends on where the figure stands.
+    placement: Option<Placement>,
+    control: &'r Control<'c>,
 }
 
-impl Look<'_> {
+impl Look<'_, '_> {
     fn trace(&self, is_behind: bool) -> &Trace {
         let trace = &self.round.trace;
         match is_behind {
@@ -105,22 +110,42 @@ impl Look<'_> {
     }
 
     fn key(&self, part: &Part, between: (f64, f64), near: f64) -> Interval {
-        if !self.quantity.is_invariant() {
-            let figure = self.figure(part, between);
-            return self.quantity.key(|p| figure[p], near);
-        }
         let here = self.trace(part.is_behind).part(part.tube, between);
-        let around = |p: usize| here.around(p);
+        let around = |p: usize| self.placed(here.around(p));
+        let middle = |p: usize| match self.placement {
+            Some(placement) => placement.to_problem(&here.middle(p)),
+            None => here.middle(p),
+        };
         match between.0 < between.1 {
             true => self
                 .quantity
-                .key_along((around, here.along()), |p| here.middle(p), near),
-            false => self.quantity.key(around, near),
+                .key_along((around, here.along()), middle, near),
+            false => self.quantity.key(middle, near),
         }
+    }
+
+    /// A point of the trace where the quantity wants it: in the coordinates of the problem if it depends on where the figure stands.
+    fn placed(&self, at: [Along; 3]) -> [Along; 3] {
+        let Some(placement) = self.placement else {
+            return at;
+        };
+        let turn = Placement {
+            origin: [point(0.0); 3],
+            ..placement
+        };
+        let values = placement.to_problem(&at.each(|x| x.value));
+        let slopes = turn.to_problem(&at.each(|x| x.slope));
+        array(|k| Along {
+            value: values[k],
+            slope: slopes[k],
+        })
     }
 
     /// Cuts a part until it tells how the quantity goes on, which is `near` where it begins. What it is where it ends.
     fn go_on(&self, part: Part, depth: u32, near: f64, out: &mut Vec<Part>) -> Option<f64> {
+        if self.control.is_interrupted() {
+            return None;
+        }
         let (a, b) = part.between;
         let key = self.key(&part, (a, b), near);
         if self.quantity.is_direction() && key.wid() > TELLS {
@@ -179,7 +204,8 @@ impl Look<'_> {
             for part in done {
                 low = low.min(signed(part.key).inf());
             }
-            if rest.is_empty() || round == DEPTH || 2 * rest.len() > MOST {
+            let is_over = self.control.is_interrupted();
+            if rest.is_empty() || round == DEPTH || 2 * rest.len() > MOST || is_over {
                 low = rest
                     .iter()
                     .fold(low, |low, part| low.min(signed(part.key).inf()));
@@ -200,7 +226,11 @@ impl Look<'_> {
         }
         let (part, middle) = place?;
         let at = self.trace(part.is_behind).length_at(part.tube, middle);
-        let key = signed(hull(low.min(best), best));
+        // A part holds the best, so this cannot be.
+        if low > best {
+            return None;
+        }
+        let key = signed(hull(low, best));
         Some(Extreme {
             value: self.quantity.of_key(key),
             at: if part.is_behind { -at } else { at },
@@ -209,12 +239,14 @@ impl Look<'_> {
     }
 }
 
-/// Between which bounds a quantity stays along a path, which is a loop or not.
-pub(super) fn measure(round: &Round, quantity: Quantity, is_loop: bool) -> Measured {
+/// Between which bounds a quantity stays along a path.
+pub(super) fn measure(round: &Round, quantity: Quantity, control: &Control) -> Measured {
     let first = round.figure();
     let look = Look {
         round,
         quantity: &quantity,
+        placement: (!quantity.is_invariant()).then(|| round.placement()),
+        control,
     };
     let found = || {
         let start = quantity.key(|p| first[p], 0.0).mid();
@@ -224,8 +256,8 @@ pub(super) fn measure(round: &Round, quantity: Quantity, is_loop: bool) -> Measu
             look.way(true, start, &mut parts)?;
         }
         let turns = ((end - start) / WHOLE_TURN).round();
-        if is_loop && quantity.is_direction() && turns != 0.0 {
-            return Some(Bounds::AllTheWay(turns as i32));
+        if round.is_loop() && quantity.is_direction() && turns != 0.0 {
+            return Some(Bounds::AllTheWay(turns.abs() as u32));
         }
         Some(Bounds::Between {
             least: look.least(&parts, 1.0)?,

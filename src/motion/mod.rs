@@ -9,7 +9,7 @@
 //! ```
 //! use krawl::motion::{Bounds, Motion};
 //! use krawl::problem::Problem;
-//! use krawl::track::{Control, Options, Status};
+//! use krawl::track::{Control, Options};
 //!
 //! // A four-bar linkage, of which the crank can turn all the way round.
 //! let linkage = Problem::parse_loosely(
@@ -28,7 +28,7 @@
 //! )?;
 //! let asked = ["turn D A B", "angle A D C"].map(String::from);
 //! let motion = Motion::of(&linkage, &[], &asked, &Options::certified(), &mut Control::default())?;
-//! assert_eq!(motion.outcome.status, Status::Closed);
+//! assert!(motion.is_loop());
 //! assert_eq!(motion.measured[0].bounds, Bounds::AllTheWay(1));
 //! // The rocker's ends, where crank and coupler are in line: 3² + 4² - 2·3·4·cos = (3.5 ± 1)².
 //! let Bounds::Between { least, most } = &motion.measured[1].bounds else { panic!() };
@@ -44,12 +44,12 @@ mod surplus;
 pub use bounds::{Bounds, Extreme, Measured};
 
 use crate::blocks::Account;
-use crate::edit::{Round, Setting};
+use crate::edit::{Round, Setting, WayEnd};
 use crate::interval::Interval;
 use crate::order::InOrder;
-use crate::problem::{Decimal, Distance, Item, Problem, Target, counted};
+use crate::problem::{Decimal, Distance, Item, Problem, Target, counted, list};
 use crate::system::Quantity;
-use crate::track::{Control, Options, Outcome, Status};
+use crate::track::{Control, Options};
 use std::collections::BTreeMap;
 
 /// All figures of a linkage that moves in one way.
@@ -61,9 +61,10 @@ pub struct Motion {
     pub freed: Vec<String>,
     /// The points whose distance, which no constraint gives, was led along the path.
     pub driver: [usize; 2],
-    /// How it was followed: [`Status::Closed`] is a loop; with [`Status::Open`] it is an arc between two ends. What solutions
-    /// there are has no meaning.
-    pub outcome: Outcome,
+    /// Where it ends one way and the other: nowhere if it is a loop.
+    pub ends: Vec<WayEnd>,
+    /// The tubes in which it is proved.
+    pub tubes: usize,
     /// What is proved of its figures: which distances were left out, and how all figures stand to them.
     pub account: Account,
     /// No point was moved further than this from where the sketch has it to the figure that the motion sets out from (its reference
@@ -73,6 +74,9 @@ pub struct Motion {
     pub figure: Vec<[Interval; 3]>,
     /// What was asked for, in that order.
     pub measured: Vec<Measured>,
+    /// The points that stand still in all coordinates that are given: the first where it is drawn, the next one on its ray from there, and in
+    /// space a third in their plane. None where constraints say where the figure is.
+    pub standing: Vec<usize>,
     /// Figures along the path at equal lengths of it, beginning with the first one (or with the end behind it); of a loop the last one is
     /// the first.
     pub frames: Vec<Frame>,
@@ -96,6 +100,9 @@ const CHOICES: usize = 4;
 
 /// And for each of these so many lengths are tried.
 const EACH: usize = 2;
+
+/// Names in one list of a message.
+const LISTED: usize = 12;
 
 /// So many lengths are measured where nothing was asked for.
 const DEFAULT: usize = 12;
@@ -132,11 +139,11 @@ impl Motion {
             driver,
             left_out,
         } = follow(&led, &lengths, options, control)?;
-        let account = surplus::account(&problem, &left_out, &round);
-        if let Some(missed) = account.left_out.iter().find(|one| one.verdict.is_missed()) {
+        let account = surplus::account(&problem, &left_out, &round, control);
+        if account.left_out.iter().any(|one| one.verdict.is_missed()) {
             return Err(format!(
-                "the figure cannot move while all its dimensions stand still: without {} it could, and {}",
-                missed.name,
+                "the figure cannot move while all its dimensions stand still: without {} it could, and somewhere on that way {}",
+                list(&account.names_left_out(), LISTED),
                 account.left_out_in_words()
             ));
         }
@@ -146,10 +153,9 @@ impl Motion {
             let others = lengths.iter().filter(|ends| !known.contains(ends));
             quantities.extend(others.map(|&ends| Quantity::length(&problem, ends)));
         }
-        let is_loop = round.outcome.status == Status::Closed;
         let mut measured = Vec::new();
         for quantity in quantities {
-            let found = bounds::measure(&round, quantity, is_loop);
+            let found = bounds::measure(&round, quantity, control);
             // Of all lengths those that change are meant, and points in one place count as one.
             if !is_by_default
                 || found.changes() && !measured.iter().any(|other| found.is_like(other))
@@ -165,12 +171,24 @@ impl Motion {
             account,
             freed,
             frames: frames(&round),
+            standing: round.standing().to_vec(),
             moved: corrected + round.moved().distance,
             figure: round.figure(),
-            outcome: round.outcome,
+            tubes: round.tubes,
+            ends: round.ends,
             measured,
             problem,
         })
+    }
+
+    /// Whether the figure comes back to where it set out from.
+    pub fn is_loop(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// Whether it is known where its way ends, if it is no loop: both ends are places of its own.
+    pub fn is_told(&self) -> bool {
+        self.is_loop() || self.ends.len() == 2 && self.ends.iter().all(|end| end.is_told)
     }
 }
 
@@ -234,7 +252,7 @@ fn in_place(problem: &Problem, index: usize) -> Option<Quantity> {
 }
 
 /// Lengths that no distance gives, those that are asked for first, and then those that were drawn longest.
-fn lengths(problem: &Problem, quantities: &[Quantity]) -> Vec<[usize; 2]> {
+pub(crate) fn lengths(problem: &Problem, quantities: &[Quantity]) -> Vec<[usize; 2]> {
     let is_given = |ends: &[usize; 2]| {
         let mut given = problem.distances.iter().map(|d| d.points);
         given.any(|[a, b]| [a, b] == *ends || [b, a] == *ends)
@@ -275,14 +293,16 @@ struct Followed {
 
 impl Followed {
     /// How much is known of it.
-    fn rank(&self) -> u8 {
-        match &self.round.outcome.status {
-            Status::Closed => 2,
-            Status::Open(_) => 1,
-            Status::Stopped(_) => 0,
+    fn rank(&self) -> usize {
+        match &self.round.ends[..] {
+            [] => LOOP,
+            ends => ends.iter().filter(|end| end.is_told).count(),
         }
     }
 }
+
+/// More than any other [`Followed::rank`].
+const LOOP: usize = 3;
 
 /// Follows the path along which one of some lengths changes: the first of which it closes.
 fn follow(
@@ -298,7 +318,8 @@ fn follow(
             1 => {}
             n => {
                 return Err(format!(
-                    "a motion is of a figure with one degree of freedom, and as it is drawn this one has {n}: give {} more",
+                    "a motion is of a figure with one degree of freedom, and as it is drawn this one can begin to move in {n} ways: give {} more, or, if \
+                     it is drawn flat or at a dead centre, draw it a little bent",
                     counted(n - 1, "dimension")
                 ));
             }
@@ -344,8 +365,8 @@ fn follow(
             }
         };
         // A length that does not change sets nothing in motion.
-        if let (0, Status::Stopped(stop)) = (round.trace.tubes(), &round.outcome.status) {
-            fault.get_or_insert(stop.text.clone());
+        if round.trace.tubes() == 0 {
+            fault.get_or_insert_with(|| round.ends.iter().map(|end| end.words.clone()).collect());
             continue;
         }
         tried += 1;
@@ -360,7 +381,7 @@ fn follow(
         {
             best = Some(followed);
         }
-        if best.as_ref().is_some_and(|best| best.rank() == 2) {
+        if best.as_ref().is_some_and(|best| best.rank() == LOOP) {
             break;
         }
     }
@@ -387,7 +408,13 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     let moved = labels.map(|(at, label)| (at + usize::from(at >= index), label));
     out.labels = moved.collect();
     let target = Target::Length(decimal(1.25 * length));
-    (out.up_to_motions(), Setting { index, target })
+    // The reference that there is stands still, if it can.
+    let has_reference = !out.homotopy.reference.is_empty() && out.check().is_ok();
+    let out = match has_reference {
+        true => out,
+        false => out.up_to_motions(),
+    };
+    (out, Setting { index, target })
 }
 
 const RIGID: &str =
@@ -398,9 +425,10 @@ fn rigid(problem: &Problem, fault: Option<String>) -> String {
     match fault {
         _ if problem.check().is_ok() => RIGID.to_owned(),
         Some(fault) => format!(
-            "a motion is of a figure with one degree of freedom, all of whose constraints are needed; with one more length given: {fault}"
+            "a motion is of a figure with one degree of freedom, all of whose constraints are needed. It could not be set in motion as it is drawn: \
+             if it is at a dead centre draw it a little bent, and if it is far from its dimensions nearer to them. With one more length given: {fault}"
         ),
-        None => "no length can change".to_owned(),
+        None => "as it is drawn no length begins to change: if it is at a dead centre, with points on one line, draw it a little bent".to_owned(),
     }
 }
 

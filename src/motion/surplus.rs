@@ -9,6 +9,7 @@ use crate::linalg::{Span, nearest_zero};
 use crate::places::array;
 use crate::problem::{Decimal, Problem, Target, free_coordinates};
 use crate::system::{Quantity, typical_length};
+use crate::track::Control;
 use nalgebra::{DMatrix, DVector};
 
 /// In how many ways the points of a problem of distances alone can begin to move as they are drawn, as far as floats tell.
@@ -172,7 +173,12 @@ const MOST_POINTS: usize = 100;
 const SINGULAR: f64 = 1e-6;
 
 /// What is proved of the figures of a path: how they stand to the distances that were left out.
-pub(super) fn account(problem: &Problem, left_out: &[usize], round: &Round) -> Account {
+pub(super) fn account(
+    problem: &Problem,
+    left_out: &[usize],
+    round: &Round,
+    control: &Control,
+) -> Account {
     let mut account = Account {
         equations: round.equations(),
         ..Account::default()
@@ -187,7 +193,7 @@ pub(super) fn account(problem: &Problem, left_out: &[usize], round: &Round) -> A
         let owner = problem.objects.len() + problem.constraints.len() + 1 + index;
         let epsilon = Ruler::new(problem, owner, (unit, 2), None).epsilon;
         let quantity = Quantity::length(problem, distance.points);
-        let verdict = match measure(round, quantity, false).bounds {
+        let verdict = match measure(round, quantity, control).bounds {
             Bounds::Between { least, most } => {
                 verdict((least.value - target, most.value - target), epsilon)
             }

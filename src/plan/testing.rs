@@ -79,6 +79,7 @@ pub(crate) fn rigid(
             }
             Some(Problem {
                 labels: Default::default(),
+                tolerances: Default::default(),
                 name: "random".into(),
                 dimension,
                 source: String::new(),

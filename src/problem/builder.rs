@@ -373,6 +373,7 @@ impl ProblemBuilder {
         let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
         let mut problem = Problem {
             labels: Default::default(),
+            tolerances: Default::default(),
             name: self.name,
             dimension: self.dimension,
             source: self.source,

@@ -7,7 +7,7 @@ use super::builder::ProblemBuilder;
 use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
 use super::{Decimal, DecimalError, Problem, ProblemError, Published};
 use crate::constraint::KINDS;
-use crate::statement::nearest;
+use crate::statement::{Tolerances, nearest};
 use std::collections::HashSet;
 use std::fmt;
 use std::io::Read;
@@ -296,6 +296,7 @@ impl<'a> Reader<'a> {
                 "bodies",
                 "constraints",
                 "homotopy",
+                "tolerances",
                 "published",
             ],
         )?;
@@ -339,7 +340,8 @@ impl<'a> Reader<'a> {
             builder = builder.loose();
         }
         let problem = builder.finish();
-        let problem = problem.map_err(|error| self.in_problem(&places, error))?;
+        let mut problem = problem.map_err(|error| self.in_problem(&places, error))?;
+        problem.tolerances = self.tolerances(root)?;
         Ok((problem, published))
     }
 
@@ -545,6 +547,49 @@ impl<'a> Reader<'a> {
             builder = builder.detour(self.number(line, key, value)?);
         }
         Ok(builder)
+    }
+
+    fn tolerances(&self, root: &dyn TableLike) -> Result<Tolerances, FileError> {
+        let mut out = Tolerances::default();
+        let Some((line, item)) = self.get(root, "tolerances") else {
+            return Ok(out);
+        };
+        for (name, item) in self.table(line, "tolerances", item)?.iter() {
+            let key = format!("tolerances.{name}");
+            let line = self.line(item.span()).or(line);
+            let wanted = "a number, 0.1, or how far down and up, [-0.2, 0.1]";
+            let deviation = |value: &Value| match value {
+                Value::String(text) => {
+                    let text = text.value().trim();
+                    let number = text.strip_prefix('+').unwrap_or(text).parse();
+                    number.map_err(|_| self.wrong_kind(line, &key, wanted, item))
+                }
+                value => self.number(line, &key, value),
+            };
+            let both = match item.as_value() {
+                Some(Value::Array(both)) if both.len() == 2 => {
+                    let numbers = both.iter().map(deviation).collect::<Result<Vec<_>, _>>()?;
+                    let [a, b] = [&numbers[0], &numbers[1]];
+                    match a.value() <= b.value() {
+                        true => [a.clone(), b.clone()],
+                        false => [b.clone(), a.clone()],
+                    }
+                }
+                Some(value @ (Value::Integer(_) | Value::Float(_) | Value::String(_))) => {
+                    let number = deviation(value)?;
+                    match number.to_f64() >= 0.0 {
+                        true => [number.negative(), number],
+                        false => return Err(self.wrong_kind(line, &key, wanted, item)),
+                    }
+                }
+                _ => return Err(self.wrong_kind(line, &key, wanted, item)),
+            };
+            match name {
+                "default" => out.default = Some(both),
+                name => out.named.push((name.to_owned(), both)),
+            }
+        }
+        Ok(out)
     }
 
     /// The exact number that the text of `value` says.

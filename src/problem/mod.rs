@@ -18,7 +18,7 @@ mod write;
 pub use crate::decimal::{Decimal, DecimalError};
 pub use crate::statement::{
     AXES, Constraint, DEPENDS, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape,
-    Target, free_coordinates,
+    Target, Tolerances, free_coordinates,
 };
 pub(crate) use crate::statement::{counted, list, most_along};
 #[cfg(feature = "explore")]

@@ -24,6 +24,7 @@ mod progress;
 mod sweep;
 mod table;
 mod theorem;
+mod tolerance;
 
 #[cfg(feature = "cli")]
 pub use blocks::BlockRuns;
@@ -58,6 +59,7 @@ pub use sweep::{
 };
 pub use table::{to_first_table, to_no_first, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
+pub use tolerance::{tolerances_in_words, tolerances_to_table, tolerances_to_value};
 
 #[cfg(test)]
 mod tests {

@@ -5,10 +5,10 @@ use super::drawing::Drawing;
 use super::edit::{bounds, points_to_value};
 use super::measured::Measures;
 use super::sweep::frames_to_csv;
-use crate::interval::point;
+use crate::edit::WayEnd;
+use crate::interval::{Interval, point};
 use crate::motion::{Bounds, Extreme, Measured, Motion};
 use crate::problem::counted;
-use crate::track::{EndKind, PathEnd, Status};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -18,19 +18,16 @@ pub fn motion_in_words(motion: &Motion) -> String {
         [] => String::new(),
         freed => format!(", {} set free", freed.join(" and ")),
     };
-    let tubes = counted(motion.outcome.steps, "tube");
-    let what = match &motion.outcome.status {
-        Status::Closed => format!(
-            "the figure moves all the way round and comes back to where it is drawn: a loop of figures, proved in {tubes}, with no place \
-             on it where it could go another way"
+    let tubes = counted(motion.tubes, "tube");
+    let what = match (motion.is_loop(), motion.is_told()) {
+        (true, _) => format!(
+            "the figure moves through a loop of figures and comes back to the first, proved in {tubes}; nowhere on it could it go another way"
         ),
-        Status::Open(_) => format!(
-            "the figure moves between two ends, proved in {tubes}, with no place between them where it could go another way; beyond the \
-             ends it was not followed"
+        (_, true) => format!(
+            "the figure moves between two ends, proved in {tubes}; nowhere between them could it go another way, and beyond them it was not followed"
         ),
-        Status::Stopped(stop) => format!(
-            "the figure moves, and was followed with proof for {tubes}, but not to an end: {}",
-            stop.text
+        _ => format!(
+            "the figure moves, and was followed with proof for {tubes}, but not all the way"
         ),
     };
     let account = motion.account.clause_behind();
@@ -40,7 +37,9 @@ pub fn motion_in_words(motion: &Motion) -> String {
 /// A motion as text: what it is, and what was measured.
 pub fn motion_to_table(motion: &Motion) -> String {
     let mut out = motion_in_words(motion) + "\n";
-    if motion.moved > 1e-9 {
+    let coordinates = motion.problem.points.iter().flat_map(|p| &p.sketch);
+    let size = coordinates.fold(0.0, |size: f64, x| size.max(x.to_f64().abs()));
+    if motion.moved > 1e-9 * size {
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
@@ -48,14 +47,23 @@ pub fn motion_to_table(motion: &Motion) -> String {
             motion.moved
         );
     }
-    if let Status::Open(ends) = &motion.outcome.status {
-        for (which, end) in ["One end", "The other"].iter().zip(&**ends) {
-            let _ = writeln!(out, "  {which}: {}.", end_in_words(end));
-        }
+    for (which, end) in ["One way", "The other way"].iter().zip(&motion.ends) {
+        let _ = writeln!(out, "  {which}: {}.", end_in_words(end));
     }
-    let is_all = matches!(motion.outcome.status, Status::Closed);
-    let heading = match is_all {
-        true => "Over the whole way round",
+    let standing = motion
+        .standing
+        .iter()
+        .map(|&p| motion.problem.points[p].name.as_str());
+    let standing: Vec<&str> = standing.collect();
+    if !standing.is_empty() {
+        let _ = writeln!(
+            out,
+            "Coordinates are those in which {} stand still.",
+            standing.join(" and ")
+        );
+    }
+    let heading = match motion.is_loop() {
+        true => "Over the whole loop",
         false => "As far as it was followed",
     };
     let rows: Vec<[String; 4]> = motion.measured.iter().map(cells).collect();
@@ -82,7 +90,7 @@ pub fn motion_to_table(motion: &Motion) -> String {
         out,
         "\nNo figure of the way is beyond these values, and one reaches each, proved{}; they differ from the exact ones by at most 1 in the \
          last digit shown. Angles are in degrees.",
-        if is_all {
+        if motion.is_loop() {
             ""
         } else {
             ", as far as it was followed"
@@ -94,27 +102,41 @@ pub fn motion_to_table(motion: &Motion) -> String {
 fn cells(measured: &Measured) -> [String; 4] {
     let first = certain_digits(measured.first);
     let [least, most] = match &measured.bounds {
-        Bounds::Between { least, most } => [least, most].map(|end| certain_digits(end.value)),
+        Bounds::Between { least, most } => [
+            end_of(least.value, "at least", least.value.inf()),
+            end_of(most.value, "at most", most.value.sup()),
+        ],
         Bounds::AllTheWay(turns) => {
-            let rounds = match turns.unsigned_abs() {
-                1 => "all the way round".to_owned(),
-                n => format!("{n} times round"),
+            let rounds = match turns {
+                1 => "a full turn".to_owned(),
+                n => format!("{n} full turns"),
             };
             [rounds, String::new()]
         }
         Bounds::Untold => [
-            "not told: its points may come together".to_owned(),
+            "not told: its points may come together, or the time was over".to_owned(),
             String::new(),
         ],
     };
     [measured.name.clone(), first, least, most]
 }
 
-/// Where a motion ends, and why it seems to.
-fn end_in_words(end: &PathEnd) -> String {
-    let reason = end.reason.trim_end_matches('.');
+/// A bound by its certain digits, or by its outer end where few are certain.
+fn end_of(value: Interval, word: &str, outer: f64) -> String {
+    match value.wid() <= 1e-4 * value.mag().max(1.0) {
+        true => certain_digits(value),
+        false => format!("{word} {outer:.4}"),
+    }
+}
+
+/// Where a motion ends, and why.
+fn end_in_words(end: &WayEnd) -> String {
+    let reason = end.words.trim_end_matches('.');
     match end.kind {
-        EndKind::Infinite => format!("followed until {reason}"),
+        "singular" => format!(
+            "it comes to a figure from which it may go more than one way, seen in floats ({reason})"
+        ),
+        "infinite" => format!("followed until {reason}"),
         _ => reason.to_owned(),
     }
 }
@@ -137,16 +159,13 @@ pub fn motion_to_value(motion: &Motion) -> Value {
         }
         out
     });
-    let (status, ends) = match &motion.outcome.status {
-        Status::Closed => ("closed", Vec::new()),
-        Status::Open(ends) => (
-            "open",
-            ends.iter()
-                .map(|end| json!({"kind": end.kind.name(), "words": end_in_words(end)}))
-                .collect(),
-        ),
-        Status::Stopped(_) => ("stopped", Vec::new()),
+    let status = match (motion.is_loop(), motion.is_told()) {
+        (true, _) => "closed",
+        (_, true) => "open",
+        _ => "stopped",
     };
+    let ends = motion.ends.iter();
+    let ends = ends.map(|end| json!({"kind": end.kind, "words": end_in_words(end)}));
     let frames = motion.frames.iter();
     let frames = frames.map(|frame| json!({"at": frame.at, "points": points(&frame.points)}));
     Drawing::in_place("motion", problem).with(json!({
@@ -154,10 +173,11 @@ pub fn motion_to_value(motion: &Motion) -> Value {
         "driver": motion.driver.map(|p| &problem.points[p].name),
         "status": status,
         "words": motion_in_words(motion),
-        "tubes": motion.outcome.steps,
+        "standing": motion.standing.iter().map(|&p| &problem.points[p].name).collect::<Vec<_>>(),
+        "tubes": motion.tubes,
         "moved": motion.moved,
         "account": motion.account,
-        "ends": ends,
+        "ends": ends.collect::<Vec<_>>(),
         "measured": measured.collect::<Vec<_>>(),
         "frames": frames.collect::<Vec<_>>(),
     }))

@@ -38,6 +38,17 @@ pub struct Problem {
     /// What dimensions and constraints are called in the program that they come from, by index:
     /// distances first, then [`Problem::constraints`].
     pub labels: BTreeMap<usize, String>,
+    /// The tolerances that the file gives.
+    pub tolerances: Tolerances,
+}
+
+/// How far dimensions may be from what is given.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tolerances {
+    /// Of lengths and radii that are not named: so far down and up.
+    pub default: Option<[Decimal; 2]>,
+    /// Of those that are, by the name that was written: so far down (a number that is mostly less than 0) and up.
+    pub named: Vec<(String, [Decimal; 2])>,
 }
 
 /// A point and its place in the sketch.

@@ -130,6 +130,16 @@ impl Quantity {
         key.intersection(by_slope)
     }
 
+    /// The derivative of the key, of points that move with slopes.
+    pub fn slope_of_key(&self, at: impl Fn(usize) -> [Along; 3], near: f64) -> Interval {
+        self.whole(self.found(at), near).1
+    }
+
+    /// The points that it is measured of.
+    pub fn points(&self) -> &[usize] {
+        &self.points
+    }
+
     /// The key and its slope.
     fn whole<T: Quantifiable>(&self, found: Found<T>, near: f64) -> (Interval, Interval) {
         match (found, self.what) {
@@ -182,7 +192,7 @@ impl Quantity {
     fn found<T: Quantifiable>(&self, at: impl Fn(usize) -> [T; 3]) -> Found<T> {
         let at = |k: usize| at(self.points[k]);
         let between = |a: usize, b: usize| minus(at(b), at(a));
-        let size = |v: [T; 3]| dot(v, v).sqrt();
+        let size = |v: [T; 3]| T::length(v);
         Found::Number(match self.what {
             What::Distance => size(between(0, 1)),
             What::Angle => {
@@ -222,27 +232,37 @@ pub const WHOLE_TURN: f64 = 4.0;
 /// A number from −2 to 2 that grows with the direction of a vector, by 1 for each quarter of a turn: where the ray meets the square
 /// |x| + |y| = 1; and its slope, (x y' − y x') / (|x| + |y|)² in each quarter. It may go a little beyond near the negative x axis.
 fn quarters<T: Quantifiable>(x: T, y: T) -> (Interval, Interval) {
-    let one = point(1.0);
     let (a, b) = (x.value(), y.value());
-    let over = one / (a.abs() + b.abs());
-    let slope = (a * y.slope() - b * x.slope()) * over.sqr();
+    let slope = (a * y.slope() - b * x.slope()) * (point(1.0) / (a.abs() + b.abs())).sqr();
     let key = if a.inf() > 0.0 {
-        b * over
+        quarter(a, b)
     } else if b.inf() > 0.0 {
-        one - a * over
+        point(1.0) + quarter(b, -a)
     } else if b.sup() < 0.0 {
-        a * over - one
+        quarter(-b, a) - point(1.0)
     } else if a.sup() < 0.0 {
-        point(2.0) - b * over
+        point(2.0) + quarter(-a, -b)
     } else {
         return (hull(-2.0, 2.0), Interval::ENTIRE);
     };
     (key, slope)
 }
 
+/// y / (x + |y|) where x > 0, as sharp as can be: it grows with y, and with x towards 0.
+fn quarter(x: Interval, y: Interval) -> Interval {
+    let at = |x: f64, y: f64| {
+        let (x, y) = (point(x), point(y));
+        y / (x + y.abs())
+    };
+    let near = |y: f64| if y < 0.0 { x.inf() } else { x.sup() };
+    let far = |y: f64| if y < 0.0 { x.sup() } else { x.inf() };
+    at(near(y.inf()), y.inf()).convex_hull(at(far(y.sup()), y.sup()))
+}
+
 /// The angle in degrees with this number of quarters, as in [`quarters`].
 fn degrees(quarters: f64) -> Interval {
-    let turns = (quarters / WHOLE_TURN).round();
+    // So that the rest is more than −2, and at most 2: straight on is 180 degrees.
+    let turns = (quarters / WHOLE_TURN - 0.5).ceil();
     // Both exact: turns are few, and the rest is no greater than half of one.
     let [whole, rest] = [turns * 360.0, quarters - turns * WHOLE_TURN].each(point);
     let (x, y) = match rest.mid() {
@@ -262,7 +282,7 @@ mod tests {
         let mut before = -2.0;
         for k in -179..=180 {
             let angle = f64::from(k).to_radians();
-            let found = quarters(point(angle.cos() * 3.0), point(angle.sin() * 3.0)).0;
+            let (found, _) = quarters(point(angle.cos() * 3.0), point(angle.sin() * 3.0));
             assert!(
                 found.wid() < 1e-14 && found.mid() > before,
                 "{k}: {found:?}"
@@ -275,12 +295,73 @@ mod tests {
             );
             // A box around it.
             let around = |x: f64| hull(x - 1e-3, x + 1e-3);
-            let wide = quarters(around(angle.cos()), around(angle.sin())).0;
-            let near = wide.wid() < 0.01;
+            let (wide, _) = quarters(around(angle.cos()), around(angle.sin()));
             assert!(
-                near && (wide.contains(found.mid()) || k == 180),
+                wide.wid() < 0.01 && (wide.contains(found.mid()) || k == 180),
                 "{k}: {wide:?}"
             );
         }
+        for (quarters, angle) in [
+            (2.0, 180.0),
+            (-2.0, -180.0),
+            (6.0, 540.0),
+            (-6.0, -540.0),
+            (0.0, 0.0),
+            (1.0, 90.0),
+        ] {
+            assert!(
+                degrees(quarters).contains(angle) && degrees(quarters).wid() < 1e-11,
+                "{quarters}"
+            );
+        }
+    }
+
+    /// Wide boxes too: no wider than half a turn where they leave out half a plane, whatever their shape.
+    #[test]
+    fn quarters_of_wide_boxes_are_sharp() {
+        for (x, y) in [
+            (hull(1.0, 1.0), hull(9.0, 58.0)),
+            (hull(1e-6, 3.0), hull(-50.0, 70.0)),
+            (hull(-70.0, 3.0), hull(1e-3, 5.0)),
+            (hull(-4.0, 9.0), hull(-7.0, -0.1)),
+        ] {
+            let (key, _) = quarters(x, y);
+            assert!(key.wid() <= 2.0 + 1e-12, "{key:?}");
+            let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
+            for i in 0..=20 {
+                for j in 0..=20 {
+                    let at = |x: Interval, k: i32| {
+                        point(x.inf() + (x.sup() - x.inf()) * f64::from(k) / 20.0)
+                    };
+                    let (one, _) = quarters(at(x, i), at(y, j));
+                    ends = (ends.0.min(one.mid()), ends.1.max(one.mid()));
+                }
+            }
+            assert!(
+                (key.inf() - ends.0).abs() < 1e-12 && (key.sup() - ends.1).abs() < 1e-12,
+                "{key:?} {ends:?}"
+            );
+        }
+    }
+
+    /// What is turned by less than half a turn is never taken for the other way round.
+    #[test]
+    fn wide_boxes_are_unwrapped_from_where_they_begin() {
+        let text = "dimension = 2\n[points]\na = [1, 0]\nb = [0, 0]\nc = [1, 9]\n[constraints]\ndistances = [[\"a\", \"b\", 1]]\n";
+        let problem = Problem::parse_loosely(text, "t.toml").unwrap();
+        let turn = Quantity::parse(&problem, "turn a b c").unwrap();
+        let at = |y: Interval| {
+            move |p: usize| {
+                [
+                    [point(1.0), point(0.0), point(0.0)],
+                    [point(0.0); 3],
+                    [point(1.0), y, point(0.0)],
+                ][p]
+            }
+        };
+        let key = turn.key(at(hull(9.0, 58.0)), 0.9);
+        assert!(key.inf() > 0.85 && key.sup() < 1.0, "{key:?}");
+        let key = turn.key(at(hull(9.0, 58.0)), 4.9);
+        assert!(key.inf() > 4.85 && key.sup() < 5.0, "{key:?}");
     }
 }

@@ -15,4 +15,5 @@ mod real_files;
 mod real_sketches;
 mod singular_drawings;
 mod sketches;
+mod tolerance;
 mod whole_turns;

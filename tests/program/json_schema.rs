@@ -98,6 +98,11 @@ fn results_of_other_verbs_meet_their_schemas() {
         ("edit", "reached", &["edit", plate, "--set", "C-D=40"][..]),
         ("edit", "limit", &["edit", plate, "--set", "C-D=200"]),
         (
+            "tolerance",
+            "proved",
+            &["tolerance", plate, "--default", "0.1"],
+        ),
+        (
             "motion",
             "closed",
             &[

@@ -140,6 +140,17 @@ def test_bad_input_says_what_is_wrong(problem, words):
         krawl.solve(problem)
 
 
+def test_linkages_are_followed_all_the_way_round():
+    found = krawl.motion(
+        "problems/mechanisms/crank.toml", free=["turns:D-A-B"], measure=["angle A D C", "turn D A B"]
+    )
+    assert found.status == "closed" and found.turns["turn D A B"] == 1
+    low, high = found.bounds["angle A D C"]
+    assert 38.62 < low < 38.6249 and 78.5848 < high < 78.59
+    with pytest.raises(krawl.Error, match="cannot move"):
+        krawl.motion("problems/mechanisms/crank.toml")
+
+
 def test_bad_options_say_what_is_wrong():
     with pytest.raises(krawl.Error, match="space"):
         krawl.solve(OCTAHEDRON, space="outer")

@@ -20,14 +20,15 @@ Every box is given as two arrays, `lower` and `upper`, whose floats enclose the 
 """
 
 from ._krawl import Error, __version__
-from ._results import Complete, Edited, Figure, Run, Solution, Verdict
-from ._verbs import Session, complete, edit, solve, verify
+from ._results import Complete, Edited, Figure, Motion, Run, Solution, Verdict
+from ._verbs import Session, complete, edit, motion, solve, verify
 
 __all__ = [
     "Complete",
     "Edited",
     "Error",
     "Figure",
+    "Motion",
     "Run",
     "Session",
     "Solution",
@@ -35,6 +36,7 @@ __all__ = [
     "__version__",
     "complete",
     "edit",
+    "motion",
     "solve",
     "verify",
 ]

@@ -130,6 +130,21 @@ class Edited:
 
 
 @dataclass(frozen=True)
+class Motion:
+    """How a linkage moves."""
+
+    #: "closed" of a loop, "open" of a way between two ends, "stopped" if it was followed only so far.
+    status: str
+    #: What is proved, in words.
+    words: str
+    #: Between which bounds what was measured stays: lengths, areas, degrees.
+    bounds: dict
+    #: Of angles that go through full turns, how many.
+    turns: dict
+    data: dict = field(repr=False)
+
+
+@dataclass(frozen=True)
 class Verdict:
     """What the checker says of a certificate. It is true where the proof holds and is about the problem."""
 

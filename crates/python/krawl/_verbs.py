@@ -1,10 +1,10 @@
-"""The verbs: solve, edit, complete, verify."""
+"""The verbs: solve, edit, motion, complete, verify."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Callable, Optional
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from . import _krawl
 from ._krawl import Error
 from ._problem import text_and_name
-from ._results import Complete, Edited, Figure, Run, Solution, Verdict, figure
+from ._results import Complete, Edited, Figure, Motion, Run, Solution, Verdict, figure
 
 
 def solve(
@@ -75,6 +75,22 @@ def complete(
     )
     data = json.loads(answer)
     return Complete(data["status"], _solutions(data, None), data)
+
+
+def motion(problem: Any, *, free: Iterable[str] = (), measure: Iterable[str] = ()) -> Motion:
+    """Follows a linkage with one degree of freedom all the way round, with proof, past every dead centre.
+
+    free: dimensions to leave out so that it can move, such as "a-b" and "angles:a-b-c".
+    measure: what to bound over all of it, such as "a-b", "angle a b c", "turn a b c", "x a", "area a b c".
+    """
+    text, name = text_and_name(problem)
+    data = json.loads(_krawl.motion(text, name, free=list(free), measure=list(measure)))
+    bounds = {}
+    for measured in data["measured"]:
+        if "least" in measured:
+            bounds[measured["name"]] = (measured["least"]["value"][0], measured["greatest"]["value"][1])
+    turns = {measured["name"]: measured["turns"] for measured in data["measured"] if "turns" in measured}
+    return Motion(data["status"], data["words"], bounds, turns, data)
 
 
 def verify(certificate: Any, problem: Any = None) -> Verdict:

@@ -6,6 +6,7 @@ mod work;
 use krawl::certificate::{self, Contents, Settings, Writer, cover};
 use krawl::complete;
 use krawl::edit;
+use krawl::motion::Motion;
 use krawl::problem::Problem;
 use krawl::report::{self, edit_to_json};
 use krawl::track::{self, Control, Options, Progress, Space, Status, Witness};
@@ -167,6 +168,33 @@ fn complete_set(
     Ok(report::complete_to_json(&problem, &result))
 }
 
+/// A linkage followed all the way round: JSON as of `krawl motion --json`.
+#[pyfunction]
+#[pyo3(signature = (text, name, *, free, measure))]
+fn motion(
+    py: Python<'_>,
+    text: &str,
+    name: &str,
+    free: Vec<String>,
+    measure: Vec<String>,
+) -> PyResult<String> {
+    let problem = Problem::parse_loosely(text, name).map_err(bad)?;
+    let found = interruptible(py, |cancel: &_| {
+        let mut control = Control {
+            cancel: Some(cancel),
+            ..Control::default()
+        };
+        Motion::of(
+            &problem,
+            &free,
+            &measure,
+            &Options::certified(),
+            &mut control,
+        )
+    })?;
+    Ok(report::motion_to_value(&found.map_err(bad)?).to_string())
+}
+
 /// Checks a certificate: what came of it ("verified", "refuted", "not proved", "incomplete"), in words, and
 /// whether it is about the problem, if one is given.
 #[pyfunction]
@@ -274,6 +302,7 @@ fn _krawl(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("Error", module.py().get_type::<Error>())?;
     module.add_function(wrap_pyfunction!(solve, module)?)?;
     module.add_function(wrap_pyfunction!(complete_set, module)?)?;
+    module.add_function(wrap_pyfunction!(motion, module)?)?;
     module.add_function(wrap_pyfunction!(verify, module)?)?;
     module.add_class::<Session>()
 }

@@ -11,7 +11,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     page.figures[0].name = "In the file".into();
     page.figures[0].note = "as it is drawn".into();
     let (badge, tone) = match text(result, "status")? {
-        "closed" => ("proved · all the way round", Tone::Proved),
+        "closed" => ("proved · a loop", Tone::Proved),
         "open" => ("proved · between two ends", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
     };
@@ -63,7 +63,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         }
         ranges.push(match (&ends[..], measured["turns"].as_i64()) {
             ([least, greatest], _) => format!("{name} from {least} to {greatest}"),
-            (_, Some(_)) => format!("{name} all the way round"),
+            (_, Some(_)) => format!("{name} through a full turn"),
             _ => format!("{name} is not told"),
         });
     }

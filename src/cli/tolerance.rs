@@ -1,0 +1,120 @@
+//! `krawl tolerance`: every dimension within its limits, and what that does to the figure.
+
+use super::edit::beside;
+use super::measured::Measured;
+use super::output::{self, Destination};
+use super::{BAD_INPUT, CLOSED, input, interrupt};
+use krawl::problem::Decimal;
+use krawl::report::{tolerances_in_words, tolerances_to_table, tolerances_to_value};
+use krawl::tolerance::{limits, study};
+use krawl::track::{Control, Options};
+use std::path::PathBuf;
+
+/// Every dimension within its limits: between which bounds lengths, angles and areas of the figure then are, with proof
+///
+/// For all choices of all dimensions together there is exactly one figure that the one in FILE becomes, and what is measured stays within the
+/// worst case that is printed; so much of it is due to each dimension. Limits are in FILE under [tolerances], or given here.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  krawl tolerance docs/examples/plate.toml --default 0.1
+  krawl tolerance docs/examples/plate.toml --default 0.1 --tolerance C-D=-0.2,0.5 --measure D-A --measure \"angle B C D\"
+  krawl tolerance docs/examples/platform.toml --default 0.1 --json platform.json
+
+Exit codes: 0 proved, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
+written.")]
+pub struct Arguments {
+    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
+    file: PathBuf,
+    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
+    /// The tolerance of all lengths and radii that have none of their own: 0.1, or so far down and up, -0.2,0.1
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    default: Option<String>,
+    /// The tolerance of one dimension, a-b=0.1 or a-b=-0.2,0.1; may be given more than once
+    #[arg(long, value_name = "NAME=VALUE")]
+    tolerance: Vec<String>,
+    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    measured: Measured,
+    #[command(flatten)]
+    time: interrupt::Time,
+    /// Print nothing
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
+    let shown = arguments.file.display();
+    let problem = input::read(&arguments.file, arguments.sketch.as_deref())?;
+    let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let default = arguments.default.as_deref().map(deviations).transpose()?;
+    let named = arguments.tolerance.iter().map(|text| {
+        let (name, value) = text
+            .rsplit_once('=')
+            .ok_or_else(|| format!("--tolerance {text}: write NAME=VALUE, such as a-b=0.1"))?;
+        Ok((name.trim().to_owned(), deviations(value)?))
+    });
+    let named = named.collect::<Result<Vec<_>, String>>()?;
+    let in_file = |error: String| format!("{shown}: {error}");
+    let limits = limits(&problem, &named, default.as_ref()).map_err(in_file)?;
+    let mut control = Control {
+        cancel: Some(interrupt::flag()),
+        ..Control::default()
+    };
+    let study = study(
+        &problem,
+        &limits,
+        arguments.measured.texts(),
+        &Options::certified(),
+        &mut control,
+    );
+    let study = study.map_err(in_file)?;
+    let mut written = true;
+    if let Some(json) = &json {
+        written &= json.write(&(tolerances_to_value(&problem, &study).to_string() + "\n"));
+    }
+    if json == Some(Destination::StandardOutput) && !arguments.quiet {
+        output::complain(&tolerances_in_words(&problem, &study));
+    } else if !arguments.quiet {
+        written &= output::print(&tolerances_to_table(&problem, &study));
+    }
+    Ok(if written { CLOSED } else { BAD_INPUT })
+}
+
+/// How far down and up: `0.1` is both.
+fn deviations(text: &str) -> Result<[Decimal; 2], String> {
+    let number = |text: &str| {
+        let text = text.trim();
+        let number = text.strip_prefix('+').unwrap_or(text).parse::<Decimal>();
+        number.map_err(|error| format!("the tolerance `{text}`: {error}"))
+    };
+    match text.split_once(',') {
+        None => {
+            let both = number(text)?;
+            match both.to_f64() < 0.0 {
+                true => Err(format!(
+                    "the tolerance `{text}` is less than 0: write 0.1, or -0.2,0.1"
+                )),
+                false => Ok([both.negative(), both]),
+            }
+        }
+        Some((a, b)) => {
+            let (a, b) = (number(a)?, number(b)?);
+            Ok(if a.value() <= b.value() {
+                [a, b]
+            } else {
+                [b, a]
+            })
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! A figure whose dimensions are known within limits: exactly one for every choice of all of them, by one test of Krawczyk.
+
+use super::ending::{Edited, Ending};
+use super::open::OpenError;
+use super::setting::Setting;
+use super::whole::Whole;
+use crate::elimination::invert;
+use crate::interval::{Interval, hull, point};
+use crate::problem::{Decimal, Problem, Target};
+use crate::system::Homotopy;
+use crate::track::{Control, Options};
+use std::slice;
+
+/// Between which values a dimension is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// The index, as in [`Setting`].
+    pub index: usize,
+    /// The least and the greatest value.
+    pub values: [Decimal; 2],
+}
+
+/// All figures that a figure becomes as its dimensions go through their limits.
+pub(crate) struct Within {
+    whole: Whole,
+    limits: Vec<Limits>,
+    /// The middle of the figure with the dimensions as they are given, one entry per unknown, in the homotopy's unit.
+    centre: Vec<f64>,
+    /// Where each unknown of all these figures is, as seen from there.
+    pub around: Vec<Interval>,
+    /// That, but for the part that is linear in the right-hand sides: of second order in how wide the limits are.
+    rest: Vec<Interval>,
+    /// About the inverse of the Jacobian in the middle, row by row.
+    inverse: Vec<f64>,
+    /// What the equations miss in the middle, for all choices.
+    missed: Vec<Interval>,
+    /// For each of the limits by how much each right-hand side grows from the least value to the greatest.
+    growth: Vec<Vec<f64>>,
+}
+
+/// Krawczyk's test is tried with so many radii, each what the one before came to.
+const ROUNDS: usize = 12;
+
+impl Within {
+    /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does, and proves that for every choice of values within
+    /// the limits there is exactly one figure near it, which its dimensions lead to. `None`: that is not proved.
+    ///
+    /// Limits are those of distances between points and of constraints of which the right-hand side of each equation grows with the
+    /// value, or falls.
+    pub fn new(
+        problem: &Problem,
+        limits: &[Limits],
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<Option<Self>, OpenError> {
+        let mut whole = Whole::open_with(problem, options, control)?;
+        let head = problem.distances.len();
+        let mut rights = rights(whole.homotopy());
+        let mut growth = Vec::new();
+        for one in limits {
+            let mut ends = Vec::new();
+            for value in &one.values {
+                let target = Target::Length(value.clone());
+                ends.push(whole.rights_with(&Setting {
+                    index: one.index,
+                    target,
+                })?);
+            }
+            let now = whole.rights_now(one.index < head);
+            let [low, high] = [&ends[0], &ends[1]];
+            let grown = (0..rights.len()).map(|e| high[e].mid() - low[e].mid());
+            growth.push(grown.collect());
+            for e in 0..rights.len() {
+                // Those that are not this dimension's stay what they are.
+                if low[e] != now[e] || high[e] != now[e] {
+                    rights[e] = rights[e].convex_hull(low[e]).convex_hull(high[e]);
+                }
+            }
+        }
+        let homotopy = whole.homotopy();
+        let centre = whole.first().centre.clone();
+        let at = |i: usize| point(centre[i]);
+        let missed: Vec<Interval> = (0..rights.len())
+            .map(|e| value(homotopy, e, at) - rights[e])
+            .collect();
+        let m = homotopy.equations;
+        let mut inverse = vec![0.0; m * m];
+        for e in 0..m {
+            for (i, x) in gradient(homotopy, e, at).into_iter().enumerate() {
+                inverse[e * m + i] = x.mid();
+            }
+        }
+        if !invert(&mut inverse, m) || inverse.iter().any(|x| !x.is_finite()) {
+            return Ok(None);
+        }
+        let row = |i: usize| &inverse[i * m..(i + 1) * m];
+        let linear: Vec<Interval> = (0..m)
+            .map(|i| -sum(row(i).iter().zip(&missed).map(|(&y, &f)| point(y) * f)))
+            .collect();
+        let mut radius: Vec<f64> = linear
+            .iter()
+            .zip(&centre)
+            .map(|(x, c)| 1.1 * x.mag() + f64::EPSILON * (1.0 + c.abs()))
+            .collect();
+        let mut proved = None;
+        for _ in 0..ROUNDS {
+            let near = |i: usize| at(i) + hull(-radius[i], radius[i]);
+            let jacobian: Vec<Vec<Interval>> =
+                (0..m).map(|e| gradient(homotopy, e, near)).collect();
+            // (I − Y J(X)) (X − x).
+            let rest: Vec<Interval> = (0..m)
+                .map(|i| {
+                    sum((0..m).map(|j| {
+                        let product = sum(row(i)
+                            .iter()
+                            .zip(&jacobian)
+                            .map(|(&y, row)| point(y) * row[j]));
+                        let one = point(if i == j { 1.0 } else { 0.0 });
+                        (one - product) * hull(-radius[j], radius[j])
+                    }))
+                })
+                .collect();
+            let image: Vec<Interval> = linear.iter().zip(&rest).map(|(a, b)| *a + *b).collect();
+            if image.iter().any(|x| !x.mag().is_finite()) {
+                break;
+            }
+            if image.iter().zip(&radius).all(|(x, r)| x.mag() < *r) {
+                proved = Some((image, rest));
+                break;
+            }
+            radius = image
+                .iter()
+                .zip(&radius)
+                .map(|(x, r)| 1.1 * x.mag().max(*r))
+                .collect();
+        }
+        Ok(proved.map(|(around, rest)| Within {
+            limits: limits.to_vec(),
+            centre,
+            around,
+            rest,
+            inverse,
+            missed,
+            growth,
+            whole,
+        }))
+    }
+
+    /// The equations' homotopy.
+    pub fn homotopy(&self) -> &Homotopy {
+        self.whole.homotopy()
+    }
+
+    /// A point of the figure with the dimensions as they are given, about: in the gauge, in lengths of the problem.
+    pub fn middle(&self, p: usize) -> [Interval; 3] {
+        self.at(p, |i| point(self.centre[i]))
+    }
+
+    /// A box of a point of all figures and all between them and the middle, likewise.
+    pub fn near(&self, p: usize) -> [Interval; 3] {
+        self.at(p, |i| {
+            point(self.centre[i]) + self.around[i].convex_hull(point(0.0))
+        })
+    }
+
+    fn at(&self, p: usize, unknown: impl Fn(usize) -> Interval) -> [Interval; 3] {
+        let homotopy = self.homotopy();
+        let unit = point(homotopy.unit);
+        crate::places::array(|axis| {
+            let known = homotopy.coordinate(p, axis).map(&unknown);
+            known.map_or(point(0.0), |x| x * unit)
+        })
+    }
+
+    /// Boxes of all points of all figures, in the coordinates of the problem.
+    pub fn boxes(&self) -> Vec<[Interval; 3]> {
+        let places = (0..self.homotopy().points)
+            .map(|p| self.at(p, |i| point(self.centre[i]) + self.around[i]));
+        self.whole.put(&places.collect::<Vec<_>>())
+    }
+
+    /// The figure with the dimensions as they are given.
+    pub fn figure(&self) -> Vec<[Interval; 3]> {
+        self.whole.points()
+    }
+
+    /// By how much something changes over all figures, as seen from the middle, of which these are the derivatives by the unknowns that it
+    /// depends on over all figures; and for each of the limits by how much, about, it grows as that dimension does.
+    pub fn change(&self, slopes: &[(usize, Interval)]) -> (Interval, Vec<f64>) {
+        let m = self.centre.len();
+        // What is linear in the right-hand sides is taken together, as each of these stands for itself.
+        let weight = |e: usize| {
+            sum(slopes
+                .iter()
+                .map(|(i, slope)| point(slope.mid()) * point(self.inverse[i * m + e])))
+        };
+        let weights: Vec<Interval> = (0..m).map(weight).collect();
+        let linear = -sum(weights.iter().zip(&self.missed).map(|(w, f)| *w * *f));
+        let rest = sum(slopes.iter().map(|&(i, slope)| {
+            let middle = point(slope.mid());
+            middle * self.rest[i] + (slope - middle) * self.around[i]
+        }));
+        let effects = self.growth.iter().map(|growth| {
+            let effect = weights.iter().zip(growth).map(|(w, grown)| w.mid() * grown);
+            effect.sum()
+        });
+        (linear + rest, effects.collect())
+    }
+
+    /// The figure with each dimension at its greatest value, or its least, if the path there is proved.
+    pub fn corner(
+        &mut self,
+        greatest: impl Fn(usize) -> bool,
+        control: &mut Control,
+    ) -> Option<Vec<[Interval; 3]>> {
+        let limits = self.limits.iter().enumerate();
+        let settings: Vec<Setting> = limits
+            .map(|(k, one)| Setting {
+                index: one.index,
+                target: Target::Length(one.values[usize::from(greatest(k))].clone()),
+            })
+            .collect();
+        let edited = self.whole.probe(&settings, control);
+        match edited {
+            Edited {
+                ending: Ending::Reached,
+                points,
+                ..
+            } => Some(points),
+            _ => None,
+        }
+    }
+}
+
+impl Whole {
+    /// The right-hand sides with another value of a dimension.
+    fn rights_with(&mut self, setting: &Setting) -> Result<Vec<Interval>, OpenError> {
+        let refused = crate::track::StartError::Unsupported;
+        if setting.index < self.problem().distances.len() {
+            let now = self.problem().distances[setting.index].target.clone();
+            self.homotopy_mut().hold(setting.index, &setting.target);
+            let found = rights(self.homotopy());
+            self.homotopy_mut().hold(setting.index, &now);
+            return Ok(found);
+        }
+        self.lead_constraints(slice::from_ref(setting))
+            .map_err(refused)?;
+        Ok(rights(self.homotopy()))
+    }
+
+    /// The right-hand sides as they are now.
+    fn rights_now(&mut self, is_distance: bool) -> Vec<Interval> {
+        if !is_distance {
+            // What an edit of nothing leads constraints to is what they are.
+            let _ = self.lead_constraints(&[]);
+        }
+        rights(self.homotopy())
+    }
+}
+
+/// The right-hand sides at t = 1.
+fn rights(homotopy: &Homotopy) -> Vec<Interval> {
+    homotopy
+        .rights
+        .iter()
+        .map(|right| right.at_target())
+        .collect()
+}
+
+/// q_e.
+fn value(homotopy: &Homotopy, equation: usize, at: impl Fn(usize) -> Interval) -> Interval {
+    let at = |entry: Option<usize>| entry.map_or(point(0.0), &at);
+    let terms = homotopy.terms(equation).into_iter();
+    point(0.5) * sum(terms.map(|term| point(term.factor.into()) * term.value(at)))
+}
+
+/// The derivatives of q_e by all unknowns.
+fn gradient(homotopy: &Homotopy, equation: usize, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
+    let at = |entry: Option<usize>| entry.map_or(point(0.0), &at);
+    let mut out = vec![point(0.0); homotopy.equations];
+    for term in homotopy.terms(equation) {
+        for (entry, sign, slope) in term.derivatives(at) {
+            if let Some(i) = entry {
+                out[i] += point(0.5 * f64::from(sign * term.factor)) * slope;
+            }
+        }
+    }
+    out
+}
+
+fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
+    terms.fold(point(0.0), |sum, x| sum + x)
+}

@@ -1,0 +1,139 @@
+//! What tolerances do to a figure, for people and for programs.
+
+use super::certain_digits;
+use super::drawing::Drawing;
+use super::edit::{bounds, points_to_value};
+use crate::order::InOrder;
+use crate::problem::{Problem, counted};
+use crate::tolerance::{Measured, Study};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// What is proved, a sentence.
+pub fn tolerances_in_words(problem: &Problem, study: &Study) -> String {
+    format!(
+        "{}: for every choice of {} within its limits, all of them together, there is exactly one figure that the one drawn becomes, proved",
+        problem.name,
+        match study.limits.len() {
+            1 => "the dimension".to_owned(),
+            n => format!("the {}", counted(n, "dimension")),
+        }
+    )
+}
+
+/// The study as text: for each measure its bounds, and what each dimension has to do with it.
+pub fn tolerances_to_table(problem: &Problem, study: &Study) -> String {
+    let mut out = tolerances_in_words(problem, study) + ".\n";
+    for measured in &study.measured {
+        // Writing to a string cannot fail.
+        let _ = write_measured(&mut out, problem, study, measured);
+    }
+    out += "\nNo choice goes beyond a worst case, proved, and the figure at a corner of the limits comes as near to it as is said. The rest \
+            is to first order, in floats: what a dimension does alone as it goes through its limits, and the root of the sum of the squares of \
+            half of that, which is a tolerance if the dimensions are independent.\n";
+    out
+}
+
+fn write_measured(
+    out: &mut String,
+    problem: &Problem,
+    study: &Study,
+    measured: &Measured,
+) -> std::fmt::Result {
+    let [low, high] = measured.bounds;
+    writeln!(
+        out,
+        "\n{} is {}; at worst from {} to {}{}; root of the sum of the squares ±{:.3}",
+        measured.name,
+        certain_digits(measured.nominal),
+        rounded(low.inf(), f64::floor),
+        rounded(high.sup(), f64::ceil),
+        match (measured.is_attained, measured.gap()) {
+            ([true, true], gap) if gap < 0.01 =>
+                ", and no wider by more than 1 % of that".to_owned(),
+            ([true, true], gap) => format!(
+                ", and no wider by more than {:.0} % of that",
+                (100.0 * gap).ceil()
+            ),
+            _ => ", which may be too wide: the corners were not reached".to_owned(),
+        },
+        measured.root_of_squares
+    )?;
+    let total: f64 = measured.effects.iter().map(|e| e.abs()).sum();
+    let mut rows: Vec<usize> = (0..measured.effects.len()).collect();
+    rows.order_by(|&a, &b| {
+        measured.effects[b]
+            .abs()
+            .total_cmp(&measured.effects[a].abs())
+    });
+    // What does nothing is not listed.
+    rows.retain(|&k| measured.effects[k].abs() > 1e-9 * total);
+    let names = rows
+        .iter()
+        .map(|&k| problem.dimension_name(study.limits[k].index));
+    let names: Vec<String> = names.collect();
+    let width = names
+        .iter()
+        .map(|name| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    for (name, &k) in names.iter().zip(&rows) {
+        let [low, high] = &study.limits[k].values;
+        let effect = measured.effects[k];
+        writeln!(
+            out,
+            "  {name:<width$}  from {low} to {high} changes it by {effect:+.4}, {:.0} %",
+            100.0 * effect.abs() / total
+        )?;
+    }
+    Ok(())
+}
+
+/// A bound with some digits, rounded away from what it bounds.
+fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
+    let size = x.abs().log10().floor();
+    let places = if size.is_finite() {
+        (5.0 - size).clamp(0.0, 15.0)
+    } else {
+        6.0
+    };
+    let scale = 10f64.powf(places);
+    let mut shown = to(x * scale) / scale;
+    // The product is rounded.
+    let step = 1.0 / scale;
+    if to(0.5) > 0.5 && shown < x {
+        shown += step;
+    } else if to(0.5) < 0.5 && shown > x {
+        shown -= step;
+    }
+    format!("{shown:.*}", places as usize)
+}
+
+/// The study as a value in memory, as `krawl tolerance --json` writes it (docs/tolerance.md).
+pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
+    let limits = study.limits.iter().map(|limits| {
+        let [low, high] = &limits.values;
+        json!({"name": problem.dimension_name(limits.index), "constraint": limits.index, "least": low.to_string(), "greatest": high.to_string()})
+    });
+    let measured = study.measured.iter().map(|measured| {
+        let [low, high] = measured.bounds;
+        json!({
+            "name": measured.name,
+            "unit": measured.unit,
+            "nominal": bounds(measured.nominal),
+            "least": bounds(low),
+            "greatest": bounds(high),
+            "attained": measured.is_attained,
+            "root_of_squares": measured.root_of_squares,
+            "effects": measured.effects,
+        })
+    });
+    Drawing::in_place("tolerance", problem).with(json!({
+        "status": "proved",
+        "words": tolerances_in_words(problem, study),
+        "limits": limits.collect::<Vec<_>>(),
+        "figure": points_to_value(problem, &study.figure),
+        "bands": points_to_value(problem, &study.bands),
+        "measured": measured.collect::<Vec<_>>(),
+    }))
+}

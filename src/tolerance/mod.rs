@@ -1,0 +1,330 @@
+//! Tolerances: every dimension is anywhere within its limits, and this is what that does to a figure.
+//!
+//! For all choices of all dimensions together there is exactly one figure that the given one becomes, by one test of Krawczyk with the
+//! dimensions as intervals; and what is measured of it stays between bounds. These are linear in the dimensions but for a part of second
+//! order, which is bounded too. Each bound is set beside what the figure has at the corner of the limits that leads there, so that one sees
+//! how sharp it is.
+//!
+//! ```
+//! use krawl::edit::Limits;
+//! use krawl::problem::Problem;
+//! use krawl::tolerance::study;
+//! use krawl::track::{Control, Options};
+//!
+//! // The hypotenuse of a right triangle with sides 3 and 4, each within a tenth.
+//! let triangle = Problem::build("triangle", 2)
+//!     .point("a", [0, 0]).point("b", [4, 0]).point("c", [0, 3])
+//!     .distance("a", "b", 4).distance("b", "c", 5).distance("c", "a", 3)
+//!     .finish()?;
+//! let within = |index, low: &str, high: &str| Limits {
+//!     index,
+//!     values: [low, high].map(|x| x.parse().unwrap()),
+//! };
+//! let limits = [within(0, "3.9", "4.1"), within(2, "2.9", "3.1")];
+//! let found = study(&triangle, &limits, &["angle c a b".into()], &Options::certified(), &mut Control::default())?;
+//! // By the law of cosines: least where both sides are greatest.
+//! let angle = |b: f64, c: f64| ((b * b + c * c - 25.0) / (2.0 * b * c)).acos().to_degrees();
+//! let measured = &found.measured[0];
+//! assert!(measured.bounds[0].contains(angle(4.1, 3.1)) && measured.bounds[1].contains(angle(3.9, 2.9)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use crate::edit::{Limits, Setting, Within};
+use crate::interval::along::Along;
+use crate::interval::{Interval, hull, point};
+use crate::motion::lengths;
+use crate::order::InOrder;
+use crate::places::array;
+use crate::problem::{Decimal, Problem, Target};
+use crate::system::Quantity;
+use crate::track::{Control, Options};
+
+/// What tolerances do to a figure.
+#[derive(Debug)]
+pub struct Study {
+    /// The limits.
+    pub limits: Vec<Limits>,
+    /// The figure with the dimensions as they are given.
+    pub figure: Vec<[Interval; 3]>,
+    /// A box of each point over all figures, in the coordinates of the problem (as [`crate::edit::Session::points`] places figures).
+    pub bands: Vec<[Interval; 3]>,
+    /// What was asked for.
+    pub measured: Vec<Measured>,
+}
+
+/// What tolerances do to something that is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// As it was asked for.
+    pub name: String,
+    /// `degrees`, `length` or `area`.
+    pub unit: &'static str,
+    /// With the dimensions as they are given.
+    pub nominal: Interval,
+    /// Enclosures of the least and the greatest value: no choice of the dimensions goes beyond the outer end of each, and the figure at one
+    /// corner of the limits reaches the inner end.
+    pub bounds: [Interval; 2],
+    /// Whether it does: the path to that corner was proved. Otherwise the inner end is the nominal value's.
+    pub is_attained: [bool; 2],
+    /// The root of the sum of the squares of half of each dimension's effect: a tolerance if the dimensions are independent and lie in their
+    /// limits evenly or in a bell. To first order, in floats.
+    pub root_of_squares: f64,
+    /// For each of the limits by how much it grows, about, from the dimension's least value to its greatest: to first order, in floats.
+    pub effects: Vec<f64>,
+}
+
+impl Measured {
+    /// The greatest part of the whole range by which either bound may be too wide.
+    pub fn gap(&self) -> f64 {
+        let range = self.bounds[1].sup() - self.bounds[0].inf();
+        let gap = self.bounds[0].wid().max(self.bounds[1].wid());
+        if range > 0.0 { gap / range } else { 0.0 }
+    }
+}
+
+/// So many lengths that no distance gives are measured where nothing is asked for.
+const DEFAULT: usize = 12;
+
+/// What dimensions within limits do to the figure of a problem's sketch; `asked` is what to measure, as `A-B` and `angle A B C`; if
+/// nothing, the longest lengths that no distance gives.
+///
+/// # Errors
+/// In words: what is wrong with the limits, that the figure cannot be led to its dimensions, or that it is not proved that there is one figure
+/// for each choice, and with which part of the limits it is.
+pub fn study(
+    problem: &Problem,
+    limits: &[Limits],
+    asked: &[String],
+    options: &Options,
+    control: &mut Control,
+) -> Result<Study, String> {
+    let quantities = asked.iter().map(|text| Quantity::parse(problem, text));
+    let mut quantities = quantities.collect::<Result<Vec<_>, _>>()?;
+    if asked.is_empty() {
+        let lengths = lengths(problem, &[]).into_iter().take(DEFAULT);
+        quantities.extend(lengths.map(|ends| Quantity::length(problem, ends)));
+    }
+    if limits.is_empty() {
+        return Err(
+            "no dimension has a tolerance: give them under [tolerances], or with `--default 0.1`, or `--tolerance a-b=0.1`".to_owned(),
+        );
+    }
+    for limits in limits {
+        check(problem, limits)?;
+    }
+    if !problem.is_absolute()
+        && let Some(moved) = quantities.iter().find(|q| !q.is_invariant())
+    {
+        return Err(format!(
+            "--measure \"{}\": no constraint says where the figure is, so a coordinate has no meaning: fix points",
+            moved.name
+        ));
+    }
+    let open = |limits: &[Limits], control: &mut Control| {
+        Within::new(problem, limits, options, control).map_err(|error| error.to_string())
+    };
+    let Some(mut within) = open(limits, control)? else {
+        let part = (1..=10).find_map(|k| {
+            let part = scaled(problem, limits, k)?;
+            matches!(open(&part, control), Ok(Some(_))).then_some(1u32 << k)
+        });
+        let with = match part {
+            Some(part) => format!("with a {part}th of the limits it is proved"),
+            None => "nor is it with a thousandth of the limits: the figure is at a limit of its dimensions, or near one".to_owned(),
+        };
+        return Err(format!(
+            "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
+        ));
+    };
+    let measured = quantities
+        .into_iter()
+        .map(|quantity| measure(&mut within, &quantity, control))
+        .collect();
+    Ok(Study {
+        limits: limits.to_vec(),
+        figure: within.figure(),
+        bands: within.boxes(),
+        measured,
+    })
+}
+
+/// The limits that a file gives, and those of `named`, which count before them; `default`: so far from what they are down and up are the other
+/// distances between points and radii, in place of what the file has for them.
+///
+/// # Errors
+/// In words: a name that none has, a dimension that can have no limits.
+pub fn limits(
+    problem: &Problem,
+    named: &[(String, [Decimal; 2])],
+    default: Option<&[Decimal; 2]>,
+) -> Result<Vec<Limits>, String> {
+    let mut out: Vec<Limits> = Vec::new();
+    let mut take = |index: usize, [down, up]: &[Decimal; 2]| -> Result<(), String> {
+        if out.iter().any(|other| other.index == index) {
+            return Ok(());
+        }
+        let Some(given) = given(problem, index) else {
+            let name = problem.dimension_name(index);
+            return Err(format!(
+                "{name} is given as a square, which has no limits yet: give the length"
+            ));
+        };
+        let sum = |by: &Decimal| given.plus(by).map_err(|error| error.to_string());
+        let values = [sum(down)?, sum(up)?];
+        out.push(Limits { index, values });
+        Ok(())
+    };
+    let all = named.iter().chain(&problem.tolerances.named);
+    for (name, deviations) in all {
+        let index = Setting::find(problem, name);
+        take(
+            index.map_err(|error| format!("tolerance: {error}"))?,
+            deviations,
+        )?;
+    }
+    if let Some(default) = default.or(problem.tolerances.default.as_ref()) {
+        for index in problem.dimensions() {
+            let is_length = match index.checked_sub(problem.distances.len()) {
+                None => given(problem, index).is_some(),
+                Some(at) => problem.constraints[at].kind == "radii",
+            };
+            if is_length {
+                take(index, default)?;
+            }
+        }
+    }
+    out.order_by_key(|limits| limits.index);
+    Ok(out)
+}
+
+/// Kinds of constraints, beside distances between points, of which the equation is linear in the value.
+const LINEAR: [&str; 7] = ["x", "y", "z", "dx", "dy", "dz", "radii"];
+
+/// Whether limits make sense.
+fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
+    let name = problem.dimension_name(limits.index);
+    let [low, high] = &limits.values;
+    if low.value() > high.value() {
+        return Err(format!(
+            "{name}: its least value, {low}, is more than its greatest, {high}"
+        ));
+    }
+    match limits.index.checked_sub(problem.distances.len()) {
+        None if !low.is_positive() => Err(format!(
+            "{name}: a length must be greater than 0, and its limits go down to {low}"
+        )),
+        None => Ok(()),
+        Some(at) => {
+            let kind = problem.constraints[at].kind.as_str();
+            match LINEAR.contains(&kind) {
+                true if kind == "radii" && !low.is_positive() => Err(format!(
+                    "{name}: a radius must be greater than 0, and its limits go down to {low}"
+                )),
+                true => Ok(()),
+                false => Err(format!(
+                    "{name}: limits are taken of distances between points, of coordinates and of radii, not of `{kind}` yet: give it none"
+                )),
+            }
+        }
+    }
+}
+
+/// The value of a dimension, if it is a decimal.
+pub fn given(problem: &Problem, index: usize) -> Option<Decimal> {
+    match index.checked_sub(problem.distances.len()) {
+        Some(at) => problem.constraints[at].value.clone(),
+        None => match &problem.distances[index].target {
+            Target::Length(length) => Some(length.clone()),
+            Target::SquaredLength(_) => None,
+        },
+    }
+}
+
+/// Limits 2ᵏ times as near to what is given.
+fn scaled(problem: &Problem, limits: &[Limits], k: u32) -> Option<Vec<Limits>> {
+    let scaled = limits.iter().map(|one| {
+        let nominal = given(problem, one.index)?.to_f64();
+        let near = |x: &Decimal| {
+            let near = nominal + (x.to_f64() - nominal) / f64::from(1u32 << k);
+            format!("{near:e}").parse().ok()
+        };
+        let [low, high] = &one.values;
+        Some(Limits {
+            index: one.index,
+            values: [near(low)?, near(high)?],
+        })
+    });
+    scaled.collect()
+}
+
+fn measure(within: &mut Within, quantity: &Quantity, control: &mut Control) -> Measured {
+    let nominal = quantity.of(&within.figure());
+    let middle = quantity.key(|p| within.middle(p), 0.0);
+    let (change, effects) = within.change(&slopes(within, quantity, middle.mid()));
+    let all = middle + change;
+    let outer = [all.inf(), all.sup()].map(|key| quantity.of_key(point(key)));
+    let (mut bounds, mut is_attained) = ([nominal; 2], [false; 2]);
+    for side in [0, 1] {
+        // The least value is reached where what makes it grow is at its least.
+        let grows = side == 1;
+        let corner = within.corner(|k| (effects[k] > 0.0) == grows, control);
+        is_attained[side] = corner.is_some();
+        let inner = corner.map_or(nominal, |figure| {
+            // Of angles that differ by whole turns the one between the bounds.
+            quantity.of_key(quantity.key(|p| figure[p], all.mid()))
+        });
+        bounds[side] = match side {
+            0 => hull(outer[0].inf().min(inner.sup()), inner.sup()),
+            _ => hull(inner.inf(), outer[1].sup().max(inner.inf())),
+        };
+    }
+    // What a key grows by is no more than a slope of the quantity itself.
+    let scale = slope_of_key(quantity, middle.mid());
+    let effects: Vec<f64> = effects.iter().map(|effect| effect * scale).collect();
+    let squares: f64 = effects.iter().map(|effect| (0.5 * effect).powi(2)).sum();
+    Measured {
+        name: quantity.name.clone(),
+        unit: quantity.unit(),
+        nominal,
+        bounds,
+        is_attained,
+        root_of_squares: squares.sqrt(),
+        effects,
+    }
+}
+
+/// The derivatives of a quantity's key by the unknowns, over all figures.
+fn slopes(within: &Within, quantity: &Quantity, near: f64) -> Vec<(usize, Interval)> {
+    let homotopy = within.homotopy();
+    let mut out = Vec::new();
+    for &q in quantity.points() {
+        for axis in 0..homotopy.dimension {
+            let Some(i) = homotopy.coordinate(q, axis) else {
+                continue;
+            };
+            if out.iter().any(|(other, _)| *other == i) {
+                continue;
+            }
+            // An unknown is in the homotopy's unit, and may be the coordinate of several points.
+            let along = |p: usize| -> [Along; 3] {
+                let at = within.near(p);
+                array(|k| {
+                    let moves = homotopy.coordinate(p, k) == Some(i);
+                    Along {
+                        value: at[k],
+                        slope: point(if moves { homotopy.unit } else { 0.0 }),
+                    }
+                })
+            };
+            out.push((i, quantity.slope_of_key(along, near)));
+        }
+    }
+    out
+}
+
+/// By how much a quantity grows, about, where its key does.
+fn slope_of_key(quantity: &Quantity, key: f64) -> f64 {
+    const STEP: f64 = 1e-4;
+    let at = |key: f64| quantity.of_key(point(key)).mid();
+    (at(key + STEP) - at(key - STEP)) / (2.0 * STEP)
+}

@@ -1,0 +1,191 @@
+//! Dimensions within limits: against a great many choices of them, and against closed forms.
+
+use krawl::edit::Limits;
+use krawl::problem::{Decimal, Problem};
+use krawl::tolerance::{Study, limits, study};
+use krawl::track::{Control, Options};
+
+fn decimal(x: f64) -> Decimal {
+    format!("{x}").parse().unwrap()
+}
+
+fn run(problem: &Problem, within: &[Limits], asked: &[&str]) -> Result<Study, String> {
+    let asked: Vec<String> = asked.iter().map(|&text| text.to_owned()).collect();
+    study(
+        problem,
+        within,
+        &asked,
+        &Options::certified(),
+        &mut Control::default(),
+    )
+}
+
+/// The third corner of a triangle on a side, on its left.
+fn third(p: [f64; 2], q: [f64; 2], from_p: f64, from_q: f64) -> [f64; 2] {
+    let to = [q[0] - p[0], q[1] - p[1]];
+    let d = to[0].hypot(to[1]);
+    let along = (from_p * from_p - from_q * from_q + d * d) / (2.0 * d);
+    let height = (from_p * from_p - along * along).sqrt();
+    [
+        p[0] + (to[0] * along - to[1] * height) / d,
+        p[1] + (to[1] * along + to[0] * height) / d,
+    ]
+}
+
+/// The plate of docs/examples: A-B, B-C, C-D, D-E, E-A, A-C, B-E.
+fn plate(d: &[f64; 7]) -> [[f64; 2]; 5] {
+    let (a, b) = ([0.0, 0.0], [d[0], 0.0]);
+    let c = third(a, b, d[5], d[1]);
+    let e = third(a, b, d[4], d[6]);
+    [a, b, c, third(e, c, d[3], d[2]), e]
+}
+
+fn length(p: [f64; 2], q: [f64; 2]) -> f64 {
+    (p[0] - q[0]).hypot(p[1] - q[1])
+}
+
+#[test]
+fn samples_lie_within_the_worst_cases_and_come_near_them() {
+    let problem = Problem::read("docs/examples/plate.toml").unwrap();
+    let nominal = [90.0, 40.0, 49.5, 57.0, 60.0, 98.5, 108.2];
+    // D is on the far side of C-E from A.
+    let far = plate(&nominal);
+    assert!((length(far[0], far[3]) - 92.9466).abs() < 1e-3, "{far:?}");
+    let mut dice = 11u64;
+    let mut uniform = || {
+        dice = dice
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (dice >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for tolerance in [0.2, 0.05, 0.001] {
+        let all = limits(
+            &problem,
+            &[],
+            Some(&[decimal(-tolerance), decimal(tolerance)]),
+        )
+        .unwrap();
+        assert_eq!(all.len(), 7);
+        let found = run(
+            &problem,
+            &all,
+            &["A-D", "C-E", "angle B C D", "area A B C D E"],
+        )
+        .unwrap();
+        let value = |figure: &[[f64; 2]; 5], k: usize| match k {
+            0 => length(figure[0], figure[3]),
+            1 => length(figure[2], figure[4]),
+            2 => {
+                let [_, b, c, d, _] = *figure;
+                let (u, v) = ([b[0] - c[0], b[1] - c[1]], [d[0] - c[0], d[1] - c[1]]);
+                (u[0] * v[1] - u[1] * v[0])
+                    .abs()
+                    .atan2(u[0] * v[0] + u[1] * v[1])
+                    .to_degrees()
+            }
+            _ => {
+                let twice: f64 = (0..5)
+                    .map(|k| {
+                        let (p, q) = (figure[k], figure[(k + 1) % 5]);
+                        p[0] * q[1] - p[1] * q[0]
+                    })
+                    .sum();
+                0.5 * twice.abs()
+            }
+        };
+        let mut seen = [[f64::MAX, f64::MIN]; 4];
+        for round in 0..20_000 {
+            let dimensions: [f64; 7] = std::array::from_fn(|k| {
+                // Every other choice is a corner.
+                let part = if round % 2 == 0 {
+                    uniform().round()
+                } else {
+                    uniform()
+                };
+                nominal[k] + tolerance * (2.0 * part - 1.0)
+            });
+            let figure = plate(&dimensions);
+            for (k, seen) in seen.iter_mut().enumerate() {
+                let x = value(&figure, k);
+                *seen = [seen[0].min(x), seen[1].max(x)];
+            }
+        }
+        for (measured, seen) in found.measured.iter().zip(seen) {
+            let [low, high] = measured.bounds;
+            let slack = 1e-9 * seen[1].abs();
+            assert!(
+                low.inf() <= seen[0] + slack && high.sup() >= seen[1] - slack,
+                "{measured:?} {seen:?}"
+            );
+            // The inner ends are attained, at corners, and all corners were tried or nearly all.
+            assert!(
+                low.sup() >= seen[0] - slack && high.inf() <= seen[1] + slack,
+                "{measured:?} {seen:?}"
+            );
+            assert_eq!(measured.is_attained, [true; 2]);
+            // What is not linear goes with the square of the tolerance, so its part of the range with the tolerance.
+            assert!(measured.gap() < 1.3 * tolerance + 1e-3, "{measured:?}");
+        }
+    }
+}
+
+#[test]
+fn a_stack_of_plates_adds_up() {
+    // Four plates on each other: lengths along one line, which add up exactly.
+    let mut text = "dimension = 2\n[points]\nO = [0, 0]\n".to_owned();
+    for k in 1..=4 {
+        text += &format!("P{k} = [{}, 0]\n", 10 * k);
+    }
+    text += "[constraints]\nfixed = [\"O\"]\ny = [[\"P1\", 0], [\"P2\", 0], [\"P3\", 0], [\"P4\", 0]]\n\
+             dx = [[\"O\", \"P1\", 10], [\"P1\", \"P2\", 10], [\"P2\", \"P3\", 10], [\"P3\", \"P4\", 10]]\n\
+             [tolerances]\n\"dx:O-P1\" = 0.1\n\"dx:P1-P2\" = [\"+0.2\", \"-0.1\"]\n\"dx:P2-P3\" = 0.1\n\"dx:P3-P4\" = 0.2\n";
+    let problem = Problem::parse(&text, "stack.toml").unwrap();
+    let all = limits(&problem, &[], None).unwrap();
+    assert_eq!(all.len(), 4);
+    let found = run(&problem, &all, &["O-P4", "x P3"]).unwrap();
+    let [low, high] = found.measured[0].bounds;
+    assert!(
+        low.contains(39.5) && high.contains(40.6) && low.wid() < 1e-9 && high.wid() < 1e-9,
+        "{:?}",
+        found.measured[0]
+    );
+    let squares: f64 = [0.1f64, 0.15, 0.1, 0.2].iter().map(|x| x * x).sum();
+    assert!((found.measured[0].root_of_squares - squares.sqrt()).abs() < 1e-9);
+    let [low, high] = found.measured[1].bounds;
+    assert!(
+        low.contains(29.7) && high.contains(30.4),
+        "{:?}",
+        found.measured[1]
+    );
+}
+
+#[test]
+fn what_is_not_proved_or_makes_no_sense_is_said() {
+    let problem = Problem::read("docs/examples/plate.toml").unwrap();
+    let of = |name: &str, low: &str, high: &str| {
+        limits(
+            &problem,
+            &[(name.to_owned(), [low, high].map(|x| x.parse().unwrap()))],
+            None,
+        )
+    };
+    for (within, asked, why) in [
+        (
+            of("A-B", "-30", "30").unwrap(),
+            "A-D",
+            "it may flip or come apart",
+        ),
+        (
+            of("A-B", "-95", "0").unwrap(),
+            "A-D",
+            "a length must be greater than 0",
+        ),
+        (Vec::new(), "A-D", "no dimension has a tolerance"),
+        (of("A-B", "-0.1", "0.1").unwrap(), "x D", "fix points"),
+        (of("A-B", "-0.1", "0.1").unwrap(), "A-Q", "--measure"),
+    ] {
+        let error = run(&problem, &within, &[asked]).unwrap_err();
+        assert!(error.contains(why), "{error}");
+    }
+    assert!(of("A-Q", "-1", "1").unwrap_err().contains("no dimension"));
+}
