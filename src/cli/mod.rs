@@ -67,7 +67,7 @@ Examples:
   krawl solve sketch.toml --html page.html  a page to look at
   krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
   krawl motion sketch.toml --free a-c       a linkage all the way round, past every dead centre
-  krawl tolerance sketch.toml --default 0.1  every dimension within its limits
+  krawl tolerance sketch.toml --default 0.01  every dimension within its limits
   krawl all sketch.toml                     every figure that there is
   krawl complex sketch.toml                 every complex one
   krawl explore sketch.toml --store DIR     more real ones, from new sketches

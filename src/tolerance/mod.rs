@@ -129,8 +129,8 @@ pub fn study(
             matches!(open(&part, control), Ok(Some(_))).then_some(1u32 << k)
         });
         let with = match part {
-            Some(part) => format!("with a {part}th of the limits it is proved"),
-            None => "nor is it with a thousandth of the limits: the figure is at a limit of its dimensions, or near one".to_owned(),
+            Some(part) => format!("with limits {part} times as narrow it is proved"),
+            None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
         };
         return Err(format!(
             "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
