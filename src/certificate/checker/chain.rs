@@ -10,7 +10,6 @@ use super::tube::{Met, Stretch, Tube, direction};
 use crate::certificate::format::{ArcClaim, EndClaim, Ending, Record, SolutionClaim, TubeClaim};
 use crate::certificate::verdict::{Arc, Flaw, Outcome, Verdict};
 use crate::interval::{Interval, hull, point};
-use crate::places::array;
 use crate::problem::Problem;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -372,7 +371,7 @@ impl Chain {
             free.map_or(ZERO, |i| figure[i] * unit)
         };
         let points = 0..homotopy.points;
-        let points = points.map(|p| array(|axis| coordinate(p, axis)));
+        let points = points.map(|p| std::array::from_fn(|axis| coordinate(p, axis)));
         points.collect()
     }
 }

@@ -3,7 +3,6 @@
 
 use crate::equations::Form;
 use crate::interval::{DoubleDouble, Interval, point};
-use crate::places::Each as _;
 use crate::system::Homotopy;
 use std::ops::Sub;
 use std::sync::OnceLock;
@@ -79,9 +78,7 @@ impl Equations {
                     let (count, factor) = if same { (1, 2 * factor) } else { (2, factor) };
                     halves.into_iter().take(count).flat_map({
                         let forms = &forms;
-                        move |(by, form)| {
-                            [0, 1].each(|k| (forms[by][k], [factor, -factor][k], form))
-                        }
+                        move |(by, form)| [0, 1].map(|k| (forms[by][k], [factor, -factor][k], form))
                     })
                 });
                 terms.filter(|term| term.0 < m).collect()
@@ -117,7 +114,7 @@ impl Equations {
                 _ => 2 * m + 1,
             }
         };
-        let of = |by, one| self.forms.iter().map(move |f| f.each(moved(by, one)));
+        let of = |by, one| self.forms.iter().map(move |f| f.map(moved(by, one)));
         let forms = of(0, 2 * m + 2).chain(of(m, 2 * m + 1)).collect();
         let moves = self.products.iter().map(|products| {
             let halves = products

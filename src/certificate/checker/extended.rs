@@ -11,7 +11,6 @@ use super::tube::Tube;
 use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
 use crate::interval::{Interval, point};
-use crate::places::Each as _;
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 
@@ -65,8 +64,8 @@ impl Low {
     pub fn value(&self, eq: &Equations, e: usize, bits: i32, forms: &[i64]) -> Interval {
         let (mut coarse, mut mixed, mut fine) = (0i128, 0i128, 0i128);
         for &(factor, [l, r]) in &eq.products[e] {
-            let [factor, a, b] = [factor, forms[l], forms[r]].each(i128::from);
-            let [x, y] = [self.forms[l], self.forms[r]].each(i128::from);
+            let [factor, a, b] = [factor, forms[l], forms[r]].map(i128::from);
+            let [x, y] = [self.forms[l], self.forms[r]].map(i128::from);
             coarse += factor * (a * b);
             mixed += factor * (a * y + b * x);
             fine += factor * (x * y);

@@ -10,7 +10,6 @@ use crate::certificate::format::WEIGHT_UNIT;
 use crate::certificate::verdict::Fault;
 use crate::interval::rounding::{UNDERFLOW, gamma, round_up};
 use crate::interval::{Interval, point};
-use crate::places::{Each as _, array};
 
 /// The degree of ẑ.
 pub const ORDER: usize = 5;
@@ -71,7 +70,7 @@ impl<'a> Curve<'a> {
             return Err(LARGE);
         }
         let differences = eq.differences(&whole, [0.0, power(bits)]);
-        let form = |x: &f64| array(|k| if k == 0 { x * power(-bits) } else { 0.0 });
+        let form = |x: &f64| std::array::from_fn(|k| if k == 0 { x * power(-bits) } else { 0.0 });
         let z = whole.iter().map(|x| x * power(-bits)).chain([centre[m]]);
         let mut powers = [[[0.0; 2]; DEGREE + 1]; 5];
         powers[0][0] = [1.0; 2];
@@ -106,7 +105,7 @@ impl<'a> Curve<'a> {
     fn expand_right(&mut self) {
         let t = point(self.z[0][self.eq.m]) + self.low_of(self.eq.m);
         let rights = (0..self.eq.m).map(|e| self.eq.right_at(e, t));
-        let rights = rights.map(|c| (c[0], c.each(|c| halves(c).into())));
+        let rights = rights.map(|c| (c[0], c.map(|c| halves(c).into())));
         self.right = rights.collect();
     }
 
@@ -135,7 +134,7 @@ impl<'a> Curve<'a> {
         // What is known now of the powers of τ: all of them once ẑ is complete.
         for k in k + 1..=if k == ORDER { DEGREE } else { k + 1 } {
             for j in 2..5 {
-                self.powers[j][k] = [0, 1].each(|of| {
+                self.powers[j][k] = [0, 1].map(|of| {
                     let factors = 1..k.min(ORDER + 1);
                     let product = |a: usize| self.powers[1][a][of] * self.powers[j - 1][k - a][of];
                     factors.map(product).sum::<f64>() + [0.0, UNDERFLOW][of]
@@ -311,7 +310,7 @@ impl<'a> Curve<'a> {
                 terms.for_each(|(all, x)| *all += by * x);
             }
             // Also a rounding of each of the forms.
-            let [square, beyond, slope] = all.each(|x| round_up(x, self.eq.longest + ORDER + 5));
+            let [square, beyond, slope] = all.map(|x| round_up(x, self.eq.longest + ORDER + 5));
             let slopes = 3..=(self.eq.degree(e).max(2) - 1) * order;
             let slopes = slopes.map(|k| self.right(e, k, 1));
             let slopes: f64 = slopes.map(|(slope, error)| slope.abs() + error).sum();
@@ -395,7 +394,7 @@ impl Test {
         Ok(Proof {
             inverse: upper(self.moving / (one - q)),
             slope_distance: upper((self.defect_slope + self.turn * distance) / (one - nearer)),
-            distances: [self.constant, self.growing].each(|x| upper(x / (one - nearer))),
+            distances: [self.constant, self.growing].map(|x| upper(x / (one - nearer))),
             distance,
             margin,
         })
@@ -435,7 +434,7 @@ pub fn derivative(z: &[Vec<f64>], i: usize, s: Interval) -> Interval {
 /// Σ c_k σᵏ, k ≤ ORDER, on a range of σ: Taylor's expansion about its middle. The coefficients may have gone through a rounding.
 fn range(s: Interval, coefficient: impl Fn(usize) -> f64) -> Interval {
     let (middle, radius) = halves(s);
-    let mut c: [f64; ORDER + 1] = array(coefficient);
+    let mut c: [f64; ORDER + 1] = std::array::from_fn(coefficient);
     let reach = middle.abs() + radius;
     let sizes = c.iter().rev().fold(0.0, |sum, c| sum * reach + c.abs());
     for from in 0..ORDER {

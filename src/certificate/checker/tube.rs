@@ -10,7 +10,6 @@ use crate::certificate::format::TubeClaim;
 use crate::certificate::verdict::Fault;
 use crate::interval::rounding::round_up;
 use crate::interval::{Interval, hull, point};
-use crate::places::Each as _;
 use std::cell::Cell;
 
 /// A proved tube: for |σ| ≤ 1 exactly one zero φ(σ) of F in the cross-section c·(z − ẑ(σ)) = 0
@@ -214,7 +213,7 @@ impl Tube {
     /// An entry of the path for all parameters of a range, beyond a number.
     pub fn beyond(&self, base: f64, i: usize, s: Interval) -> Interval {
         let start = (point(self.z[0][i]) - point(base)) + self.low[i];
-        let [constant, growing] = self.proof.distances.each(Interval::sup);
+        let [constant, growing] = self.proof.distances.map(Interval::sup);
         let away = round_up((constant + growing * s.mag()) * self.u[i].sup(), 3);
         start + (way(&self.z, i, s) + around(exact(away)))
     }

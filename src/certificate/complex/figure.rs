@@ -4,7 +4,6 @@ use super::zero::{Quadratic, Z, Zero};
 use crate::equations::Form;
 use crate::interval::complex::Complex;
 use crate::interval::{DoubleDouble, Interval, point};
-use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::system::Term;
 use num_rational::BigRational;
@@ -101,7 +100,7 @@ impl Equations {
         }
         let equation = |distance: &crate::problem::Distance| {
             let term = |axis: usize| {
-                let [a, b] = distance.points.each(|p| places[p][axis]);
+                let [a, b] = distance.points.map(|p| places[p][axis]);
                 let form = Form::Difference(a, b);
                 Term::new(2, form, form)
             };

@@ -18,7 +18,6 @@ use super::figure::{number, square};
 use super::zero::{Quadratic, Z, Zero};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, enclose_rational, point};
-use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::system::Term;
 use num_rational::BigRational;
@@ -221,7 +220,7 @@ impl Chart {
         let mut around = None;
         for &[low, high] in &self.edges {
             let difference = |which: usize| {
-                let [a, b] = [high, low].each(|p| zero.part(unknown(p, which)));
+                let [a, b] = [high, low].map(|p| zero.part(unknown(p, which)));
                 [a[0] - b[0], a[1] - b[1]]
             };
             let ([a, b], [c, d]) = (difference(LAMBDA), difference(SIGMA));
@@ -231,7 +230,7 @@ impl Chart {
                 (Some(s), None) => sums[high] = Some([s[0] + term[0], s[1] + term[1]]),
                 (None, Some(s)) => sums[low] = Some([s[0] - term[0], s[1] - term[1]]),
                 (Some(s), Some(t)) => {
-                    around = Some([0, 1].each(|i| s[i] + term[i] - t[i]));
+                    around = Some([0, 1].map(|i| s[i] + term[i] - t[i]));
                 }
                 (None, None) => return false,
             }

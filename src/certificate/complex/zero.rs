@@ -22,7 +22,6 @@ use crate::equations::Form;
 use crate::interval::complex::{Complex, Number};
 use crate::interval::rounding::{UNDERFLOW, in_range, round_up};
 use crate::interval::{Ball, DoubleDouble, Interval, gamma_double, hull, point};
-use crate::places::Each as _;
 use crate::system::Term;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -328,7 +327,7 @@ impl Zero {
     pub fn part(&self, unknown: usize) -> [Interval; 2] {
         let around = hull(-self.inner[unknown], self.inner[unknown]);
         let Complex { re, im } = self.centre[unknown];
-        [re, im].each(|x| point(x.hi) + (point(x.lo) + around))
+        [re, im].map(|x| point(x.hi) + (point(x.lo) + around))
     }
 
     /// Whether no part is far from where it is claimed.
@@ -380,7 +379,7 @@ impl Zero {
         let mut is_near = true;
         for (k, (a, b)) in self.centre.iter().zip(&other.centre).enumerate() {
             let between = [(a.re, b.re), (a.im, b.im)]
-                .each(|(a, b)| (point(a.hi) - point(b.hi)) + (point(a.lo) - point(b.lo)));
+                .map(|(a, b)| (point(a.hi) - point(b.hi)) + (point(a.lo) - point(b.lo)));
             let both = round_up(self.inner[k] + other.inner[k], 1);
             if between.iter().any(|x| x.mig() > both) {
                 return Some(false);
@@ -471,7 +470,7 @@ mod tests {
                 ),
             ];
             let system = Quadratic::new(2, equations);
-            let near = [x, y].each(|x| Complex::real(x * (1.0 + 1e-9)));
+            let near = [x, y].map(|x| Complex::real(x * (1.0 + 1e-9)));
             let zero = system.prove(&near).unwrap();
             for (unknown, value) in [x, y].into_iter().enumerate() {
                 let [re, im] = zero.part(unknown);

@@ -23,7 +23,6 @@ use super::symmetry::signs_changed;
 use super::{Place, Space};
 use crate::certificate::checker::equations::{Equations, ZERO};
 use crate::interval::{Interval, point};
-use crate::places::Each as _;
 use std::rc::Rc;
 
 /// The greatest number of cases, any two of which are compared.
@@ -182,13 +181,13 @@ impl Apart {
             if let ([(_, [form, one])], true) = (eq.products[e].as_slice(), is_zero)
                 && eq.forms[*one] == [eq.m + 2, eq.m + 1]
             {
-                same.join(eq.forms[*form].each(|i| i.min(eq.m)));
+                same.join(eq.forms[*form].map(|i| i.min(eq.m)));
             }
         }
         let is_of_a_part = |condition: &Vec<[usize; 2]>| {
             // What is zero in all figures says nothing.
             let is_left = |edge: &&[usize; 2]| {
-                let [a, b] = edge.each(|i| same.of(i.min(eq.m)));
+                let [a, b] = edge.map(|i| same.of(i.min(eq.m)));
                 a != b
             };
             let mut left = condition.iter().filter(is_left);
@@ -222,7 +221,7 @@ impl Apart {
     /// The nodes of a difference.
     fn edge(&self, entries: [usize; 2]) -> [usize; 2] {
         let m = self.in_base.len();
-        entries.each(|i| match self.in_base.get(i) {
+        entries.map(|i| match self.in_base.get(i) {
             Some(false) => i,
             _ => m,
         })

@@ -11,7 +11,6 @@ use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
 use crate::interval::{Interval, checked, point};
-use crate::places::Each as _;
 use crate::system::told::{self, Flat, Side, Told, View};
 use std::rc::Rc;
 
@@ -511,7 +510,7 @@ pub fn roots(square: Interval, now: Interval) -> Result<Interval, Empty> {
     let root = square.sqrt();
     let most = root.sup();
     // Of −root and root what may be.
-    let sides = [-root, root].each(|side| side.intersection(now));
+    let sides = [-root, root].map(|side| side.intersection(now));
     match (sides[0].is_empty(), sides[1].is_empty()) {
         (true, true) => Err(Empty),
         (true, false) => Ok(sides[1]),

@@ -18,7 +18,6 @@ use crate::certificate::checker::equations::{Equations, Product};
 use crate::certificate::checker::guess::invert;
 use crate::interval::rounding::largest;
 use crate::interval::{Interval, UNIT, ZERO, checked, enclose, hull, point};
-use crate::places::{Each as _, array};
 use crate::problem::{Problem, Shape};
 
 /// A body on legs.
@@ -102,7 +101,7 @@ impl Body {
         let first = ends[0].0;
         let from = |k: usize| -> [Interval; 3] {
             let at = |k: usize, axis: usize| enclose(&local[k][axis]);
-            array(|axis| match k == first {
+            std::array::from_fn(|axis| match k == first {
                 true => ZERO,
                 false => (at(k, axis) - at(first, axis)) * per_unit,
             })
@@ -117,7 +116,7 @@ impl Body {
 
     /// Where a leg stands in a part of the space, if all its coordinates are bounded.
     fn at(part: &Part, entries: [usize; 3]) -> Option<[Interval; 3]> {
-        let at = entries.each(|entry| part.entries()[entry]);
+        let at = entries.map(|entry| part.entries()[entry]);
         at.iter().all(|x| x.is_common_interval()).then_some(at)
     }
 
@@ -137,9 +136,10 @@ impl Body {
         let (mut a, mut b) = (Vec::new(), Vec::new());
         for (holds, p, length) in &self.legs[1..] {
             let stands = Self::at(part, *p)?;
-            let stands: [Interval; 3] = array(|k| stands[k] - foot[k]);
-            let held: [Model; 3] =
-                array(|k| (0..3).fold(number(ZERO), |sum, j| sum.plus(holds[j], &turned[k][j])));
+            let stands: [Interval; 3] = std::array::from_fn(|k| stands[k] - foot[k]);
+            let held: [Model; 3] = std::array::from_fn(|k| {
+                (0..3).fold(number(ZERO), |sum, j| sum.plus(holds[j], &turned[k][j]))
+            });
             let sizes = holds
                 .iter()
                 .chain(&stands)
@@ -147,7 +147,7 @@ impl Body {
             let constant = (*length - self.legs[0].2 - sizes) * point(0.5);
             let right = square.by(constant);
             b.push((0..3).fold(right, |sum, k| sum.plus(stands[k], &held[k])));
-            let row: [Model; 3] = array(|k| held[k].plus(-stands[k], &square));
+            let row: [Model; 3] = std::array::from_fn(|k| held[k].plus(-stands[k], &square));
             a.push(row);
         }
         // |b| ≤ |A| l₀, row by row.
@@ -319,7 +319,7 @@ impl Turn {
     /// Q and N (Rodrigues).
     fn matrix(&self, symbols: usize) -> ([[Model; 3]; 3], Model) {
         let mut next = 0;
-        let q: [Model; 4] = array(|i| {
+        let q: [Model; 4] = std::array::from_fn(|i| {
             if i == self.chart {
                 return Model::constant(symbols, point(1.0));
             }

@@ -6,7 +6,6 @@ use super::super::CoverError;
 use super::super::lines::{Lines, error, float, number};
 use crate::certificate::begun::before_one_record;
 use crate::certificate::format::TAG_COVER;
-use crate::places::Each as _;
 use std::fmt::Write;
 
 /// Most symbols at a time.
@@ -64,7 +63,7 @@ pub struct Left {
 impl Left {
     /// Cuts parts off a range.
     fn of([lo, hi]: [f64; 2], cut: [u16; 2]) -> Left {
-        let [low, high] = cut.each(|parts| (hi - lo) * (f64::from(parts) / 65536.0));
+        let [low, high] = cut.map(|parts| (hi - lo) * (f64::from(parts) / 65536.0));
         let range = [lo + low, hi - high];
         Left { cut, range }
     }
@@ -74,11 +73,11 @@ impl Left {
         let width = within[1] - within[0];
         let off = [wanted[0] - within[0], within[1] - wanted[1]];
         // A conversion to whole numbers rounds down, and takes what is no number for 0.
-        let mut cut = off.each(|off| (off / width * 65536.0) as u16);
+        let mut cut = off.map(|off| (off / width * 65536.0) as u16);
         loop {
             let left = Left::of(within, cut);
             let holds = [left.range[0] <= wanted[0], wanted[1] <= left.range[1]];
-            let less = [0, 1].each(|end| cut[end].saturating_sub(u16::from(!holds[end])));
+            let less = [0, 1].map(|end| cut[end].saturating_sub(u16::from(!holds[end])));
             if less == cut {
                 return left;
             }
@@ -304,7 +303,7 @@ impl Mark {
                 let mut all = [Left::default(); MAX_SYMBOLS];
                 for (left, range) in all.iter_mut().zip(part) {
                     let cut = take(4)?;
-                    let cut = [[cut[0], cut[1]], [cut[2], cut[3]]].each(u16::from_le_bytes);
+                    let cut = [[cut[0], cut[1]], [cut[2], cut[3]]].map(u16::from_le_bytes);
                     *left = Left::of(*range, cut);
                 }
                 Mark::Within(step, all)
@@ -393,7 +392,7 @@ mod tests {
         for _ in 0..10_000 {
             let lo = 4.0 * random() - 2.0;
             let hi = lo + 2f64.powf(-50.0 * random());
-            let [a, b] = [0; 2].each(|_| lo + (hi - lo) * random());
+            let [a, b] = [0; 2].map(|_| lo + (hi - lo) * random());
             let wanted = [a.min(b).clamp(lo, hi), a.max(b).clamp(lo, hi)];
             let Left { cut, range } = Left::holding([lo, hi], wanted);
             assert!(lo <= range[0] && range[0] <= wanted[0]);

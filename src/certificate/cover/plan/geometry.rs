@@ -4,7 +4,6 @@ use super::format::{Cover, Kind, Radius};
 use super::model::Model;
 use super::pairs::Pairs;
 use crate::interval::{Interval, enclose, point};
-use crate::places::{Each as _, array};
 use crate::problem::{Problem, Target};
 
 /// A point, or a difference of points.
@@ -250,7 +249,7 @@ impl<'a> Plan<'a> {
     fn angle(&self, node: &Node, parameter: usize) -> [Model; 2] {
         let (middle, radius) = node.middle(parameter);
         let sign = if node.halves[parameter] { -1.0 } else { 1.0 };
-        Model::rotation(node.ranges.len(), parameter, middle, radius).each(|x| x.by(point(sign)))
+        Model::rotation(node.ranges.len(), parameter, middle, radius).map(|x| x.by(point(sign)))
     }
 
     /// The place of an arm's or hinge's point.
@@ -281,7 +280,7 @@ impl<'a> Plan<'a> {
                 let [cos, sin] = self.angle(node, *parameter);
                 let up = cross(&a, &v);
                 let here = plus(&points[*c1], along, &a);
-                Some(array(|k| {
+                Some(std::array::from_fn(|k| {
                     here[k]
                         .plus(side, &v[k].times(&cos))
                         .plus(side / a2.sqrt(), &up[k].times(&sin))
@@ -326,9 +325,9 @@ impl<'a> Plan<'a> {
             let turned = [a[1].by(minus_one), a[0], a[2]];
             let middle = over.map(|over| {
                 let along = q1.times(&over);
-                array(|k| at(0)[k].plus(point(1.0), &a[k].times(&along)))
+                std::array::from_fn(|k| at(0)[k].plus(point(1.0), &a[k].times(&along)))
             });
-            let normal = over.map(|over| turned.each(|x| x.times(&over)));
+            let normal = over.map(|over| turned.map(|x| x.times(&over)));
             return Some(Meeting {
                 middle,
                 normal,
@@ -359,13 +358,13 @@ impl<'a> Plan<'a> {
         let n = cross(&a, &b);
         let middle = over.map(|over| {
             let (x, y) = (first.times(&over), second.times(&over));
-            array(|k| {
+            std::array::from_fn(|k| {
                 at(0)[k]
                     .plus(point(1.0), &a[k].times(&x))
                     .plus(point(1.0), &b[k].times(&y))
             })
         });
-        let normal = over.map(|over| n.each(|x| x.times(&over)));
+        let normal = over.map(|over| n.map(|x| x.times(&over)));
         Some(Meeting {
             middle,
             normal,
@@ -381,7 +380,7 @@ pub fn minus(a: &Place, b: &Place) -> Place {
 
 /// a + k b.
 fn plus(a: &Place, factor: Interval, b: &Place) -> Place {
-    array(|k| a[k].plus(factor, &b[k]))
+    std::array::from_fn(|k| a[k].plus(factor, &b[k]))
 }
 
 /// a · b.
@@ -393,7 +392,7 @@ pub fn dot(a: &Place, b: &Place) -> Model {
 }
 
 fn cross(a: &Place, b: &Place) -> Place {
-    array(|k| {
+    std::array::from_fn(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i].times(&b[j]).plus(point(-1.0), &a[j].times(&b[i]))
     })

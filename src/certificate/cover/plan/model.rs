@@ -10,7 +10,6 @@ use super::format::MAX_SYMBOLS;
 use crate::certificate::checker::matrix::{between, exact, halves};
 use crate::interval::rounding::{UNDERFLOW, gamma, round_up};
 use crate::interval::{Interval, UNIT, ZERO, hull, point};
-use crate::places::Each as _;
 
 /// Coefficients of 1, u_i, u_i u_j.
 const MOST: usize = (MAX_SYMBOLS + 1) * (MAX_SYMBOLS + 2) / 2;
@@ -275,7 +274,7 @@ impl Model {
         let third = two * r * r.sqr() / (point(1.0) + range.sqr()).sqr();
         let part = |c: Interval, slope: Interval, bend: Interval| {
             let mut out = Self::constant(symbols, c);
-            let [slope, bend] = [slope * r, bend * r.sqr()].each(halves);
+            let [slope, bend] = [slope * r, bend * r.sqr()].map(halves);
             out.c[1 + i] = slope.0;
             out.c[place(symbols, 1 + i, 1 + i)] = bend.0;
             out.finish(slope.1 + bend.1 + third.mag(), 4);
@@ -333,7 +332,7 @@ mod tests {
                 .fold(BigRational::zero(), |sum, &x| sum + ratio(x).abs())
         };
         let [linear, quadratic] = model.sizes.map(ratio);
-        let points = u.each(point);
+        let points = u.map(point);
         let off = ratio(model.rest) + ratio(model.off());
         (value - polynomial(model, u)).abs() <= off
             && model.constant.contains(model.c[0])

@@ -8,7 +8,6 @@ use super::model::Model;
 use super::parts::{Claim, Part};
 use crate::certificate::checker::matrix::exact;
 use crate::interval::{Interval, hull, point};
-use crate::places::{Each as _, array};
 
 /// What claims are proved with.
 pub struct Proof<'a> {
@@ -78,10 +77,10 @@ impl<'a> Proof<'a> {
 
     fn at_once(&self, claim: &Claim, node: &Node) -> bool {
         let symbols = node.ranges.len();
-        let zero = array(|_| Model::constant(symbols, point(0.0)));
+        let zero = std::array::from_fn(|_| Model::constant(symbols, point(0.0)));
         let mut points = vec![zero; self.plan.points];
         for (&p, place) in self.plan.cover.base.iter().zip(&self.plan.base) {
-            points[p] = place.each(|x| Model::constant(symbols, x));
+            points[p] = place.map(|x| Model::constant(symbols, x));
         }
         let mut standing = Standing {
             node: node.clone(),
@@ -142,7 +141,7 @@ impl<'a> Proof<'a> {
             } else {
                 meeting.square.square_root()?.by(point(f64::from(sign)))
             };
-            array(|k| middle[k].plus(point(1.0), &normal[k].times(&height)))
+            std::array::from_fn(|k| middle[k].plus(point(1.0), &normal[k].times(&height)))
         };
         for &e in &plan.closing[step] {
             let [a, b] = plan.edges[e];
