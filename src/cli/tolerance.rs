@@ -3,7 +3,7 @@
 use super::edit::beside;
 use super::measured::Measured;
 use super::output::{self, Destination};
-use super::{BAD_INPUT, CLOSED, input, interrupt};
+use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::problem::Decimal;
 use krawl::report::{tolerances_in_words, tolerances_to_table, tolerances_to_value};
 use krawl::tolerance::{limits, study};
@@ -21,7 +21,7 @@ Examples:
   krawl tolerance docs/examples/plate.toml --default 0.1 --tolerance C-D=-0.2,0.5 --measure D-A --measure \"angle B C D\"
   krawl tolerance docs/examples/platform.toml --default 0.1 --json platform.json
 
-Exit codes: 0 proved, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
+Exit codes: 0 proved, 1 interrupted, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
 written.")]
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let shown = arguments.file.display();
-    let problem = input::read(&arguments.file, arguments.sketch.as_deref())?;
+    let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let default = arguments.default.as_deref().map(deviations).transpose()?;
     let named = arguments.tolerance.iter().map(|text| {
@@ -78,7 +78,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         &Options::certified(),
         &mut control,
     );
-    let study = study.map_err(in_file)?;
+    let mut study = match study {
+        Err(_) if control.is_interrupted() => {
+            output::complain("interrupted before anything was proved");
+            return Ok(STOPPED);
+        }
+        study => study.map_err(in_file)?,
+    };
+    // What was left out of a sketch, and what is held, belongs to what is said.
+    if let Some(made) = made {
+        study.account = made.account;
+    }
     let mut written = true;
     if let Some(json) = &json {
         written &= json.write(&(tolerances_to_value(&problem, &study).to_string() + "\n"));

@@ -4,6 +4,7 @@ use super::ending::{Edited, Ending};
 use super::open::OpenError;
 use super::setting::Setting;
 use super::whole::Whole;
+use crate::blocks::Account;
 use crate::elimination::invert;
 use crate::interval::{Interval, hull, point};
 use crate::problem::{Decimal, Problem, Target};
@@ -134,6 +135,8 @@ impl Within {
                 .map(|(x, r)| 1.1 * x.mag().max(*r))
                 .collect();
         }
+        // Beyond, equations have zeros that are no figures.
+        let proved = proved.filter(|(around, _)| is_proper(homotopy, |i| at(i) + around[i]));
         Ok(proved.map(|(around, rest)| Within {
             limits: limits.to_vec(),
             centre,
@@ -177,6 +180,11 @@ impl Within {
         let places = (0..self.homotopy().points)
             .map(|p| self.at(p, |i| point(self.centre[i]) + self.around[i]));
         self.whole.put(&places.collect::<Vec<_>>())
+    }
+
+    /// What is proved of its figures.
+    pub fn account(&self) -> Account {
+        self.whole.scope()
     }
 
     /// The figure with the dimensions as they are given.
@@ -256,6 +264,27 @@ impl Whole {
         }
         rights(self.homotopy())
     }
+}
+
+/// Whether lengths and radii are positive all over a box of the unknowns, and no vector vanishes that must not.
+fn is_proper(homotopy: &Homotopy, at: impl Fn(usize) -> Interval) -> bool {
+    // Numbers beyond the unknowns stand for zero.
+    let known = |i: usize| {
+        if i > homotopy.equations {
+            point(0.0)
+        } else {
+            at(i)
+        }
+    };
+    let is_there = |vector: &Vec<[usize; 2]>| {
+        let mut coordinates = vector.iter().map(|&[i, j]| known(i) - known(j));
+        coordinates.any(|x| !x.contains(0.0))
+    };
+    homotopy
+        .positive_unknowns()
+        .iter()
+        .all(|&i| at(i).inf() > 0.0)
+        && homotopy.nonzero_vectors().iter().all(is_there)
 }
 
 /// The right-hand sides at t = 1.

@@ -50,7 +50,7 @@ use crate::order::InOrder;
 use crate::problem::{Decimal, Distance, Item, Problem, Target, counted, list};
 use crate::system::Quantity;
 use crate::track::{Control, Options};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// All figures of a linkage that moves in one way.
 #[derive(Debug)]
@@ -253,27 +253,21 @@ fn in_place(problem: &Problem, index: usize) -> Option<Quantity> {
 
 /// Lengths that no distance gives, those that are asked for first, and then those that were drawn longest.
 pub(crate) fn lengths(problem: &Problem, quantities: &[Quantity]) -> Vec<[usize; 2]> {
-    let is_given = |ends: &[usize; 2]| {
-        let mut given = problem.distances.iter().map(|d| d.points);
-        given.any(|[a, b]| [a, b] == *ends || [b, a] == *ends)
-    };
+    let in_order = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let given = problem.distances.iter().map(|d| in_order(d.points));
+    let mut known: HashSet<[usize; 2]> = given.collect();
     let count = problem.points.len();
-    let mut others: Vec<[usize; 2]> = (0..count)
-        .flat_map(|a| (a + 1..count).map(move |b| [a, b]))
-        .collect();
-    others.order_by(|&a, &b| drawn(problem, b).total_cmp(&drawn(problem, a)));
-    let mut out: Vec<[usize; 2]> = Vec::new();
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+    let mut others: Vec<(f64, [usize; 2])> =
+        pairs.map(|ends| (drawn(problem, ends), ends)).collect();
+    others.order_by(|a, b| b.0.total_cmp(&a.0));
     let asked = quantities.iter().filter_map(Quantity::ends);
-    for ends in asked.chain(others) {
-        let [a, b] = ends;
-        if !is_given(&ends)
-            && drawn(problem, ends) > 0.0
-            && !out.iter().any(|o| *o == [a, b] || *o == [b, a])
-        {
-            out.push(ends);
-        }
-    }
-    out
+    let asked = asked.map(|ends| (drawn(problem, ends), ends));
+    asked
+        .chain(others)
+        .filter(|&(length, ends)| length > 0.0 && known.insert(in_order(ends)))
+        .map(|(_, ends)| ends)
+        .collect()
 }
 
 /// A length as it is drawn.

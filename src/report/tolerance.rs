@@ -12,12 +12,13 @@ use std::fmt::Write;
 /// What is proved, a sentence.
 pub fn tolerances_in_words(problem: &Problem, study: &Study) -> String {
     format!(
-        "{}: for every choice of {} within its limits, all of them together, there is exactly one figure that the one drawn becomes, proved",
+        "{}: for every choice of {} within its limits, all of them together, there is exactly one figure that the one drawn becomes, proved{}",
         problem.name,
         match study.limits.len() {
             1 => "the dimension".to_owned(),
             n => format!("the {}", counted(n, "dimension")),
-        }
+        },
+        study.account.clause_behind()
     )
 }
 
@@ -131,6 +132,7 @@ pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
     Drawing::in_place("tolerance", problem).with(json!({
         "status": "proved",
         "words": tolerances_in_words(problem, study),
+        "account": study.account,
         "limits": limits.collect::<Vec<_>>(),
         "figure": points_to_value(problem, &study.figure),
         "bands": points_to_value(problem, &study.bands),

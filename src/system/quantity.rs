@@ -161,6 +161,11 @@ impl Quantity {
         if !self.is_in_degrees() {
             return key;
         }
+        // An angle without a sense is between 0 and 180 degrees, whatever bounds its key.
+        let key = match self.what {
+            What::Angle => hull(key.inf().clamp(0.0, 2.0), key.sup().clamp(0.0, 2.0)),
+            _ => key,
+        };
         let [low, high] = [key.inf(), key.sup()].each(degrees);
         low.convex_hull(high)
     }

@@ -29,6 +29,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use crate::blocks::Account;
 use crate::edit::{Limits, Setting, Within};
 use crate::interval::along::Along;
 use crate::interval::{Interval, hull, point};
@@ -36,7 +37,7 @@ use crate::motion::lengths;
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::{Decimal, Problem, Target};
-use crate::system::Quantity;
+use crate::system::{Quantity, WHOLE_TURN};
 use crate::track::{Control, Options};
 
 /// What tolerances do to a figure.
@@ -44,6 +45,8 @@ use crate::track::{Control, Options};
 pub struct Study {
     /// The limits.
     pub limits: Vec<Limits>,
+    /// What is proved of the figures: which constraints of a sketch were left out, which coordinates are held.
+    pub account: Account,
     /// The figure with the dimensions as they are given.
     pub figure: Vec<[Interval; 3]>,
     /// A box of each point over all figures, in the coordinates of the problem (as [`crate::edit::Session::points`] places figures).
@@ -139,9 +142,10 @@ pub fn study(
     let measured = quantities
         .into_iter()
         .map(|quantity| measure(&mut within, &quantity, control))
-        .collect();
+        .collect::<Result<_, _>>()?;
     Ok(Study {
         limits: limits.to_vec(),
+        account: within.account(),
         figure: within.figure(),
         bands: within.boxes(),
         measured,
@@ -257,11 +261,21 @@ fn scaled(problem: &Problem, limits: &[Limits], k: u32) -> Option<Vec<Limits>> {
     scaled.collect()
 }
 
-fn measure(within: &mut Within, quantity: &Quantity, control: &mut Control) -> Measured {
+fn measure(
+    within: &mut Within,
+    quantity: &Quantity,
+    control: &mut Control,
+) -> Result<Measured, String> {
     let nominal = quantity.of(&within.figure());
     let middle = quantity.key(|p| within.middle(p), 0.0);
     let (change, effects) = within.change(&slopes(within, quantity, middle.mid()));
     let all = middle + change;
+    if quantity.is_in_degrees() && (all.wid().is_nan() || all.wid() > WHOLE_TURN) {
+        return Err(format!(
+            "--measure \"{}\": within the limits its points may come together, where an angle has no meaning",
+            quantity.name
+        ));
+    }
     let outer = [all.inf(), all.sup()].map(|key| quantity.of_key(point(key)));
     let (mut bounds, mut is_attained) = ([nominal; 2], [false; 2]);
     for side in [0, 1] {
@@ -282,7 +296,7 @@ fn measure(within: &mut Within, quantity: &Quantity, control: &mut Control) -> M
     let scale = slope_of_key(quantity, middle.mid());
     let effects: Vec<f64> = effects.iter().map(|effect| effect * scale).collect();
     let squares: f64 = effects.iter().map(|effect| (0.5 * effect).powi(2)).sum();
-    Measured {
+    Ok(Measured {
         name: quantity.name.clone(),
         unit: quantity.unit(),
         nominal,
@@ -290,7 +304,7 @@ fn measure(within: &mut Within, quantity: &Quantity, control: &mut Control) -> M
         is_attained,
         root_of_squares: squares.sqrt(),
         effects,
-    }
+    })
 }
 
 /// The derivatives of a quantity's key by the unknowns, over all figures.
