@@ -58,11 +58,6 @@ impl Stand {
         }
     }
 
-    /// The gauge's frame in the sketch.
-    pub fn gauge(&self) -> Placement {
-        self.gauge
-    }
-
     /// The figure with these places in the gauge, in the coordinates of the problem.
     pub fn put(&self, dimension: usize, places: &[Vector]) -> Vec<Vector> {
         let frame = frame(dimension, &self.points, places);

@@ -5,7 +5,7 @@ use super::setting::Setting;
 use super::whole::Whole;
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
-use crate::problem::Problem;
+use crate::problem::{Point, Problem};
 use crate::system::Placement;
 use crate::track::certified::track_from;
 use crate::track::{Control, Options, Outcome, PathEnd, StartError, Status, Stop, StopKind, Trace};
@@ -17,6 +17,9 @@ const FINE: f64 = 1e-8;
 /// All figures of a path along which one distance changes and all other dimensions stand still.
 pub(crate) struct Round {
     whole: Whole,
+    /// From the trace's coordinates to those of the drawing: one motion for all figures, so that the reference's points stand still, the
+    /// first where it is drawn and the next ones on the ray, and in the plane, in which they are.
+    pub placement: Placement,
     /// It.
     pub trace: Trace,
     /// Where it ends one way and the other; none of a loop.
@@ -58,14 +61,20 @@ impl From<&Stop> for WayEnd {
 
 impl Round {
     /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does, and follows it while one of its distances is
-    /// led towards a value, and on from there, until it comes back; or else both ways as far as it goes.
+    /// led towards a value, and on from there, until it comes back; or else both ways as far as it goes. `drawn`: the points as they are drawn,
+    /// where those of the sketch were moved.
     pub fn new(
-        problem: &Problem,
+        (problem, drawn): (&Problem, &[Point]),
         setting: &Setting,
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
         let mut whole = Whole::open_with(problem, options, control)?;
+        let drawing = Problem {
+            points: drawn.to_vec(),
+            ..problem.clone()
+        };
+        let placement = Placement::of(&drawing).map_err(StartError::from)?;
         let mut follow = |reverse: bool| -> Result<(Outcome, Trace), OpenError> {
             let options = Options {
                 tube_radius: Some(FINE * whole.unit()),
@@ -108,6 +117,7 @@ impl Round {
         }
         Ok(Round {
             whole,
+            placement,
             trace: all,
             ends,
             tubes,
@@ -138,16 +148,12 @@ impl Round {
         self.whole.moved()
     }
 
-    /// From the trace's coordinates to those of the problem: one motion for all figures, so that the reference's points stand still, the
-    /// first where the sketch has it and the next ones on the ray, and in the plane, in which it has them.
-    pub fn placement(&self) -> Placement {
-        self.whole.gauge()
-    }
-
-    /// A figure of the trace there.
+    /// A figure of the trace in the coordinates of the drawing.
     pub fn in_problem(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
-        let placement = self.placement();
-        places.iter().map(|p| placement.to_problem(p)).collect()
+        places
+            .iter()
+            .map(|p| self.placement.to_problem(p))
+            .collect()
     }
 
     /// The points that stand still so; none where constraints say where the figure is.

@@ -12,7 +12,7 @@ use crate::constraint::{Entry, Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
 use crate::places::Each as _;
 use crate::problem::{Decimal, Object, Problem, Shape, Target};
-use crate::system::{Homotopy, Placement, typical_length};
+use crate::system::{Homotopy, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
 use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError, Stop, StopKind};
@@ -400,11 +400,6 @@ impl Whole {
     /// A figure of the gauge, in lengths of the problem, in its coordinates.
     pub(super) fn put(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
         self.stand.put(self.arcs.homotopy().dimension, places)
-    }
-
-    /// Where the gauge is in the coordinates of the problem.
-    pub(super) fn gauge(&self) -> Placement {
-        self.stand.gauge()
     }
 
     /// The homotopy's unit of length.

@@ -82,12 +82,12 @@ impl Within {
         let centre = whole.first().centre.clone();
         let at = |i: usize| point(centre[i]);
         let missed: Vec<Interval> = (0..rights.len())
-            .map(|e| value(homotopy, e, at) - rights[e])
+            .map(|e| homotopy.left_side(e, at) - rights[e])
             .collect();
         let m = homotopy.equations;
         let mut inverse = vec![0.0; m * m];
         for e in 0..m {
-            for (i, x) in gradient(homotopy, e, at).into_iter().enumerate() {
+            for (i, x) in homotopy.slopes(e, at).into_iter().enumerate() {
                 inverse[e * m + i] = x.mid();
             }
         }
@@ -106,8 +106,7 @@ impl Within {
         let mut proved = None;
         for _ in 0..ROUNDS {
             let near = |i: usize| at(i) + hull(-radius[i], radius[i]);
-            let jacobian: Vec<Vec<Interval>> =
-                (0..m).map(|e| gradient(homotopy, e, near)).collect();
+            let jacobian: Vec<Vec<Interval>> = (0..m).map(|e| homotopy.slopes(e, near)).collect();
             // (I − Y J(X)) (X − x).
             let rest: Vec<Interval> = (0..m)
                 .map(|i| {
@@ -136,7 +135,7 @@ impl Within {
                 .collect();
         }
         // Beyond, equations have zeros that are no figures.
-        let proved = proved.filter(|(around, _)| is_proper(homotopy, |i| at(i) + around[i]));
+        let proved = proved.filter(|(around, _)| homotopy.is_proper_over(|i| at(i) + around[i]));
         Ok(proved.map(|(around, rest)| Within {
             limits: limits.to_vec(),
             centre,
@@ -266,27 +265,6 @@ impl Whole {
     }
 }
 
-/// Whether lengths and radii are positive all over a box of the unknowns, and no vector vanishes that must not.
-fn is_proper(homotopy: &Homotopy, at: impl Fn(usize) -> Interval) -> bool {
-    // Numbers beyond the unknowns stand for zero.
-    let known = |i: usize| {
-        if i > homotopy.equations {
-            point(0.0)
-        } else {
-            at(i)
-        }
-    };
-    let is_there = |vector: &Vec<[usize; 2]>| {
-        let mut coordinates = vector.iter().map(|&[i, j]| known(i) - known(j));
-        coordinates.any(|x| !x.contains(0.0))
-    };
-    homotopy
-        .positive_unknowns()
-        .iter()
-        .all(|&i| at(i).inf() > 0.0)
-        && homotopy.nonzero_vectors().iter().all(is_there)
-}
-
 /// The right-hand sides at t = 1.
 fn rights(homotopy: &Homotopy) -> Vec<Interval> {
     homotopy
@@ -294,27 +272,6 @@ fn rights(homotopy: &Homotopy) -> Vec<Interval> {
         .iter()
         .map(|right| right.at_target())
         .collect()
-}
-
-/// q_e.
-fn value(homotopy: &Homotopy, equation: usize, at: impl Fn(usize) -> Interval) -> Interval {
-    let at = |entry: Option<usize>| entry.map_or(point(0.0), &at);
-    let terms = homotopy.terms(equation).into_iter();
-    point(0.5) * sum(terms.map(|term| point(term.factor.into()) * term.value(at)))
-}
-
-/// The derivatives of q_e by all unknowns.
-fn gradient(homotopy: &Homotopy, equation: usize, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
-    let at = |entry: Option<usize>| entry.map_or(point(0.0), &at);
-    let mut out = vec![point(0.0); homotopy.equations];
-    for term in homotopy.terms(equation) {
-        for (entry, sign, slope) in term.derivatives(at) {
-            if let Some(i) = entry {
-                out[i] += point(0.5 * f64::from(sign * term.factor)) * slope;
-            }
-        }
-    }
-    out
 }
 
 fn sum(terms: impl Iterator<Item = Interval>) -> Interval {

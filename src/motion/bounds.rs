@@ -245,7 +245,7 @@ pub(super) fn measure(round: &Round, quantity: Quantity, control: &Control) -> M
     let look = Look {
         round,
         quantity: &quantity,
-        placement: (!quantity.is_invariant()).then(|| round.placement()),
+        placement: (!quantity.is_invariant()).then_some(round.placement),
         control,
     };
     let found = || {

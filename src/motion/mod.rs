@@ -47,7 +47,7 @@ use crate::blocks::Account;
 use crate::edit::{Round, Setting, WayEnd};
 use crate::interval::Interval;
 use crate::order::InOrder;
-use crate::problem::{Decimal, Distance, Item, Problem, Target, counted, list};
+use crate::problem::{Decimal, Distance, Item, Point, Problem, Target, counted, list};
 use crate::system::Quantity;
 use crate::track::{Control, Options};
 use std::collections::{BTreeMap, HashSet};
@@ -138,7 +138,7 @@ impl Motion {
             round,
             driver,
             left_out,
-        } = follow(&led, &lengths, options, control)?;
+        } = follow((&led, &problem.points), &lengths, options, control)?;
         let account = surplus::account(&problem, &left_out, &round, control);
         if account.left_out.iter().any(|one| one.verdict.is_missed()) {
             return Err(format!(
@@ -298,9 +298,9 @@ impl Followed {
 /// More than any other [`Followed::rank`].
 const LOOP: usize = 3;
 
-/// Follows the path along which one of some lengths changes: the first of which it closes.
+/// Follows the path along which one of some lengths changes: the first of which it closes. `drawn`: the points where they are drawn.
 fn follow(
-    problem: &Problem,
+    (problem, drawn): (&Problem, &[Point]),
     lengths: &[[usize; 2]],
     options: &Options,
     control: &mut Control,
@@ -348,7 +348,10 @@ fn follow(
         };
         let (driven, setting) = driven(&used, driver);
         let round = match driven.check() {
-            Ok(()) => Round::new(&driven, &setting, options, control).map_err(|e| e.to_string()),
+            Ok(()) => {
+                let round = Round::new((&driven, drawn), &setting, options, control);
+                round.map_err(|e| e.to_string())
+            }
             Err(error) => Err(error.to_string()),
         };
         let round = match round {

@@ -1,16 +1,13 @@
 //! Which distances a motion is followed by, where there are more than say something new, and how it stands to the others.
 
 use super::bounds::{Bounds, measure};
-use crate::blocks::{Account, Ruler, Verdict};
+use crate::blocks::{Account, Floats, Ruler, System, Verdict, straight};
 use crate::edit::Round;
-use crate::interval::vector::{cross, dot};
 use crate::interval::{Interval, hull};
-use crate::linalg::{Span, nearest_zero};
-use crate::places::array;
+use crate::linalg::Span;
 use crate::problem::{Decimal, Problem, Target, free_coordinates};
 use crate::system::{Quantity, typical_length};
 use crate::track::Control;
-use nalgebra::{DMatrix, DVector};
 
 /// In how many ways the points of a problem of distances alone can begin to move as they are drawn, as far as floats tell.
 pub(super) fn freedom(problem: &Problem) -> usize {
@@ -59,119 +56,41 @@ pub(super) fn is_of_distances(problem: &Problem) -> bool {
 /// A problem of distances alone with the figure for a sketch that is nearest to it and meets them, in floats, and how far a point was moved at
 /// most. Any other problem, and one without such a figure, as it is.
 pub(super) fn corrected(problem: &Problem) -> (Problem, f64) {
-    let as_it_is = || (problem.clone(), 0.0);
-    if !is_of_distances(problem) || problem.points.len() > MOST_POINTS {
-        return as_it_is();
-    }
-    let d = problem.dimension;
-    let sketch = problem.points.iter().flat_map(|p| &p.sketch[..d]);
-    let sketch: Vec<f64> = sketch.map(Decimal::to_f64).collect();
-    let unit = typical_length(problem);
-    let held = held(&sketch, d);
-    let linearise = |x: &[f64]| {
-        let rows = problem.distances.len();
-        let all = rows + held.len();
-        let (mut jacobian, mut off) = (DMatrix::zeros(all, x.len()), DVector::zeros(all));
-        for (form, row) in held.iter().zip(rows..) {
-            for &(at, factor) in form {
-                jacobian[(row, at)] = factor;
-                off[row] += factor * (x[at] - sketch[at]);
-            }
-        }
-        for (e, distance) in problem.distances.iter().enumerate() {
-            let [a, b] = distance.points;
-            let square = match &distance.target {
-                Target::Length(length) => length.to_f64().powi(2),
-                Target::SquaredLength(square) => square.to_f64(),
-            };
-            // Half the square over the unit: as long as the coordinates are.
-            off[e] = -square / (2.0 * unit);
-            for axis in 0..d {
-                let difference = x[d * a + axis] - x[d * b + axis];
-                off[e] += difference * difference / (2.0 * unit);
-                jacobian[(e, d * a + axis)] = difference / unit;
-                jacobian[(e, d * b + axis)] = -difference / unit;
-            }
-        }
-        (jacobian, off)
+    let found = match is_of_distances(problem) && problem.points.len() <= MOST_POINTS {
+        true => met(problem),
+        false => None,
     };
-    let Some(near) = nearest_zero(sketch.clone(), SINGULAR, linearise) else {
-        return as_it_is();
-    };
+    found.unwrap_or_else(|| (problem.clone(), 0.0))
+}
+
+fn met(problem: &Problem) -> Option<(Problem, f64)> {
+    let (unit, d) = (typical_length(problem), problem.dimension);
+    let (straight, lowered) = straight(problem).ok()?;
+    let system = System::new(&straight, &lowered, |_| true);
+    let floats = Floats::new(&system, &lowered.tail.equations, unit);
+    let all: Vec<usize> = (0..system.rows.len()).collect();
+    let near = floats.meet(&all, system.sketch(unit))?;
     let mut out = problem.clone();
     let mut moved: f64 = 0.0;
     for (p, point) in out.points.iter_mut().enumerate() {
         let mut square = 0.0;
         for axis in 0..d {
-            let at = d * p + axis;
-            let Ok(decimal) = format!("{:e}", near[at]).parse() else {
-                return as_it_is();
-            };
-            if near[at] != sketch[at] {
-                point.sketch[axis] = decimal;
+            let (at, drawn) = (
+                unit * near[system.coordinates[p * d + axis]],
+                point.sketch[axis].to_f64(),
+            );
+            if at != drawn {
+                point.sketch[axis] = format!("{at:e}").parse().ok()?;
             }
-            square += (near[at] - sketch[at]).powi(2);
+            square += (at - drawn).powi(2);
         }
         moved = moved.max(square.sqrt());
     }
-    (out, moved)
-}
-
-/// What keeps a figure from moving as a whole: its first point stays, the next one that is elsewhere stays on its ray from there, and in space the
-/// next one off that line in their plane. Each as coordinates with factors whose sum does not change.
-fn held(sketch: &[f64], d: usize) -> Vec<Vec<(usize, f64)>> {
-    let from_first = |p: usize| -> [f64; 3] {
-        array(|axis| {
-            if axis < d {
-                sketch[d * p + axis] - sketch[axis]
-            } else {
-                0.0
-            }
-        })
-    };
-    let across = |p: usize, normal: [f64; 3]| -> Vec<(usize, f64)> {
-        let size = dot(normal, normal).sqrt();
-        let factors = (0..d).map(|axis| (axis, normal[axis] / size));
-        factors
-            .flat_map(|(axis, factor)| [(d * p + axis, factor), (axis, -factor)])
-            .collect()
-    };
-    let mut out: Vec<Vec<(usize, f64)>> = (0..d).map(|axis| vec![(axis, 1.0)]).collect();
-    let count = sketch.len() / d;
-    let Some(second) = (1..count).find(|&p| dot(from_first(p), from_first(p)) > 0.0) else {
-        return out;
-    };
-    let ray = from_first(second);
-    if d == 2 {
-        out.push(across(second, [-ray[1], ray[0], 0.0]));
-        return out;
-    }
-    // The axis that is farthest from the ray.
-    let axis = (0..3).fold(0, |best, k| {
-        if ray[k].abs() < ray[best].abs() {
-            k
-        } else {
-            best
-        }
-    });
-    let normal = cross(ray, array(|k| if k == axis { 1.0 } else { 0.0 }));
-    out.push(across(second, normal));
-    out.push(across(second, cross(ray, normal)));
-    let off = |p: usize| cross(ray, from_first(p));
-    let is_off = |p: &usize| {
-        dot(off(*p), off(*p)) > 1e-12 * dot(ray, ray) * dot(from_first(*p), from_first(*p))
-    };
-    if let Some(third) = (1..count).find(is_off) {
-        out.push(across(third, off(third)));
-    }
-    out
+    Some((out, moved))
 }
 
 /// Larger figures are led to their dimensions along a path.
 const MOST_POINTS: usize = 100;
-/// Singular values of the Jacobian, each row about a direction, that count as zero.
-const SINGULAR: f64 = 1e-6;
-
 /// What is proved of the figures of a path: how they stand to the distances that were left out.
 pub(super) fn account(
     problem: &Problem,

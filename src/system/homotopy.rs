@@ -400,14 +400,33 @@ impl Homotopy {
     /// is certainly not zero anywhere in it.
     pub fn may_hold(&self, z: &[Interval]) -> bool {
         let m = self.equations;
-        let at = |entry: Option<usize>| entry.map_or(ZERO, |i| z[i]);
         (0..m).all(|e| {
-            let terms = self.terms(e).into_iter();
-            let sum = terms.fold(ZERO, |sum, term| {
-                sum + point(0.5 * f64::from(term.factor)) * term.value(at)
-            });
-            (sum - self.rights[e].enclose(z[m])).contains(0.0)
+            let missed = self.left_side(e, |i| z[i]) - self.rights[e].enclose(z[m]);
+            missed.contains(0.0)
         })
+    }
+
+    /// An enclosure of q_e, the left-hand side of an equation, where unknowns have these values.
+    pub fn left_side(&self, equation: usize, at: impl Fn(usize) -> Interval) -> Interval {
+        let at = |entry: Option<usize>| entry.map_or(ZERO, &at);
+        let terms = self.terms(equation).into_iter();
+        terms.fold(ZERO, |sum, term| {
+            sum + point(0.5 * f64::from(term.factor)) * term.value(at)
+        })
+    }
+
+    /// Enclosures of its derivatives by all unknowns.
+    pub fn slopes(&self, equation: usize, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
+        let at = |entry: Option<usize>| entry.map_or(ZERO, &at);
+        let mut out = vec![ZERO; self.equations];
+        for term in self.terms(equation) {
+            for (entry, sign, slope) in term.derivatives(at) {
+                if let Some(i) = entry {
+                    out[i] += point(0.5 * f64::from(sign * term.factor)) * slope;
+                }
+            }
+        }
+        out
     }
 
     /// The numbers of the auxiliary unknowns among all.
@@ -455,6 +474,17 @@ impl Homotopy {
             coordinates.any(|d| d.abs() > 1e-13 * size)
         };
         self.positive_unknowns().iter().all(|&i| x[i] > 0.0)
+            && self.nonzero_vectors().iter().all(is_there)
+    }
+
+    /// Whether that is so all over a box of the unknowns, proved.
+    pub fn is_proper_over(&self, at: impl Fn(usize) -> Interval) -> bool {
+        let known = |i: usize| if i > self.equations { ZERO } else { at(i) };
+        let is_there = |vector: &Vec<[usize; 2]>| {
+            let mut coordinates = vector.iter().map(|&[i, j]| known(i) - known(j));
+            coordinates.any(|x| !x.contains(0.0))
+        };
+        self.positive_unknowns().iter().all(|&i| at(i).inf() > 0.0)
             && self.nonzero_vectors().iter().all(is_there)
     }
 

@@ -158,14 +158,21 @@ impl Quantity {
 
     /// The quantity with this key.
     pub fn of_key(&self, key: Interval) -> Interval {
+        // What has no sign is 0 at least, and an angle without a sense 180 degrees at most, whatever bounds its key.
+        let most = if self.what == What::Angle {
+            2.0
+        } else {
+            f64::INFINITY
+        };
+        let key = match self.what {
+            What::Angle | What::Distance | What::Area => {
+                hull(key.inf().clamp(0.0, most), key.sup().clamp(0.0, most))
+            }
+            What::Turn | What::Torsion | What::Coordinate(_) => key,
+        };
         if !self.is_in_degrees() {
             return key;
         }
-        // An angle without a sense is between 0 and 180 degrees, whatever bounds its key.
-        let key = match self.what {
-            What::Angle => hull(key.inf().clamp(0.0, 2.0), key.sup().clamp(0.0, 2.0)),
-            _ => key,
-        };
         let [low, high] = [key.inf(), key.sup()].each(degrees);
         low.convex_hull(high)
     }

@@ -189,3 +189,17 @@ fn what_is_not_proved_or_makes_no_sense_is_said() {
     }
     assert!(of("A-Q", "-1", "1").unwrap_err().contains("no dimension"));
 }
+
+/// A point that may come to stand on another one: the length is never less than 0, and the angle has no meaning.
+#[test]
+fn points_that_may_come_together_are_told() {
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [1, 0]\nc = [0.01, 0]\n[constraints]\nfixed = [\"a\", \"b\"]\n\
+                x = [[\"c\", 0.01]]\ny = [[\"c\", 0]]\n[tolerances]\n\"x:c\" = 0.02\n";
+    let problem = Problem::parse(text, "near.toml").unwrap();
+    let all = limits(&problem, &[], None).unwrap();
+    let found = run(&problem, &all, &["a-c"]).unwrap();
+    let [low, high] = found.measured[0].bounds;
+    assert!(low.inf() == 0.0 && high.contains(0.03), "{low:?} {high:?}");
+    let error = run(&problem, &all, &["angle b a c"]).unwrap_err();
+    assert!(error.contains("may come together"), "{error}");
+}
